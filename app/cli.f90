@@ -1,0 +1,209 @@
+!> Command line: words to a configuration
+module axijoint_cli
+   use axijoint_base_error, only : error_type, fatal_error, exit_deck
+   use axijoint_base_text, only : nearest_word
+   use axijoint_base_version, only : program_name, program_version
+   implicit none
+   private
+   public :: command_type, word_type, read_command, help_text
+   public :: command_run, command_check, command_help, command_version
+
+   !> Solve decks
+   integer, parameter :: command_run = 1
+   !> Read and check decks
+   integer, parameter :: command_check = 2
+   !> Print help
+   integer, parameter :: command_help = 3
+   !> Print the version
+   integer, parameter :: command_version = 4
+
+   !> Names of the commands, by number
+   character(len=*), parameter :: command_names(3) = ['run  ', 'check', 'help ']
+
+   !> A word of any length
+   type :: word_type
+      !> The word
+      character(len=:), allocatable :: text
+   end type word_type
+
+   !> What the user asked for
+   type :: command_type
+      !> One of the `command_` parameters
+      integer :: command = command_help
+      !> Decks to run or check
+      type(word_type), allocatable :: decks(:)
+      !> Directory for results
+      character(len=:), allocatable :: directory
+      !> Command that help was asked for; empty for all
+      character(len=:), allocatable :: topic
+   end type command_type
+
+contains
+
+   !> Read the command line of the process
+   subroutine read_command(command, error)
+      !> What the user asked for
+      type(command_type), intent(out) :: command
+      !> Unknown command or option, missing deck
+      type(error_type), allocatable, intent(out) :: error
+
+      type(word_type), allocatable :: words(:)
+      integer :: k
+
+      allocate (words(command_argument_count()), command%decks(0))
+      do k = 1, size(words)
+         words(k)%text = argument(k)
+      end do
+      command%directory = '.'
+      command%topic = ''
+      if (size(words) == 0) return
+
+      select case (words(1)%text)
+      case ('run')
+         command%command = command_run
+      case ('check')
+         command%command = command_check
+      case ('help', '--help', '-h')
+         if (size(words) > 1) command%topic = words(2)%text
+         if (len(command%topic) > 0 .and. .not. any(command_names == command%topic)) then
+            call unknown('command', command%topic, command_names, error)
+         end if
+         return
+      case ('--version')
+         command%command = command_version
+         return
+      case default
+         call unknown('command', words(1)%text, [character(len=9) :: command_names, '--version'], &
+                      error)
+         return
+      end select
+      call read_arguments(words(2:), command, error)
+   end subroutine read_command
+
+   !> Decks and options of `run` and `check`
+   subroutine read_arguments(words, command, error)
+      !> Words after the command
+      type(word_type), intent(in) :: words(:)
+      !> What the user asked for
+      type(command_type), intent(inout) :: command
+      !> Unknown option, missing deck or directory
+      type(error_type), allocatable, intent(out) :: error
+
+      logical :: only_decks
+      integer :: k
+
+      only_decks = .false.
+      k = 0
+      do while (k < size(words))
+         k = k + 1
+         associate (word => words(k)%text)
+            if (only_decks .or. index(word, '-') /= 1 .or. len(word) == 1) then
+               command%decks = [command%decks, words(k)]
+            else if (word == '--') then
+               only_decks = .true.
+            else if (word == '-o' .and. command%command == command_run) then
+               if (k == size(words)) then
+                  call fatal_error(error, exit_deck, 'option -o needs a directory: -o DIR')
+                  return
+               end if
+               k = k + 1
+               command%directory = words(k)%text
+            else if (word == '-h' .or. word == '--help') then
+               command%topic = trim(command_names(command%command))
+               command%command = command_help
+               return
+            else if (command%command == command_run) then
+               call unknown('option', word, ['-o    ', '--help'], error)
+               return
+            else
+               call unknown('option', word, ['--help'], error)
+               return
+            end if
+         end associate
+      end do
+      if (size(command%decks) == 0) then
+         call fatal_error(error, exit_deck, 'no deck given; use: '//program_name//' '// &
+                          trim(command_names(command%command))//' DECK...')
+      end if
+   end subroutine read_arguments
+
+   !> Error for a word that is not known
+   subroutine unknown(what, word, known, error)
+      !> Kind of word
+      character(len=*), intent(in) :: what
+      !> The word
+      character(len=*), intent(in) :: word
+      !> Words of that kind
+      character(len=*), intent(in) :: known(:)
+      !> The error
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: message
+      integer :: k
+
+      message = "unknown "//what//" '"//word//"'"
+      k = nearest_word(word, known)
+      if (k > 0) message = message//"; did you mean '"//trim(known(k))//"'?"
+      message = message//new_line('a')//'known:'
+      do k = 1, size(known)
+         message = message//' '//trim(known(k))
+      end do
+      call fatal_error(error, exit_deck, message)
+   end subroutine unknown
+
+   !> A word of the command line
+   function argument(k) result(text)
+      !> Its number
+      integer, intent(in) :: k
+      !> The word
+      character(len=:), allocatable :: text
+
+      integer :: length
+
+      call get_command_argument(k, length=length)
+      allocate (character(len=length) :: text)
+      call get_command_argument(k, text)
+   end function argument
+
+   !> Help on a command, or on all
+   function help_text(topic) result(text)
+      !> Name of a command; empty for all
+      character(len=*), intent(in) :: topic
+      !> Lines of help
+      character(len=:), allocatable :: text
+
+      character, parameter :: nl = new_line('a')
+
+      select case (topic)
+      case ('run')
+         text = 'usage: axijoint run DECK... [-o DIR]'//nl// &
+            nl// &
+            'Solves each deck and writes NAME.lis (listing), NAME.json (summary) and NAME.h5'//nl// &
+            '(results), NAME being the name of the deck without its ending.'//nl// &
+            nl// &
+            '  -o DIR   directory for the results (default: the current one)'//nl// &
+            '  --       everything that follows is a deck'//nl// &
+            nl// &
+            'Exit codes: 0 ok; 2 deck or usage; 3 not converged; 4 singular or mechanism;'//nl// &
+            '5 input or output; 6 memory; 70 internal. Of several decks, the largest.'
+      case ('check')
+         text = 'usage: axijoint check DECK...'//nl// &
+            nl// &
+            'Reads and checks each deck, prints all its errors and what it describes, and'//nl// &
+            'solves nothing. Exit codes: 0 ok; 2 deck or usage.'
+      case ('help')
+         text = 'usage: axijoint help [COMMAND]'
+      case default
+         text = program_name//' '//program_version//': Fourier finite element analysis of '// &
+            'axisymmetric bodies with joints'//nl// &
+            nl// &
+            'usage: axijoint COMMAND'//nl// &
+            nl// &
+            '  run DECK... [-o DIR]   solve decks'//nl// &
+            '  check DECK...          read and check decks only'//nl// &
+            '  help [COMMAND]         help on a command'//nl// &
+            '  --version              version'
+      end select
+   end function help_text
+
+end module axijoint_cli

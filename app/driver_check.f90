@@ -1,0 +1,49 @@
+!> `axijoint check`: read decks and report on them
+module axijoint_driver_check
+   use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
+   use axijoint_analysis_static, only : used_harmonics
+   use axijoint_base_error, only : exit_ok, exit_deck
+   use axijoint_base_text, only : to_text
+   use axijoint_cli, only : word_type
+   use axijoint_deck_diagnostics, only : diagnostics_type, render
+   use axijoint_deck_reader, only : read_deck
+   use axijoint_deck_source, only : source_type
+   use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
+   use axijoint_model_model, only : model_type
+   implicit none
+   private
+   public :: check_decks
+
+contains
+
+   !> Read and check decks; solve nothing
+   subroutine check_decks(decks, exit_code)
+      !> The decks
+      type(word_type), intent(in) :: decks(:)
+      !> 0, or 2 if any deck has errors
+      integer, intent(out) :: exit_code
+
+      type(source_type) :: source
+      type(model_type) :: model
+      type(diagnostics_type) :: diagnostics
+      integer :: k
+
+      exit_code = exit_ok
+      do k = 1, size(decks)
+         call read_deck(decks(k)%text, source, model, diagnostics)
+         if (diagnostics%n_errors + diagnostics%n_warnings > 0) then
+            write (error_unit, '(a)') render(diagnostics, source)
+         end if
+         if (diagnostics%n_errors > 0) then
+            exit_code = exit_deck
+         else
+            write (output_unit, '(a)') decks(k)%text//': ok, '// &
+               to_text(n_nodes(model%mesh))//' nodes, '// &
+               to_text(n_elements(model%mesh))//' elements, '// &
+               to_text(n_joints(model%mesh))//' joints, '// &
+               to_text(size(used_harmonics(model)))//' harmonics to solve'
+         end if
+      end do
+   end subroutine check_decks
+
+end module axijoint_driver_check

@@ -1,0 +1,151 @@
+!> `axijoint run`: decks to results
+module axijoint_driver_run
+   use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
+   use axijoint_analysis_results, only : results_type
+   use axijoint_analysis_static, only : analyse_model
+   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_not_converged
+   use axijoint_base_progress, only : progress_type, show_progress, clear_progress
+   use axijoint_base_system, only : error_output_is_terminal
+   use axijoint_base_timer, only : timer_type, phase_read, phase_write
+   use axijoint_cli, only : word_type
+   use axijoint_deck_diagnostics, only : diagnostics_type, render, warning_texts
+   use axijoint_deck_reader, only : read_deck
+   use axijoint_deck_source, only : source_type
+   use axijoint_model_model, only : model_type
+   use axijoint_output_output, only : check_output, write_output, write_error_summary
+   use axijoint_output_brief, only : brief_text
+   implicit none
+   private
+   public :: run_decks, print_error, job_name
+
+contains
+
+   !> Run decks one after the other; one that fails does not stop the rest
+   subroutine run_decks(decks, directory, exit_code)
+      !> The decks
+      type(word_type), intent(in) :: decks(:)
+      !> Directory for results
+      character(len=*), intent(in) :: directory
+      !> Largest exit code of all decks
+      integer, intent(out) :: exit_code
+
+      type(error_type), allocatable :: error
+      integer :: k, code
+
+      exit_code = exit_ok
+      call check_names(decks, error)
+      if (allocated(error)) then
+         call print_error('', error)
+         exit_code = error%code
+         return
+      end if
+      do k = 1, size(decks)
+         call run_deck(decks(k)%text, directory, code, error)
+         if (allocated(error)) then
+            call print_error(decks(k)%text, error)
+            call write_error_summary(directory, job_name(decks(k)%text), decks(k)%text, &
+                                     error%code, [error%message])
+            code = error%code
+         end if
+         exit_code = max(exit_code, code)
+      end do
+   end subroutine run_decks
+
+   !> One deck, told in order
+   subroutine run_deck(deck, directory, exit_code, error)
+      !> The deck
+      character(len=*), intent(in) :: deck
+      !> Directory for results
+      character(len=*), intent(in) :: directory
+      !> 0, or 3 if the results are not converged
+      integer, intent(out) :: exit_code
+      !> Anything else that went wrong
+      type(error_type), allocatable, intent(out) :: error
+
+      type(source_type) :: source
+      type(model_type) :: model
+      type(diagnostics_type) :: diagnostics
+      type(results_type) :: results
+      type(timer_type) :: timer
+      type(progress_type) :: progress
+
+      exit_code = exit_ok
+      progress%enabled = error_output_is_terminal()
+      call timer%start()
+      call timer%push(phase_read)
+      call show_progress(progress, 'reading '//deck)
+      call read_deck(deck, source, model, diagnostics)
+      call timer%pop()
+      call clear_progress(progress)
+      if (diagnostics%n_errors > 0) then
+         call fatal_error(error, exit_deck, render(diagnostics, source))
+         return
+      end if
+      if (diagnostics%n_warnings > 0) write (error_unit, '(a)') render(diagnostics, source)
+
+      call check_output(directory, job_name(deck), error)
+      if (allocated(error)) return
+      call analyse_model(model, results, timer, progress, error)
+      call clear_progress(progress)
+      if (allocated(error)) return
+      if (.not. results%converged) exit_code = exit_not_converged
+
+      call timer%push(phase_write)
+      call write_output(directory, job_name(deck), source, warning_texts(diagnostics, source), model, &
+                        results, timer, exit_code, error)
+      call timer%pop()
+      if (allocated(error)) return
+      write (output_unit, '(a)') brief_text(directory, job_name(deck), deck, model, results, timer)
+   end subroutine run_deck
+
+   !> Two decks of one name would write the same files
+   subroutine check_names(decks, error)
+      !> The decks
+      type(word_type), intent(in) :: decks(:)
+      !> The clash
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i, j
+
+      do i = 2, size(decks)
+         do j = 1, i - 1
+            if (job_name(decks(i)%text) /= job_name(decks(j)%text)) cycle
+            call fatal_error(error, exit_deck, decks(j)%text//' and '//decks(i)%text// &
+                             ' would write the same result files'//new_line('a')// &
+                             'mend: run them one after the other with different -o, or rename one')
+            return
+         end do
+      end do
+   end subroutine check_names
+
+   !> Name of a deck without directories and ending
+   pure function job_name(deck) result(name)
+      !> Path of the deck
+      character(len=*), intent(in) :: deck
+      !> The name
+      character(len=:), allocatable :: name
+
+      integer :: dot
+
+      name = deck(index(deck, '/', back=.true.) + 1:)
+      dot = index(name, '.', back=.true.)
+      if (dot > 1) name = name(:dot - 1)
+   end function job_name
+
+   !> Print an error where errors go
+   subroutine print_error(deck, error)
+      !> Deck; empty if the error belongs to none
+      character(len=*), intent(in) :: deck
+      !> The error
+      type(error_type), intent(in) :: error
+
+      if (error%code == exit_deck .and. len(deck) > 0) then
+         write (error_unit, '(a)') error%message  ! names file and line itself
+      else if (len(deck) > 0) then
+         write (error_unit, '(a)') 'axijoint: '//deck//': '//error%message
+      else
+         write (error_unit, '(a)') 'axijoint: '//error%message
+      end if
+   end subroutine print_error
+
+end module axijoint_driver_run

@@ -1,0 +1,34 @@
+!> Semi-analytical finite element analysis of axisymmetric bodies with joints
+program axijoint
+   use, intrinsic :: iso_fortran_env, only : output_unit
+   use axijoint_base_error, only : error_type, exit_ok
+   use axijoint_base_version, only : program_name, program_version
+   use axijoint_cli, only : command_type, read_command, help_text, command_run, command_check, &
+                            command_help
+   use axijoint_driver_check, only : check_decks
+   use axijoint_driver_run, only : run_decks, print_error
+   implicit none
+
+   type(command_type) :: command
+   type(error_type), allocatable :: error
+   integer :: exit_code
+
+   exit_code = exit_ok
+   call read_command(command, error)
+   if (allocated(error)) then
+      call print_error('', error)
+      exit_code = error%code
+   else
+      select case (command%command)
+      case (command_run)
+         call run_decks(command%decks, command%directory, exit_code)
+      case (command_check)
+         call check_decks(command%decks, exit_code)
+      case (command_help)
+         write (output_unit, '(a)') help_text(command%topic)
+      case default
+         write (output_unit, '(a)') program_name//' '//program_version
+      end select
+   end if
+   stop exit_code, quiet=.true.
+end program axijoint

@@ -1,0 +1,211 @@
+!> Stresses, reactions and equilibrium from the displacements
+module axijoint_analysis_recovery
+   use axijoint_analysis_results, only : results_type, axial, lateral, moment
+   use axijoint_assembly_equations, only : equations_type, on_equations
+   use axijoint_assembly_force, only : joint_force, joint_jump
+   use axijoint_base_kinds, only : wp
+   use axijoint_element_solid, only : solid_point_type, solid_points, solid_stress, solid_force, &
+                                      isotropic_elasticity
+   use axijoint_fe_fourier, only : circle_integral
+   use axijoint_joints_field, only : joint_field_type, elastic_stress
+   use axijoint_model_joint_points, only : model_joint_point_type
+   use axijoint_model_mesh, only : n_elements, n_nodes
+   use axijoint_model_model, only : model_type, gauss_order, on_axis
+   implicit none
+   private
+   public :: recover, rigid_resultants
+
+contains
+
+   !> Fill stresses, reactions, the residual ratio and the equilibrium error.
+   !> All forces come from the stresses, point by point, not from the assembled
+   !> matrices, so that the ratio judges the whole path from mesh to solution.
+   subroutine recover(model, points, equations, applied, field, results)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Points of all joints
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Equations of the harmonics solved
+      type(equations_type), intent(in) :: equations
+      !> Applied forces, shape (3, nodes, harmonics)
+      real(wp), intent(in) :: applied(:, :, :)
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> Results; displacements are there already
+      type(results_type), intent(inout) :: results
+
+      real(wp), allocatable :: internal(:, :), joint_stress(:, :, :), jump(:, :, :)
+      real(wp) :: unbalanced, load, scale
+      integer :: k, m
+
+      call new_points(model, results)
+      allocate (internal(3, n_nodes(model%mesh)))
+      allocate (results%reaction, mold=results%displacement)
+      allocate (jump(3, size(points), 1))
+      unbalanced = 0.0_wp
+      load = 0.0_wp
+      scale = 0.0_wp
+      results%applied = 0.0_wp
+      results%reacted = 0.0_wp
+      do k = 1, size(equations%harmonics)
+         m = equations%harmonics(k)
+         call solid_fields(model, m, results%displacement(:, :, k), results%stress(:, :, k), &
+                           internal)
+         jump(:, :, 1) = joint_jump(points, results%displacement(:, :, k))
+         joint_stress = elastic_stress(model, points, jump)
+         internal = internal + joint_force(points, m, &
+                                           joint_stress(:, :, 1) - field%excess(:, :, k), &
+                                           size(internal, 2))
+         unbalanced = unbalanced &
+            + sum(on_equations(equations, k, applied(:, :, k) - internal)**2)/circle_integral(m)
+         load = load + sum(on_equations(equations, k, applied(:, :, k))**2)/circle_integral(m)
+         results%reaction(:, :, k) = merge(internal - applied(:, :, k), 0.0_wp, held(model))
+         results%applied = results%applied + rigid_resultants(model, m, applied(:, :, k))
+         results%reacted = results%reacted + rigid_resultants(model, m, results%reaction(:, :, k))
+         scale = scale + sum(abs(applied(:, :, k)))
+      end do
+      results%residual_ratio = ratio(sqrt(unbalanced), sqrt(load))
+      results%equilibrium_error = imbalance(model, results, scale)
+   end subroutine recover
+
+   !> Place the Gauss points of all elements
+   subroutine new_points(model, results)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results that take elements and positions of the points
+      type(results_type), intent(inout) :: results
+
+      type(solid_point_type) :: points(9)
+      integer :: element, n, last
+
+      associate (mesh => model%mesh)
+         n = 0
+         do element = 1, n_elements(mesh)
+            n = n + gauss_order(model, mesh%element_size(element))**2
+         end do
+         allocate (results%point_element(n), results%point_position(2, n))
+         allocate (results%stress(6, n, size(results%harmonics)))
+         last = 0
+         do element = 1, n_elements(mesh)
+            n = gauss_order(model, mesh%element_size(element))
+            call solid_points(mesh%coordinates(:, &
+                                          mesh%element_nodes(:mesh%element_size(element), element)), &
+                              n, points(:n**2))
+            do n = 1, n**2
+               last = last + 1
+               results%point_element(last) = element
+               results%point_position(:, last) = points(n)%position
+            end do
+         end do
+      end associate
+   end subroutine new_points
+
+   !> Stress amplitudes of one harmonic and the nodal forces that balance them
+   subroutine solid_fields(model, harmonic, displacement, stress, force)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Harmonic m
+      integer, intent(in) :: harmonic
+      !> Displacement amplitudes, shape (3, nodes)
+      real(wp), intent(in) :: displacement(:, :)
+      !> Stress amplitudes at the Gauss points, shape (6, points)
+      real(wp), intent(out) :: stress(:, :)
+      !> Forces on components, shape (3, nodes)
+      real(wp), intent(out) :: force(:, :)
+
+      type(solid_point_type) :: points(9)
+      real(wp) :: d(6, 6)
+      integer :: element, n, n_gauss, k, last
+
+      force = 0.0_wp
+      last = 0
+      do element = 1, n_elements(model%mesh)
+         n = model%mesh%element_size(element)
+         n_gauss = gauss_order(model, n)
+         associate (nodes => model%mesh%element_nodes(:n, element), &
+                    material => model%materials(model%mesh%element_material(element)))
+            d = isotropic_elasticity(material%young, material%poisson)
+            call solid_points(model%mesh%coordinates(:, nodes), n_gauss, points(:n_gauss**2))
+            do k = 1, n_gauss**2
+               last = last + 1
+               stress(:, last) = solid_stress(points(k), n, d, harmonic, &
+                                              reshape(displacement(:, nodes), [3*n]))
+               force(:, nodes) = force(:, nodes) + circle_integral(harmonic) &
+                  *reshape(solid_force(points(k), n, harmonic, stress(:, last)), [3, n])
+            end do
+         end associate
+      end do
+   end subroutine solid_fields
+
+   !> Components that supports hold; on the axis u and w hold each other
+   pure function held(model)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Shape (3, nodes)
+      logical :: held(3, size(model%mesh%node_label))
+
+      logical :: pole(size(model%mesh%node_label))
+
+      held = model%fixed
+      pole = on_axis(model%mesh) .and. (held(1, :) .or. held(3, :))
+      held(1, :) = held(1, :) .or. pole
+      held(3, :) = held(3, :) .or. pole
+   end function held
+
+   !> Resultants of nodal forces of one harmonic: their work on unit rigid motions
+   pure function rigid_resultants(model, harmonic, force) result(resultant)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Harmonic m
+      integer, intent(in) :: harmonic
+      !> Generalized forces on components, shape (3, nodes)
+      real(wp), intent(in) :: force(:, :)
+      !> Axial and lateral force, moment, torque
+      real(wp) :: resultant(4)
+
+      resultant = 0.0_wp
+      associate (r => model%mesh%coordinates(1, :), z => model%mesh%coordinates(2, :))
+         select case (harmonic)
+         case (0)
+            resultant(axial) = sum(force(2, :))
+         case (1)
+            resultant(lateral) = sum(force(1, :) - force(3, :))
+            resultant(moment) = sum(r*force(2, :) - z*(force(1, :) - force(3, :)))
+         end select
+      end associate
+   end function rigid_resultants
+
+   !> Largest resultant out of balance, over the scale of the loads
+   pure function imbalance(model, results, scale) result(error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results with their resultants
+      type(results_type), intent(in) :: results
+      !> Sum of the absolute generalized forces applied
+      real(wp), intent(in) :: scale
+      !> The error
+      real(wp) :: error
+
+      real(wp) :: difference(4), extent
+
+      extent = maxval(abs(model%mesh%coordinates))
+      difference = abs(results%applied + results%reacted)
+      difference([moment, 4]) = difference([moment, 4])/extent
+      error = ratio(maxval(difference), scale)
+   end function imbalance
+
+   !> Quotient of two sizes; zero over zero is zero
+   pure function ratio(part, whole)
+      !> Sizes, not negative
+      real(wp), intent(in) :: part, whole
+      !> part/whole
+      real(wp) :: ratio
+
+      if (whole > 0.0_wp) then
+         ratio = part/whole
+      else
+         ratio = merge(0.0_wp, huge(1.0_wp), .not. part > 0.0_wp)
+      end if
+   end function ratio
+
+end module axijoint_analysis_recovery

@@ -1,0 +1,79 @@
+!> Everything that a run computes and the output reports
+module axijoint_analysis_results
+   use axijoint_base_kinds, only : wp
+   use axijoint_joints_field, only : iteration_type
+   implicit none
+   private
+   public :: results_type, iteration_type, harmonic_solve_type
+   public :: axial, lateral, moment, torque
+
+   !> Index of a resultant: force along z
+   integer, parameter :: axial = 1
+   !> Index of a resultant: force along theta = 0
+   integer, parameter :: lateral = 2
+   !> Index of a resultant: moment about the line theta = pi/2 through the
+   !> origin; positive lifts the side theta = 0 towards +z, as the MOMENT load
+   integer, parameter :: moment = 3
+   !> Index of a resultant: moment about z
+   integer, parameter :: torque = 4
+
+   !> How well the equations of one harmonic were solved
+   type :: harmonic_solve_type
+      !> Harmonic m
+      integer :: harmonic = 0
+      !> Number of equations
+      integer :: n_equations = 0
+      !> Half-bandwidth, the diagonal not counted
+      integer :: half_bandwidth = 0
+      !> Smallest ratio of a pivot to the diagonal entry it started from
+      real(wp) :: smallest_pivot = 0.0_wp
+      !> Backward error of the last solution, max |b - K u| / (|K| |u| + |b|)
+      real(wp) :: backward_error = 0.0_wp
+   end type harmonic_solve_type
+
+   !> Results of a run. Amplitudes belong to the symmetric family:
+   !> u, v ~ cos(m theta), w ~ sin(m theta).
+   type :: results_type
+      !> Whether every increment reached its tolerance
+      logical :: converged = .false.
+      !> Harmonics m that were solved, ascending
+      integer, allocatable :: harmonics(:)
+      !> One entry for each harmonic
+      type(harmonic_solve_type), allocatable :: solves(:)
+      !> Displacement amplitudes u, v, w, shape (3, nodes, harmonics) [length]
+      real(wp), allocatable :: displacement(:, :, :)
+      !> Generalized reactions of fixed components, shape (3, nodes, harmonics):
+      !> work over the whole circle on unit amplitudes [force]
+      real(wp), allocatable :: reaction(:, :, :)
+      !> Element (index) of each solid Gauss point, ascending
+      integer, allocatable :: point_element(:)
+      !> r and z of each solid Gauss point, shape (2, points)
+      real(wp), allocatable :: point_position(:, :)
+      !> Stress amplitudes at solid Gauss points, shape (6, points, harmonics), in
+      !> the order r, z, theta, rz ~ cos(m theta); r-theta, z-theta ~ sin(m theta)
+      real(wp), allocatable :: stress(:, :, :)
+      !> Angles of the planes of the joint results [radian]
+      real(wp), allocatable :: plane_angles(:)
+      !> Joint (index) of each joint point, ascending
+      integer, allocatable :: joint_point_joint(:)
+      !> r and z of each joint point, shape (2, joint points)
+      real(wp), allocatable :: joint_point_position(:, :)
+      !> Relative displacement xi, eta, theta, shape (3, joint points, planes) [length]
+      real(wp), allocatable :: joint_jump(:, :, :)
+      !> Joint stress tau_xi, sigma, tau_theta, shape (3, joint points, planes)
+      real(wp), allocatable :: joint_stress(:, :, :)
+      !> Stick, slip or open, shape (joint points, planes); `state_` parameters
+      integer, allocatable :: joint_state(:, :)
+      !> Convergence path; empty for a linear job
+      type(iteration_type), allocatable :: path(:)
+      !> Residual-force ratio at the end (Eq. 17), from the whole structure
+      real(wp) :: residual_ratio = 0.0_wp
+      !> Tolerance that the last increment worked to; zero for a linear job
+      real(wp) :: tolerance = 0.0_wp
+      !> Resultants of the applied loads and of the reactions, shape (4)
+      real(wp) :: applied(4) = 0.0_wp, reacted(4) = 0.0_wp
+      !> Largest |applied + reacted| over the scale of the loads
+      real(wp) :: equilibrium_error = 0.0_wp
+   end type results_type
+
+end module axijoint_analysis_results

@@ -1,0 +1,218 @@
+!> One static analysis, told in order
+module axijoint_analysis_static
+   use axijoint_analysis_recovery, only : recover
+   use axijoint_analysis_results, only : results_type
+   use axijoint_assembly_equations, only : equations_type, new_equations, factorize_equations, &
+                                           solve_harmonic, backward_error
+   use axijoint_assembly_force, only : applied_force, joint_force, joint_jump
+   use axijoint_assembly_mechanism, only : check_mechanism
+   use axijoint_base_error, only : error_type
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_progress, only : progress_type, show_progress
+   use axijoint_base_text, only : to_text
+   use axijoint_base_timer, only : timer_type, phase_assemble, phase_factor, phase_joints, &
+                                   phase_recover
+   use axijoint_joints_field, only : joint_field_type, new_joint_field, elastic_stress
+   use axijoint_joints_planes, only : planes_type, new_planes, new_view, synthesize
+   use axijoint_joints_transfer, only : transfer_loop
+   use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points
+   use axijoint_model_mesh, only : n_nodes
+   use axijoint_model_model, only : model_type, can_yield
+   implicit none
+   private
+   public :: analyse_model, used_harmonics
+
+contains
+
+   !> Solve a job: equations of all harmonics, joints, recovery
+   subroutine analyse_model(model, results, timer, progress, error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> What was found
+      type(results_type), intent(out) :: results
+      !> Times of the phases
+      type(timer_type), intent(inout) :: timer
+      !> Where to show progress
+      type(progress_type), intent(inout) :: progress
+      !> Singular stiffness, or out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(model_joint_point_type), allocatable :: points(:)
+      type(equations_type) :: equations
+      type(joint_field_type) :: field
+      real(wp), allocatable :: applied(:, :, :)
+      integer :: k
+
+      points = new_joint_points(model)
+      results%harmonics = used_harmonics(model)
+      call check_mechanism(model, points, results%harmonics, error)
+      if (allocated(error)) return
+
+      call timer%push(phase_assemble)
+      call show_progress(progress, 'assembling '//to_text(size(results%harmonics))//' harmonics')
+      call new_equations(equations, model, points, results%harmonics, error)
+      allocate (applied(3, n_nodes(model%mesh), size(results%harmonics)))
+      do k = 1, size(results%harmonics)
+         applied(:, :, k) = applied_force(model, results%harmonics(k))
+      end do
+      call timer%pop()
+      if (allocated(error)) return
+
+      call timer%push(phase_factor)
+      call show_progress(progress, 'factoring '//to_text(size(results%harmonics))//' harmonics')
+      call factorize_equations(equations, model, error)
+      call timer%pop()
+      if (allocated(error)) return
+
+      call timer%push(phase_joints)
+      call solve(model, points, equations, applied, field, results, progress)
+      call timer%pop()
+
+      call timer%push(phase_recover)
+      applied = applied*reached_factor(model, results)
+      call recover(model, points, equations, applied, field, results)
+      call report_solves(points, equations, applied, field, results)
+      results%converged = results%converged .and. results%residual_ratio <= results%tolerance
+      call timer%pop()
+   end subroutine analyse_model
+
+   !> Harmonics to solve: only the loaded ones of a linear job; otherwise all up
+   !> to M, since opening and slip couple them
+   pure function used_harmonics(model) result(harmonics)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Harmonics m, ascending; at least one
+      integer, allocatable :: harmonics(:)
+
+      integer :: m
+
+      harmonics = [(m, m = 0, model%max_harmonic)]
+      if (can_yield(model)) return
+      harmonics = pack(harmonics, [(any(model%edge_loads%harmonic == m) &
+                                    .or. any(model%ring_loads%harmonic == m), &
+                                    m = 0, model%max_harmonic)])
+      if (size(harmonics) == 0) harmonics = [0]
+   end function used_harmonics
+
+   !> Sum of the load factors that the run reached
+   pure function reached_factor(model, results) result(factor)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results with their convergence path
+      type(results_type), intent(in) :: results
+      !> The factor
+      real(wp) :: factor
+
+      if (size(results%path) > 0) then
+         factor = results%path(size(results%path))%load_factor
+      else
+         factor = sum(model%increments%factor)
+      end if
+   end function reached_factor
+
+   !> Displacements and joint state: at once if no joint can yield, else by the
+   !> paper's loop
+   subroutine solve(model, points, equations, load, field, results, progress)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Points of all joints
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Equations of all harmonics, factored
+      type(equations_type), intent(in) :: equations
+      !> Loads for a factor of one, shape (3, nodes, harmonics)
+      real(wp), intent(in) :: load(:, :, :)
+      !> State of the joints
+      type(joint_field_type), intent(out) :: field
+      !> Results that take displacements, joint results and convergence path
+      type(results_type), intent(inout) :: results
+      !> Where to show progress
+      type(progress_type), intent(inout) :: progress
+
+      type(planes_type) :: planes
+      integer :: k
+
+      allocate (results%displacement, mold=load)
+      results%tolerance = model%increments(size(model%increments))%tolerance
+      if (can_yield(model)) then
+         planes = new_planes(model%n_planes, equations%harmonics)
+         call transfer_loop(model, points, equations, planes, load, results%displacement, field, &
+                            results%path, results%converged, progress)
+      else
+         planes = new_view(model%output_angles, equations%harmonics)
+         allocate (results%path(0))
+         do k = 1, size(equations%harmonics)
+            call solve_harmonic(equations, k, sum(model%increments%factor)*load(:, :, k), &
+                                results%displacement(:, :, k))
+         end do
+         results%converged = .true.
+         call elastic_field(model, points, planes, results%displacement, field)
+      end if
+      results%plane_angles = planes%angle
+      results%joint_point_joint = points%joint
+      allocate (results%joint_point_position(2, size(points)))
+      do k = 1, size(points)
+         results%joint_point_position(:, k) = points(k)%position
+      end do
+      results%joint_jump = field%jump
+      results%joint_stress = field%stress
+      results%joint_state = field%state
+   end subroutine solve
+
+   !> Joints of a linear job
+   subroutine elastic_field(model, points, planes, displacement, field)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Points of all joints
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Planes to look at
+      type(planes_type), intent(in) :: planes
+      !> Displacement amplitudes, shape (3, nodes, harmonics)
+      real(wp), intent(in) :: displacement(:, :, :)
+      !> State of the joints
+      type(joint_field_type), intent(out) :: field
+
+      real(wp) :: jump(3, size(points), size(displacement, 3))
+      integer :: k
+
+      field = new_joint_field(size(points), size(planes%angle), size(displacement, 3))
+      do k = 1, size(displacement, 3)
+         jump(:, :, k) = joint_jump(points, displacement(:, :, k))
+      end do
+      field%jump = synthesize(planes, jump)
+      field%stress = elastic_stress(model, points, field%jump)
+   end subroutine elastic_field
+
+   !> How well the equations of each harmonic are solved: the backward error of
+   !> one more solution, for the forces that act at the end
+   subroutine report_solves(points, equations, applied, field, results)
+      !> Points of all joints
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Equations of all harmonics
+      type(equations_type), intent(in) :: equations
+      !> Applied forces, shape (3, nodes, harmonics)
+      real(wp), intent(in) :: applied(:, :, :)
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> Results that take the report
+      type(results_type), intent(inout) :: results
+
+      real(wp), dimension(3, size(applied, 2)) :: force, displacement
+      integer :: k, m
+
+      allocate (results%solves(size(equations%harmonics)))
+      do k = 1, size(equations%harmonics)
+         m = equations%harmonics(k)
+         force = applied(:, :, k) &
+            + joint_force(points, m, field%excess(:, :, k), size(applied, 2))
+         call solve_harmonic(equations, k, force, displacement)
+         associate (report => results%solves(k))
+            report%harmonic = m
+            report%n_equations = equations%matrices(k)%n
+            report%half_bandwidth = equations%plans(equations%class(k))%half_bandwidth
+            report%smallest_pivot = equations%pivots(k)%smallest
+            report%backward_error = backward_error(equations, k, force, displacement)
+         end associate
+      end do
+   end subroutine report_solves
+
+end module axijoint_analysis_static

@@ -1,0 +1,122 @@
+!> Unknowns: which displacement component is which equation
+module axijoint_assembly_dofs
+   use axijoint_base_kinds, only : wp
+   implicit none
+   private
+   public :: dofs_type, new_dofs, gather, expand, kinematic_class
+   public :: component_name
+
+   !> Names of the components u, v, w
+   character(len=*), parameter :: component_name(3) = ['u (r)    ', 'v (z)    ', 'w (theta)']
+
+   !> Equations of the symmetric family in one class of harmonics
+   type :: dofs_type
+      !> Number of equations
+      integer :: n_equations = 0
+      !> Equation of each component, shape (3, nodes); zero where there is none
+      integer, allocatable :: equation(:, :)
+      !> The component is this factor times the unknown of its equation
+      real(wp), allocatable :: factor(:, :)
+   end type dofs_type
+
+contains
+
+   !> Harmonics of one class share their equations: 0 has no w; from 1 on, all
+   !> have u, v, w, but on the axis 1 and the rest differ
+   elemental integer function kinematic_class(harmonic, touches_axis)
+      !> Harmonic m
+      integer, intent(in) :: harmonic
+      !> Whether the mesh has nodes at r = 0
+      logical, intent(in) :: touches_axis
+
+      kinematic_class = min(harmonic, merge(2, 1, touches_axis))
+   end function kinematic_class
+
+   !> Number the unknowns. At the pole r = 0 the displacement must be the same
+   !> from all sides: m = 0: u = 0; m = 1: v = 0, w = -u; m >= 2: all zero
+   subroutine new_dofs(dofs, harmonic, on_axis, fixed, order)
+      !> The unknowns
+      type(dofs_type), intent(out) :: dofs
+      !> Harmonic m
+      integer, intent(in) :: harmonic
+      !> Nodes at r = 0, shape (nodes)
+      logical, intent(in) :: on_axis(:)
+      !> Components that supports hold, shape (3, nodes)
+      logical, intent(in) :: fixed(:, :)
+      !> order(k) is the k-th node to be numbered
+      integer, intent(in) :: order(:)
+
+      logical :: free(3)
+      integer :: k, node, i
+
+      allocate (dofs%equation(3, size(order)), source=0)
+      allocate (dofs%factor(3, size(order)), source=1.0_wp)
+      do k = 1, size(order)
+         node = order(k)
+         free = .not. fixed(:, node)
+         if (harmonic == 0) free(3) = .false.
+         if (on_axis(node)) then
+            select case (harmonic)
+            case (0)
+               free(1) = .false.
+            case (1)  ! w follows u, and is held with it
+               free = [free(1) .and. free(3), .false., .false.]
+            case default
+               free = .false.
+            end select
+         end if
+         do i = 1, 3
+            if (.not. free(i)) cycle
+            dofs%n_equations = dofs%n_equations + 1
+            dofs%equation(i, node) = dofs%n_equations
+         end do
+         if (on_axis(node) .and. harmonic == 1) then
+            dofs%equation(3, node) = dofs%equation(1, node)
+            dofs%factor(3, node) = -1.0_wp
+         end if
+      end do
+   end subroutine new_dofs
+
+   !> Generalized forces of the equations from those of the components
+   pure function gather(dofs, nodal) result(vector)
+      !> The unknowns
+      type(dofs_type), intent(in) :: dofs
+      !> Forces on components, shape (3, nodes)
+      real(wp), intent(in) :: nodal(:, :)
+      !> Forces on equations, shape (n_equations)
+      real(wp) :: vector(dofs%n_equations)
+
+      integer :: node, i
+
+      vector = 0.0_wp
+      do node = 1, size(nodal, 2)
+         do i = 1, 3
+            associate (e => dofs%equation(i, node))
+               if (e > 0) vector(e) = vector(e) + dofs%factor(i, node)*nodal(i, node)
+            end associate
+         end do
+      end do
+   end function gather
+
+   !> Displacement components from the unknowns
+   pure function expand(dofs, vector) result(nodal)
+      !> The unknowns
+      type(dofs_type), intent(in) :: dofs
+      !> Values of the unknowns, shape (n_equations)
+      real(wp), intent(in) :: vector(:)
+      !> Components, shape (3, nodes); zero where there is no equation
+      real(wp) :: nodal(3, size(dofs%equation, 2))
+
+      integer :: node, i
+
+      nodal = 0.0_wp
+      do node = 1, size(nodal, 2)
+         do i = 1, 3
+            associate (e => dofs%equation(i, node))
+               if (e > 0) nodal(i, node) = dofs%factor(i, node)*vector(e)
+            end associate
+         end do
+      end do
+   end function expand
+
+end module axijoint_assembly_dofs

@@ -1,0 +1,143 @@
+!> Graph of the nodes and sparsity of the stiffness
+module axijoint_assembly_pattern
+   use axijoint_assembly_dofs, only : dofs_type
+   use axijoint_base_kinds, only : i8
+   use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
+   use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, n_joints
+   use axijoint_order_graph, only : graph_type, new_graph
+   implicit none
+   private
+   public :: node_graph, new_pattern
+
+contains
+
+   !> Graph of the nodes: elements and joints are its cliques
+   function node_graph(mesh) result(graph)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The graph
+      type(graph_type) :: graph
+
+      integer :: start(n_elements(mesh) + n_joints(mesh) + 1)
+      integer, allocatable :: member(:)
+      integer :: i, k
+
+      allocate (member(sum(mesh%element_size) + sum(mesh%joint_size)))
+      start(1) = 1
+      do i = 1, n_elements(mesh)
+         start(i + 1) = start(i) + mesh%element_size(i)
+         member(start(i):start(i + 1) - 1) = mesh%element_nodes(:mesh%element_size(i), i)
+      end do
+      do i = 1, n_joints(mesh)
+         k = n_elements(mesh) + i
+         start(k + 1) = start(k) + mesh%joint_size(i)
+         member(start(k):start(k + 1) - 1) = mesh%joint_nodes(:mesh%joint_size(i), i)
+      end do
+      call new_graph(graph, n_nodes(mesh), start, member)
+   end function node_graph
+
+   !> Sparsity of the stiffness, lower triangle
+   subroutine new_pattern(pattern, graph, dofs, order)
+      !> The pattern, without values
+      type(symmetric_matrix_type), intent(out) :: pattern
+      !> Graph of the nodes
+      type(graph_type), intent(in) :: graph
+      !> The unknowns, numbered in the same order
+      type(dofs_type), intent(in) :: dofs
+      !> order(k) is the k-th node
+      integer, intent(in) :: order(:)
+
+      integer, allocatable :: columns(:)
+      integer(i8) :: count
+      integer :: pass, k, i, node, row, n_columns
+
+      allocate (pattern%row_start(dofs%n_equations + 1))
+      allocate (columns(3*(1 + maxval([0, graph%start(2:) - graph%start(:graph%n)]))))
+      pattern%n = dofs%n_equations
+      do pass = 1, 2  ! count the entries, then store them
+         count = 0
+         row = 0
+         do k = 1, size(order)
+            node = order(k)
+            call coupled_equations(node, graph, dofs, columns, n_columns)
+            do i = 1, 3
+               if (dofs%equation(i, node) /= row + 1) cycle  ! none, or that of another component
+               row = row + 1
+               pattern%row_start(row) = count + 1
+               call append_columns(columns(:n_columns), row, pass == 2, pattern, count)
+            end do
+         end do
+         pattern%row_start(pattern%n + 1) = count + 1
+         if (pass == 1) allocate (pattern%column(count))
+      end do
+   end subroutine new_pattern
+
+   !> Equations of a node and its neighbours, ascending
+   subroutine coupled_equations(node, graph, dofs, columns, n_columns)
+      !> Node
+      integer, intent(in) :: node
+      !> Graph of the nodes
+      type(graph_type), intent(in) :: graph
+      !> The unknowns
+      type(dofs_type), intent(in) :: dofs
+      !> The equations, the first n_columns
+      integer, intent(inout) :: columns(:)
+      !> How many
+      integer, intent(out) :: n_columns
+
+      integer :: l, i
+
+      n_columns = 0
+      call insert_node(node)
+      do l = graph%start(node), graph%start(node + 1) - 1
+         call insert_node(graph%neighbour(l))
+      end do
+
+   contains
+
+      !> Insert the equations of one node in their places
+      subroutine insert_node(other)
+         !> Node
+         integer, intent(in) :: other
+         integer :: equation, place
+
+         do i = 1, 3
+            equation = dofs%equation(i, other)
+            if (equation == 0) cycle
+            if (i == 3 .and. equation == dofs%equation(1, other)) cycle  ! w tied to u
+            place = n_columns
+            do while (place > 0)
+               if (columns(place) < equation) exit
+               columns(place + 1) = columns(place)
+               place = place - 1
+            end do
+            columns(place + 1) = equation
+            n_columns = n_columns + 1
+         end do
+      end subroutine insert_node
+
+   end subroutine coupled_equations
+
+   !> Append the entries of a row up to the diagonal
+   subroutine append_columns(columns, row, store, pattern, count)
+      !> Equations coupled with the row, ascending
+      integer, intent(in) :: columns(:)
+      !> The row
+      integer, intent(in) :: row
+      !> Whether to store the entries or only to count them
+      logical, intent(in) :: store
+      !> The pattern
+      type(symmetric_matrix_type), intent(inout) :: pattern
+      !> Entries so far
+      integer(i8), intent(inout) :: count
+
+      integer :: k
+
+      do k = 1, size(columns)
+         if (columns(k) > row) exit
+         count = count + 1
+         if (store) pattern%column(count) = columns(k)
+      end do
+   end subroutine append_columns
+
+end module axijoint_assembly_pattern

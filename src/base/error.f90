@@ -1,0 +1,48 @@
+!> The one error type: an exit code and a message for a person
+module axijoint_base_error
+   implicit none
+   private
+   public :: error_type, fatal_error
+   public :: exit_ok, exit_deck, exit_not_converged, exit_singular
+   public :: exit_io, exit_memory, exit_internal
+
+   !> Success
+   integer, parameter :: exit_ok = 0
+   !> Wrong deck or wrong command line
+   integer, parameter :: exit_deck = 2
+   !> The iteration ended without equilibrium; results are labelled so
+   integer, parameter :: exit_not_converged = 3
+   !> Singular stiffness or a mechanism
+   integer, parameter :: exit_singular = 4
+   !> A file could not be read or written
+   integer, parameter :: exit_io = 5
+   !> Out of memory
+   integer, parameter :: exit_memory = 6
+   !> A state that the program should never reach
+   integer, parameter :: exit_internal = 70
+
+   !> An error on its way to the caller
+   type :: error_type
+      !> Exit code of the program, one of the `exit_` parameters
+      integer :: code = exit_internal
+      !> Cause and remedy; may have several lines
+      character(len=:), allocatable :: message
+   end type error_type
+
+contains
+
+   !> Make an error; the caller returns right after
+   subroutine fatal_error(error, code, message)
+      !> The new error
+      type(error_type), allocatable, intent(out) :: error
+      !> Exit code
+      integer, intent(in) :: code
+      !> Cause and remedy
+      character(len=*), intent(in) :: message
+
+      allocate (error)
+      error%code = code
+      error%message = message
+   end subroutine fatal_error
+
+end module axijoint_base_error

@@ -1,0 +1,98 @@
+!> How much memory a process may still take, and a message before it takes more
+module axijoint_base_memory
+   use axijoint_base_error, only : error_type, fatal_error, exit_memory
+   use axijoint_base_kinds, only : i8
+   use axijoint_base_text, only : to_text
+   implicit none
+   private
+   public :: require_memory, available_memory
+
+   !> No limit is known
+   integer(i8), parameter :: unknown = huge(1_i8)
+   !> What numbers are made of
+   character(len=*), parameter :: digits = '0123456789'
+
+contains
+
+   !> Make sure that memory is there before it is allocated: a system that
+   !> promises more than it has would kill the process later without a word
+   subroutine require_memory(bytes, purpose, error)
+      !> Bytes needed
+      integer(i8), intent(in) :: bytes
+      !> What for
+      character(len=*), intent(in) :: purpose
+      !> Too little memory, with the bytes
+      type(error_type), allocatable, intent(out) :: error
+
+      if (bytes <= available_memory()) return
+      call fatal_error(error, exit_memory, 'out of memory: '//purpose//' need '// &
+                       in_mebibytes(bytes)//', available are '// &
+                       in_mebibytes(available_memory())//new_line('a')// &
+                       'mend: a coarser mesh, fewer harmonics, or a larger memory limit')
+   end subroutine require_memory
+
+   !> Bytes that this process may still take: the least of what the machine has
+   !> free, what its control group leaves and what its address space leaves
+   function available_memory() result(bytes)
+      !> Bytes; very large if nothing is known
+      integer(i8) :: bytes
+
+      integer(i8) :: limit, used
+
+      bytes = scaled(number_after('/proc/meminfo', 'MemAvailable:'), 1024_i8)
+      limit = number_after('/sys/fs/cgroup/memory.max', '')
+      used = number_after('/sys/fs/cgroup/memory.current', '')
+      if (limit /= unknown .and. used /= unknown) bytes = min(bytes, max(limit - used, 0_i8))
+      limit = number_after('/proc/self/limits', 'Max address space')
+      used = scaled(number_after('/proc/self/status', 'VmSize:'), 1024_i8)
+      if (limit /= unknown .and. used /= unknown) bytes = min(bytes, max(limit - used, 0_i8))
+   end function available_memory
+
+   !> First number after a label at the beginning of a line of a file
+   function number_after(path, label) result(number)
+      !> The file
+      character(len=*), intent(in) :: path
+      !> The label; may be empty
+      character(len=*), intent(in) :: label
+      !> The number; `unknown` if the file, the label or a number is not there
+      integer(i8) :: number
+
+      character(len=256) :: line
+      integer :: unit, stat, first, last
+
+      number = unknown
+      open (newunit=unit, file=path, status='old', action='read', iostat=stat)
+      if (stat /= 0) return
+      do
+         read (unit, '(a)', iostat=stat) line
+         if (stat /= 0) exit
+         if (index(line, label) /= 1) cycle
+         if (scan(line(len(label) + 1:), digits) == 0) exit  ! a word: no limit
+         first = scan(line(len(label) + 1:), digits) + len(label)
+         last = first + verify(line(first:), digits) - 2
+         read (line(first:last), *, iostat=stat) number
+         if (stat /= 0) number = unknown
+         exit
+      end do
+      close (unit)
+   end function number_after
+
+   !> Product; unknown stays unknown
+   pure integer(i8) function scaled(number, factor)
+      !> Factors
+      integer(i8), intent(in) :: number, factor
+
+      scaled = merge(unknown, factor*min(number, unknown/factor), number == unknown)
+   end function scaled
+
+   !> Bytes in words
+   function in_mebibytes(bytes) result(text)
+      !> Bytes
+      integer(i8), intent(in) :: bytes
+      !> Mebibytes with the unit, and bytes
+      character(len=:), allocatable :: text
+
+      text = to_text(bytes/2**20)//' MiB ('//to_text(bytes)//' bytes)'
+   end function in_mebibytes
+
+end module axijoint_base_memory

@@ -1,0 +1,213 @@
+!> The operating system: paths, memory, process, terminal
+module axijoint_base_system
+   use, intrinsic :: iso_c_binding, only : c_char, c_int, c_long, c_null_char, c_size_t
+   use axijoint_base_kinds, only : wp
+   implicit none
+   private
+   public :: path_kind, is_directory, rename_path, unlink_path, sync_path
+   public :: peak_memory_mb, process_id, error_output_is_terminal
+   public :: ignore_file_size_signal, last_error, set_last_error, error_text
+   public :: path_absent, path_file, path_directory, path_link, path_other
+
+   !> Nothing has this name
+   integer, parameter :: path_absent = 0
+   !> Regular file
+   integer, parameter :: path_file = 1
+   !> Directory
+   integer, parameter :: path_directory = 2
+   !> Symbolic link, whatever it leads to
+   integer, parameter :: path_link = 3
+   !> Device, pipe or socket
+   integer, parameter :: path_other = 4
+
+   !> File descriptor of the standard error output
+   integer(c_int), parameter :: standard_error = 2_c_int
+   !> Longest text of a system error
+   integer, parameter :: max_error_text = 256
+
+   interface
+      !> What a path is; system_shim.c
+      function c_path_kind(path) bind(c, name="axijoint_path_kind")
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int) :: c_path_kind
+      end function c_path_kind
+
+      !> Whether a path leads to a directory; system_shim.c
+      function c_is_directory(path) bind(c, name="axijoint_is_directory")
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int) :: c_is_directory
+      end function c_is_directory
+
+      !> Bring a file or directory to the disk; system_shim.c
+      function c_sync_path(path) bind(c, name="axijoint_sync_path")
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int) :: c_sync_path
+      end function c_sync_path
+
+      !> POSIX rename
+      function c_rename(from, to) bind(c, name="rename")
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: from(*), to(*)
+         integer(c_int) :: c_rename
+      end function c_rename
+
+      !> POSIX unlink
+      function c_unlink(path) bind(c, name="unlink")
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int) :: c_unlink
+      end function c_unlink
+
+      !> Largest resident memory; system_shim.c
+      function c_peak_memory() bind(c, name="axijoint_peak_memory")
+         import :: c_long
+         integer(c_long) :: c_peak_memory
+      end function c_peak_memory
+
+      !> POSIX getpid
+      function c_getpid() bind(c, name="getpid")
+         import :: c_int
+         integer(c_int) :: c_getpid
+      end function c_getpid
+
+      !> POSIX isatty
+      function c_isatty(descriptor) bind(c, name="isatty")
+         import :: c_int
+         integer(c_int), value :: descriptor
+         integer(c_int) :: c_isatty
+      end function c_isatty
+
+      !> Ignore SIGXFSZ; system_shim.c
+      subroutine c_ignore_file_size_signal() bind(c, name="axijoint_ignore_file_size_signal")
+      end subroutine c_ignore_file_size_signal
+
+      !> Value of errno; system_shim.c
+      function c_get_errno() bind(c, name="axijoint_get_errno")
+         import :: c_int
+         integer(c_int) :: c_get_errno
+      end function c_get_errno
+
+      !> Set errno; system_shim.c
+      subroutine c_set_errno(error) bind(c, name="axijoint_set_errno")
+         import :: c_int
+         integer(c_int), value :: error
+      end subroutine c_set_errno
+
+      !> Words for an errno value; system_shim.c
+      subroutine c_error_text(error, text, size) bind(c, name="axijoint_error_text")
+         import :: c_char, c_int, c_size_t
+         integer(c_int), value :: error
+         character(kind=c_char), intent(out) :: text(*)
+         integer(c_size_t), value :: size
+      end subroutine c_error_text
+   end interface
+
+contains
+
+   !> What a path is, without following a link; the negative errno if the
+   !> path cannot be looked at
+   integer function path_kind(path)
+      !> The path
+      character(len=*), intent(in) :: path
+      path_kind = int(c_path_kind(path//c_null_char))
+   end function path_kind
+
+   !> Whether a path leads to a directory, links followed
+   logical function is_directory(path)
+      !> The path
+      character(len=*), intent(in) :: path
+      is_directory = c_is_directory(path//c_null_char) == 1_c_int
+   end function is_directory
+
+   !> Give a file another name in one step, replacing a file of that name
+   subroutine rename_path(from, to, errno)
+      !> Old and new path, on one file system
+      character(len=*), intent(in) :: from, to
+      !> Zero, or the system's error
+      integer, intent(out) :: errno
+
+      errno = 0
+      if (c_rename(from//c_null_char, to//c_null_char) /= 0_c_int) errno = last_error()
+   end subroutine rename_path
+
+   !> Remove a file
+   subroutine unlink_path(path, errno)
+      !> The file
+      character(len=*), intent(in) :: path
+      !> Zero, or the system's error
+      integer, intent(out) :: errno
+
+      errno = 0
+      if (c_unlink(path//c_null_char) /= 0_c_int) errno = last_error()
+   end subroutine unlink_path
+
+   !> Wait until a file's bytes, or a directory's entries, are on the disk
+   subroutine sync_path(path, errno)
+      !> File or directory
+      character(len=*), intent(in) :: path
+      !> Zero, or the system's error
+      integer, intent(out) :: errno
+
+      errno = int(c_sync_path(path//c_null_char))
+   end subroutine sync_path
+
+   !> Largest memory that the process held so far [megabyte of 2**20 bytes];
+   !> negative if the system does not tell
+   real(wp) function peak_memory_mb()
+      integer(c_long) :: kilobytes
+
+      kilobytes = c_peak_memory()
+      peak_memory_mb = -1.0_wp
+      if (kilobytes >= 0_c_long) peak_memory_mb = real(kilobytes, wp)/1024.0_wp
+   end function peak_memory_mb
+
+   !> Number of this process
+   integer function process_id()
+      process_id = int(c_getpid())
+   end function process_id
+
+   !> Whether the standard error output goes to a terminal
+   logical function error_output_is_terminal()
+      error_output_is_terminal = c_isatty(standard_error) == 1_c_int
+   end function error_output_is_terminal
+
+   !> Let a write beyond the limit on file sizes fail instead of ending the
+   !> process by a signal
+   subroutine ignore_file_size_signal()
+      call c_ignore_file_size_signal()
+   end subroutine ignore_file_size_signal
+
+   !> The system's error number as the last failed call left it
+   integer function last_error()
+      last_error = int(c_get_errno())
+   end function last_error
+
+   !> Set the error number, to zero before a call whose own error is unclear
+   subroutine set_last_error(errno)
+      !> New value
+      integer, intent(in) :: errno
+      call c_set_errno(int(errno, c_int))
+   end subroutine set_last_error
+
+   !> The system's words for an error number
+   function error_text(errno) result(text)
+      !> Error number
+      integer, intent(in) :: errno
+      !> Words, such as "No space left on device"
+      character(len=:), allocatable :: text
+
+      character(kind=c_char) :: buffer(max_error_text)
+      integer :: i
+
+      call c_error_text(int(errno, c_int), buffer, int(max_error_text, c_size_t))
+      text = ""
+      do i = 1, max_error_text
+         if (buffer(i) == c_null_char) exit
+         text = text//buffer(i)
+      end do
+   end function error_text
+
+end module axijoint_base_system

@@ -1,0 +1,83 @@
+/* What the standard C library says through macros and structures, which a
+   Fortran interface cannot name portably. Every function returns 0 or the
+   value of errno, unless its comment says otherwise. */
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* What a path is, links not followed: 0 nothing, 1 regular file, 2 directory,
+   3 symbolic link, 4 anything else; -errno if that cannot be told. */
+int axijoint_path_kind(const char *path)
+{
+   struct stat status;
+   if (lstat(path, &status) != 0) return errno == ENOENT ? 0 : -errno;
+   if (S_ISREG(status.st_mode)) return 1;
+   if (S_ISDIR(status.st_mode)) return 2;
+   if (S_ISLNK(status.st_mode)) return 3;
+   return 4;
+}
+
+/* Whether a path, links followed, is a directory: 1 or 0; -errno if it
+   cannot be reached. */
+int axijoint_is_directory(const char *path)
+{
+   struct stat status;
+   if (stat(path, &status) != 0) return -errno;
+   return S_ISDIR(status.st_mode) ? 1 : 0;
+}
+
+/* Bring what was written to a file, or a directory's entries, to the disk.
+   A file system that cannot do this for directories is no error. */
+int axijoint_sync_path(const char *path)
+{
+   int cause = 0;
+   int descriptor = open(path, O_RDONLY | O_CLOEXEC);
+   if (descriptor < 0) return errno;
+   if (fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP) cause = errno;
+   if (close(descriptor) != 0 && cause == 0) cause = errno;
+   return cause;
+}
+
+/* Bring the buffer of a stream to the file and the file to the disk. */
+int axijoint_sync_stream(FILE *stream)
+{
+   if (fflush(stream) != 0) return errno;
+   if (fsync(fileno(stream)) != 0 && errno != EINVAL && errno != ENOTSUP) return errno;
+   return 0;
+}
+
+/* Largest resident memory of this process so far in kilobytes; -1 unknown. */
+long axijoint_peak_memory(void)
+{
+   struct rusage usage;
+   if (getrusage(RUSAGE_SELF, &usage) != 0) return -1;
+#ifdef __APPLE__
+   return usage.ru_maxrss / 1024;
+#else
+   return usage.ru_maxrss;
+#endif
+}
+
+/* A write beyond the limit on file sizes shall fail with EFBIG and be
+   reported, instead of ending the process by a signal. */
+void axijoint_ignore_file_size_signal(void)
+{
+   signal(SIGXFSZ, SIG_IGN);
+}
+
+/* The last error of this thread, and setting it. */
+int axijoint_get_errno(void) { return errno; }
+void axijoint_set_errno(int value) { errno = value; }
+
+/* The words for an errno value, ended by a zero, cut to the size given. */
+void axijoint_error_text(int value, char *text, size_t size)
+{
+   if (size == 0) return;
+   strncpy(text, strerror(value), size - 1);
+   text[size - 1] = '\0';
+}

@@ -1,0 +1,192 @@
+!> Numbers as text, letter case, and words that resemble each other
+module axijoint_base_text
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use axijoint_base_kinds, only : wp, i8
+   implicit none
+   private
+   public :: to_text, lower, upper, count_of, edit_distance, nearest_word
+
+   !> A number as text without blanks
+   interface to_text
+      module procedure integer_text
+      module procedure long_text
+      module procedure real_text
+   end interface to_text
+
+   !> Distance between capital and small letters in the ASCII table
+   integer, parameter :: case_shift = iachar('a') - iachar('A')
+
+contains
+
+   !> An integer in as many characters as it has
+   pure function integer_text(value) result(text)
+      !> The integer
+      integer, intent(in) :: value
+      !> Its digits and sign
+      character(len=:), allocatable :: text
+
+      text = long_text(int(value, i8))
+   end function integer_text
+
+   !> A long integer in as many characters as it has
+   pure function long_text(value) result(text)
+      !> The integer
+      integer(i8), intent(in) :: value
+      !> Its digits and sign
+      character(len=:), allocatable :: text
+
+      character(len=20) :: buffer
+
+      write (buffer, '(i0)') value
+      text = trim(buffer)
+   end function long_text
+
+   !> A real with six significant digits, trailing zeros dropped: 0.5, 20000,
+   !> 1.25E-5
+   pure function real_text(value) result(text)
+      !> The real
+      real(wp), intent(in) :: value
+      !> Its text
+      character(len=:), allocatable :: text
+
+      integer, parameter :: n_digits = 6
+      character(len=16) :: buffer
+      character(len=n_digits) :: digits
+      integer :: exponent, last
+
+      if (.not. ieee_is_finite(value)) then
+         text = 'not finite'
+         return
+      else if (.not. abs(value) > 0.0_wp) then
+         text = '0'
+         return
+      end if
+      write (buffer, '(es14.5e4)') abs(value)
+      buffer = adjustl(buffer)
+      digits = buffer(1:1)//buffer(3:7)
+      read (buffer(9:13), '(i5)') exponent
+      last = max(1, verify(digits, '0', back=.true.))
+      if (exponent < -4 .or. exponent > n_digits) then
+         text = digits(1:1)//trim_point('.'//digits(2:last))//'E'//integer_text(exponent)
+      else if (exponent < 0) then
+         text = '0.'//repeat('0', -exponent - 1)//digits(:last)
+      else if (last <= exponent + 1) then
+         text = digits(:last)//repeat('0', exponent + 1 - last)
+      else
+         text = digits(:exponent + 1)//'.'//digits(exponent + 2:last)
+      end if
+      if (value < 0.0_wp) text = '-'//text
+   end function real_text
+
+   !> Nothing instead of a decimal point without decimals
+   pure function trim_point(decimals) result(text)
+      !> Point and decimals
+      character(len=*), intent(in) :: decimals
+      !> The same, or nothing
+      character(len=:), allocatable :: text
+
+      text = decimals
+      if (decimals == '.') text = ''
+   end function trim_point
+
+   !> Small letters
+   pure function lower(text)
+      !> Any text
+      character(len=*), intent(in) :: text
+      !> The text with ASCII capitals made small
+      character(len=len(text)) :: lower
+
+      integer :: i
+
+      lower = text
+      do i = 1, len(text)
+         if (text(i:i) >= 'A' .and. text(i:i) <= 'Z') then
+            lower(i:i) = achar(iachar(text(i:i)) + case_shift)
+         end if
+      end do
+   end function lower
+
+   !> Capital letters
+   pure function upper(text)
+      !> Any text
+      character(len=*), intent(in) :: text
+      !> The text with small ASCII letters made capital
+      character(len=len(text)) :: upper
+
+      integer :: i
+
+      upper = text
+      do i = 1, len(text)
+         if (text(i:i) >= 'a' .and. text(i:i) <= 'z') then
+            upper(i:i) = achar(iachar(text(i:i)) - case_shift)
+         end if
+      end do
+   end function upper
+
+   !> A number and its noun: "1 node", "2 nodes"
+   pure function count_of(number, noun) result(text)
+      !> How many
+      integer, intent(in) :: number
+      !> Noun in the singular; its plural ends in s, or in ies instead of y
+      character(len=*), intent(in) :: noun
+      !> Number and noun
+      character(len=:), allocatable :: text
+
+      text = integer_text(number)//' '//noun
+      if (number == 1) return
+      text = text//'s'
+      if (noun(len(noun):) == 'y') text = text(:len(text) - 2)//'ies'
+   end function count_of
+
+   !> Fewest insertions, deletions, replacements and exchanges of neighbours
+   !> that turn one word into another (optimal string alignment)
+   pure integer function edit_distance(a, b)
+      !> The words
+      character(len=*), intent(in) :: a, b
+
+      integer :: d(0:len(a), 0:len(b)), i, j, cost
+
+      d(:, 0) = [(i, i=0, len(a))]
+      d(0, :) = [(j, j=0, len(b))]
+      do j = 1, len(b)
+         do i = 1, len(a)
+            cost = merge(0, 1, a(i:i) == b(j:j))
+            d(i, j) = min(d(i - 1, j) + 1, d(i, j - 1) + 1, d(i - 1, j - 1) + cost)
+            if (exchanged(a(:i), b(:j))) d(i, j) = min(d(i, j), d(max(i - 2, 0), max(j - 2, 0)) + 1)
+         end do
+      end do
+      edit_distance = d(len(a), len(b))
+   end function edit_distance
+
+   !> Whether two words end in the same two letters in opposite order
+   pure logical function exchanged(a, b)
+      !> The words
+      character(len=*), intent(in) :: a, b
+
+      exchanged = len(a) > 1 .and. len(b) > 1
+      if (exchanged) exchanged = a(len(a):) == b(len(b) - 1:len(b) - 1) &
+                                 .and. a(len(a) - 1:len(a) - 1) == b(len(b):)
+   end function exchanged
+
+   !> Index of the choice that a misspelt word most likely means: at most one
+   !> slip in three letters; 0 if none resembles it. Letter case is ignored
+   pure integer function nearest_word(word, choices)
+      !> The word
+      character(len=*), intent(in) :: word
+      !> Correct words
+      character(len=*), intent(in) :: choices(:)
+
+      integer :: i, distance, least
+
+      nearest_word = 0
+      least = max(1, len_trim(word)/3) + 1
+      do i = 1, size(choices)
+         distance = edit_distance(upper(trim(word)), upper(trim(choices(i))))
+         if (distance < least .and. distance < len_trim(choices(i))) then
+            least = distance
+            nearest_word = i
+         end if
+      end do
+   end function nearest_word
+
+end module axijoint_base_text

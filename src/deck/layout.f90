@@ -1,0 +1,296 @@
+!> Sections of a deck and the fields of their cards: the one place that knows
+!> the columns
+module axijoint_deck_layout
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_text, only : nearest_word, to_text
+   use axijoint_deck_field, only : field_type, integer_field, real_field, word_field, code_field, &
+      text_field, largest_number
+   implicit none
+   private
+   public :: section_names, section_fields, keyword_fields, nearest_section, cards_per_entry
+
+   !> Last column of a card, and of the keyword on a keyword card
+   integer, parameter, public :: card_width = 80, keyword_last = 10
+
+   !> Number of keywords
+   integer, parameter, public :: n_sections = 21
+   integer, parameter, public :: section_title = 1, section_control = 2, section_nodes = 3, &
+      section_lines = 4, section_elements = 5, section_blocks = 6, section_materials = 7, &
+      section_laws = 8, section_joints = 9, section_faces = 10, section_chains = 11, &
+      section_interfaces = 12, section_restraints = 13, section_fixed_faces = 14, &
+      section_tractions = 15, section_resultants = 16, section_ring_loads = 17, &
+      section_increments = 18, section_output = 19, section_include = 20, section_end = 21
+
+   !> The keywords
+   character(len=10), parameter :: section_names(n_sections) = [character(len=10) :: &
+      'TITLE', 'CONTROL', 'NODES', 'LINES', 'ELEMENTS', 'BLOCKS', 'MATERIALS', 'LAWS', 'JOINTS', &
+      'FACES', 'CHAINS', 'INTERFACES', 'RESTRAINTS', 'FIXEDFACES', 'TRACTIONS', 'RESULTANTS', &
+      'RINGLOADS', 'INCREMENTS', 'OUTPUT', 'INCLUDE', 'END']
+
+   !> Largest numbers of a body, of elements along a side of a block, of a harmonic
+   integer, parameter :: largest_body = 9999, largest_division = 100000, largest_harmonic = 9999
+   !> Greatest grading of a block or a line, and its inverse
+   real(wp), parameter :: largest_ratio = 1.0e6_wp
+
+contains
+
+   !> The section that a misspelt keyword most likely means; 0 if none
+   pure integer function nearest_section(word)
+      !> The keyword
+      character(len=*), intent(in) :: word
+      nearest_section = nearest_word(word, section_names)
+   end function nearest_section
+
+   !> Number of cards that make an entry of a section
+   pure integer function cards_per_entry(section)
+      !> The section
+      integer, intent(in) :: section
+      cards_per_entry = merge(2, 1, section == section_blocks)
+   end function cards_per_entry
+
+   !> Fields of a keyword card: the keyword and the number of entries
+   pure function keyword_fields(section) result(fields)
+      !> The section
+      integer, intent(in) :: section
+      !> The fields; TITLE and END have no entries to count
+      type(field_type), allocatable :: fields(:)
+
+      fields = [text_field('the keyword', 1, keyword_last), &
+                integer_field('the number of entries', keyword_last + 1, keyword_last + 5, &
+                              0, largest_number, default=0)]
+      if (section == section_title .or. section == section_end) fields = fields(:1)
+   end function keyword_fields
+
+   !> Fields of the cards of a section, in the order of their columns
+   pure function section_fields(section) result(fields)
+      !> The section
+      integer, intent(in) :: section
+      !> The fields
+      type(field_type), allocatable :: fields(:)
+
+      select case (section)
+      case (section_control, section_increments, section_output)
+         fields = job_fields(section)
+      case (section_nodes)
+         fields = [number('the node', 1), length('r', 6, 0.0_wp), length('z', 16)]
+      case (section_lines)
+         fields = [number('the first node', 1), number('the last node', 6), step(11), ratio('the ratio', 16)]
+      case (section_elements)
+         fields = [number('the element', 1), number('the material', 6), body(11), numbers('node', 9, 4, 16)]
+      case (section_blocks)
+         fields = block_fields()
+      case (section_materials, section_laws)
+         fields = property_fields(section)
+      case (section_joints)
+         fields = [number('the joint', 1), number('the law', 6), numbers('node', 6, 4, 11)]
+      case (section_faces)
+         fields = [number('the face', 1), body(6), length('r of the first point', 11, 0.0_wp), &
+                   length('z of the first point', 21), length('r of the last point', 31, 0.0_wp), &
+                   length('z of the last point', 41)]
+      case (section_chains)
+         fields = [number('the face', 1), numbers('node', 15, 2, 6)]
+      case (section_interfaces)
+         fields = [number('the law', 1), number('face a', 6), number('face b', 11)]
+      case (section_restraints)
+         fields = [number('the node', 1), code_field('the code', 6, 10), &
+                   integer_field('the last node', 11, 15, 1, largest_number, default=0), step(16)]
+      case (section_fixed_faces)
+         fields = [number('the face', 1), code_field('the code', 6, 10)]
+      case (section_tractions, section_resultants, section_ring_loads)
+         fields = load_fields(section)
+      case default
+         allocate (fields(0))
+      end select
+   end function section_fields
+
+   !> Fields of CONTROL, INCREMENTS and OUTPUT
+   pure function job_fields(section) result(fields)
+      !> The section
+      integer, intent(in) :: section
+      !> The fields
+      type(field_type), allocatable :: fields(:)
+
+      integer :: i
+
+      select case (section)
+      case (section_control)
+         fields = [integer_field('the highest harmonic M', 1, 5, 0, largest_harmonic), &
+                   integer_field('the number of planes', 6, 10, 2, largest_division, default=0), &
+                   integer_field('the number of Gauss points (4-node)', 11, 15, 2, 3, default=2), &
+                   integer_field('the number of Gauss points (8-, 9-node)', 16, 20, 2, 3, default=3)]
+      case (section_increments)
+         fields = [real_field('the load factor', 1, 10), &
+                   real_field('the tolerance', 11, 20, above=0.0_wp, below=1.0_wp, default=1.0e-6_wp, &
+                              symbol='tolerance'), &
+                   integer_field('the most iterations', 21, 25, 1, largest_number, default=500)]
+      case default
+         fields = [(real_field('angle '//to_text(i), 10*i - 9, 10*i, from=-360.0_wp, to=360.0_wp, &
+                               default=0.0_wp, symbol='theta'), i=1, 8)]
+         fields(1)%required = .true.
+      end select
+   end function job_fields
+
+   !> Fields of the two cards of a block
+   pure function block_fields() result(fields)
+      !> The fields
+      type(field_type), allocatable :: fields(:)
+
+      character(len=1), parameter :: axis(0:1) = ['r', 'z']
+      type(field_type) :: corner
+      integer :: i
+
+      fields = [body(1), number('the material', 6), integer_field('the number of nodes per element', 11, 15, 4, 9), &
+                integer_field('the number of elements along 1-2', 16, 20, 1, largest_division), &
+                integer_field('the number of elements along 2-3', 21, 25, 1, largest_division), &
+                ratio('the ratio along 1-2', 26), ratio('the ratio along 2-3', 36)]
+      do i = 0, 7
+         corner = real_field(axis(mod(i, 2))//' of corner '//to_text(i/2 + 1), 10*i + 1, 10*i + 10, &
+                             symbol=axis(mod(i, 2)))
+         if (mod(i, 2) == 0) corner%low = 0.0_wp
+         corner%card = 2
+         corner%required = i < 4
+         fields = [fields, corner]
+      end do
+   end function block_fields
+
+   !> Fields of MATERIALS and LAWS
+   pure function property_fields(section) result(fields)
+      !> The section
+      integer, intent(in) :: section
+      !> The fields
+      type(field_type), allocatable :: fields(:)
+
+      if (section == section_materials) then
+         fields = [number('the material', 1), real_field('Young''s modulus', 6, 15, above=0.0_wp, symbol='E'), &
+                   real_field('Poisson''s ratio', 16, 25, from=0.0_wp, below=0.5_wp, symbol='nu')]
+      else
+         fields = [number('the law', 1), real_field('k_xi', 6, 15, from=0.0_wp, symbol='k_xi'), &
+                   real_field('k_eta', 16, 25, above=0.0_wp, symbol='k_eta'), &
+                   real_field('k_theta', 26, 35, from=0.0_wp, symbol='k_theta'), &
+                   real_field('the cohesion', 36, 45, from=0.0_wp, default=0.0_wp, symbol='C'), &
+                   real_field('the friction angle', 46, 55, from=0.0_wp, below=90.0_wp, default=0.0_wp, &
+                              symbol='phi'), &
+                   word_field('the kind of law', 56, 65, [character(len=7) :: 'PAPER', 'ELASTIC'], 1), &
+                   word_field('the rule', 66, 75, [character(len=8) :: 'CENTROID', 'GAUSS', 'LOBATTO'], 2)]
+      end if
+   end function property_fields
+
+   !> Fields of TRACTIONS, RESULTANTS and RINGLOADS
+   pure function load_fields(section) result(fields)
+      !> The section
+      integer, intent(in) :: section
+      !> The fields
+      type(field_type), allocatable :: fields(:)
+
+      select case (section)
+      case (section_tractions)
+         fields = [number('the face', 1), harmonic(6), components('t', ' at the first point', 11), &
+                   components('t', ' at the last point', 41)]
+      case (section_resultants)
+         fields = [number('the face', 1), &
+                   word_field('the kind of resultant', 6, 15, [character(len=7) :: 'LATERAL', 'MOMENT']), &
+                   real_field('the value', 16, 25)]
+      case default
+         fields = [number('the node', 1), harmonic(6), components('q', '', 11)]
+      end select
+   end function load_fields
+
+   !> Field of the number of a thing
+   pure function number(name, first) result(field)
+      !> Name
+      character(len=*), intent(in) :: name
+      !> First column
+      integer, intent(in) :: first
+      !> The field
+      type(field_type) :: field
+      field = integer_field(name, first, first + 4, 1, largest_number)
+   end function number
+
+   !> Fields of several numbers, the first of which are required
+   pure function numbers(name, n, n_required, first) result(fields)
+      !> Name of one
+      character(len=*), intent(in) :: name
+      !> How many, and how many at least
+      integer, intent(in) :: n, n_required
+      !> First column
+      integer, intent(in) :: first
+      !> The fields
+      type(field_type) :: fields(n)
+
+      integer :: i
+
+      do i = 1, n
+         fields(i) = number(name//' '//to_text(i), first + 5*(i - 1))
+         fields(i)%required = i <= n_required
+      end do
+   end function numbers
+
+   !> Field of a body
+   pure function body(first) result(field)
+      !> First column
+      integer, intent(in) :: first
+      !> The field
+      type(field_type) :: field
+      field = integer_field('the body', first, first + 4, 1, largest_body, default=1)
+   end function body
+
+   !> Field of a step between numbers
+   pure function step(first) result(field)
+      !> First column
+      integer, intent(in) :: first
+      !> The field
+      type(field_type) :: field
+      field = integer_field('the step', first, first + 4, 1, largest_number, default=1)
+   end function step
+
+   !> Field of a harmonic
+   pure function harmonic(first) result(field)
+      !> First column
+      integer, intent(in) :: first
+      !> The field
+      type(field_type) :: field
+      field = integer_field('the harmonic', first, first + 4, 0, largest_harmonic)
+   end function harmonic
+
+   !> Field of a coordinate
+   pure function length(name, first, from) result(field)
+      !> Name
+      character(len=*), intent(in) :: name
+      !> First column
+      integer, intent(in) :: first
+      !> Smallest value
+      real(wp), intent(in), optional :: from
+      !> The field
+      type(field_type) :: field
+      field = real_field(name, first, first + 9, from=from, symbol=name(1:1))
+   end function length
+
+   !> Field of the ratio of the last to the first interval
+   pure function ratio(name, first) result(field)
+      !> Name
+      character(len=*), intent(in) :: name
+      !> First column
+      integer, intent(in) :: first
+      !> The field
+      type(field_type) :: field
+      field = real_field(name, first, first + 9, from=1.0_wp/largest_ratio, to=largest_ratio, &
+                         default=1.0_wp, symbol='ratio')
+   end function ratio
+
+   !> Fields of the components of a load along r, z and theta, 0 if blank
+   pure function components(symbol, place, first) result(fields)
+      !> Symbol of the load
+      character(len=*), intent(in) :: symbol
+      !> Where it acts, for the names
+      character(len=*), intent(in) :: place
+      !> First column
+      integer, intent(in) :: first
+      !> The fields
+      type(field_type) :: fields(3)
+
+      fields = [real_field(symbol//'_r'//place, first, first + 9, default=0.0_wp), &
+                real_field(symbol//'_z'//place, first + 10, first + 19, default=0.0_wp), &
+                real_field(symbol//'_theta'//place, first + 20, first + 29, default=0.0_wp)]
+   end function components
+
+end module axijoint_deck_layout

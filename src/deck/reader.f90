@@ -1,0 +1,220 @@
+!> From a deck to a model
+module axijoint_deck_reader
+   use axijoint_base_kinds, only : wp
+   use axijoint_deck_check_elements, only : check_elements
+   use axijoint_deck_check_joints, only : check_joints, check_joint_edges
+   use axijoint_deck_check_mesh, only : snap_to_axis, check_used, check_coincident, check_near, &
+      check_hanging, check_touching
+   use axijoint_deck_control, only : read_control, check_planes
+   use axijoint_deck_diagnostics, only : diagnostics_type, add_error, add_warning
+   use axijoint_deck_draft, only : draft_type, new_draft
+   use axijoint_deck_edges, only : edge_table_type, new_edge_table, check_edges
+   use axijoint_deck_elements, only : draft_elements, sort_by_number
+   use axijoint_deck_faces, only : number_faces, lay_faces
+   use axijoint_deck_generate_blocks, only : draft_blocks
+   use axijoint_deck_generate_lines, only : draft_nodes, draft_lines
+   use axijoint_deck_interfaces, only : refer_interfaces, lay_interfaces
+   use axijoint_deck_joints, only : draft_joints, sort_joints
+   use axijoint_deck_layout, only : section_control, section_nodes, section_lines, section_elements, &
+      section_blocks, section_materials, section_laws, section_joints, section_faces, section_chains, &
+      section_interfaces, section_restraints, section_fixed_faces, section_tractions, &
+      section_resultants, section_ring_loads, section_increments, section_output
+   use axijoint_deck_loads, only : read_tractions, read_resultants, read_ring_loads
+   use axijoint_deck_places, only : group_places, new_point_tree, point_tree_type, same_place
+   use axijoint_deck_properties, only : properties_type, read_properties
+   use axijoint_deck_restraints, only : fix_nodes, fix_faces
+   use axijoint_deck_sections, only : sections_type, read_sections
+   use axijoint_deck_source, only : source_type
+   use axijoint_deck_source_reader, only : read_source
+   use axijoint_model_model, only : model_type
+   implicit none
+   private
+   public :: read_deck
+
+contains
+
+   !> Read a deck with all that it includes. The model is valid only if there are
+   !> no errors among the messages
+   subroutine read_deck(path, source, model, diagnostics)
+      !> The deck
+      character(len=*), intent(in) :: path
+      !> Its cards, for the echo and the messages
+      type(source_type), intent(out) :: source
+      !> The job
+      type(model_type), intent(out) :: model
+      !> Errors and warnings
+      type(diagnostics_type), intent(out) :: diagnostics
+
+      type(sections_type) :: sections
+      type(properties_type) :: properties
+      type(draft_type) :: draft
+
+      call read_source(path, source, diagnostics)
+      if (source%n_cards == 0) return
+      call read_sections(source, sections, diagnostics)
+      if (.not. sections%complete) return
+      associate (tables => sections%tables)
+         model%title = sections%title
+         call read_control(tables(section_control), tables(section_increments), &
+                           tables(section_output), model)
+         call read_properties(source, tables(section_materials), tables(section_laws), properties, &
+                              diagnostics)
+         call make_solids(source, sections, properties, model, draft, diagnostics)
+         call number_faces(source, tables(section_faces), tables(section_chains), draft, diagnostics)
+         call make_joints_and_faces(source, sections, properties, draft, diagnostics)
+         call read_loads(source, sections, draft, model, diagnostics)
+         if (diagnostics%n_errors > 0) return
+         call take_model(draft, properties, model)
+         call check_planes(source, tables(section_control), model, diagnostics)
+      end associate
+   end subroutine read_deck
+
+   !> Make nodes and elements, and check their shape
+   subroutine make_solids(source, sections, properties, model, draft, diagnostics)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> Its sections
+      type(sections_type), intent(in) :: sections
+      !> Materials and laws
+      type(properties_type), intent(in) :: properties
+      !> The job's control data
+      type(model_type), intent(in) :: model
+      !> The mesh
+      type(draft_type), intent(out) :: draft
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      associate (tables => sections%tables)
+         draft = new_draft(tables(section_nodes)%n, tables(section_elements)%n, tables(section_joints)%n)
+         call draft_nodes(source, tables(section_nodes), draft, diagnostics)
+         call draft_lines(source, tables(section_lines), draft, diagnostics)
+         call draft_elements(source, tables(section_elements), properties, draft, diagnostics)
+         call sort_by_number(draft)
+         call draft_blocks(source, tables(section_blocks), properties, draft, diagnostics)
+      end associate
+      call snap_to_axis(draft, diagnostics)
+      call check_elements(model%gauss_linear, model%gauss_quadratic, draft, diagnostics)
+      if (draft%n_elements == 0 .and. draft%elements_complete) then
+         call add_error(diagnostics, 0, 0, 0, 'the deck has no elements', &
+                        mend='give ELEMENTS with NODES, or BLOCKS')
+      else
+         call check_used(draft, diagnostics)
+      end if
+   end subroutine make_solids
+
+   !> Make joints and faces. What depends on neighbours is judged only if no card
+   !> of the mesh is lost: else every gap would be reported again
+   subroutine make_joints_and_faces(source, sections, properties, draft, diagnostics)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> Its sections
+      type(sections_type), intent(in) :: sections
+      !> Materials and laws
+      type(properties_type), intent(in) :: properties
+      !> The mesh
+      type(draft_type), intent(inout) :: draft
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      type(edge_table_type) :: edges
+      type(point_tree_type) :: tree
+      integer, allocatable :: group(:), reference(:, :)
+      integer :: errors_before
+      logical :: sound
+
+      associate (tables => sections%tables)
+         call draft_joints(source, tables(section_joints), properties, draft, diagnostics)
+         call refer_interfaces(source, tables(section_interfaces), properties, draft, reference, diagnostics)
+         sound = draft%nodes_complete .and. draft%elements_complete &
+                 .and. all(draft%node_good(:draft%n_nodes)) &
+                 .and. all(draft%element_nodes(:4, :draft%n_elements) > 0)
+         if (.not. sound) then
+            draft%faces%good = .false.
+            return
+         end if
+         group = group_places(draft%position(:, :draft%n_nodes), same_place*draft%extent)
+         edges = new_edge_table(draft)
+         tree = new_point_tree(draft%position(:, :draft%n_nodes))
+         errors_before = diagnostics%n_errors
+         call check_edges(draft, edges, diagnostics)
+         if (diagnostics%n_errors > errors_before) then
+            draft%faces%good = .false.
+            return
+         end if
+         call check_coincident(draft, group, diagnostics)
+         call check_near(draft, group, edges, tree, diagnostics)
+         call check_hanging(draft, group, edges, tree, diagnostics)
+         call lay_faces(source, tables(section_faces), tables(section_chains), edges, draft, diagnostics)
+         call check_joints(source, tables(section_joints), properties%laws, group, edges, draft, &
+                           diagnostics)
+         call lay_interfaces(source, tables(section_interfaces), reference, properties, group, draft, &
+                             diagnostics)
+         call check_joint_edges(edges, draft, diagnostics)
+         if (diagnostics%n_errors == 0) call check_touching(draft, group, diagnostics)
+         call sort_joints(draft)
+      end associate
+   end subroutine make_joints_and_faces
+
+   !> Read restraints and loads
+   subroutine read_loads(source, sections, draft, model, diagnostics)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> Its sections
+      type(sections_type), intent(in) :: sections
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> The job
+      type(model_type), intent(inout) :: model
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      integer :: highest
+
+      allocate (model%fixed(3, draft%n_nodes), source=.false.)
+      allocate (model%edge_loads(0))
+      associate (tables => sections%tables)
+         highest = -1
+         if (tables(section_control)%n > 0) then
+            if (tables(section_control)%given(1, 1)) highest = model%max_harmonic
+         end if
+         call fix_nodes(source, tables(section_restraints), draft, model%fixed, diagnostics)
+         call fix_faces(source, tables(section_fixed_faces), draft, model%fixed, diagnostics)
+         call read_tractions(source, tables(section_tractions), draft, highest, model%edge_loads, diagnostics)
+         call read_resultants(source, tables(section_resultants), draft, highest, model%edge_loads, &
+                              diagnostics)
+         call read_ring_loads(source, tables(section_ring_loads), draft, highest, model%ring_loads, &
+                              diagnostics)
+         if (tables(section_tractions)%n + tables(section_resultants)%n &
+             + tables(section_ring_loads)%n == 0) then
+            call add_warning(diagnostics, 0, 0, 0, 'the deck has no loads: all results will be zero')
+         end if
+      end associate
+   end subroutine read_loads
+
+   !> Move the finished mesh into the model
+   subroutine take_model(draft, properties, model)
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> Materials and laws
+      type(properties_type), intent(in) :: properties
+      !> The job
+      type(model_type), intent(inout) :: model
+
+      model%materials = properties%materials
+      model%joint_materials = properties%laws
+      associate (n => draft%n_nodes, m => draft%n_elements, k => draft%n_joints)
+         model%mesh%coordinates = draft%position(:, :n)
+         model%mesh%node_label = draft%node_label(:n)
+         model%mesh%element_label = draft%element_label(:m)
+         model%mesh%element_material = draft%element_material(:m)
+         model%mesh%element_body = draft%element_body(:m)
+         model%mesh%element_size = draft%element_size(:m)
+         model%mesh%element_nodes = draft%element_nodes(:, :m)
+         model%mesh%joint_label = draft%joint_label(:k)
+         model%mesh%joint_material = draft%joint_law(:k)
+         model%mesh%joint_size = draft%joint_size(:k)
+         model%mesh%joint_nodes = draft%joint_nodes(:, :k)
+      end associate
+   end subroutine take_model
+
+end module axijoint_deck_reader

@@ -1,0 +1,355 @@
+!> From files to cards: INCLUDE cards are followed, END cards are sought
+module axijoint_deck_source_reader
+   use axijoint_base_text, only : to_text, upper
+   use axijoint_deck_diagnostics, only : diagnostics_type, add_error
+   use axijoint_deck_file_bytes, only : read_bytes, line_end, next_line, control_byte
+   use axijoint_deck_layout, only : n_sections, section_names, section_title, section_include, &
+      section_end, nearest_section, card_width, keyword_last
+   use axijoint_deck_source, only : source_type, add_file, add_card, card_content, &
+      card_title, card_data, card_keyword, tab
+   implicit none
+   private
+   public :: read_source
+
+   !> Files included by files included by files ...
+   integer, parameter :: max_depth = 20
+   !> Files in all, so that files that include each other twice stay finite
+   integer, parameter :: max_files = 1000
+
+contains
+
+   !> Read a deck and all that it includes
+   subroutine read_source(path, source, diagnostics)
+      !> The deck
+      character(len=*), intent(in) :: path
+      !> Its cards
+      type(source_type), intent(inout) :: source
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      call splice_file(source, path, 0, 0, 0, 0, 0, diagnostics)
+   end subroutine read_source
+
+   !> Read a file and add its cards
+   recursive subroutine splice_file(source, path, parent, depth, card, first, last, diagnostics)
+      !> The deck
+      type(source_type), intent(inout) :: source
+      !> The file
+      character(len=*), intent(in) :: path
+      !> File that includes it, and how deep that is
+      integer, intent(in) :: parent, depth
+      !> INCLUDE card and columns of the path there; 0 for the deck
+      integer, intent(in) :: card, first, last
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      character(len=:), allocatable :: bytes, failure
+      integer :: file
+
+      call read_bytes(path, bytes, failure)
+      if (len(failure) > 0) then
+         source%complete = .false.
+         if (card > 0) failure = 'the included file '//path//': '//failure
+         if (card == 0) call add_file(source, path, bytes, parent)
+         call add_error(diagnostics, card, first, last, failure)
+         return
+      end if
+      call add_file(source, path, bytes, parent)
+      file = source%n_files
+      if (control_byte(source%files(file)%bytes) > 0) then
+         call report_binary(source, file, diagnostics)
+      else
+         call splice_lines(source, file, depth, diagnostics)
+      end if
+   end subroutine splice_file
+
+   !> Report a file that is not text; the line at fault is its only card
+   subroutine report_binary(source, file, diagnostics)
+      !> The deck
+      type(source_type), intent(inout) :: source
+      !> The file
+      integer, intent(in) :: file
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      character(len=2) :: code
+      integer :: first, last, line, place
+
+      source%complete = .false.
+      associate (bytes => source%files(file)%bytes)
+         place = control_byte(bytes)
+         write (code, '(z2.2)') iachar(bytes(place:place))
+         first = 1
+         line = 1
+         last = line_end(bytes, first)
+         do while (last < place)
+            first = next_line(bytes, last)
+            last = line_end(bytes, first)
+            line = line + 1
+         end do
+      end associate
+      ! A binary file may have no line ends: show the bytes before the fault only.
+      first = max(first, place - 70)
+      call add_card(source, file, line, first, place)
+      call add_error(diagnostics, source%n_cards, place - first + 1, place - first + 1, &
+                     'the file is not a text: it contains control characters', &
+                     found='the byte '//code//' (hexadecimal)', &
+                     mend='save the deck as plain text (ASCII or UTF-8)')
+   end subroutine report_binary
+
+   !> Add the cards of a file
+   recursive subroutine splice_lines(source, file, depth, diagnostics)
+      !> The deck
+      type(source_type), intent(inout) :: source
+      !> The file, and how deep it is
+      integer, intent(in) :: file, depth
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      integer :: first, last, line, card, last_card
+      logical :: title_next, ended, complained
+
+      title_next = .false.
+      ended = .false.
+      complained = .false.
+      last_card = source%n_cards + 1
+      first = 1
+      line = 0
+      do while (first <= len(source%files(file)%bytes))
+         line = line + 1
+         last = line_end(source%files(file)%bytes, first)
+         call add_card(source, file, line, first, last)
+         first = next_line(source%files(file)%bytes, last)
+         card = source%n_cards
+         if (title_next) then
+            source%cards(card)%kind = card_title
+            title_next = .false.
+            last_card = card
+         else if (len(card_content(source, card)) == 0) then
+            cycle
+         else if (ended) then
+            if (.not. complained) call report_card_after_end(source, card, diagnostics)
+            complained = .true.
+         else
+            call classify(source, card, diagnostics)
+            last_card = card
+            title_next = source%cards(card)%keyword == section_title
+            ended = source%cards(card)%keyword == section_end
+            if (source%cards(card)%keyword == section_include) then
+               call include_file(source, card, depth, diagnostics)
+            end if
+         end if
+      end do
+      if (ended) return
+      source%complete = .false.
+      call report_no_end(source, last_card, diagnostics)
+   end subroutine splice_lines
+
+   !> A card with contents: its kind and, on a keyword card, its section
+   subroutine classify(source, card, diagnostics)
+      !> The deck
+      type(source_type), intent(inout) :: source
+      !> The card
+      integer, intent(in) :: card
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      character(len=:), allocatable :: content, word
+      integer :: first, keyword
+
+      content = card_content(source, card)
+      first = verify(content, ' '//tab)
+      word = content(first:min(len(content), first + keyword_last - 1))
+      word = word(:scan(word//' ', ' ,'//tab) - 1)
+      keyword = findloc(section_names, upper(word), 1)
+      source%cards(card)%kind = card_data
+      if (keyword == 0 .and. .not. is_letter(content(1:1))) return
+      source%cards(card)%kind = card_keyword
+      source%cards(card)%keyword = keyword
+      if (keyword == 0) then
+         call report_keyword(source, card, word, diagnostics)
+      else if (first > 1) then
+         call add_error(diagnostics, card, first, first + len(word) - 1, &
+                        'the keyword does not begin in column 1', found=word)
+      end if
+   end subroutine classify
+
+   !> Whether a character is an ASCII letter
+   pure logical function is_letter(character)
+      !> The character
+      character(len=1), intent(in) :: character
+      is_letter = upper(character) >= 'A' .and. upper(character) <= 'Z'
+   end function is_letter
+
+   !> Report an unknown keyword and go on as if the likeliest had been written
+   subroutine report_keyword(source, card, word, diagnostics)
+      !> The deck
+      type(source_type), intent(inout) :: source
+      !> The card
+      integer, intent(in) :: card
+      !> The unknown word
+      character(len=*), intent(in) :: word
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      integer :: meant, i
+      character(len=:), allocatable :: names, mend
+
+      meant = nearest_section(word)
+      names = trim(section_names(1))
+      do i = 2, n_sections
+         names = names//' '//trim(section_names(i))
+      end do
+      source%cards(card)%keyword = meant
+      mend = 'write one of these keywords from column 1'
+      if (meant > 0) mend = 'did you mean '//trim(section_names(meant))//'?'
+      if (meant == 0) source%complete = .false.
+      call add_error(diagnostics, card, 1, len(word), 'this keyword is unknown', &
+                     found=word, allowed=names, mend=mend)
+   end subroutine report_keyword
+
+   !> Report the first card after END
+   subroutine report_card_after_end(source, card, diagnostics)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> The card
+      integer, intent(in) :: card
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      call add_error(diagnostics, card, 1, len(card_content(source, card)), &
+                     'there is a card after END', allowed='blank cards and comments', &
+                     mend='move END behind this card, or make it a comment by a ! in column 1')
+   end subroutine report_card_after_end
+
+   !> Report a file without END
+   subroutine report_no_end(source, card, diagnostics)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> Last card of the file
+      integer, intent(in) :: card
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      character(len=:), allocatable :: text
+
+      text = 'the file ends without END'
+      if (source%cards(card)%kind == card_title) text = text//' (the last card is the title)'
+      call add_error(diagnostics, card, 0, 0, text, &
+                     mend='if the file was cut off, restore it; otherwise add a card END')
+   end subroutine report_no_end
+
+   !> Follow an INCLUDE card
+   recursive subroutine include_file(source, card, depth, diagnostics)
+      !> The deck
+      type(source_type), intent(inout) :: source
+      !> The card
+      integer, intent(in) :: card
+      !> Depth of its file
+      integer, intent(in) :: depth
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      character(len=:), allocatable :: content, path, fault
+      integer :: first, last
+
+      content = card_content(source, card)
+      call locate_path(content, first, last, fault)
+      path = content(first:last)
+      if (len(fault) == 0) fault = path_fault(path)
+      if (len(fault) == 0) then
+         if (index(path, './') == 1) path = path(3:)
+         path = folder(source%files(source%cards(card)%file)%path)//path
+         fault = nesting_fault(source, source%cards(card)%file, path, depth)
+      end if
+      if (len(fault) == 0) then
+         call splice_file(source, path, source%cards(card)%file, depth + 1, card, first, last, &
+                          diagnostics)
+      else
+         source%complete = .false.
+         call add_error(diagnostics, card, first, max(first, last), fault, found=content(first:last), &
+                        allowed='a path from column 11, below the folder of the including file')
+      end if
+   end subroutine include_file
+
+   !> Columns of the path: from 11 on, or behind a comma after the keyword
+   pure subroutine locate_path(content, first, last, fault)
+      !> The card without its comment
+      character(len=*), intent(in) :: content
+      !> First and last column; last < first if there is no path
+      integer, intent(out) :: first, last
+      !> What is wrong with the card; empty if nothing is
+      character(len=:), allocatable, intent(out) :: fault
+
+      integer :: word_end
+
+      fault = ''
+      last = len(content)
+      word_end = scan(content//' ', ' ,'//tab) - 1
+      first = word_end + verify(content(word_end + 1:)//'.', ' ')
+      if (first > last) then
+         first = keyword_last + 1
+      else if (content(first:first) == ',') then
+         first = first + verify(content(first + 1:)//'.', ' ')
+      else if (first <= keyword_last) then
+         fault = 'the path begins before column 11'
+      end if
+      if (last > card_width) fault = 'the path runs past column 80'
+   end subroutine locate_path
+
+   !> What is wrong with a path as it is written; empty if nothing is
+   pure function path_fault(path) result(fault)
+      !> The path
+      character(len=*), intent(in) :: path
+      !> What is wrong
+      character(len=:), allocatable :: fault
+
+      fault = ''
+      if (len(path) == 0) then
+         fault = 'INCLUDE has no path'
+      else if (scan(path, tab) > 0) then
+         fault = 'there is a tab in the path'
+      else if (scan(path(1:1), '/\~') > 0 .or. index(path, ':') == 2) then
+         fault = 'the path is absolute'
+      else if (index('/'//path//'/', '/../') > 0) then
+         fault = 'the path leads upwards by ..'
+      end if
+   end function path_fault
+
+   !> What is wrong with following a path; empty if nothing is
+   pure function nesting_fault(source, file, path, depth) result(fault)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> File that includes
+      integer, intent(in) :: file
+      !> File that is included
+      character(len=*), intent(in) :: path
+      !> Depth of the file that includes
+      integer, intent(in) :: depth
+      !> What is wrong
+      character(len=:), allocatable :: fault
+
+      integer :: above
+
+      fault = ''
+      above = file
+      do while (above > 0)
+         if (source%files(above)%path == path) fault = 'the file includes itself in a loop'
+         above = source%files(above)%parent
+      end do
+      if (len(fault) > 0) return
+      if (depth >= max_depth) fault = 'files include files more than '//to_text(max_depth)//' deep'
+      if (source%n_files >= max_files) fault = 'more than '//to_text(max_files)//' files are included'
+   end function nesting_fault
+
+   !> Folder part of a path with its slash; empty if it has none
+   pure function folder(path)
+      !> The path
+      character(len=*), intent(in) :: path
+      !> Folder
+      character(len=:), allocatable :: folder
+
+      folder = path(:index(path, '/', back=.true.))
+   end function folder
+
+end module axijoint_deck_source_reader

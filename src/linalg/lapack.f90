@@ -1,0 +1,81 @@
+!> The LAPACK routines in use, with sizes taken from the arrays
+module axijoint_linalg_lapack
+   use axijoint_base_kinds, only : wp
+   implicit none
+   private
+   public :: band_cholesky, band_cholesky_solve, symmetric_eigen
+
+   interface
+      !> Cholesky factorization of a positive definite band matrix
+      subroutine dpbtrf(uplo, n, kd, ab, ldab, info)
+         import :: wp
+         character, intent(in) :: uplo
+         integer, intent(in) :: n, kd, ldab
+         real(wp), intent(inout) :: ab(ldab, *)
+         integer, intent(out) :: info
+      end subroutine dpbtrf
+      !> Solution with the factor of `dpbtrf`
+      subroutine dpbtrs(uplo, n, kd, nrhs, ab, ldab, b, ldb, info)
+         import :: wp
+         character, intent(in) :: uplo
+         integer, intent(in) :: n, kd, nrhs, ldab, ldb
+         real(wp), intent(in) :: ab(ldab, *)
+         real(wp), intent(inout) :: b(ldb, *)
+         integer, intent(out) :: info
+      end subroutine dpbtrs
+      !> Eigenvalues and vectors of a symmetric matrix by divide and conquer
+      subroutine dsyevd(jobz, uplo, n, a, lda, w, work, lwork, iwork, liwork, info)
+         import :: wp
+         character, intent(in) :: jobz, uplo
+         integer, intent(in) :: n, lda, lwork, liwork
+         real(wp), intent(inout) :: a(lda, *)
+         real(wp), intent(out) :: w(*), work(*)
+         integer, intent(out) :: iwork(*), info
+      end subroutine dsyevd
+   end interface
+
+contains
+
+   !> Cholesky factor of a band matrix in place
+   subroutine band_cholesky(band, info)
+      !> Lower band: band(1 + i - j, j) = a(i, j), shape (1 + half-bandwidth, n);
+      !> the factor on return
+      real(wp), intent(inout), contiguous :: band(:, :)
+      !> Zero, or the order of the first minor that is not positive definite
+      integer, intent(out) :: info
+
+      call dpbtrf('L', size(band, 2), size(band, 1) - 1, band, size(band, 1), info)
+   end subroutine band_cholesky
+
+   !> Solve with the factor of `band_cholesky`
+   subroutine band_cholesky_solve(band, b)
+      !> The factor
+      real(wp), intent(in), contiguous :: band(:, :)
+      !> Right-hand sides, then solutions, shape (n, any)
+      real(wp), intent(inout), contiguous :: b(:, :)
+
+      integer :: info
+
+      call dpbtrs('L', size(band, 2), size(band, 1) - 1, size(b, 2), band, size(band, 1), &
+                  b, size(b, 1), info)
+   end subroutine band_cholesky_solve
+
+   !> Eigenvalues, ascending, and eigenvectors of a symmetric matrix
+   subroutine symmetric_eigen(a, eigenvalue, info)
+      !> The matrix; its eigenvectors by columns on return
+      real(wp), intent(inout), contiguous :: a(:, :)
+      !> The eigenvalues
+      real(wp), intent(out), contiguous :: eigenvalue(:)
+      !> Zero if they were found
+      integer, intent(out) :: info
+
+      real(wp), allocatable :: work(:)
+      integer, allocatable :: iwork(:)
+      integer :: n
+
+      n = size(a, 1)
+      allocate (work(1 + 6*n + 2*n**2), iwork(3 + 5*n))
+      call dsyevd('V', 'L', n, a, n, eigenvalue, work, size(work), iwork, size(iwork), info)
+   end subroutine symmetric_eigen
+
+end module axijoint_linalg_lapack

@@ -1,0 +1,89 @@
+!> Symmetric sparse matrix, its lower triangle kept by rows
+module axijoint_linalg_symmetric_matrix
+   use axijoint_base_kinds, only : wp, i8
+   implicit none
+   private
+   public :: symmetric_matrix_type, multiply, entry_position, infinity_norm
+
+   !> Lower triangle by rows (the upper triangle by columns); the columns of a
+   !> row ascend, so that the diagonal is the last entry of each row
+   type :: symmetric_matrix_type
+      !> Order
+      integer :: n = 0
+      !> Position of the first entry of each row, shape (n + 1)
+      integer(i8), allocatable :: row_start(:)
+      !> Column of each entry
+      integer, allocatable :: column(:)
+      !> Value of each entry; not allocated for a pattern
+      real(wp), allocatable :: value(:)
+   end type symmetric_matrix_type
+
+contains
+
+   !> y = A x
+   pure function multiply(matrix, x) result(y)
+      !> A
+      type(symmetric_matrix_type), intent(in) :: matrix
+      !> x, shape (n)
+      real(wp), intent(in) :: x(:)
+      !> y, shape (n)
+      real(wp) :: y(size(x))
+
+      real(wp) :: row_sum
+      integer(i8) :: k
+      integer :: i, j
+
+      y = 0.0_wp
+      do i = 1, matrix%n
+         row_sum = 0.0_wp
+         do k = matrix%row_start(i), matrix%row_start(i + 1) - 2
+            j = matrix%column(k)
+            row_sum = row_sum + matrix%value(k)*x(j)
+            y(j) = y(j) + matrix%value(k)*x(i)
+         end do
+         k = matrix%row_start(i + 1) - 1
+         y(i) = y(i) + row_sum + matrix%value(k)*x(i)
+      end do
+   end function multiply
+
+   !> Position of an entry of the lower triangle, by bisection of its row
+   pure function entry_position(matrix, row, column) result(position)
+      !> The matrix or its pattern
+      type(symmetric_matrix_type), intent(in) :: matrix
+      !> Row and column, row >= column; the entry is in the pattern
+      integer, intent(in) :: row, column
+      !> Position in `column` and `value`
+      integer(i8) :: position
+
+      integer(i8) :: low, high
+
+      low = matrix%row_start(row)
+      high = matrix%row_start(row + 1) - 1
+      do while (low < high)
+         position = (low + high)/2
+         if (matrix%column(position) < column) then
+            low = position + 1
+         else
+            high = position
+         end if
+      end do
+      position = low
+   end function entry_position
+
+   !> Largest sum of absolute values in a row of the whole matrix
+   pure function infinity_norm(matrix) result(norm)
+      !> The matrix
+      type(symmetric_matrix_type), intent(in) :: matrix
+      !> The norm
+      real(wp) :: norm
+
+      type(symmetric_matrix_type) :: absolute
+      real(wp), allocatable :: ones(:)
+
+      absolute = matrix
+      absolute%value = abs(matrix%value)
+      allocate (ones(matrix%n), source=1.0_wp)
+      norm = maxval([0.0_wp, multiply(absolute, ones)])
+   end function infinity_norm
+
+end module axijoint_linalg_symmetric_matrix

@@ -1,0 +1,71 @@
+!> Integration points of all joints of a model
+module axijoint_model_joint_points
+   use axijoint_base_kinds, only : wp
+   use axijoint_element_joint, only : joint_point_type, new_joint_point, lower_node
+   use axijoint_fe_quadrature, only : gauss_rule, lobatto_rule
+   use axijoint_model_material, only : rule_centroid, rule_gauss
+   use axijoint_model_model, only : model_type
+   implicit none
+   private
+   public :: model_joint_point_type, new_joint_points
+
+   !> A joint point in its model
+   type, extends(joint_point_type) :: model_joint_point_type
+      !> Joint (index) and its material (index)
+      integer :: joint = 0, material = 0
+      !> Nodes of the joint, the first 2 n_pairs of which are in use
+      integer :: nodes(6) = 0
+   end type model_joint_point_type
+
+contains
+
+   !> Points of all joints, joint by joint
+   pure function new_joint_points(model) result(points)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The points
+      type(model_joint_point_type), allocatable :: points(:)
+
+      real(wp) :: x(3), w(3), side(2, 3)
+      integer :: joint, k, n, n_pairs, count
+
+      allocate (points(3*size(model%mesh%joint_label)))
+      count = 0
+      do joint = 1, size(model%mesh%joint_label)
+         n_pairs = model%mesh%joint_size(joint)/2
+         associate (nodes => model%mesh%joint_nodes(:, joint), &
+                    material => model%mesh%joint_material(joint))
+            side(:, :n_pairs) = model%mesh%coordinates(:, nodes(lower_node(:n_pairs)))
+            call joint_rule(model%joint_materials(material)%rule, n_pairs, n, x, w)
+            do k = 1, n
+               count = count + 1
+               points(count)%joint_point_type = new_joint_point(side(:, :n_pairs), x(k), w(k))
+               points(count)%joint = joint
+               points(count)%material = material
+               points(count)%nodes = nodes
+            end do
+         end associate
+      end do
+      points = points(:count)
+   end function new_joint_points
+
+   !> Points along a joint: as many as it has pairs of nodes, or one
+   pure subroutine joint_rule(rule, n_pairs, n, x, w)
+      !> One of the `rule_` parameters
+      integer, intent(in) :: rule
+      !> Pairs of nodes
+      integer, intent(in) :: n_pairs
+      !> Number of points
+      integer, intent(out) :: n
+      !> Points and weights on [-1, 1], the first n
+      real(wp), intent(out) :: x(3), w(3)
+
+      n = merge(1, n_pairs, rule == rule_centroid)
+      if (rule == rule_centroid .or. rule == rule_gauss) then
+         call gauss_rule(n, x, w)
+      else
+         call lobatto_rule(n, x, w)
+      end if
+   end subroutine joint_rule
+
+end module axijoint_model_joint_points

@@ -1,0 +1,68 @@
+!> Nodes, solid elements and joints of the meridional plane
+module axijoint_model_mesh
+   use axijoint_base_kinds, only : wp
+   implicit none
+   private
+   public :: mesh_type, n_nodes, n_elements, n_joints
+   public :: max_element_nodes, max_joint_nodes
+
+   !> Nodes of the largest solid element
+   integer, parameter :: max_element_nodes = 9
+   !> Nodes of the largest joint
+   integer, parameter :: max_joint_nodes = 6
+
+   !> The mesh. Nodes, elements and joints are numbered from 1 without gaps;
+   !> labels are the numbers that the user gave or that generation gave.
+   type :: mesh_type
+      !> r and z of each node, shape (2, nodes) [length]
+      real(wp), allocatable :: coordinates(:, :)
+      !> The user's number of each node
+      integer, allocatable :: node_label(:)
+      !> The user's number of each solid element
+      integer, allocatable :: element_label(:)
+      !> Index of each element's material in the model
+      integer, allocatable :: element_material(:)
+      !> Body that each element belongs to; bodies meet in joints only
+      integer, allocatable :: element_body(:)
+      !> Number of nodes of each element: 4, 8 or 9
+      integer, allocatable :: element_size(:)
+      !> Nodes of each element, shape (max_element_nodes, elements): corners
+      !> counterclockwise in the (r, z) plane, mid-side nodes in the same
+      !> sense beginning between corners 1 and 2, centre; zeros beyond
+      integer, allocatable :: element_nodes(:, :)
+      !> The user's number of each joint
+      integer, allocatable :: joint_label(:)
+      !> Index of each joint's material in the model
+      integer, allocatable :: joint_material(:)
+      !> Number of nodes of each joint: 4 or 6
+      integer, allocatable :: joint_size(:)
+      !> Nodes of each joint, shape (max_joint_nodes, joints), as in Fig. 2 of
+      !> the paper: 1-2 along one side, 4-3 opposite (4 faces 1, 3 faces 2);
+      !> 5 and 6 are the mid-side nodes of 1-2 and 4-3; zeros beyond
+      integer, allocatable :: joint_nodes(:, :)
+   end type mesh_type
+
+contains
+
+   !> Number of nodes
+   pure integer function n_nodes(mesh)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      n_nodes = size(mesh%node_label)
+   end function n_nodes
+
+   !> Number of solid elements
+   pure integer function n_elements(mesh)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      n_elements = size(mesh%element_label)
+   end function n_elements
+
+   !> Number of joints
+   pure integer function n_joints(mesh)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      n_joints = size(mesh%joint_label)
+   end function n_joints
+
+end module axijoint_model_mesh

@@ -1,0 +1,77 @@
+!> Everything that a deck says about a job
+module axijoint_model_model
+   use axijoint_base_kinds, only : wp
+   use axijoint_element_joint_law, only : law_elastic
+   use axijoint_model_load, only : edge_load_type, ring_load_type, increment_type
+   use axijoint_model_material, only : solid_material_type, joint_material_type
+   use axijoint_model_mesh, only : mesh_type
+   implicit none
+   private
+   public :: model_type, can_yield, gauss_order, on_axis
+
+   !> A job
+   type :: model_type
+      !> Title card
+      character(len=:), allocatable :: title
+      !> Nodes, elements, joints
+      type(mesh_type) :: mesh
+      !> Materials of the solids
+      type(solid_material_type), allocatable :: materials(:)
+      !> Materials of the joints
+      type(joint_material_type), allocatable :: joint_materials(:)
+      !> Fixed components u, v, w of each node in every harmonic, shape (3, nodes)
+      logical, allocatable :: fixed(:, :)
+      !> Tractions on edges
+      type(edge_load_type), allocatable :: edge_loads(:)
+      !> Loads on nodal circles
+      type(ring_load_type), allocatable :: ring_loads(:)
+      !> Load increments, at least one
+      type(increment_type), allocatable :: increments(:)
+      !> Highest harmonic M
+      integer :: max_harmonic = 0
+      !> Number of planes theta from 0 to pi on which the joint law is checked
+      integer :: n_planes = 0
+      !> Gauss points in each direction of 4-node, and of 8- and 9-node elements
+      integer :: gauss_linear = 2, gauss_quadratic = 3
+      !> Angles at which totals are listed [radian]
+      real(wp), allocatable :: output_angles(:)
+   end type model_type
+
+contains
+
+   !> Whether any joint can open or slip, so that the job needs iterations
+   pure logical function can_yield(model)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      integer :: i
+
+      can_yield = .false.
+      do i = 1, size(model%mesh%joint_material)
+         associate (material => model%joint_materials(model%mesh%joint_material(i)))
+            if (material%law%kind /= law_elastic) can_yield = .true.
+         end associate
+      end do
+   end function can_yield
+
+   !> Gauss points in each direction of an element
+   pure integer function gauss_order(model, n_element_nodes)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Number of nodes of the element
+      integer, intent(in) :: n_element_nodes
+
+      gauss_order = merge(model%gauss_linear, model%gauss_quadratic, n_element_nodes == 4)
+   end function gauss_order
+
+   !> Which nodes lie on the axis of revolution
+   pure function on_axis(mesh)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> True where r = 0, shape (nodes)
+      logical :: on_axis(size(mesh%node_label))
+
+      on_axis = .not. mesh%coordinates(1, :) > 0.0_wp
+   end function on_axis
+
+end module axijoint_model_model

@@ -1,0 +1,110 @@
+!> Graph of the nodes: who shares an element or a joint with whom
+module axijoint_order_graph
+   implicit none
+   private
+   public :: graph_type, new_graph
+
+   !> Neighbours of each node, the node itself left out
+   type :: graph_type
+      !> Number of nodes
+      integer :: n = 0
+      !> First neighbour of each node in `neighbour`, shape (n + 1)
+      integer, allocatable :: start(:)
+      !> The neighbours, ascending for each node
+      integer, allocatable :: neighbour(:)
+   end type graph_type
+
+contains
+
+   !> Graph of cliques: all members of a clique are neighbours
+   subroutine new_graph(graph, n, clique_start, member)
+      !> The graph
+      type(graph_type), intent(out) :: graph
+      !> Number of nodes
+      integer, intent(in) :: n
+      !> First member of each clique in `member`, shape (cliques + 1)
+      integer, intent(in) :: clique_start(:)
+      !> Nodes of the cliques
+      integer, intent(in) :: member(:)
+
+      integer, allocatable :: touch_start(:), touch(:), found(:)
+      integer :: pass, node, k, l, clique, count
+
+      call invert(n, clique_start, member, touch_start, touch)
+      graph%n = n
+      allocate (graph%start(n + 1), found(n))
+      do pass = 1, 2  ! count the neighbours, then store them
+         found = 0
+         count = 0
+         do node = 1, n
+            graph%start(node) = count + 1
+            found(node) = node
+            do k = touch_start(node), touch_start(node + 1) - 1
+               clique = touch(k)
+               do l = clique_start(clique), clique_start(clique + 1) - 1
+                  if (found(member(l)) == node) cycle
+                  found(member(l)) = node
+                  count = count + 1
+                  if (pass == 2) graph%neighbour(count) = member(l)
+               end do
+            end do
+            if (pass == 2) call sort(graph%neighbour(graph%start(node):count))
+         end do
+         graph%start(n + 1) = count + 1
+         if (pass == 1) allocate (graph%neighbour(count))
+      end do
+   end subroutine new_graph
+
+   !> Cliques that each node belongs to
+   subroutine invert(n, clique_start, member, touch_start, touch)
+      !> Number of nodes
+      integer, intent(in) :: n
+      !> First member of each clique in `member`
+      integer, intent(in) :: clique_start(:)
+      !> Nodes of the cliques
+      integer, intent(in) :: member(:)
+      !> First clique of each node in `touch`, shape (n + 1)
+      integer, allocatable, intent(out) :: touch_start(:)
+      !> Cliques of the nodes
+      integer, allocatable, intent(out) :: touch(:)
+
+      integer :: clique, k, node
+
+      allocate (touch_start(n + 2), touch(size(member)))
+      touch_start = 0
+      do k = 1, size(member)
+         touch_start(member(k) + 2) = touch_start(member(k) + 2) + 1
+      end do
+      touch_start(1:2) = 1
+      do node = 2, n + 1
+         touch_start(node + 1) = touch_start(node + 1) + touch_start(node)
+      end do
+      do clique = 1, size(clique_start) - 1
+         do k = clique_start(clique), clique_start(clique + 1) - 1
+            node = member(k)
+            touch(touch_start(node + 1)) = clique
+            touch_start(node + 1) = touch_start(node + 1) + 1
+         end do
+      end do
+   end subroutine invert
+
+   !> Sort a short list by insertion
+   pure subroutine sort(list)
+      !> The list, ascending on return
+      integer, intent(inout) :: list(:)
+
+      integer :: i, j, key
+
+      do i = 2, size(list)
+         key = list(i)
+         j = i - 1
+         do while (j >= 1)
+            if (list(j) <= key) exit
+            list(j + 1) = list(j)
+            j = j - 1
+         end do
+         list(j + 1) = key
+      end do
+   end subroutine sort
+
+end module axijoint_order_graph

@@ -1,0 +1,150 @@
+!> A finished run in a dozen lines, for the terminal
+module axijoint_output_brief
+   use axijoint_analysis_results, only : results_type
+   use axijoint_base_kinds, only : wp, degree
+   use axijoint_base_system, only : peak_memory_mb
+   use axijoint_base_text, only : to_text
+   use axijoint_base_timer, only : timer_type, phase_total
+   use axijoint_element_joint_law, only : state_stick, state_slip, state_open
+   use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
+   use axijoint_model_model, only : model_type
+   use axijoint_output_headings, only : mark_not_converged
+   use axijoint_output_pending, only : join_path
+   use axijoint_output_totals, only : peak_type, largest_displacement, largest_pressure, &
+      count_states, n_unknowns
+   implicit none
+   private
+   public :: brief_text
+
+   !> Columns of the words before the values
+   integer, parameter :: margin = 22
+
+contains
+
+   !> What ran, how it ended, the extreme values, the cost, the files
+   function brief_text(directory, name, deck, model, results, timer) result(text)
+      !> Directory of the files; empty for the current one
+      character(len=*), intent(in) :: directory
+      !> Name of the job
+      character(len=*), intent(in) :: name
+      !> Path of the deck
+      character(len=*), intent(in) :: deck
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> Times of the run
+      type(timer_type), intent(in) :: timer
+      !> Lines, the last without its end
+      character(len=:), allocatable :: text
+
+      text = line("deck", deck)//line("status", status_text(results))// &
+         line("mesh", to_text(n_nodes(model%mesh))//" nodes, "// &
+         to_text(n_elements(model%mesh))//" elements, "// &
+         to_text(n_joints(model%mesh))//" joints")// &
+         line("unknowns", to_text(n_unknowns(results))//" in "// &
+         to_text(size(results%harmonics))//" harmonics, highest m = "// &
+         to_text(maxval(results%harmonics)))
+      if (size(results%joint_state) > 0) text = text//joint_lines(results)
+      text = text//line("residual ratio", to_text(results%residual_ratio))// &
+         line("equilibrium error", to_text(results%equilibrium_error))// &
+         displacement_line(model, results)// &
+         line("time, peak memory", seconds_text(timer%seconds(phase_total))//" s, "// &
+         to_text(nint(peak_memory_mb()))//" MB")// &
+         line("files", join_path(directory, name)//".lis .json .h5")
+      text = text(:len(text) - 1)
+   end function brief_text
+
+   !> Converged, or how it failed
+   pure function status_text(results) result(text)
+      !> Results
+      type(results_type), intent(in) :: results
+      !> The words
+      character(len=:), allocatable :: text
+
+      if (.not. results%converged) then
+         text = mark_not_converged//" after "//to_text(size(results%path))// &
+            " iterations (tolerance "//to_text(results%tolerance)//")"
+      else if (size(results%path) == 0) then
+         text = "converged (linear)"
+      else
+         text = "converged in "//to_text(size(results%path))//" iterations (tolerance "// &
+            to_text(results%tolerance)//")"
+      end if
+   end function status_text
+
+   !> States of the joints and the largest pressure
+   pure function joint_lines(results) result(text)
+      !> Results with at least one joint point
+      type(results_type), intent(in) :: results
+      !> Two lines
+      character(len=:), allocatable :: text
+
+      type(peak_type) :: peak
+
+      text = line("joint states", to_text(count_states(results, state_stick))//" stick, "// &
+         to_text(count_states(results, state_slip))//" slip, "// &
+         to_text(count_states(results, state_open))//" open (points times planes)")
+      peak = largest_pressure(results)
+      if (peak%value > 0.0_wp) then
+         text = text//line("largest pressure", to_text(peak%value)//" at r = "// &
+            to_text(results%joint_point_position(1, peak%place))//", z = "// &
+            to_text(results%joint_point_position(2, peak%place))//", theta = "// &
+            to_text(peak%angle/degree)//" degrees")
+      else
+         text = text//line("largest pressure", "none, no joint is pressed")
+      end if
+   end function joint_lines
+
+   !> The largest displacement
+   pure function displacement_line(model, results) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> A line
+      character(len=:), allocatable :: text
+
+      type(peak_type) :: peak
+
+      peak = largest_displacement(results)
+      if (peak%place == 0) then
+         text = line("largest displacement", "none is finite")
+         return
+      end if
+      text = line("largest displacement", to_text(peak%value)//" at node "// &
+         to_text(model%mesh%node_label(peak%place))//" (r = "// &
+         to_text(model%mesh%coordinates(1, peak%place))//", z = "// &
+         to_text(model%mesh%coordinates(2, peak%place))//"), theta = "// &
+         to_text(peak%angle/degree)//" degrees")
+   end function displacement_line
+
+   !> Word and value, with the line's end
+   pure function line(word, value) result(text)
+      !> What it is
+      character(len=*), intent(in) :: word
+      !> Its value
+      character(len=*), intent(in) :: value
+      !> The line
+      character(len=:), allocatable :: text
+
+      character(len=margin) :: head
+
+      head = word
+      text = head//value//new_line("a")
+   end function line
+
+   !> Seconds with three decimals
+   pure function seconds_text(seconds) result(text)
+      !> Time [second]
+      real(wp), intent(in) :: seconds
+      !> Such as 0.125
+      character(len=:), allocatable :: text
+
+      character(len=16) :: number
+
+      write (number, '(f16.3)') seconds
+      text = trim(adjustl(number))
+   end function seconds_text
+
+end module axijoint_output_brief

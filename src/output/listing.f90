@@ -1,0 +1,105 @@
+!> The listing: the job as understood and its results, in tables
+module axijoint_output_listing
+   use axijoint_analysis_results, only : results_type
+   use axijoint_base_timer, only : timer_type
+   use axijoint_base_version, only : program_name, program_version
+   use axijoint_deck_source, only : source_type
+   use axijoint_model_model, only : model_type
+   use axijoint_output_echo, only : write_echo
+   use axijoint_output_headings, only : write_lines, rule, mark_not_converged
+   use axijoint_output_listing_mesh, only : write_nodes, write_elements, write_joints
+   use axijoint_output_listing_model, only : write_warnings, write_model, write_materials, &
+      write_joint_materials, write_loads, write_increments
+   use axijoint_output_listing_solution, only : write_equations, write_convergence, &
+      write_displacements, write_total_displacements, write_reactions, write_equilibrium, &
+      write_times, convergence_text
+   use axijoint_output_listing_stress, only : write_stresses, write_joint_results
+   use axijoint_output_run, only : run_type
+   use axijoint_output_text_file, only : text_file_type
+   implicit none
+   private
+   public :: write_listing
+
+contains
+
+   !> All tables in order
+   subroutine write_listing(file, run, source, warnings, model, results, timer)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Name tags of the run
+      type(run_type), intent(in) :: run
+      !> Cards of the deck
+      type(source_type), intent(in) :: source
+      !> Warnings of the deck
+      character(len=*), intent(in) :: warnings(:)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> Times of the run
+      type(timer_type), intent(in) :: timer
+
+      call write_header(file, run, model, results)
+      call write_echo(file, source)
+      call write_warnings(file, warnings)
+
+      call write_model(file, model)
+      call write_materials(file, model)
+      call write_joint_materials(file, model)
+      call write_nodes(file, model)
+      call write_elements(file, model)
+      call write_joints(file, model)
+      call write_loads(file, model)
+      call write_increments(file, model)
+
+      call write_equations(file, results)
+      call write_convergence(file, results)
+      call write_displacements(file, model, results)
+      call write_total_displacements(file, model, results)
+      call write_stresses(file, model, results)
+      call write_joint_results(file, model, results)
+      call write_reactions(file, model, results)
+      call write_equilibrium(file, results)
+      call write_times(file, timer)
+      call write_end(file, results)
+   end subroutine write_listing
+
+   !> Program, deck, date, status
+   subroutine write_header(file, run, model, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Name tags of the run
+      type(run_type), intent(in) :: run
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+
+      call file%put(rule)
+      call file%put(program_name//" "//program_version// &
+         "   Fourier finite element analysis of axisymmetric bodies with joints")
+      call write_lines(file, "title   ", model%title)
+      call write_lines(file, "deck    ", run%deck)
+      call file%put("date    "//run%date)
+      call file%put("run     "//run%stamp)
+      call write_lines(file, "status  ", convergence_text(results))
+      call file%put(rule)
+   end subroutine write_header
+
+   !> Last line: the listing is whole, and whether it converged
+   subroutine write_end(file, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Results
+      type(results_type), intent(in) :: results
+
+      call file%put("")
+      call file%put(rule)
+      if (results%converged) then
+         call file%put("END OF LISTING")
+      else
+         call file%put("END OF LISTING   "//mark_not_converged)
+      end if
+   end subroutine write_end
+
+end module axijoint_output_listing

@@ -1,0 +1,283 @@
+!> Tables of the listing that show the job as the program understood it
+module axijoint_output_listing_model
+   use axijoint_base_kinds, only : wp, degree
+   use axijoint_base_text, only : to_text
+   use axijoint_element_joint_law, only : law_elastic
+   use axijoint_model_material, only : rule_centroid, rule_gauss, rule_lobatto
+   use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, n_joints
+   use axijoint_model_model, only : model_type
+   use axijoint_output_columns, only : columns
+   use axijoint_output_headings, only : write_heading, write_lines
+   use axijoint_output_text_file, only : text_file_type
+   implicit none
+   private
+   public :: write_warnings, write_model, write_materials, write_joint_materials
+   public :: write_loads, write_increments
+
+   !> A word and what belongs to it
+   character(len=*), parameter :: format_fact = '(2x, a, t34, a)'
+   !> Number of an entry
+   character(len=*), parameter :: format_label = '(i10)'
+   !> Harmonic and node of a load
+   character(len=*), parameter :: format_load = '(2i10)'
+   !> Most iterations of an increment
+   character(len=*), parameter :: format_iterations = '(i12)'
+   !> Columns of coordinates and of other reals
+   integer, parameter :: narrow = 14, wide = 15
+
+contains
+
+   !> Warnings of the deck
+   subroutine write_warnings(file, warnings)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> One warning an entry
+      character(len=*), intent(in) :: warnings(:)
+
+      integer :: i
+
+      call write_heading(file, "WARNINGS")
+      if (size(warnings) == 0) call file%put("  none")
+      do i = 1, size(warnings)
+         call write_lines(file, "  ", trim(warnings(i)))
+      end do
+   end subroutine write_warnings
+
+   !> Numbers of everything, extent, harmonics, planes
+   subroutine write_model(file, model)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+
+      associate (mesh => model%mesh)
+         call write_heading(file, "MODEL")
+         call write_fact(file, "nodes", to_text(n_nodes(mesh)))
+         call write_fact(file, "elements (4, 8, 9 nodes)", to_text(n_elements(mesh))//" ("// &
+            to_text(count(mesh%element_size == 4))//", "// &
+            to_text(count(mesh%element_size == 8))//", "// &
+            to_text(count(mesh%element_size == 9))//")")
+         call write_fact(file, "joints (4, 6 nodes)", to_text(n_joints(mesh))//" ("// &
+            to_text(count(mesh%joint_size == 4))//", "// &
+            to_text(count(mesh%joint_size == 6))//")")
+         call write_fact(file, "bodies", body_list(mesh))
+         if (n_nodes(mesh) > 0) then
+            call write_fact(file, "extent in r", extent_text(mesh%coordinates(1, :)))
+            call write_fact(file, "extent in z", extent_text(mesh%coordinates(2, :)))
+         end if
+      end associate
+      call write_fact(file, "highest harmonic M", to_text(model%max_harmonic))
+      call write_fact(file, "planes theta from 0 to pi", to_text(model%n_planes))
+      call write_fact(file, "Gauss points, 4-node", to_text(model%gauss_linear)//" x "// &
+         to_text(model%gauss_linear))
+      call write_fact(file, "Gauss points, 8- and 9-node", to_text(model%gauss_quadratic)//" x "// &
+         to_text(model%gauss_quadratic))
+      call write_fact(file, "restrained nodes", to_text(count(any(model%fixed, dim=1))))
+   end subroutine write_model
+
+   !> Materials of the solids
+   subroutine write_materials(file, model)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+
+      character(len=10) :: label
+      integer :: i
+
+      call write_heading(file, "MATERIALS")
+      call file%put("  material              E             nu")
+      do i = 1, size(model%materials)
+         associate (material => model%materials(i))
+            write (label, format_label) material%label
+            call file%put(label//columns([material%young, material%poisson], wide))
+         end associate
+      end do
+   end subroutine write_materials
+
+   !> Laws of the joints
+   subroutine write_joint_materials(file, model)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+
+      character(len=10) :: label
+      integer :: i
+
+      if (size(model%joint_materials) == 0) return
+      call write_heading(file, "JOINT LAWS")
+      call file%put("       law           k_xi          k_eta        k_theta              C"// &
+         "     phi [deg]   law      rule")
+      do i = 1, size(model%joint_materials)
+         associate (material => model%joint_materials(i))
+            write (label, format_label) material%label
+            call file%put(label//columns([material%law%stiffness, material%law%cohesion, &
+               atan(material%law%friction)/degree], wide)//"  "// &
+               law_name(material%law%kind)//"  "//rule_name(material%rule))
+         end associate
+      end do
+   end subroutine write_joint_materials
+
+   !> Loads by harmonic
+   subroutine write_loads(file, model)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+
+      call write_heading(file, "LOADS (amplitudes for load factor 1)")
+      if (size(model%edge_loads) + size(model%ring_loads) == 0) call file%put("  none")
+      if (size(model%edge_loads) > 0) call write_edge_loads(file, model)
+      if (size(model%ring_loads) > 0) call write_ring_loads(file, model)
+   end subroutine write_loads
+
+   !> Tractions on edges, one line a node
+   subroutine write_edge_loads(file, model)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+
+      character(len=20) :: label
+      integer :: i, k
+
+      call file%put("  tractions on edges: first, last and middle node of each edge")
+      call file%put("  harmonic      node             r             z            t_r            t_z"// &
+         "        t_theta")
+      do i = 1, size(model%edge_loads)
+         associate (load => model%edge_loads(i))
+            do k = 1, count(load%nodes > 0)
+               write (label, format_load) load%harmonic, model%mesh%node_label(load%nodes(k))
+               call file%put(label//columns(model%mesh%coordinates(:, load%nodes(k)), narrow)// &
+                  columns(load%traction(:, k), wide))
+            end do
+         end associate
+      end do
+   end subroutine write_edge_loads
+
+   !> Loads on nodal circles
+   subroutine write_ring_loads(file, model)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+
+      character(len=20) :: label
+      integer :: i
+
+      call file%put("  loads on nodal circles: generalized forces (work over the circle on unit "// &
+         "amplitudes)")
+      call file%put("  harmonic      node             r             z            F_u            F_v"// &
+         "            F_w")
+      do i = 1, size(model%ring_loads)
+         associate (load => model%ring_loads(i))
+            write (label, format_load) load%harmonic, model%mesh%node_label(load%node)
+            call file%put(label//columns(model%mesh%coordinates(:, load%node), narrow)// &
+               columns(load%force, wide))
+         end associate
+      end do
+   end subroutine write_ring_loads
+
+   !> Load increments
+   subroutine write_increments(file, model)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+
+      character(len=10) :: label
+      character(len=12) :: iterations
+      integer :: i
+
+      call write_heading(file, "LOAD INCREMENTS")
+      call file%put(" increment         factor   total factor      tolerance  iterations")
+      do i = 1, size(model%increments)
+         associate (increment => model%increments(i))
+            write (label, format_label) i
+            write (iterations, format_iterations) increment%max_iterations
+            call file%put(label//columns([increment%factor, sum(model%increments(:i)%factor), &
+               increment%tolerance], wide)//iterations)
+         end associate
+      end do
+   end subroutine write_increments
+
+   !> A line of a word and its value
+   subroutine write_fact(file, word, value)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> What it is
+      character(len=*), intent(in) :: word
+      !> Its value
+      character(len=*), intent(in) :: value
+
+      character(len=132) :: line
+
+      write (line, format_fact) word, value
+      call file%put(line)
+   end subroutine write_fact
+
+   !> Numbers of the bodies with their elements, such as 1 (24 elements), 2 (60)
+   pure function body_list(mesh) result(text)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The list; not more bodies than fit on a line
+      character(len=:), allocatable :: text
+
+      integer, parameter :: room = 80
+      integer :: body
+
+      text = ""
+      body = minval(mesh%element_body)
+      do while (n_elements(mesh) > 0)
+         if (len(text) > 0) text = text//", "
+         text = text//to_text(body)//" ("//to_text(count(mesh%element_body == body))//" elements)"
+         if (.not. any(mesh%element_body > body)) return
+         if (len(text) > room) then
+            text = text//", ..."
+            return
+         end if
+         body = minval(mesh%element_body, mask=mesh%element_body > body)
+      end do
+   end function body_list
+
+   !> Smallest to largest value
+   pure function extent_text(values) result(text)
+      !> Values, at least one
+      real(wp), intent(in) :: values(:)
+      !> Such as 0 to 2
+      character(len=:), allocatable :: text
+
+      text = to_text(minval(values))//" to "//to_text(maxval(values))
+   end function extent_text
+
+   !> Name of a joint law as in the deck
+   pure function law_name(kind) result(name)
+      !> One of the `law_` parameters
+      integer, intent(in) :: kind
+      !> The name
+      character(len=7) :: name
+
+      name = "PAPER"
+      if (kind == law_elastic) name = "ELASTIC"
+   end function law_name
+
+   !> Name of an integration rule as in the deck
+   pure function rule_name(rule) result(name)
+      !> One of the `rule_` parameters
+      integer, intent(in) :: rule
+      !> The name
+      character(len=8) :: name
+
+      name = ""
+      select case (rule)
+      case (rule_centroid)
+         name = "CENTROID"
+      case (rule_gauss)
+         name = "GAUSS"
+      case (rule_lobatto)
+         name = "LOBATTO"
+      end select
+   end function rule_name
+
+end module axijoint_output_listing_model

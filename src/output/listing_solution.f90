@@ -1,0 +1,242 @@
+!> Tables of the listing that show equations, convergence, displacements,
+!> reactions and equilibrium
+module axijoint_output_listing_solution
+   use axijoint_analysis_results, only : results_type
+   use axijoint_base_kinds, only : wp, degree
+   use axijoint_base_system, only : peak_memory_mb
+   use axijoint_base_text, only : to_text
+   use axijoint_base_timer, only : timer_type, n_phases, phase_names, phase_total
+   use axijoint_model_model, only : model_type
+   use axijoint_output_columns, only : columns
+   use axijoint_output_headings, only : write_heading, write_result_heading, mark_not_converged
+   use axijoint_output_text_file, only : text_file_type
+   use axijoint_output_totals, only : circle_type, new_circle, total_displacement, n_unknowns
+   implicit none
+   private
+   public :: write_equations, write_convergence, write_displacements, write_total_displacements
+   public :: write_reactions, write_equilibrium, write_times, convergence_text
+
+   !> Number of an entry
+   character(len=*), parameter :: format_label = '(i10)'
+   !> Harmonic, number of equations, half-bandwidth
+   character(len=*), parameter :: format_equations = '(i10, 2i16)'
+   !> Increment and iteration
+   character(len=*), parameter :: format_iteration = '(2i12)'
+   !> Points that slip and that are open
+   character(len=*), parameter :: format_states = '(2i12)'
+   !> Phase, its wall clock and processor time, its share
+   character(len=*), parameter :: format_time = '(2x, a, t14, 2f14.3, f12.1)'
+   !> Memory
+   character(len=*), parameter :: format_memory = '(2x, a, t14, f14.1, a)'
+   !> Columns of coordinates and of results
+   integer, parameter :: narrow = 13, wide = 15
+
+   !> Names of the resultants, in the order of the results
+   character(len=34), parameter :: resultant_names(4) = [character(len=34) :: &
+      "axial force (along z)", "lateral force (along theta = 0)", &
+      "moment (lifts theta = 0)", "torque (about z)"]
+
+contains
+
+   !> How the equations of each harmonic were solved
+   subroutine write_equations(file, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Results
+      type(results_type), intent(in) :: results
+
+      character(len=42) :: numbers
+      integer :: i
+
+      call write_heading(file, "EQUATIONS ("//to_text(n_unknowns(results))//" unknowns in all)")
+      call file%put("  harmonic       equations  half-bandwidth smallest pivot backward error")
+      do i = 1, size(results%solves)
+         associate (solve => results%solves(i))
+            write (numbers, format_equations) solve%harmonic, solve%n_equations, &
+               solve%half_bandwidth
+            call file%put(numbers//columns([solve%smallest_pivot, solve%backward_error], wide))
+         end associate
+      end do
+   end subroutine write_equations
+
+   !> Convergence path (Fig. 17), and how it ended
+   subroutine write_convergence(file, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Results
+      type(results_type), intent(in) :: results
+
+      character(len=24) :: steps, states
+      integer :: i
+
+      call write_result_heading(file, "CONVERGENCE PATH", results%converged)
+      if (size(results%path) > 0) then
+         call file%put("  ("//to_text(size(results%joint_state))// &
+            " states: joint points times planes)")
+         call file%put("   increment   iteration    load factor residual ratio        slip"// &
+            "        open")
+      end if
+      do i = 1, size(results%path)
+         associate (step => results%path(i))
+            write (steps, format_iteration) step%increment, step%iteration
+            write (states, format_states) step%n_slip, step%n_open
+            call file%put(steps//columns([step%load_factor, step%ratio], wide)//states)
+         end associate
+      end do
+      call file%put("  "//convergence_text(results))
+   end subroutine write_convergence
+
+   !> How the iteration ended, in a sentence
+   pure function convergence_text(results) result(text)
+      !> Results
+      type(results_type), intent(in) :: results
+      !> The sentence
+      character(len=:), allocatable :: text
+
+      character(len=:), allocatable :: ratio, tolerance
+
+      ratio = to_text(results%residual_ratio)
+      tolerance = to_text(results%tolerance)
+      if (.not. results%converged) then
+         text = mark_not_converged//" residual ratio "//ratio//", tolerance "//tolerance// &
+            ", after "//to_text(size(results%path))//" iterations: these results are no equilibrium"
+      else if (size(results%path) == 0) then
+         text = "linear job, no joint can yield: no iterations; residual ratio "//ratio
+      else
+         text = "converged in "//to_text(size(results%path))//" iterations: residual ratio "// &
+            ratio//" within the tolerance "//tolerance
+      end if
+   end function convergence_text
+
+   !> Displacement amplitudes of each harmonic
+   subroutine write_displacements(file, model, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+
+      integer :: i, node
+
+      do i = 1, size(results%harmonics)
+         call write_result_heading(file, "DISPLACEMENT AMPLITUDES, harmonic "// &
+            to_text(results%harmonics(i))//" (u, v ~ cos, w ~ sin)", results%converged)
+         call file%put("      node            r            z              u              v"// &
+            "              w")
+         do node = 1, size(results%displacement, 2)
+            call write_node(file, model, node, results%displacement(:, node, i))
+         end do
+      end do
+   end subroutine write_displacements
+
+   !> Sums of all harmonics at the angles of the deck
+   subroutine write_total_displacements(file, model, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+
+      type(circle_type) :: circle
+      integer :: i, node
+
+      do i = 1, size(model%output_angles)
+         circle = new_circle(results%harmonics, model%output_angles(i))
+         call write_result_heading(file, "TOTAL DISPLACEMENTS, theta = "// &
+            to_text(circle%angle/degree)//" degrees", results%converged)
+         call file%put("      node            r            z              u              v"// &
+            "              w")
+         do node = 1, size(results%displacement, 2)
+            call write_node(file, model, node, &
+               total_displacement(results%displacement(:, node, :), circle))
+         end do
+      end do
+   end subroutine write_total_displacements
+
+   !> Reactions of the restrained nodes for each harmonic
+   subroutine write_reactions(file, model, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+
+      integer :: i, node
+
+      do i = 1, size(results%harmonics)
+         call write_result_heading(file, "REACTIONS, harmonic "//to_text(results%harmonics(i))// &
+            " (work over the circle on unit amplitudes)", results%converged)
+         call file%put("      node            r            z            R_u            R_v"// &
+            "            R_w")
+         do node = 1, size(results%reaction, 2)
+            if (.not. any(model%fixed(:, node))) cycle
+            call write_node(file, model, node, results%reaction(:, node, i))
+         end do
+      end do
+   end subroutine write_reactions
+
+   !> Applied and reacted resultants
+   subroutine write_equilibrium(file, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Results
+      type(results_type), intent(in) :: results
+
+      integer :: i
+
+      call write_result_heading(file, "EQUILIBRIUM", results%converged)
+      call file%put("                                            applied        reacted            sum")
+      do i = 1, size(resultant_names)
+         call file%put("  "//resultant_names(i)//columns([results%applied(i), results%reacted(i), &
+            results%applied(i) + results%reacted(i)], wide))
+      end do
+      call file%put("  equilibrium error (largest sum over the scale of the loads)"// &
+         columns([results%equilibrium_error], wide))
+   end subroutine write_equilibrium
+
+   !> Where the time went, and the memory
+   subroutine write_times(file, timer)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Times of the run
+      type(timer_type), intent(in) :: timer
+
+      character(len=80) :: line
+      real(wp) :: seconds(n_phases), total
+      integer :: phase
+
+      seconds = [(timer%seconds(phase), phase=1, n_phases)]
+      total = max(seconds(phase_total), tiny(total))
+      call write_heading(file, "TIMES (writing: up to here)")
+      call file%put("                     seconds  processor s           %")
+      do phase = 1, n_phases
+         write (line, format_time) phase_names(phase), seconds(phase), &
+            timer%cpu_seconds(phase), 100.0_wp*seconds(phase)/total
+         call file%put(line)
+      end do
+      write (line, format_memory) "peak memory", peak_memory_mb(), " MB"
+      call file%put(line)
+   end subroutine write_times
+
+   !> Line of a node: number, r, z, three components
+   subroutine write_node(file, model, node, components)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Index of the node
+      integer, intent(in) :: node
+      !> Along r, z, theta
+      real(wp), intent(in) :: components(3)
+
+      character(len=10) :: label
+
+      write (label, format_label) model%mesh%node_label(node)
+      call file%put(label//columns(model%mesh%coordinates(:, node), narrow)// &
+         columns(components, wide))
+   end subroutine write_node
+
+end module axijoint_output_listing_solution

@@ -1,0 +1,203 @@
+!> The files of a run: all three complete under their final names, or none
+module axijoint_output_output
+   use axijoint_analysis_results, only : results_type
+   use axijoint_base_error, only : error_type, fatal_error, exit_io, exit_internal
+   use axijoint_base_system, only : path_kind, is_directory, path_absent, path_file, &
+      path_directory, path_link, error_text
+   use axijoint_base_timer, only : timer_type
+   use axijoint_deck_source, only : source_type
+   use axijoint_model_model, only : model_type
+   use axijoint_output_echo, only : deck_path
+   use axijoint_output_hdf5, only : write_results
+   use axijoint_output_hdf5_file, only : hdf5_file_type
+   use axijoint_output_listing, only : write_listing
+   use axijoint_output_listing_solution, only : convergence_text
+   use axijoint_output_pending, only : join_path, sync_names
+   use axijoint_output_run, only : run_type, new_run
+   use axijoint_output_summary, only : write_summary, write_failure_summary
+   use axijoint_output_text_file, only : text_file_type
+   implicit none
+   private
+   public :: check_output, write_output, write_error_summary
+
+   !> Endings of the files, in the order in which they get their final names;
+   !> the summary last, so that it speaks for all
+   character(len=5), parameter :: endings(3) = [character(len=5) :: ".h5", ".lis", ".json"]
+
+contains
+
+   !> Before the solve: the directory is there, files can be made in it, and
+   !> the final names are free or regular files
+   subroutine check_output(directory, name, error)
+      !> Directory of the files; empty for the current one
+      character(len=*), intent(in) :: directory
+      !> Name of the job
+      character(len=*), intent(in) :: name
+      !> What stands in the way
+      type(error_type), allocatable, intent(out) :: error
+
+      type(text_file_type) :: probe
+
+      if (.not. is_directory(join_path(directory, "."))) then
+         call fatal_error(error, exit_io, "there is no directory "//trim(directory)// &
+            " for the results"//new_line("a")//"mend: make it first, or choose another with -o")
+         return
+      end if
+      call check_names(directory, name, error)
+      if (allocated(error)) return
+      call probe%open(final_path(directory, name, 3), error)
+      call probe%abandon()
+   end subroutine check_output
+
+   !> Write listing, summary and results. Nothing changes under a final name
+   !> before all three are complete on the disk; after an error the temporary
+   !> files are gone and earlier files stand.
+   subroutine write_output(directory, name, source, warnings, model, results, timer, exit_code, &
+         error)
+      !> Directory of the files; empty for the current one
+      character(len=*), intent(in) :: directory
+      !> Name of the job
+      character(len=*), intent(in) :: name
+      !> Cards of the deck
+      type(source_type), intent(in) :: source
+      !> Warnings of the deck
+      character(len=*), intent(in) :: warnings(:)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> Times of the run so far
+      type(timer_type), intent(in) :: timer
+      !> Exit code of the program
+      integer, intent(in) :: exit_code
+      !> A file could not be written
+      type(error_type), allocatable, intent(out) :: error
+
+      type(run_type) :: run
+      type(hdf5_file_type) :: arrays
+      type(text_file_type) :: listing, summary
+      character(len=max(len(warnings), len(convergence_text(results)))) :: &
+         messages(size(warnings) + merge(0, 1, results%converged))
+
+      call check_results(results, error)
+      if (allocated(error)) return
+      run = new_run(deck_path(source), exit_code)
+      messages(:size(warnings)) = warnings
+      if (.not. results%converged) messages(size(messages)) = convergence_text(results)
+
+      call arrays%create(final_path(directory, name, 1), error)
+      if (.not. allocated(error)) then
+         call write_results(arrays, run, source, messages, model, results)
+         call arrays%finish(error)
+      end if
+      if (.not. allocated(error)) call listing%open(final_path(directory, name, 2), error)
+      if (.not. allocated(error)) then
+         call write_listing(listing, run, source, warnings, model, results, timer)
+         call listing%finish(error)
+      end if
+      if (.not. allocated(error)) call summary%open(final_path(directory, name, 3), error)
+      if (.not. allocated(error)) then
+         call write_summary(summary, run, messages, model, results, timer)
+         call summary%finish(error)
+      end if
+
+      if (.not. allocated(error)) call check_names(directory, name, error)
+      if (.not. allocated(error)) call arrays%commit(error)
+      if (.not. allocated(error)) call listing%commit(error)
+      if (.not. allocated(error)) call summary%commit(error)
+      call sync_names(directory)
+      call arrays%abandon()
+      call listing%abandon()
+      call summary%abandon()
+   end subroutine write_output
+
+   !> Summary of a run that failed. Results of an earlier run stay untouched:
+   !> nothing is written where its listing or arrays stand. A failure to write
+   !> is passed over, since the error itself is on its way to the user.
+   subroutine write_error_summary(directory, name, deck, exit_code, messages)
+      !> Directory of the files; empty for the current one
+      character(len=*), intent(in) :: directory
+      !> Name of the job
+      character(len=*), intent(in) :: name
+      !> Path of the deck
+      character(len=*), intent(in) :: deck
+      !> Exit code of the program
+      integer, intent(in) :: exit_code
+      !> Causes
+      character(len=*), intent(in) :: messages(:)
+
+      type(text_file_type) :: summary
+      type(error_type), allocatable :: error
+
+      if (path_kind(final_path(directory, name, 1)) /= path_absent) return
+      if (path_kind(final_path(directory, name, 2)) /= path_absent) return
+      call check_output(directory, name, error)
+      if (allocated(error)) return
+      call summary%open(final_path(directory, name, 3), error)
+      if (allocated(error)) return
+      call write_failure_summary(summary, new_run(deck, exit_code), messages)
+      call summary%finish(error)
+      if (.not. allocated(error)) call summary%commit(error)
+      call summary%abandon()
+   end subroutine write_error_summary
+
+   !> The final names are free or regular files: a link might lead anywhere,
+   !> and a directory or device cannot be replaced
+   subroutine check_names(directory, name, error)
+      !> Directory of the files
+      character(len=*), intent(in) :: directory
+      !> Name of the job
+      character(len=*), intent(in) :: name
+      !> The name that is taken
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: found
+      integer :: i, kind
+
+      do i = 1, size(endings)
+         kind = path_kind(final_path(directory, name, i))
+         if (kind == path_absent .or. kind == path_file) cycle
+         found = "is neither a file nor free"
+         if (kind == path_link) found = "is a symbolic link"
+         if (kind == path_directory) found = "is a directory"
+         if (kind < 0) found = "cannot be reached: "//error_text(-kind)
+         call fatal_error(error, exit_io, final_path(directory, name, i)//" "//found// &
+            new_line("a")//"mend: move it away, or choose another directory with -o")
+         return
+      end do
+   end subroutine check_names
+
+   !> Path of one of the files
+   pure function final_path(directory, name, ending) result(path)
+      !> Directory of the files
+      character(len=*), intent(in) :: directory
+      !> Name of the job
+      character(len=*), intent(in) :: name
+      !> Index into `endings`
+      integer, intent(in) :: ending
+      !> The path
+      character(len=:), allocatable :: path
+
+      path = join_path(directory, name//trim(endings(ending)))
+   end function final_path
+
+   !> Every array is there, if only with size zero
+   subroutine check_results(results, error)
+      !> Results
+      type(results_type), intent(in) :: results
+      !> An array is missing
+      type(error_type), allocatable, intent(out) :: error
+
+      if (allocated(results%harmonics) .and. allocated(results%solves) &
+         .and. allocated(results%displacement) .and. allocated(results%reaction) &
+         .and. allocated(results%point_element) .and. allocated(results%point_position) &
+         .and. allocated(results%stress) .and. allocated(results%plane_angles) &
+         .and. allocated(results%joint_point_joint) &
+         .and. allocated(results%joint_point_position) &
+         .and. allocated(results%joint_jump) .and. allocated(results%joint_stress) &
+         .and. allocated(results%joint_state) .and. allocated(results%path)) return
+      call fatal_error(error, exit_internal, "the results are not complete"//new_line("a")// &
+         "mend: this is a fault of the program; please report it with the deck")
+   end subroutine check_results
+
+end module axijoint_output_output

@@ -1,0 +1,170 @@
+!> Summary of a run in JSON, for scripts
+module axijoint_output_summary
+   use axijoint_analysis_results, only : results_type
+   use axijoint_base_system, only : peak_memory_mb
+   use axijoint_base_timer, only : timer_type, phase_names, phase_read, phase_assemble, &
+      phase_factor, phase_joints, phase_recover, phase_write, phase_total
+   use axijoint_base_version, only : program_name, program_version
+   use axijoint_element_joint_law, only : state_stick, state_slip, state_open
+   use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
+   use axijoint_model_model, only : model_type
+   use axijoint_output_json, only : json_string, json_number, json_integers, json_strings
+   use axijoint_output_run, only : run_type, status_name, status_error
+   use axijoint_output_text_file, only : text_file_type
+   use axijoint_output_totals, only : count_states, n_unknowns
+   implicit none
+   private
+   public :: write_summary, write_failure_summary
+
+   !> Phases in the order in which they are written
+   integer, parameter :: phases(7) = [phase_total, phase_read, phase_assemble, phase_factor, &
+      phase_joints, phase_recover, phase_write]
+
+contains
+
+   !> Summary of a finished run
+   subroutine write_summary(file, run, messages, model, results, timer)
+      !> The file
+      class(text_file_type), intent(inout) :: file
+      !> Name tags of the run
+      type(run_type), intent(in) :: run
+      !> Warnings and how the iteration ended
+      character(len=*), intent(in) :: messages(:)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> Times of the run
+      type(timer_type), intent(in) :: timer
+
+      call write_tags(file, run, status_name(results), messages, json_string(model%title))
+      call put_pair(file, "nodes", json_number(n_nodes(model%mesh)))
+      call put_pair(file, "elements", json_number(n_elements(model%mesh)))
+      call put_pair(file, "joints", json_number(n_joints(model%mesh)))
+      call put_pair(file, "unknowns", json_number(n_unknowns(results)))
+      call put_pair(file, "harmonics", json_integers(results%harmonics))
+      call put_pair(file, "planes", json_number(model%n_planes))
+      call put_pair(file, "iterations", json_number(size(results%path)))
+      call put_pair(file, "residual_ratio", json_number(results%residual_ratio))
+      call put_pair(file, "tolerance", json_number(results%tolerance))
+      call put_pair(file, "joint_states", states_text(results))
+      call put_pair(file, "equilibrium_error", json_number(results%equilibrium_error))
+      call put_pair(file, "seconds", seconds_text(timer))
+      call put_last(file)
+   end subroutine write_summary
+
+   !> Summary of a run that ended with an error; what is not known is null
+   subroutine write_failure_summary(file, run, messages)
+      !> The file
+      class(text_file_type), intent(inout) :: file
+      !> Name tags of the run
+      type(run_type), intent(in) :: run
+      !> Causes
+      character(len=*), intent(in) :: messages(:)
+
+      character(len=*), parameter :: unknown(8) = [character(len=17) :: "nodes", "elements", &
+         "joints", "unknowns", "planes", "iterations", "residual_ratio", "equilibrium_error"]
+      integer :: i
+
+      call write_tags(file, run, status_error, messages, "null")
+      do i = 1, size(unknown)
+         call put_pair(file, trim(unknown(i)), "null")
+      end do
+      call put_pair(file, "harmonics", "[]")
+      call put_pair(file, "joint_states", '{"stick": null, "slip": null, "open": null}')
+      call put_pair(file, "seconds", no_seconds_text())
+      call put_last(file)
+   end subroutine write_failure_summary
+
+   !> Begin the summary: what ran, and how it ended
+   subroutine write_tags(file, run, status, messages, title)
+      !> The file
+      class(text_file_type), intent(inout) :: file
+      !> Name tags of the run
+      type(run_type), intent(in) :: run
+      !> Status of the run
+      character(len=*), intent(in) :: status
+      !> Warnings or causes
+      character(len=*), intent(in) :: messages(:)
+      !> Title as a JSON value
+      character(len=*), intent(in) :: title
+
+      call file%put("{")
+      call put_pair(file, "program", json_string(program_name))
+      call put_pair(file, "version", json_string(program_version))
+      call put_pair(file, "deck", json_string(run%deck))
+      call put_pair(file, "title", title)
+      call put_pair(file, "date", json_string(run%date))
+      call put_pair(file, "run", json_string(run%stamp))
+      call put_pair(file, "status", json_string(status))
+      call put_pair(file, "exit_code", json_number(run%exit_code))
+      call put_pair(file, "messages", json_strings(messages))
+   end subroutine write_tags
+
+   !> A key, its value and a comma
+   subroutine put_pair(file, key, value)
+      !> The file
+      class(text_file_type), intent(inout) :: file
+      !> The key
+      character(len=*), intent(in) :: key
+      !> The value, in JSON
+      character(len=*), intent(in) :: value
+
+      call file%put('  "'//key//'": '//value//",")
+   end subroutine put_pair
+
+   !> The last key, and the end
+   subroutine put_last(file)
+      !> The file
+      class(text_file_type), intent(inout) :: file
+
+      call file%put('  "peak_memory_mb": '//json_number(peak_memory_mb()))
+      call file%put("}")
+   end subroutine put_last
+
+   !> Number of joint points times planes in each state
+   pure function states_text(results) result(json)
+      !> Results
+      type(results_type), intent(in) :: results
+      !> JSON object
+      character(len=:), allocatable :: json
+
+      json = '{"stick": '//json_number(count_states(results, state_stick))// &
+         ', "slip": '//json_number(count_states(results, state_slip))// &
+         ', "open": '//json_number(count_states(results, state_open))//"}"
+   end function states_text
+
+   !> Wall-clock times of the phases; writing until now
+   function seconds_text(timer) result(json)
+      !> Times of the run
+      type(timer_type), intent(in) :: timer
+      !> JSON object
+      character(len=:), allocatable :: json
+
+      integer :: i
+
+      json = "{"
+      do i = 1, size(phases)
+         if (i > 1) json = json//", "
+         json = json//'"'//trim(phase_names(phases(i)))//'": '// &
+            json_number(timer%seconds(phases(i)))
+      end do
+      json = json//"}"
+   end function seconds_text
+
+   !> The same keys, nothing known
+   pure function no_seconds_text() result(json)
+      !> JSON object
+      character(len=:), allocatable :: json
+
+      integer :: i
+
+      json = "{"
+      do i = 1, size(phases)
+         if (i > 1) json = json//", "
+         json = json//'"'//trim(phase_names(phases(i)))//'": null'
+      end do
+      json = json//"}"
+   end function no_seconds_text
+
+end module axijoint_output_summary

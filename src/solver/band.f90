@@ -1,0 +1,117 @@
+!> Band Cholesky solver by LAPACK
+module axijoint_solver_band
+   use axijoint_base_error, only : error_type, fatal_error, exit_memory
+   use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_text, only : to_text
+   use axijoint_linalg_lapack, only : band_cholesky, band_cholesky_solve
+   use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
+   use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type, pivot_limit
+   implicit none
+   private
+   public :: band_solver_type
+
+   !> Plan: the half-bandwidth of the order that the matrix comes in
+   type, extends(solver_type) :: band_solver_type
+      !> Sub-diagonals
+      integer :: half_bandwidth = 0
+   contains
+      procedure :: analyse
+      procedure :: factorize
+   end type band_solver_type
+
+   !> Lower triangular band factor
+   type, extends(factor_type) :: band_factor_type
+      !> L(i, j) in band(1 + i - j, j)
+      real(wp), allocatable :: band(:, :)
+   contains
+      procedure :: solve
+   end type band_factor_type
+
+contains
+
+   !> Find the half-bandwidth
+   subroutine analyse(self, pattern, error)
+      !> The plan
+      class(band_solver_type), intent(inout) :: self
+      !> Pattern of the lower triangle
+      type(symmetric_matrix_type), intent(in) :: pattern
+      !> Never set: analysis needs no memory
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      self%n = pattern%n
+      self%half_bandwidth = 0
+      do i = 1, pattern%n  ! the first entry of a row is the farthest from the diagonal
+         self%half_bandwidth = max(self%half_bandwidth, i - pattern%column(pattern%row_start(i)))
+      end do
+      self%factor_bytes = int(self%half_bandwidth + 1, i8)*self%n*(storage_size(1.0_wp)/8)
+   end subroutine analyse
+
+   !> Copy the matrix into a band and factor it
+   subroutine factorize(self, matrix, factor, pivots, error)
+      !> The plan
+      class(band_solver_type), intent(in) :: self
+      !> The matrix
+      type(symmetric_matrix_type), intent(in) :: matrix
+      !> Its factor
+      class(factor_type), allocatable, intent(out) :: factor
+      !> Pivots
+      type(pivot_report_type), intent(out) :: pivots
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(band_factor_type), allocatable :: new
+      real(wp) :: diagonal(self%n)
+      integer(i8) :: k
+      integer :: i, stat
+
+      allocate (new)
+      allocate (new%band(self%half_bandwidth + 1, self%n), stat=stat)
+      if (stat /= 0) then
+         call fatal_error(error, exit_memory, &
+                          'out of memory: a band factor needs '//to_text(self%factor_bytes)//' bytes')
+         return
+      end if
+      new%band = 0.0_wp
+      do i = 1, self%n
+         do k = matrix%row_start(i), matrix%row_start(i + 1) - 1
+            new%band(1 + i - matrix%column(k), matrix%column(k)) = matrix%value(k)
+         end do
+      end do
+      diagonal = new%band(1, :)
+      call band_cholesky(new%band, pivots%equation)
+      if (pivots%equation == 0) call judge_pivots(diagonal, new%band(1, :), pivots)
+      call move_alloc(new, factor)
+   end subroutine factorize
+
+   !> Compare each pivot with the diagonal entry that it started from
+   pure subroutine judge_pivots(diagonal, root, pivots)
+      !> Diagonal of the matrix
+      real(wp), intent(in) :: diagonal(:)
+      !> Diagonal of the factor: the roots of the pivots
+      real(wp), intent(in) :: root(:)
+      !> The verdict
+      type(pivot_report_type), intent(inout) :: pivots
+
+      integer :: i
+
+      do i = 1, size(diagonal)
+         associate (ratio => root(i)**2/diagonal(i))
+            pivots%smallest = min(pivots%smallest, ratio)
+            if (pivots%equation == 0 .and. .not. ratio > pivot_limit) pivots%equation = i
+         end associate
+      end do
+   end subroutine judge_pivots
+
+   !> Solve for a block of right-hand sides
+   subroutine solve(self, b)
+      !> The factor
+      class(band_factor_type), intent(in) :: self
+      !> Right-hand sides, then solutions, shape (n, any)
+      real(wp), intent(inout), contiguous :: b(:, :)
+
+      call band_cholesky_solve(self%band, b)
+   end subroutine solve
+
+end module axijoint_solver_band
