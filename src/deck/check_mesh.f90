@@ -7,7 +7,7 @@ module axijoint_deck_check_mesh
    use axijoint_deck_diagnostics, only : diagnostics_type, add_error, add_warning
    use axijoint_deck_draft, only : draft_type, place_text
    use axijoint_deck_edges, only : edge_table_type
-   use axijoint_deck_places, only : point_tree_type, new_point_tree, points_near
+   use axijoint_deck_places, only : point_tree_type, points_near
    implicit none
    private
    public :: snap_to_axis, check_used, check_coincident, check_near, check_hanging, check_touching

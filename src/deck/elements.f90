@@ -2,7 +2,6 @@
 module axijoint_deck_elements
    use axijoint_base_kinds, only : wp
    use axijoint_base_number_map, only : number_map_type, find_number, insert_number
-   use axijoint_base_sort, only : ascending_order
    use axijoint_base_text, only : to_text
    use axijoint_deck_diagnostics, only : diagnostics_type
    use axijoint_deck_draft, only : draft_type, add_node, add_element
@@ -11,7 +10,7 @@ module axijoint_deck_elements
    use axijoint_deck_table, only : table_type, integer_value, field_error, entry_error
    implicit none
    private
-   public :: draft_elements, sort_by_number
+   public :: draft_elements
 
    !> Fields of ELEMENTS
    integer, parameter :: field_label = 1, field_material = 2, field_body = 3, field_node = 4
@@ -262,39 +261,5 @@ contains
                           mend='give the elements one body, or the bodies nodes of their own')
       end do
    end subroutine claim_nodes
-
-   !> Put nodes and elements in the order of their numbers
-   pure subroutine sort_by_number(draft)
-      !> The mesh
-      type(draft_type), intent(inout) :: draft
-
-      integer, allocatable :: order(:), place(:)
-      integer :: i, n, m
-
-      n = draft%n_nodes
-      m = draft%n_elements
-      order = ascending_order(real(draft%node_label(:n), wp))
-      allocate (place(0:n), source=0)
-      place(order) = [(i, i=1, n)]
-      draft%node_label(:n) = draft%node_label(order)
-      draft%node_card(:n) = draft%node_card(order)
-      draft%node_body(:n) = draft%node_body(order)
-      draft%node_good(:n) = draft%node_good(order)
-      draft%position(:, :n) = draft%position(:, order)
-      do i = 1, n
-         call insert_number(draft%node_of, draft%node_label(i), i)
-      end do
-      do i = 1, m
-         draft%element_nodes(:, i) = place(draft%element_nodes(:, i))
-      end do
-      order = ascending_order(real(draft%element_label(:m), wp))
-      draft%element_label(:m) = draft%element_label(order)
-      draft%element_card(:m) = draft%element_card(order)
-      draft%element_material(:m) = draft%element_material(order)
-      draft%element_body(:m) = draft%element_body(order)
-      draft%element_size(:m) = draft%element_size(order)
-      draft%element_good(:m) = draft%element_good(order)
-      draft%element_nodes(:, :m) = draft%element_nodes(:, order)
-   end subroutine sort_by_number
 
 end module axijoint_deck_elements

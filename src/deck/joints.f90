@@ -1,8 +1,6 @@
 !> Joints given by cards
 module axijoint_deck_joints
-   use axijoint_base_kinds, only : wp
    use axijoint_base_number_map, only : number_map_type, find_number, insert_number
-   use axijoint_base_sort, only : ascending_order
    use axijoint_base_text, only : to_text
    use axijoint_deck_diagnostics, only : diagnostics_type
    use axijoint_deck_draft, only : draft_type, add_joint
@@ -11,7 +9,7 @@ module axijoint_deck_joints
    use axijoint_deck_table, only : table_type, integer_value, field_error, entry_error
    implicit none
    private
-   public :: draft_joints, sort_joints
+   public :: draft_joints
 
    !> Fields of JOINTS
    integer, parameter :: field_label = 1, field_law = 2, field_node = 3
@@ -110,23 +108,5 @@ contains
          end if
       end do
    end subroutine find_joint_nodes
-
-   !> Put the joints in the order of their numbers
-   pure subroutine sort_joints(draft)
-      !> The mesh
-      type(draft_type), intent(inout) :: draft
-
-      integer, allocatable :: order(:)
-      integer :: n
-
-      n = draft%n_joints
-      order = ascending_order(real(draft%joint_label(:n), wp))
-      draft%joint_label(:n) = draft%joint_label(order)
-      draft%joint_card(:n) = draft%joint_card(order)
-      draft%joint_entry(:n) = draft%joint_entry(order)
-      draft%joint_law(:n) = draft%joint_law(order)
-      draft%joint_size(:n) = draft%joint_size(order)
-      draft%joint_nodes(:, :n) = draft%joint_nodes(:, order)
-   end subroutine sort_joints
 
 end module axijoint_deck_joints

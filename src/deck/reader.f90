@@ -1,6 +1,6 @@
 !> From a deck to a model
 module axijoint_deck_reader
-   use axijoint_base_kinds, only : wp
+   use axijoint_deck_arrange, only : sort_nodes_and_elements, sort_joints
    use axijoint_deck_check_elements, only : check_elements
    use axijoint_deck_check_joints, only : check_joints, check_joint_edges
    use axijoint_deck_check_mesh, only : snap_to_axis, check_used, check_coincident, check_near, &
@@ -9,20 +9,21 @@ module axijoint_deck_reader
    use axijoint_deck_diagnostics, only : diagnostics_type, add_error, add_warning
    use axijoint_deck_draft, only : draft_type, new_draft
    use axijoint_deck_edges, only : edge_table_type, new_edge_table, check_edges
-   use axijoint_deck_elements, only : draft_elements, sort_by_number
+   use axijoint_deck_elements, only : draft_elements
    use axijoint_deck_faces, only : number_faces, lay_faces
    use axijoint_deck_generate_blocks, only : draft_blocks
    use axijoint_deck_generate_lines, only : draft_nodes, draft_lines
    use axijoint_deck_interfaces, only : refer_interfaces, lay_interfaces
-   use axijoint_deck_joints, only : draft_joints, sort_joints
+   use axijoint_deck_joints, only : draft_joints
    use axijoint_deck_layout, only : section_control, section_nodes, section_lines, section_elements, &
       section_blocks, section_materials, section_laws, section_joints, section_faces, section_chains, &
       section_interfaces, section_restraints, section_fixed_faces, section_tractions, &
       section_resultants, section_ring_loads, section_increments, section_output
-   use axijoint_deck_loads, only : read_tractions, read_resultants, read_ring_loads
+   use axijoint_deck_loads, only : read_tractions, read_resultants
    use axijoint_deck_places, only : group_places, new_point_tree, point_tree_type, same_place
    use axijoint_deck_properties, only : properties_type, read_properties
    use axijoint_deck_restraints, only : fix_nodes, fix_faces
+   use axijoint_deck_ring_loads, only : read_ring_loads
    use axijoint_deck_sections, only : sections_type, read_sections
    use axijoint_deck_source, only : source_type
    use axijoint_deck_source_reader, only : read_source
@@ -89,7 +90,7 @@ contains
          call draft_nodes(source, tables(section_nodes), draft, diagnostics)
          call draft_lines(source, tables(section_lines), draft, diagnostics)
          call draft_elements(source, tables(section_elements), properties, draft, diagnostics)
-         call sort_by_number(draft)
+         call sort_nodes_and_elements(draft)
          call draft_blocks(source, tables(section_blocks), properties, draft, diagnostics)
       end associate
       call snap_to_axis(draft, diagnostics)

@@ -1,6 +1,6 @@
 !> The cards of a deck sorted into sections and read into tables
 module axijoint_deck_sections
-   use axijoint_base_text, only : count_of
+   use axijoint_base_text, only : to_text, count_of
    use axijoint_deck_diagnostics, only : diagnostics_type, add_error, add_warning
    use axijoint_deck_layout, only : n_sections, section_names, section_fields, keyword_fields, &
       cards_per_entry, section_title, section_control, section_include, section_end, card_width
@@ -285,8 +285,8 @@ contains
             if (integer_value(table, 2, 1) == entries(card) .or. .not. complete) cycle
             call field_error(diagnostics, source, table, 1, 2, &
                              trim(section_names(section))//' announces '// &
-                             count_of(integer_value(table, 2, 1), 'entry')//', but '// &
-                             count_of(entries(card), 'entry')//' follow', &
+                             count_of(integer_value(table, 2, 1), 'entry')//' but has '// &
+                             to_text(entries(card)), &
                              mend='correct the number, or leave it out')
          end associate
       end do

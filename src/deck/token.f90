@@ -44,7 +44,6 @@ contains
 
       character(len=:), allocatable :: number
       real(wp) :: as_real
-      integer :: status
 
       value = 0
       number = token
@@ -59,11 +58,42 @@ contains
       if (len(number) > range(value) + 1) return
       if (len(number) == range(value) + 1 .and. number > '2147483647') return
       fault = token_good
-      if (len(number) == 0) return
-      read (number, '(i10)', iostat=status) value
-      if (status /= 0) fault = token_strange
+      value = digits_value(number)
       if (token(1:1) == '-') value = -value
    end subroutine read_integer
+
+   !> Value of digits that are known to fit into an integer; 0 for no digits
+   pure integer function digits_value(number) result(value)
+      !> The digits
+      character(len=*), intent(in) :: number
+
+      integer :: i
+
+      value = 0
+      do i = 1, len(number)
+         value = 10*value + iachar(number(i:i)) - iachar('0')
+      end do
+   end function digits_value
+
+   !> An exponent of at most three digits as text
+   pure function exponent_text(exponent) result(text)
+      !> The exponent
+      integer, intent(in) :: exponent
+      !> Sign and three digits
+      character(len=4) :: text
+
+      text(1:1) = merge('-', '+', exponent < 0)
+      text(2:2) = digit_text(abs(exponent)/100)
+      text(3:3) = digit_text(mod(abs(exponent)/10, 10))
+      text(4:4) = digit_text(mod(abs(exponent), 10))
+   end function exponent_text
+
+   !> One digit as text
+   pure character(len=1) function digit_text(digit)
+      !> 0 to 9
+      integer, intent(in) :: digit
+      digit_text = digits(digit + 1:digit + 1)
+   end function digit_text
 
    !> A real: a sign, digits with or without a point, an exponent after E, D or
    !> after its sign alone. No decimals are implied
@@ -86,7 +116,7 @@ contains
       if (exponent > highest_exponent) fault = token_too_large
       if (exponent < lowest_exponent) fault = token_too_small
       if (fault /= token_good) return
-      write (normal, '(3a, i0)') '0.', mantissa, 'E', exponent
+      normal = '0.'//mantissa//'E'//exponent_text(exponent)
       read (normal, *, iostat=status) value
       if (status /= 0) fault = token_strange
       if (token(1:1) == '-') value = -value
@@ -138,7 +168,6 @@ contains
 
       character(len=:), allocatable :: number
       logical :: negative
-      integer :: status
 
       exponent = 3*endless
       number = text
@@ -153,8 +182,7 @@ contains
       if (len(number) == 0 .or. verify(number, digits) /= 0) return
       number = number(verify(number//'1', '0'):)
       if (len(number) > 5) number = '99999'
-      exponent = 0
-      if (len(number) > 0) read (number, '(i5)', iostat=status) exponent
+      exponent = digits_value(number)
       if (negative) exponent = -exponent
    end subroutine read_exponent
 
