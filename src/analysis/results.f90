@@ -1,10 +1,10 @@
 !> Everything that a run computes and the output reports
 module axijoint_analysis_results
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, i8
    use axijoint_joints_field, only : iteration_type
    implicit none
    private
-   public :: results_type, iteration_type, harmonic_solve_type
+   public :: results_type, iteration_type, harmonic_solve_type, ordering_type
    public :: axial, lateral, moment, torque
 
    !> Index of a resultant: force along z
@@ -23,13 +23,26 @@ module axijoint_analysis_results
       integer :: harmonic = 0
       !> Number of equations
       integer :: n_equations = 0
-      !> Half-bandwidth, the diagonal not counted
-      integer :: half_bandwidth = 0
+      !> Entries of the factor (fill and all)
+      integer(i8) :: factor_entries = 0
       !> Smallest ratio of a pivot to the diagonal entry it started from
       real(wp) :: smallest_pivot = 0.0_wp
-      !> Backward error of the last solution, max |b - K u| / (|K| |u| + |b|)
+      !> Backward error after one step of iterative refinement,
+      !> max |b - K u| / (|K| |u| + |b|)
       real(wp) :: backward_error = 0.0_wp
+      !> Estimate of the condition number |K| |K^-1| in the 1-norm (a lower bound,
+      !> seldom more than three times too small)
+      real(wp) :: condition = 0.0_wp
    end type harmonic_solve_type
+
+   !> What an order of the nodes would cost
+   type :: ordering_type
+      !> Name of the order
+      character(len=24) :: name = ''
+      !> Half-bandwidth and profile of the graph of the nodes
+      integer :: bandwidth = 0
+      integer(i8) :: profile = 0
+   end type ordering_type
 
    !> Results of a run. Amplitudes belong to the symmetric family:
    !> u, v ~ cos(m theta), w ~ sin(m theta).
@@ -38,6 +51,10 @@ module axijoint_analysis_results
       logical :: converged = .false.
       !> Harmonics m that were solved, ascending
       integer, allocatable :: harmonics(:)
+      !> Solver that was used, one of the `solver_` parameters
+      integer :: solver = 0
+      !> Orders of the nodes side by side
+      type(ordering_type), allocatable :: orderings(:)
       !> One entry for each harmonic
       type(harmonic_solve_type), allocatable :: solves(:)
       !> Displacement amplitudes u, v, w, shape (3, nodes, harmonics) [length]

@@ -2,8 +2,9 @@
 module axijoint_analysis_static
    use axijoint_analysis_recovery, only : recover
    use axijoint_analysis_results, only : results_type
-   use axijoint_assembly_equations, only : equations_type, new_equations, factorize_equations, &
-                                           solve_harmonic, backward_error
+   use axijoint_assembly_equations, only : equations_type, plan_equations, assemble_equations, &
+                                           factorize_equations, solve_harmonic, backward_error, &
+                                           refine_harmonic, condition_estimate
    use axijoint_assembly_force, only : applied_force, joint_force, joint_jump
    use axijoint_assembly_mechanism, only : check_mechanism
    use axijoint_base_error, only : error_type
@@ -38,7 +39,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(model_joint_point_type), allocatable :: points(:)
-      type(equations_type) :: equations
+      type(equations_type), allocatable :: equations
       type(joint_field_type) :: field
       real(wp), allocatable :: applied(:, :, :)
       integer :: k
@@ -50,7 +51,9 @@ contains
 
       call timer%push(phase_assemble)
       call show_progress(progress, 'assembling '//to_text(size(results%harmonics))//' harmonics')
-      call new_equations(equations, model, points, results%harmonics, error)
+      call plan_equations(equations, model, results%harmonics, error)
+      if (allocated(error)) return
+      call assemble_equations(equations, model, points, error)
       allocate (applied(3, n_nodes(model%mesh), size(results%harmonics)))
       do k = 1, size(results%harmonics)
          applied(:, :, k) = applied_force(model, results%harmonics(k))
@@ -129,6 +132,7 @@ contains
       type(progress_type), intent(inout) :: progress
 
       type(planes_type) :: planes
+      real(wp) :: factor
       integer :: k
 
       allocate (results%displacement, mold=load)
@@ -140,10 +144,13 @@ contains
       else
          planes = new_view(model%output_angles, equations%harmonics)
          allocate (results%path(0))
+         factor = sum(model%increments%factor)
+         !$omp parallel do schedule(dynamic)
          do k = 1, size(equations%harmonics)
-            call solve_harmonic(equations, k, sum(model%increments%factor)*load(:, :, k), &
-                                results%displacement(:, :, k))
+            call solve_harmonic(equations, k, factor*load(:, :, k), results%displacement(:, :, k))
+            call refine_harmonic(equations, k, factor*load(:, :, k), results%displacement(:, :, k))
          end do
+         !$omp end parallel do
          results%converged = .true.
          call elastic_field(model, points, planes, results%displacement, field)
       end if
@@ -199,20 +206,25 @@ contains
       real(wp), dimension(3, size(applied, 2)) :: force, displacement
       integer :: k, m
 
+      results%solver = equations%solver
       allocate (results%solves(size(equations%harmonics)))
+      !$omp parallel do schedule(dynamic) private(m, force, displacement)
       do k = 1, size(equations%harmonics)
          m = equations%harmonics(k)
          force = applied(:, :, k) &
             + joint_force(points, m, field%excess(:, :, k), size(applied, 2))
          call solve_harmonic(equations, k, force, displacement)
+         call refine_harmonic(equations, k, force, displacement)
          associate (report => results%solves(k))
             report%harmonic = m
             report%n_equations = equations%matrices(k)%n
-            report%half_bandwidth = equations%plans(equations%class(k))%half_bandwidth
+            report%factor_entries = equations%plans(equations%class(k))%solver%factor_entries
+            report%condition = condition_estimate(equations, k)
             report%smallest_pivot = equations%pivots(k)%smallest
             report%backward_error = backward_error(equations, k, force, displacement)
          end associate
       end do
+      !$omp end parallel do
    end subroutine report_solves
 
 end module axijoint_analysis_static

@@ -8,17 +8,24 @@ module axijoint_assembly_equations
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_memory, only : require_memory
    use axijoint_base_text, only : to_text
+   use axijoint_linalg_lapack, only : use_one_blas_thread, norm_step
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type, multiply, infinity_norm
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type, on_axis
-   use axijoint_order_graph, only : graph_type
-   use axijoint_order_rcm, only : reverse_cuthill_mckee
-   use axijoint_solver_band, only : band_solver_type
-   use axijoint_solver_type, only : factor_type, pivot_report_type
+   use axijoint_order_graph, only : graph_type, bandwidth
+   use axijoint_solver_choice, only : solver_auto, solver_band, solver_skyline, solver_sparse, &
+                                      new_solver, new_order, expected_seconds
+   use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type
    implicit none
    private
-   public :: equations_type, new_equations, factorize_equations, solve_harmonic, elastic_force
-   public :: backward_error, on_equations
+   public :: equations_type, plan_equations, assemble_equations, factorize_equations
+   public :: solve_harmonic, elastic_force, backward_error, on_equations
+   public :: planned_seconds, needed_bytes, refine_harmonic, condition_estimate
+
+   !> A band wider than this many nodes is never faster than nested dissection
+   integer, parameter :: widest_band = 400
+   !> Rate of matrix products that solvers are chosen by [operations/second]
+   real(wp), parameter :: nominal_rate = 5.0e10_wp
 
    !> Factor of one harmonic
    type :: factor_slot_type
@@ -26,17 +33,25 @@ module axijoint_assembly_equations
       class(factor_type), allocatable :: factor
    end type factor_slot_type
 
+   !> Plan of one class
+   type :: plan_slot_type
+      !> The plan
+      class(solver_type), allocatable :: solver
+   end type plan_slot_type
+
    !> Equations of the harmonics in use
    type :: equations_type
       !> Harmonics m, ascending
       integer, allocatable :: harmonics(:)
       !> Class of each harmonic: its place in `classes` and `plans`
       integer, allocatable :: class(:)
+      !> Solver, one of the `solver_` parameters, never auto
+      integer :: solver = 0
       !> Unknowns and sparsity of the classes; parts are dropped once the
       !> matrices stand
       type(stiffness_type), allocatable :: classes(:)
       !> Plans of the solver, one a class
-      type(band_solver_type), allocatable :: plans(:)
+      type(plan_slot_type), allocatable :: plans(:)
       !> K_m of each harmonic
       type(symmetric_matrix_type), allocatable :: matrices(:)
       !> Factors of each harmonic
@@ -47,59 +62,137 @@ module axijoint_assembly_equations
 
 contains
 
-   !> Number the unknowns and assemble the matrices of all harmonics
-   subroutine new_equations(equations, model, joint_points, harmonics, error)
-      !> The equations, not yet factored
-      type(equations_type), intent(out) :: equations
+   !> Choose a solver and plan the factorizations; nothing is assembled yet
+   subroutine plan_equations(equations, model, harmonics, error)
+      !> The equations, planned
+      type(equations_type), allocatable, intent(out) :: equations
       !> The job
       type(model_type), intent(in) :: model
-      !> Points of all joints
-      type(model_joint_point_type), intent(in) :: joint_points(:)
       !> Harmonics m, ascending
       integer, intent(in) :: harmonics(:)
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
+      type(equations_type), allocatable :: candidate
       type(graph_type) :: graph
-      integer, allocatable :: order(:), kinds(:)
-      integer :: k, n_classes
+      integer, allocatable :: order(:)
+      integer :: kind
 
       graph = node_graph(model%mesh)
-      call reverse_cuthill_mckee(graph, order)
-
-      kinds = kinematic_class(harmonics, any(on_axis(model%mesh)))
-      equations%harmonics = harmonics
-      allocate (equations%class(size(harmonics)))
-      n_classes = 0
-      do k = 1, size(harmonics)  ! ascending harmonics have ascending kinds
-         if (k == 1) then
-            n_classes = 1
-         else if (kinds(k) /= kinds(k - 1)) then
-            n_classes = n_classes + 1
+      do kind = solver_band, solver_sparse
+         if (model%solver /= solver_auto .and. model%solver /= kind) cycle
+         if (model%solver == solver_auto .and. kind == solver_skyline) cycle  ! never the fastest
+         call new_order(graph, kind, order, error)
+         if (allocated(error)) return
+         if (model%solver == solver_auto .and. kind == solver_band) then
+            if (bandwidth(graph, order) > widest_band) cycle
          end if
-         equations%class(k) = n_classes
+         call plan_solver(candidate, model, harmonics, graph, kind, order, error)
+         if (allocated(error)) return
+         if (allocated(equations)) then
+            if (planned_seconds(equations) <= planned_seconds(candidate)) cycle
+         end if
+         call move_alloc(candidate, equations)
       end do
+   end subroutine plan_equations
 
+   !> Number the unknowns and analyse the patterns of all classes for a solver
+   subroutine plan_solver(equations, model, harmonics, graph, kind, order, error)
+      !> The equations, planned
+      type(equations_type), allocatable, intent(out) :: equations
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Harmonics m, ascending
+      integer, intent(in) :: harmonics(:)
+      !> Graph of the nodes
+      type(graph_type), intent(in) :: graph
+      !> Solver, one of the `solver_` parameters, not auto
+      integer, intent(in) :: kind
+      !> order(k) is the k-th node to be numbered
+      integer, intent(in) :: order(:)
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: k, n_classes
+
+      allocate (equations)
+      equations%harmonics = harmonics
+      equations%solver = kind
+      equations%class = classes_of(kinematic_class(harmonics, any(on_axis(model%mesh))))
+      n_classes = maxval([0, equations%class])
       allocate (equations%classes(n_classes), equations%plans(n_classes))
       do k = 1, n_classes
          call new_stiffness(equations%classes(k), model, &
                             harmonics(findloc(equations%class, k, 1)), graph, order)
-         call equations%plans(k)%analyse(equations%classes(k)%pattern, error)
+         call new_solver(equations%plans(k)%solver, kind)
+         call equations%plans(k)%solver%analyse(equations%classes(k)%pattern, error)
          if (allocated(error)) return
       end do
+   end subroutine plan_solver
+
+   !> Numbers of the classes without gaps
+   pure function classes_of(kinds) result(class)
+      !> Kinematic class of each harmonic, ascending
+      integer, intent(in) :: kinds(:)
+      !> Numbers from 1 on
+      integer :: class(size(kinds))
+
+      integer :: k
+
+      do k = 1, size(kinds)  ! a class begins wherever the kind changes
+         class(k) = 1 + count(kinds(2:k) /= kinds(:k - 1))
+      end do
+   end function classes_of
+
+   !> Expected time of all factorizations, one after the other
+   pure function planned_seconds(equations, rate) result(seconds)
+      !> The equations, planned
+      type(equations_type), intent(in) :: equations
+      !> Operations a second of a large matrix product
+      real(wp), intent(in), optional :: rate
+      !> The time
+      real(wp) :: seconds
+
+      real(wp) :: speed
+      integer :: k
+
+      speed = nominal_rate
+      if (present(rate)) speed = rate
+      seconds = 0.0_wp
+      do k = 1, size(equations%harmonics)
+         seconds = seconds + expected_seconds(equations%plans(equations%class(k))%solver, &
+                                              equations%solver, speed)
+      end do
+   end function planned_seconds
+
+   !> Assemble the matrices of all harmonics
+   subroutine assemble_equations(equations, model, joint_points, error)
+      !> The equations, planned
+      type(equations_type), intent(inout) :: equations
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Points of all joints
+      type(model_joint_point_type), intent(in) :: joint_points(:)
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: k
+
       call require_memory(needed_bytes(equations), 'the factors of '// &
-                          to_text(size(harmonics))//' harmonics', error)
+                          to_text(size(equations%harmonics))//' harmonics', error)
       if (allocated(error)) return
       call assemble_parts(equations%classes, model, joint_points)
-      allocate (equations%matrices(size(harmonics)))
-      do k = 1, size(harmonics)
-         call harmonic_matrix(equations%classes(equations%class(k)), harmonics(k), &
+      allocate (equations%matrices(size(equations%harmonics)))
+      !$omp parallel do schedule(dynamic)
+      do k = 1, size(equations%harmonics)
+         call harmonic_matrix(equations%classes(equations%class(k)), equations%harmonics(k), &
                               equations%matrices(k))
       end do
-      do k = 1, n_classes
+      !$omp end parallel do
+      do k = 1, size(equations%classes)
          deallocate (equations%classes(k)%parts)
       end do
-   end subroutine new_equations
+   end subroutine assemble_equations
 
    !> Bytes of all matrices and factors
    pure function needed_bytes(equations) result(bytes)
@@ -115,13 +208,13 @@ contains
       bytes = 0
       do k = 1, size(equations%harmonics)
          associate (class => equations%class(k))
-            bytes = bytes + equations%plans(class)%factor_bytes &
+            bytes = bytes + equations%plans(class)%solver%factor_bytes &
                + entry_bytes*size(equations%classes(class)%pattern%column, kind=i8)
          end associate
       end do
    end function needed_bytes
 
-   !> Factor the matrices of all harmonics
+   !> Factor the matrices of all harmonics, one harmonic a thread
    subroutine factorize_equations(equations, model, error)
       !> The equations
       type(equations_type), intent(inout) :: equations
@@ -130,21 +223,30 @@ contains
       !> Out of memory; a pivot that is not positive, as node and direction
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: k
+      type(error_type), allocatable :: failure
+      integer :: k, failed
 
       allocate (equations%slots(size(equations%harmonics)))
       allocate (equations%pivots(size(equations%harmonics)))
+      call use_one_blas_thread()
+      failed = huge(1)  ! the lowest harmonic that fails is the one reported, with any threads
+      !$omp parallel do schedule(dynamic) private(failure)
       do k = 1, size(equations%harmonics)
-         associate (pivots => equations%pivots(k))
-            call equations%plans(equations%class(k))%factorize(equations%matrices(k), &
-                                                       equations%slots(k)%factor, pivots, error)
-            if (allocated(error)) return
-            if (pivots%equation == 0) cycle
-            call fatal_error(error, exit_singular, &
-                             pivot_message(equations, k, pivots%equation, model))
-            return
-         end associate
+         call equations%plans(equations%class(k))%solver%factorize( &
+            equations%matrices(k), equations%slots(k)%factor, equations%pivots(k), failure)
+         if (.not. allocated(failure) .and. equations%pivots(k)%equation > 0) then
+            call fatal_error(failure, exit_singular, &
+                             pivot_message(equations, k, equations%pivots(k)%equation, model))
+         end if
+         if (.not. allocated(failure)) cycle
+         !$omp critical
+         if (k < failed) then
+            failed = k
+            error = failure
+         end if
+         !$omp end critical
       end do
+      !$omp end parallel do
    end subroutine factorize_equations
 
    !> A pivot that is not positive, in words
@@ -192,6 +294,60 @@ contains
          displacement = expand(dofs, b(:, 1))
       end associate
    end subroutine solve_harmonic
+
+   !> One step of iterative refinement
+   subroutine refine_harmonic(equations, k, force, displacement)
+      !> The equations, factored
+      type(equations_type), intent(in) :: equations
+      !> Place of the harmonic
+      integer, intent(in) :: k
+      !> Forces on components, shape (3, nodes)
+      real(wp), intent(in) :: force(:, :)
+      !> Displacement amplitudes, shape (3, nodes)
+      real(wp), intent(inout) :: displacement(:, :)
+
+      real(wp), allocatable :: b(:, :)
+
+      associate (dofs => equations%classes(equations%class(k))%dofs)
+         allocate (b(dofs%n_equations, 1))
+         b(:, 1) = gather(dofs, force) - elastic_force(equations, k, displacement)
+         call equations%slots(k)%factor%solve(b)
+         displacement = displacement + expand(dofs, b(:, 1))
+      end associate
+   end subroutine refine_harmonic
+
+   !> Estimate of the condition number of one harmonic in the 1-norm
+   function condition_estimate(equations, k) result(condition)
+      !> The equations, factored
+      type(equations_type), intent(in) :: equations
+      !> Place of the harmonic
+      integer, intent(in) :: k
+      !> The estimate; zero without equations
+      real(wp) :: condition
+
+      real(wp), allocatable :: v(:), x(:, :)
+      integer, allocatable :: signs(:)
+      real(wp) :: inverse_norm
+      integer :: kase, save(3)
+
+      associate (n => equations%matrices(k)%n)
+         allocate (v(n), x(n, 1), signs(n))
+      end associate
+      condition = 0.0_wp
+      if (size(v) == 0) return
+      x = 0.0_wp
+      v = 0.0_wp
+      signs = 0
+      inverse_norm = 0.0_wp
+      kase = 0
+      save = 0
+      do
+         call norm_step(v, x(:, 1), signs, inverse_norm, kase, save)
+         if (kase == 0) exit
+         call equations%slots(k)%factor%solve(x)  ! symmetric: the transpose is the same
+      end do
+      condition = inverse_norm*infinity_norm(equations%matrices(k))
+   end function condition_estimate
 
    !> Forces on the equations of one harmonic, from forces on components
    function on_equations(equations, k, force) result(vector)

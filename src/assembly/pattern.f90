@@ -3,11 +3,11 @@ module axijoint_assembly_pattern
    use axijoint_assembly_dofs, only : dofs_type
    use axijoint_base_kinds, only : i8
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
-   use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, n_joints
+   use axijoint_model_mesh, only : mesh_type, n_nodes
    use axijoint_order_graph, only : graph_type, new_graph
    implicit none
    private
-   public :: node_graph, new_pattern
+   public :: node_graph, new_pattern, element_cliques
 
 contains
 
@@ -18,23 +18,46 @@ contains
       !> The graph
       type(graph_type) :: graph
 
-      integer :: start(n_elements(mesh) + n_joints(mesh) + 1)
-      integer, allocatable :: member(:)
-      integer :: i, k
+      integer, allocatable :: start(:), member(:), joint_start(:), joint_member(:)
 
-      allocate (member(sum(mesh%element_size) + sum(mesh%joint_size)))
-      start(1) = 1
-      do i = 1, n_elements(mesh)
-         start(i + 1) = start(i) + mesh%element_size(i)
-         member(start(i):start(i + 1) - 1) = mesh%element_nodes(:mesh%element_size(i), i)
-      end do
-      do i = 1, n_joints(mesh)
-         k = n_elements(mesh) + i
-         start(k + 1) = start(k) + mesh%joint_size(i)
-         member(start(k):start(k + 1) - 1) = mesh%joint_nodes(:mesh%joint_size(i), i)
-      end do
-      call new_graph(graph, n_nodes(mesh), start, member)
+      call element_cliques(mesh, start, member)
+      call list_nodes(mesh%joint_size, mesh%joint_nodes, joint_start, joint_member)
+      call new_graph(graph, n_nodes(mesh), [start, joint_start(2:) + size(member)], &
+                     [member, joint_member])
    end function node_graph
+
+   !> Nodes of the solid elements as cliques
+   subroutine element_cliques(mesh, start, member)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> First node of each element in `member`, shape (elements + 1)
+      integer, allocatable, intent(out) :: start(:)
+      !> Nodes of the elements
+      integer, allocatable, intent(out) :: member(:)
+
+      call list_nodes(mesh%element_size, mesh%element_nodes, start, member)
+   end subroutine element_cliques
+
+   !> Node lists of different lengths one behind the other
+   pure subroutine list_nodes(sizes, nodes, start, member)
+      !> Number of nodes of each list
+      integer, intent(in) :: sizes(:)
+      !> The nodes, shape (any, lists); only the first of each list are in use
+      integer, intent(in) :: nodes(:, :)
+      !> First node of each list in `member`, shape (lists + 1)
+      integer, allocatable, intent(out) :: start(:)
+      !> The nodes
+      integer, allocatable, intent(out) :: member(:)
+
+      integer :: i
+
+      allocate (start(size(sizes) + 1), member(sum(sizes)))
+      start(1) = 1
+      do i = 1, size(sizes)
+         start(i + 1) = start(i) + sizes(i)
+         member(start(i):start(i + 1) - 1) = nodes(:sizes(i), i)
+      end do
+   end subroutine list_nodes
 
    !> Sparsity of the stiffness, lower triangle
    subroutine new_pattern(pattern, graph, dofs, order)

@@ -1,16 +1,18 @@
 !> Stiffness of the whole structure: parts free of the harmonic, then K_m
 module axijoint_assembly_stiffness
    use axijoint_assembly_dofs, only : dofs_type, new_dofs
-   use axijoint_assembly_pattern, only : new_pattern
+   use axijoint_assembly_pattern, only : new_pattern, element_cliques
    use axijoint_base_kinds, only : wp, i8
    use axijoint_element_joint, only : joint_stiffness
    use axijoint_element_solid, only : solid_point_type, solid_points, solid_stiffness, &
-                                      isotropic_elasticity
+                                      isotropic_elasticity, stiffness_kernel_type, &
+                                      new_stiffness_kernel
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type, entry_position
    use axijoint_model_joint_points, only : model_joint_point_type
-   use axijoint_model_mesh, only : max_element_nodes, n_elements
+   use axijoint_model_mesh, only : max_element_nodes, n_nodes
    use axijoint_model_model, only : model_type, gauss_order, on_axis
+   use axijoint_order_coloring, only : color_cliques
    use axijoint_order_graph, only : graph_type
    implicit none
    private
@@ -49,7 +51,9 @@ contains
       allocate (stiffness%parts(3, size(stiffness%pattern%column)), source=0.0_wp)
    end subroutine new_stiffness
 
-   !> Integrate every element and joint once, for all classes
+   !> Integrate every element and joint once, for all classes. Elements of one
+   !> colour share no node, so threads never meet; sums do not depend on the
+   !> number of threads.
    subroutine assemble_parts(classes, model, joint_points)
       !> The classes in use
       type(stiffness_type), intent(inout) :: classes(:)
@@ -58,61 +62,131 @@ contains
       !> Points of all joints
       type(model_joint_point_type), intent(in) :: joint_points(:)
 
-      real(wp) :: parts(max_unknowns, max_unknowns, 3)
-      type(solid_point_type) :: points(9)
-      integer :: element, n, n_gauss, k, i
+      type(stiffness_kernel_type) :: kernels(size(model%materials))
+      integer, allocatable :: start(:), member(:), color_start(:), colored(:)
+      integer :: color, k
 
-      do element = 1, n_elements(model%mesh)
-         n = model%mesh%element_size(element)
-         n_gauss = gauss_order(model, n)
-         associate (nodes => model%mesh%element_nodes(:n, element), &
-                    material => model%materials(model%mesh%element_material(element)))
-            call solid_points(model%mesh%coordinates(:, nodes), n_gauss, points(:n_gauss**2))
-            call solid_stiffness(points(:n_gauss**2), n, &
-                                 isotropic_elasticity(material%young, material%poisson), &
-                                 parts(:3*n, :3*n, 1), parts(:3*n, :3*n, 2), parts(:3*n, :3*n, 3))
-            do i = 1, size(classes)
-               call scatter(classes(i), nodes, parts(:3*n, :3*n, :))
-            end do
-         end associate
+      do k = 1, size(kernels)
+         kernels(k) = new_stiffness_kernel(isotropic_elasticity(model%materials(k)%young, &
+                                                                model%materials(k)%poisson))
       end do
-      do k = 1, size(joint_points)  ! a joint's stiffness is free of the harmonic: part A
-         n = 2*joint_points(k)%n_pairs
-         call joint_stiffness(joint_points(k)%joint_point_type, &
-                              model%joint_materials(joint_points(k)%material)%law%stiffness, &
-                              parts(:3*n, :3*n, 1))
-         do i = 1, size(classes)
-            call scatter(classes(i), joint_points(k)%nodes(:n), parts(:3*n, :3*n, 1:1))
+      call element_cliques(model%mesh, start, member)
+      call color_cliques(n_nodes(model%mesh), start, member, color_start, colored)
+      do color = 1, size(color_start) - 1
+         !$omp parallel do schedule(static)
+         do k = color_start(color), color_start(color + 1) - 1
+            call add_element(model, kernels, colored(k), classes)
          end do
+         !$omp end parallel do
+      end do
+      do k = 1, size(joint_points)
+         call add_joint_point(model, joint_points(k), classes)
       end do
    end subroutine assemble_parts
 
-   !> Add the parts of an element matrix
-   pure subroutine scatter(stiffness, nodes, parts)
+   !> Add the parts of one element
+   subroutine add_element(model, kernels, element, classes)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Kernels of the materials
+      type(stiffness_kernel_type), intent(in) :: kernels(:)
+      !> Element
+      integer, intent(in) :: element
+      !> The classes in use
+      type(stiffness_type), intent(inout) :: classes(:)
+
+      type(solid_point_type) :: points(9)
+      real(wp) :: parts(max_unknowns, max_unknowns, 3)
+      integer :: n, n_points, i
+
+      n = model%mesh%element_size(element)
+      n_points = gauss_order(model, n)**2
+      associate (nodes => model%mesh%element_nodes(:n, element))
+         call solid_points(model%mesh%coordinates(:, nodes), gauss_order(model, n), &
+                           points(:n_points))
+         call solid_stiffness(points(:n_points), n, &
+                              kernels(model%mesh%element_material(element)), &
+                              parts(:3*n, :3*n, 1), parts(:3*n, :3*n, 2), parts(:3*n, :3*n, 3))
+         do i = 1, size(classes)
+            call scatter(classes(i), nodes, parts, 3)
+         end do
+      end associate
+   end subroutine add_element
+
+   !> Add one point of a joint; its stiffness is free of the harmonic: part A
+   subroutine add_joint_point(model, point, classes)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The point
+      type(model_joint_point_type), intent(in) :: point
+      !> The classes in use
+      type(stiffness_type), intent(inout) :: classes(:)
+
+      real(wp) :: parts(max_unknowns, max_unknowns, 1)
+      integer :: n, i
+
+      n = 2*point%n_pairs
+      call joint_stiffness(point%joint_point_type, &
+                           model%joint_materials(point%material)%law%stiffness, &
+                           parts(:3*n, :3*n, 1))
+      do i = 1, size(classes)
+         call scatter(classes(i), point%nodes(:n), parts, 1)
+      end do
+   end subroutine add_joint_point
+
+   !> Add the parts of an element matrix. The equations of a node follow each
+   !> other, and the rows of a node have the same columns up to the node itself:
+   !> one search finds the place of the block of two nodes.
+   pure subroutine scatter(stiffness, nodes, parts, n_parts)
       !> The stiffness
       type(stiffness_type), intent(inout) :: stiffness
       !> Nodes of the element, shape (n)
       integer, intent(in) :: nodes(:)
-      !> A, or A, S and C, for u1, v1, w1, u2, ..., shape (3n, 3n, 1 | 3)
+      !> A, or A, S and C, for u1, v1, w1, u2, ..., the first 3n rows and columns
       real(wp), intent(in) :: parts(:, :, :)
+      !> How many parts: 1 or 3
+      integer, intent(in) :: n_parts
 
-      integer :: equation(size(parts, 1)), i, j, n_parts
-      real(wp) :: factor(size(parts, 1))
-      integer(i8) :: k
+      integer :: first(size(nodes)), a, b, i, j
+      integer(i8) :: offset, k
 
-      n_parts = size(parts, 3)
-      equation = reshape(stiffness%dofs%equation(:, nodes), [size(equation)])
-      factor = reshape(stiffness%dofs%factor(:, nodes), [size(factor)])
-      do j = 1, size(equation)
-         if (equation(j) == 0) cycle
-         do i = 1, size(equation)
-            if (equation(i) < equation(j)) cycle  ! none, or the upper triangle
-            k = entry_position(stiffness%pattern, equation(i), equation(j))
-            stiffness%parts(:n_parts, k) = stiffness%parts(:n_parts, k) &
-               + factor(i)*factor(j)*parts(i, j, :)
+      associate (dofs => stiffness%dofs, pattern => stiffness%pattern)
+         do a = 1, size(nodes)
+            first(a) = first_equation(dofs%equation(:, nodes(a)))
          end do
-      end do
+         do b = 1, size(nodes)
+            if (first(b) == 0) cycle
+            do a = 1, size(nodes)
+               if (first(a) < first(b)) cycle  ! none, or the upper triangle
+               offset = entry_position(pattern, first(a), first(b)) &
+                  - pattern%row_start(first(a)) - first(b)
+               do j = 1, 3
+                  associate (column => dofs%equation(j, nodes(b)))
+                     if (column == 0) cycle
+                     do i = 1, 3
+                        associate (row => dofs%equation(i, nodes(a)))
+                           if (row < column) cycle
+                           k = pattern%row_start(row) + offset + column
+                           stiffness%parts(:n_parts, k) = stiffness%parts(:n_parts, k) &
+                              + dofs%factor(i, nodes(a))*dofs%factor(j, nodes(b)) &
+                              *parts(3*a - 3 + i, 3*b - 3 + j, :n_parts)
+                        end associate
+                     end do
+                  end associate
+               end do
+            end do
+         end do
+      end associate
    end subroutine scatter
+
+   !> First equation of a node; zero if it has none
+   pure integer function first_equation(equation)
+      !> Equations of its components
+      integer, intent(in) :: equation(3)
+
+      first_equation = minval(equation, mask=equation > 0)
+      if (all(equation == 0)) first_equation = 0
+   end function first_equation
 
    !> K_m = c_m (A + m S + m^2 C)
    subroutine harmonic_matrix(stiffness, harmonic, matrix)

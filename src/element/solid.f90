@@ -7,6 +7,7 @@ module axijoint_element_solid
    private
    public :: solid_point_type, solid_points, isotropic_elasticity
    public :: strain_matrices, solid_stiffness, solid_stress, solid_force
+   public :: stiffness_kernel_type, new_stiffness_kernel
 
    !> What the integrals over an element need at one Gauss point
    type :: solid_point_type
@@ -19,6 +20,21 @@ module axijoint_element_solid
       !> Their derivatives by r and z
       real(wp) :: gradient(2, 9) = 0.0_wp
    end type solid_point_type
+
+   !> Elasticity between displacement gradients: the strain of a node's
+   !> displacement (u, v, w) is the sum over k of g_k (E_k + m F_k) (u, v, w),
+   !> with the gradient g = (dN/dr, dN/dz, N/r) and constant E_k, F_k (Eq. 4; F_k
+   !> is zero but for k = 3). So the stiffness between two nodes is a sum of
+   !> E_k^T D E_l times the integral of g_k g_l
+   type :: stiffness_kernel_type
+      private
+      !> E_k^T D E_l as nine components for each of the nine pairs (k, l)
+      real(wp) :: a(9, 9) = 0.0_wp
+      !> E_k^T D F + ... likewise: the part linear in m
+      real(wp) :: s(9, 9) = 0.0_wp
+      !> F^T D F for the pair (3, 3): the part quadratic in m
+      real(wp) :: c(9) = 0.0_wp
+   end type stiffness_kernel_type
 
 contains
 
@@ -111,35 +127,108 @@ contains
       end do
    end subroutine strain_matrices
 
+   !> Kernel of a material
+   pure function new_stiffness_kernel(d) result(kernel)
+      !> Elasticity matrix
+      real(wp), intent(in) :: d(6, 6)
+      !> The kernel
+      type(stiffness_kernel_type) :: kernel
+
+      type(solid_point_type) :: point
+      real(wp) :: e(6, 3, 3), f(6, 3, 3), b0(6, 3), b1(6, 3)
+      integer :: k, l, q
+
+      point%position = 1.0_wp
+      do k = 1, 3  ! the strain matrices of a node whose gradient is the k-th unit vector
+         point%gradient(:, 1) = merge(1.0_wp, 0.0_wp, [1, 2] == k)
+         point%shape(1) = merge(1.0_wp, 0.0_wp, k == 3)
+         call strain_matrices(point, 1, b0, b1)
+         e(:, :, k) = b0
+         f(:, :, k) = b1
+      end do
+      do l = 1, 3
+         do k = 1, 3
+            q = k + 3*(l - 1)
+            kernel%a(:, q) = block_of(e(:, :, k), e(:, :, l))
+            kernel%s(:, q) = block_of(e(:, :, k), f(:, :, l)) + block_of(f(:, :, k), e(:, :, l))
+         end do
+      end do
+      kernel%c = block_of(f(:, :, 3), f(:, :, 3))
+
+   contains
+
+      !> x^T D y as nine components
+      pure function block_of(x, y) result(components)
+         !> Strains of three displacements
+         real(wp), intent(in) :: x(6, 3), y(6, 3)
+         !> The components, by columns
+         real(wp) :: components(9)
+
+         components = reshape(matmul(transpose(x), matmul(d, y)), [9])
+      end function block_of
+
+   end function new_stiffness_kernel
+
    !> The parts of the stiffness of an element, free of the harmonic:
    !> K_m = c_m (A + m S + m^2 C), c_0 = 2 pi, c_m = pi (Eq. 5)
-   pure subroutine solid_stiffness(points, n, d, a, s, c)
+   pure subroutine solid_stiffness(points, n, kernel, a, s, c)
       !> Gauss points of the element
       type(solid_point_type), intent(in) :: points(:)
       !> Number of nodes
       integer, intent(in) :: n
-      !> Elasticity matrix
-      real(wp), intent(in) :: d(6, 6)
+      !> Kernel of its material
+      type(stiffness_kernel_type), intent(in) :: kernel
       !> The parts, shape (3n, 3n)
       real(wp), intent(out) :: a(:, :), s(:, :), c(:, :)
 
-      real(wp), dimension(6, 3*n) :: b0, b1, db0, db1
-      real(wp) :: cross(3*n, 3*n)
-      integer :: k
+      real(wp), dimension(3, n, size(points)) :: gradient, weighted
+      real(wp) :: moment(9), block_a(9), block_s(9)
+      integer :: i, j, k, q, l
 
-      a = 0.0_wp
-      s = 0.0_wp
-      c = 0.0_wp
       do k = 1, size(points)
-         call strain_matrices(points(k), n, b0, b1)
-         db0 = points(k)%weight*matmul(d, b0)
-         db1 = points(k)%weight*matmul(d, b1)
-         cross = matmul(transpose(b0), db1)
-         a = a + matmul(transpose(b0), db0)
-         s = s + cross + transpose(cross)
-         c = c + matmul(transpose(b1), db1)
+         associate (p => points(k))
+            gradient(1:2, :, k) = p%gradient(:, :n)
+            gradient(3, :, k) = p%shape(:n)/p%position(1)
+            weighted(:, :, k) = p%weight*gradient(:, :, k)
+         end associate
+      end do
+      do j = 1, n
+         do i = j, n
+            moment = 0.0_wp
+            do k = 1, size(points)
+               do l = 1, 3
+                  moment(3*l - 2:3*l) = moment(3*l - 2:3*l) + gradient(:, i, k)*weighted(l, j, k)
+               end do
+            end do
+            block_a = 0.0_wp
+            block_s = 0.0_wp
+            do q = 1, 9
+               block_a = block_a + kernel%a(:, q)*moment(q)
+               block_s = block_s + kernel%s(:, q)*moment(q)
+            end do
+            call put_block(block_a, i, j, a)
+            call put_block(block_s, i, j, s)
+            call put_block(kernel%c*moment(9), i, j, c)
+         end do
       end do
    end subroutine solid_stiffness
+
+   !> Put the block of two nodes, and its transpose, into a symmetric matrix
+   pure subroutine put_block(components, i, j, matrix)
+      !> The block by columns
+      real(wp), intent(in) :: components(9)
+      !> Numbers of the nodes within the element
+      integer, intent(in) :: i, j
+      !> The matrix
+      real(wp), intent(inout) :: matrix(:, :)
+
+      integer :: l
+
+      do l = 1, 3
+         matrix(3*i - 2:3*i, 3*j - 3 + l) = components(3*l - 2:3*l)
+         matrix(3*j - 3 + l, 3*i - 2:3*i) = components(3*l - 2:3*l)
+      end do
+   end subroutine put_block
 
    !> Stress amplitudes of one harmonic at a point
    pure function solid_stress(point, n, d, harmonic, displacement) result(stress)

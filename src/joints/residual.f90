@@ -68,20 +68,20 @@ contains
       !> The ratio; zero when neither loads nor residual forces act
       real(wp) :: ratio
 
-      real(wp) :: residual, load
+      real(wp), dimension(size(equations%harmonics)) :: residual, load
       integer :: k
 
-      residual = 0.0_wp
-      load = 0.0_wp
+      !$omp parallel do schedule(dynamic)
       do k = 1, size(equations%harmonics)
-         residual = residual + residual_squared(equations, k, points, applied(:, :, k), &
-                                                displacement(:, :, k), excess(:, :, k))
-         load = load + force_squared(equations, k, applied(:, :, k))
+         residual(k) = residual_squared(equations, k, points, applied(:, :, k), &
+                                        displacement(:, :, k), excess(:, :, k))
+         load(k) = force_squared(equations, k, applied(:, :, k))
       end do
+      !$omp end parallel do
       ratio = 0.0_wp
-      if (load > 0.0_wp) then
-         ratio = sqrt(residual/load)
-      else if (residual > 0.0_wp) then
+      if (sum(load) > 0.0_wp) then
+         ratio = sqrt(sum(residual)/sum(load))
+      else if (sum(residual) > 0.0_wp) then
          ratio = huge(1.0_wp)
       end if
    end function unbalanced_ratio

@@ -126,19 +126,21 @@ contains
       !> State of the joints
       type(joint_field_type), intent(inout) :: field
 
-      real(wp), allocatable :: jump(:, :, :), jump_change(:, :, :), trial(:, :, :), total(:, :)
-      integer :: k, n_nodes
+      real(wp), allocatable :: jump(:, :, :), jump_change(:, :, :), trial(:, :, :)
+      real(wp) :: total(3, size(applied, 2))
+      integer :: k
 
-      n_nodes = size(applied, 2)
-      allocate (jump(3, size(points), size(equations%harmonics)), total(3, n_nodes))
+      allocate (jump(3, size(points), size(equations%harmonics)))
+      !$omp parallel do schedule(dynamic) private(total)
       do k = 1, size(equations%harmonics)
          ! K is constant, so solving for the residual forces and adding is the
          ! same as solving for all forces: no rounding piles up
          total = applied(:, :, k) &
-            + joint_force(points, equations%harmonics(k), field%excess(:, :, k), n_nodes)
+            + joint_force(points, equations%harmonics(k), field%excess(:, :, k), size(total, 2))
          call solve_harmonic(equations, k, total, displacement(:, :, k))
          jump(:, :, k) = joint_jump(points, displacement(:, :, k))
       end do
+      !$omp end parallel do
       jump_change = synthesize(planes, jump) - field%jump
       trial = field%stress + elastic_stress(model, points, jump_change)
       field%jump = field%jump + jump_change

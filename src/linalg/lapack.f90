@@ -1,9 +1,10 @@
 !> The LAPACK routines in use, with sizes taken from the arrays
 module axijoint_linalg_lapack
+   use, intrinsic :: iso_c_binding, only : c_int
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: band_cholesky, band_cholesky_solve, symmetric_eigen
+   public :: band_cholesky, band_cholesky_solve, symmetric_eigen, use_one_blas_thread, norm_step
 
    interface
       !> Cholesky factorization of a positive definite band matrix
@@ -32,6 +33,18 @@ module axijoint_linalg_lapack
          real(wp), intent(out) :: w(*), work(*)
          integer, intent(out) :: iwork(*), info
       end subroutine dsyevd
+      !> One step of Higham's estimate of a 1-norm
+      subroutine dlacn2(n, v, x, isgn, est, kase, isave)
+         import :: wp
+         integer, intent(in) :: n
+         real(wp), intent(inout) :: v(*), x(*), est
+         integer, intent(inout) :: isgn(*), kase, isave(3)
+      end subroutine dlacn2
+      !> Threads inside each routine of OpenBLAS
+      subroutine openblas_set_num_threads(n) bind(c, name='openblas_set_num_threads')
+         import :: c_int
+         integer(c_int), value :: n
+      end subroutine openblas_set_num_threads
    end interface
 
 contains
@@ -77,5 +90,29 @@ contains
       allocate (work(1 + 6*n + 2*n**2), iwork(3 + 5*n))
       call dsyevd('V', 'L', n, a, n, eigenvalue, work, size(work), iwork, size(iwork), info)
    end subroutine symmetric_eigen
+
+   !> One step of the estimate of the 1-norm of an operator: the caller applies
+   !> the operator to `x` and comes back until `kase` is zero (Higham, ACM Trans.
+   !> Math. Software 14, 1988)
+   subroutine norm_step(v, x, signs, estimate, kase, save)
+      !> Work space and vector, shape (n)
+      real(wp), intent(inout), contiguous :: v(:), x(:)
+      !> Work space, shape (n)
+      integer, intent(inout), contiguous :: signs(:)
+      !> The estimate so far
+      real(wp), intent(inout) :: estimate
+      !> Zero at the first call; zero when done
+      integer, intent(inout) :: kase
+      !> Work space
+      integer, intent(inout) :: save(3)
+
+      call dlacn2(size(x), v, x, signs, estimate, kase, save)
+   end subroutine norm_step
+
+   !> Leave the threads to the harmonics: a routine that shares its work among
+   !> threads would give other sums with other numbers of threads
+   subroutine use_one_blas_thread()
+      call openblas_set_num_threads(1_c_int)
+   end subroutine use_one_blas_thread
 
 end module axijoint_linalg_lapack

@@ -33,6 +33,8 @@ module axijoint_model_model
       integer :: n_planes = 0
       !> Gauss points in each direction of 4-node, and of 8- and 9-node elements
       integer :: gauss_linear = 2, gauss_quadratic = 3
+      !> Solver, one of the `solver_` parameters of the solver choice; 0 is auto
+      integer :: solver = 0
       !> Angles at which totals are listed [radian]
       real(wp), allocatable :: output_angles(:)
    end type model_type

@@ -1,8 +1,9 @@
 !> Graph of the nodes: who shares an element or a joint with whom
 module axijoint_order_graph
+   use axijoint_base_kinds, only : i8
    implicit none
    private
-   public :: graph_type, new_graph
+   public :: graph_type, new_graph, degree, bandwidth, profile
 
    !> Neighbours of each node, the node itself left out
    type :: graph_type
@@ -106,5 +107,57 @@ contains
          list(j + 1) = key
       end do
    end subroutine sort
+
+   !> Number of neighbours
+   pure integer function degree(graph, node)
+      !> Graph of the nodes
+      type(graph_type), intent(in) :: graph
+      !> Node
+      integer, intent(in) :: node
+
+      degree = graph%start(node + 1) - graph%start(node)
+   end function degree
+
+   !> Half-bandwidth of an order: the largest distance of neighbours
+   pure integer function bandwidth(graph, order)
+      !> Graph of the nodes
+      type(graph_type), intent(in) :: graph
+      !> order(k) is the k-th node
+      integer, intent(in) :: order(:)
+
+      bandwidth = maxval([0, reach(graph, order)])
+   end function bandwidth
+
+   !> Profile of an order: the sum over the nodes of the distance to the first
+   !> neighbour
+   pure function profile(graph, order)
+      !> Graph of the nodes
+      type(graph_type), intent(in) :: graph
+      !> order(k) is the k-th node
+      integer, intent(in) :: order(:)
+      !> The profile
+      integer(i8) :: profile
+
+      profile = sum(int(reach(graph, order), i8))
+   end function profile
+
+   !> Distance of each place in an order back to its first neighbour
+   pure function reach(graph, order)
+      !> Graph of the nodes
+      type(graph_type), intent(in) :: graph
+      !> order(k) is the k-th node
+      integer, intent(in) :: order(:)
+      !> The distances
+      integer :: reach(size(order))
+
+      integer :: place(size(order)), k
+
+      place(order) = [(k, k=1, size(order))]
+      do k = 1, size(order)
+         associate (neighbours => graph%neighbour(graph%start(order(k)):graph%start(order(k) + 1) - 1))
+            reach(k) = k - minval([k, place(neighbours)])
+         end associate
+      end do
+   end function reach
 
 end module axijoint_order_graph

@@ -1,6 +1,7 @@
 !> Reverse Cuthill-McKee ordering
 module axijoint_order_rcm
-   use axijoint_order_graph, only : graph_type
+   use axijoint_order_graph, only : graph_type, degree
+   use axijoint_order_levels, only : find_ends
    implicit none
    private
    public :: reverse_cuthill_mckee
@@ -16,85 +17,48 @@ contains
       !> order(k) is the k-th node, shape (n)
       integer, allocatable, intent(out) :: order(:)
 
-      logical, allocatable :: taken(:)
-      integer :: seed, first, last
+      !> Negative for the nodes that are not numbered yet
+      integer, allocatable :: mark(:)
+      integer :: seed, first, last, start, finish
 
-      allocate (order(graph%n), taken(graph%n))
-      taken = .false.
+      allocate (order(graph%n), mark(graph%n))
+      mark = -1
       last = 0
       do seed = 1, graph%n
-         if (taken(seed)) cycle
+         if (mark(seed) >= 0) cycle
          first = last + 1
-         call cuthill_mckee(graph, rim_node(graph, seed, taken), taken, order, last)
+         call find_ends(graph, seed, mark, start, finish)
+         call cuthill_mckee(graph, start, mark, order, last)
          order(first:last) = order(last:first:-1)
       end do
    end subroutine reverse_cuthill_mckee
 
-   !> A node at the end of a long path (pseudo-peripheral): go to a node of
-   !> least degree in the last level as long as that adds levels
-   function rim_node(graph, seed, taken) result(node)
-      !> Graph of the nodes
-      type(graph_type), intent(in) :: graph
-      !> Node of the component
-      integer, intent(in) :: seed
-      !> Nodes of finished components
-      logical, intent(in) :: taken(:)
-      !> Node at the rim
-      integer :: node
-
-      integer, allocatable :: list(:), level(:)
-      logical, allocatable :: seen(:)
-      integer :: depth, candidate, k, last
-
-      allocate (list(graph%n), level(graph%n))
-      node = seed
-      depth = -1
-      do
-         seen = taken
-         last = 0
-         call cuthill_mckee(graph, node, seen, list, last, level)
-         if (level(list(last)) <= depth) exit
-         depth = level(list(last))
-         candidate = list(last)
-         do k = last, 1, -1
-            if (level(list(k)) < depth) exit
-            if (degree(graph, list(k)) < degree(graph, candidate)) candidate = list(k)
-         end do
-         if (candidate == node) exit
-         node = candidate
-      end do
-   end function rim_node
-
    !> Cuthill-McKee order of the component of a node
-   subroutine cuthill_mckee(graph, root, taken, order, last, level)
+   subroutine cuthill_mckee(graph, root, mark, order, last)
       !> Graph of the nodes
       type(graph_type), intent(in) :: graph
       !> First node
       integer, intent(in) :: root
-      !> Nodes that have been numbered
-      logical, intent(inout) :: taken(:)
+      !> Negative for the nodes that are not numbered yet
+      integer, intent(inout) :: mark(:)
       !> Order of the nodes; filled on from `last`
       integer, intent(inout) :: order(:)
       !> Number of nodes in `order`
       integer, intent(inout) :: last
-      !> Distance of each node of the component from the root
-      integer, intent(inout), optional :: level(:)
 
       integer :: head, node, k, first
 
       last = last + 1
       order(last) = root
-      taken(root) = .true.
-      if (present(level)) level(root) = 0
+      mark(root) = 0
       head = last
       do while (head <= last)
          node = order(head)
          first = last + 1
          do k = graph%start(node), graph%start(node + 1) - 1
             associate (next => graph%neighbour(k))
-               if (taken(next)) cycle
-               taken(next) = .true.
-               if (present(level)) level(next) = level(node) + 1
+               if (mark(next) >= 0) cycle
+               mark(next) = 0
                last = last + 1
                order(last) = next
             end associate
@@ -124,15 +88,5 @@ contains
          list(j + 1) = key
       end do
    end subroutine sort_by_degree
-
-   !> Number of neighbours
-   pure integer function degree(graph, node)
-      !> Graph of the nodes
-      type(graph_type), intent(in) :: graph
-      !> Node
-      integer, intent(in) :: node
-
-      degree = graph%start(node + 1) - graph%start(node)
-   end function degree
 
 end module axijoint_order_rcm

@@ -1,5 +1,6 @@
 !> Results file for programs: all arrays of a run in HDF5 (doc/results.md)
 module axijoint_output_hdf5
+   use axijoint_base_kinds, only : wp
    use axijoint_analysis_results, only : results_type
    use axijoint_base_version, only : program_name, program_version
    use axijoint_deck_source, only : source_type
@@ -146,12 +147,14 @@ contains
       call file%group("/equations")
       associate (solves => results%solves)
          call file%write("/equations/number", (solves%n_equations), "Unknowns; (harmonic)")
-         call file%write("/equations/half_bandwidth", (solves%half_bandwidth), &
-            "Half-bandwidth without the diagonal; (harmonic)")
+         call file%write("/equations/factor_entries", real(solves%factor_entries, wp), &
+            "Entries of the factor; (harmonic)")
          call file%write("/equations/smallest_pivot", (solves%smallest_pivot), &
             "Smallest ratio of a pivot to its diagonal entry; (harmonic)")
          call file%write("/equations/backward_error", (solves%backward_error), &
-            "Backward error of the solution; (harmonic)")
+            "Backward error after one step of refinement; (harmonic)")
+         call file%write("/equations/condition", (solves%condition), &
+            "Estimate of the condition number, 1-norm; (harmonic)")
       end associate
       call file%group("/resultants")
       call file%write("/resultants/applied", results%applied, &

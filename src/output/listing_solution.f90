@@ -18,7 +18,7 @@ module axijoint_output_listing_solution
 
    !> Number of an entry
    character(len=*), parameter :: format_label = '(i10)'
-   !> Harmonic, number of equations, half-bandwidth
+   !> Harmonic, number of equations, entries of the factor
    character(len=*), parameter :: format_equations = '(i10, 2i16)'
    !> Increment and iteration
    character(len=*), parameter :: format_iteration = '(2i12)'
@@ -49,12 +49,13 @@ contains
       integer :: i
 
       call write_heading(file, "EQUATIONS ("//to_text(n_unknowns(results))//" unknowns in all)")
-      call file%put("  harmonic       equations  half-bandwidth smallest pivot backward error")
+      call file%put("  harmonic       equations  factor entries smallest pivot backward error      condition")
       do i = 1, size(results%solves)
          associate (solve => results%solves(i))
             write (numbers, format_equations) solve%harmonic, solve%n_equations, &
-               solve%half_bandwidth
-            call file%put(numbers//columns([solve%smallest_pivot, solve%backward_error], wide))
+               solve%factor_entries
+            call file%put(numbers//columns([solve%smallest_pivot, solve%backward_error, &
+               solve%condition], wide))
          end associate
       end do
    end subroutine write_equations

@@ -5,7 +5,7 @@ module axijoint_solver_band
    use axijoint_base_text, only : to_text
    use axijoint_linalg_lapack, only : band_cholesky, band_cholesky_solve
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
-   use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type, pivot_limit
+   use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type, judge_pivots
    implicit none
    private
    public :: band_solver_type
@@ -45,7 +45,9 @@ contains
       do i = 1, pattern%n  ! the first entry of a row is the farthest from the diagonal
          self%half_bandwidth = max(self%half_bandwidth, i - pattern%column(pattern%row_start(i)))
       end do
-      self%factor_bytes = int(self%half_bandwidth + 1, i8)*self%n*(storage_size(1.0_wp)/8)
+      self%factor_entries = int(self%half_bandwidth + 1, i8)*self%n
+      self%factor_bytes = self%factor_entries*(storage_size(1.0_wp)/8)
+      self%operations = real(self%n, wp)*self%half_bandwidth*(self%half_bandwidth + 3)
    end subroutine analyse
 
    !> Copy the matrix into a band and factor it
@@ -84,25 +86,6 @@ contains
       if (pivots%equation == 0) call judge_pivots(diagonal, new%band(1, :), pivots)
       call move_alloc(new, factor)
    end subroutine factorize
-
-   !> Compare each pivot with the diagonal entry that it started from
-   pure subroutine judge_pivots(diagonal, root, pivots)
-      !> Diagonal of the matrix
-      real(wp), intent(in) :: diagonal(:)
-      !> Diagonal of the factor: the roots of the pivots
-      real(wp), intent(in) :: root(:)
-      !> The verdict
-      type(pivot_report_type), intent(inout) :: pivots
-
-      integer :: i
-
-      do i = 1, size(diagonal)
-         associate (ratio => root(i)**2/diagonal(i))
-            pivots%smallest = min(pivots%smallest, ratio)
-            if (pivots%equation == 0 .and. .not. ratio > pivot_limit) pivots%equation = i
-         end associate
-      end do
-   end subroutine judge_pivots
 
    !> Solve for a block of right-hand sides
    subroutine solve(self, b)

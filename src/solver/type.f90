@@ -5,7 +5,7 @@ module axijoint_solver_type
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    implicit none
    private
-   public :: solver_type, factor_type, pivot_report_type, pivot_limit
+   public :: solver_type, factor_type, pivot_report_type, judge_pivots
 
    !> A pivot below this share of the diagonal entry that it started from is
    !> rounding, so the matrix is singular to working precision. Cholesky
@@ -27,6 +27,10 @@ module axijoint_solver_type
       integer :: n = 0
       !> Bytes that one factor takes
       integer(i8) :: factor_bytes = 0
+      !> Entries of one factor, zeros stored among them left out
+      integer(i8) :: factor_entries = 0
+      !> Floating-point operations of one factorization
+      real(wp) :: operations = 0.0_wp
    contains
       !> Plan for a pattern
       procedure(analyse_interface), deferred :: analyse
@@ -77,5 +81,26 @@ module axijoint_solver_type
          real(wp), intent(inout), contiguous :: b(:, :)
       end subroutine solve_interface
    end interface
+
+contains
+
+   !> Compare each pivot with the diagonal entry that it started from
+   pure subroutine judge_pivots(diagonal, root, pivots)
+      !> Diagonal of the matrix
+      real(wp), intent(in) :: diagonal(:)
+      !> Diagonal of the factor: the roots of the pivots
+      real(wp), intent(in) :: root(:)
+      !> The verdict
+      type(pivot_report_type), intent(inout) :: pivots
+
+      integer :: i
+
+      do i = 1, size(diagonal)
+         associate (ratio => root(i)**2/diagonal(i))
+            pivots%smallest = min(pivots%smallest, ratio)
+            if (pivots%equation == 0 .and. .not. ratio > pivot_limit) pivots%equation = i
+         end associate
+      end do
+   end subroutine judge_pivots
 
 end module axijoint_solver_type

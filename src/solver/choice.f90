@@ -1,0 +1,117 @@
+!> Which solver: its name, its order of the nodes, and what it is expected to cost
+module axijoint_solver_choice
+   use axijoint_base_error, only : error_type
+   use axijoint_base_kinds, only : wp
+   use axijoint_order_graph, only : graph_type, profile
+   use axijoint_order_metis, only : nested_dissection
+   use axijoint_order_rcm, only : reverse_cuthill_mckee
+   use axijoint_order_sloan, only : sloan
+   use axijoint_solver_band, only : band_solver_type
+   use axijoint_solver_skyline, only : skyline_solver_type
+   use axijoint_solver_sparse, only : sparse_solver_type
+   use axijoint_solver_type, only : solver_type
+   implicit none
+   private
+   public :: solver_auto, solver_band, solver_skyline, solver_sparse, solver_names
+   public :: new_solver, new_order, order_name, expected_seconds
+
+   !> The solver with the least expected time
+   integer, parameter :: solver_auto = 0
+   !> LAPACK band Cholesky on a reverse Cuthill-McKee order
+   integer, parameter :: solver_band = 1
+   !> Skyline Cholesky on Sloan's order, or reverse Cuthill-McKee if smaller
+   integer, parameter :: solver_skyline = 2
+   !> Supernodal Cholesky on a nested dissection order
+   integer, parameter :: solver_sparse = 3
+   !> Names on cards and the command line, by number
+   character(len=*), parameter :: solver_names(0:3) = ['AUTO   ', 'BAND   ', 'SKYLINE', 'SPARSE ']
+
+contains
+
+   !> An empty plan of a kind
+   subroutine new_solver(solver, kind)
+      !> The plan
+      class(solver_type), allocatable, intent(out) :: solver
+      !> One of the `solver_` parameters, not auto
+      integer, intent(in) :: kind
+
+      select case (kind)
+      case (solver_band)
+         allocate (band_solver_type :: solver)
+      case (solver_skyline)
+         allocate (skyline_solver_type :: solver)
+      case default
+         allocate (sparse_solver_type :: solver)
+      end select
+   end subroutine new_solver
+
+   !> Order of the nodes that suits a solver
+   subroutine new_order(graph, kind, order, error)
+      !> Graph of the nodes
+      type(graph_type), intent(in) :: graph
+      !> One of the `solver_` parameters, not auto
+      integer, intent(in) :: kind
+      !> order(k) is the k-th node
+      integer, allocatable, intent(out) :: order(:)
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      integer, allocatable :: other(:)
+
+      select case (kind)
+      case (solver_band)
+         call reverse_cuthill_mckee(graph, order)
+      case (solver_skyline)
+         call sloan(graph, order)
+         call reverse_cuthill_mckee(graph, other)
+         if (profile(graph, other) < profile(graph, order)) call move_alloc(other, order)
+      case default
+         call nested_dissection(graph, order, error)
+      end select
+   end subroutine new_order
+
+   !> Name of the order that suits a solver
+   pure function order_name(kind) result(name)
+      !> One of the `solver_` parameters, not auto
+      integer, intent(in) :: kind
+      !> The name
+      character(len=:), allocatable :: name
+
+      select case (kind)
+      case (solver_band)
+         name = 'reverse Cuthill-McKee'
+      case (solver_skyline)
+         name = 'Sloan, or reverse Cuthill-McKee if smaller'
+      case default
+         name = 'nested dissection (METIS)'
+      end select
+   end function order_name
+
+   !> Time of one factorization at a given rate of matrix products. Each solver
+   !> reaches a share of that rate that grows with the size of its dense blocks;
+   !> the shares were fitted to runs of the solver benchmark.
+   pure function expected_seconds(solver, kind, rate) result(seconds)
+      !> The plan, analysed
+      class(solver_type), intent(in) :: solver
+      !> Its kind
+      integer, intent(in) :: kind
+      !> Operations a second of a large matrix product
+      real(wp), intent(in) :: rate
+      !> The time
+      real(wp) :: seconds
+
+      real(wp) :: width, share
+
+      width = real(solver%factor_entries, wp)/max(1, solver%n)
+      select case (kind)
+      case (solver_band)
+         share = 0.7_wp*width/(width + 250.0_wp)
+      case (solver_skyline)
+         share = 0.02_wp
+      case default
+         share = 0.25_wp*width/(width + 60.0_wp)
+      end select
+      seconds = solver%operations/(share*rate) + 4.0e-9_wp*real(solver%factor_entries, wp)
+   end function expected_seconds
+
+end module axijoint_solver_choice

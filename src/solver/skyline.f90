@@ -1,0 +1,164 @@
+!> Skyline (active row) Cholesky solver, the solver of the tradition
+module axijoint_solver_skyline
+   use axijoint_base_error, only : error_type, fatal_error, exit_memory
+   use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_text, only : to_text
+   use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
+   use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type, judge_pivots
+   implicit none
+   private
+   public :: skyline_solver_type
+
+   !> Plan: the skyline of the order that the matrix comes in
+   type, extends(solver_type) :: skyline_solver_type
+      !> First column of each row that is not zero
+      integer, allocatable :: first(:)
+      !> Place of each row's diagonal in the skyline
+      integer(i8), allocatable :: diagonal(:)
+   contains
+      procedure :: analyse
+      procedure :: factorize
+   end type skyline_solver_type
+
+   !> Lower triangular factor, row by row from the first column to the diagonal
+   type, extends(factor_type) :: skyline_factor_type
+      !> First column of each row
+      integer, allocatable :: first(:)
+      !> Place of each row's diagonal in `entry`
+      integer(i8), allocatable :: diagonal(:)
+      !> Entries of the rows
+      real(wp), allocatable :: entry(:)
+   contains
+      procedure :: solve
+   end type skyline_factor_type
+
+contains
+
+   !> Find the skyline
+   subroutine analyse(self, pattern, error)
+      !> The plan
+      class(skyline_solver_type), intent(inout) :: self
+      !> Pattern of the lower triangle
+      type(symmetric_matrix_type), intent(in) :: pattern
+      !> Never set: analysis needs no memory to speak of
+      type(error_type), allocatable, intent(out) :: error
+
+      integer(i8) :: width
+      integer :: i
+
+      self%n = pattern%n
+      self%first = pattern%column(pattern%row_start(:pattern%n))
+      if (allocated(self%diagonal)) deallocate (self%diagonal)
+      allocate (self%diagonal(pattern%n))
+      self%factor_entries = 0
+      self%operations = 0.0_wp
+      do i = 1, pattern%n
+         width = i - self%first(i) + 1
+         self%factor_entries = self%factor_entries + width
+         self%diagonal(i) = self%factor_entries
+         self%operations = self%operations + real(width, wp)**2
+      end do
+      self%factor_bytes = self%factor_entries*(storage_size(1.0_wp)/8)
+   end subroutine analyse
+
+   !> Copy the matrix into the skyline and factor it row by row:
+   !> l_ij = (a_ij - sum_k l_ik l_jk)/l_jj
+   subroutine factorize(self, matrix, factor, pivots, error)
+      !> The plan
+      class(skyline_solver_type), intent(in) :: self
+      !> The matrix
+      type(symmetric_matrix_type), intent(in) :: matrix
+      !> Its factor
+      class(factor_type), allocatable, intent(out) :: factor
+      !> Pivots
+      type(pivot_report_type), intent(out) :: pivots
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(skyline_factor_type), allocatable :: new
+      integer(i8) :: k
+      integer :: i, stat
+
+      allocate (new)
+      allocate (new%entry(self%factor_entries), stat=stat)
+      if (stat /= 0) then
+         call fatal_error(error, exit_memory, 'out of memory: a skyline factor needs '// &
+                          to_text(self%factor_bytes)//' bytes')
+         return
+      end if
+      new%first = self%first
+      new%diagonal = self%diagonal
+      new%entry = 0.0_wp
+      do i = 1, self%n
+         do k = matrix%row_start(i), matrix%row_start(i + 1) - 1
+            new%entry(self%diagonal(i) - i + matrix%column(k)) = matrix%value(k)
+         end do
+      end do
+      do i = 1, self%n
+         call factor_row(new, i, pivots%equation)
+         if (pivots%equation > 0) exit
+      end do
+      if (pivots%equation == 0) then
+         call judge_pivots(matrix%value(matrix%row_start(2:) - 1), new%entry(new%diagonal), pivots)
+      end if
+      call move_alloc(new, factor)
+   end subroutine factorize
+
+   !> Factor one row; the rows before are done
+   pure subroutine factor_row(factor, i, failed)
+      !> The factor
+      type(skyline_factor_type), intent(inout) :: factor
+      !> The row
+      integer, intent(in) :: i
+      !> The row if its pivot is not positive
+      integer, intent(inout) :: failed
+
+      integer(i8) :: row, other
+      integer :: j, from
+
+      associate (l => factor%entry)
+         row = factor%diagonal(i) - i
+         do j = factor%first(i), i - 1
+            other = factor%diagonal(j) - j
+            from = max(factor%first(i), factor%first(j))
+            l(row + j) = (l(row + j) - dot_product(l(row + from:row + j - 1), &
+                                                   l(other + from:other + j - 1)))/l(other + j)
+         end do
+         l(row + i) = l(row + i) - sum(l(row + factor%first(i):row + i - 1)**2)
+         if (.not. l(row + i) > 0.0_wp) then
+            failed = i
+         else
+            l(row + i) = sqrt(l(row + i))
+         end if
+      end associate
+   end subroutine factor_row
+
+   !> Solve for a block of right-hand sides
+   subroutine solve(self, b)
+      !> The factor
+      class(skyline_factor_type), intent(in) :: self
+      !> Right-hand sides, then solutions, shape (n, any)
+      real(wp), intent(inout), contiguous :: b(:, :)
+
+      integer(i8) :: row
+      integer :: i, k
+
+      do k = 1, size(b, 2)
+         do i = 1, size(b, 1)
+            row = self%diagonal(i) - i
+            associate (f => self%first(i))
+               b(i, k) = (b(i, k) - dot_product(self%entry(row + f:row + i - 1), b(f:i - 1, k))) &
+                  /self%entry(row + i)
+            end associate
+         end do
+         do i = size(b, 1), 1, -1
+            row = self%diagonal(i) - i
+            b(i, k) = b(i, k)/self%entry(row + i)
+            associate (f => self%first(i))
+               b(f:i - 1, k) = b(f:i - 1, k) - b(i, k)*self%entry(row + f:row + i - 1)
+            end associate
+         end do
+      end do
+   end subroutine solve
+
+end module axijoint_solver_skyline
