@@ -1,8 +1,9 @@
 !> Command line: words to a configuration
 module axijoint_cli
    use axijoint_base_error, only : error_type, fatal_error, exit_deck
-   use axijoint_base_text, only : nearest_word
+   use axijoint_base_text, only : nearest_word, upper, lower
    use axijoint_base_version, only : program_name, program_version
+   use axijoint_solver_choice, only : solver_names
    implicit none
    private
    public :: command_type, word_type, read_command, help_text
@@ -20,6 +21,9 @@ module axijoint_cli
    !> Names of the commands, by number
    character(len=*), parameter :: command_names(3) = ['run  ', 'check', 'help ']
 
+   !> Options of `run` that take a value
+   character(len=*), parameter :: value_options(3) = ['-o       ', '--solver ', '--threads']
+
    !> A word of any length
    type :: word_type
       !> The word
@@ -34,6 +38,10 @@ module axijoint_cli
       type(word_type), allocatable :: decks(:)
       !> Directory for results
       character(len=:), allocatable :: directory
+      !> Solver asked for, one of the `solver_` parameters; negative: as the deck says
+      integer :: solver = -1
+      !> Threads asked for; 0: as the environment says
+      integer :: threads = 0
       !> Command that help was asked for; empty for all
       character(len=:), allocatable :: topic
    end type command_type
@@ -101,19 +109,21 @@ contains
                command%decks = [command%decks, words(k)]
             else if (word == '--') then
                only_decks = .true.
-            else if (word == '-o' .and. command%command == command_run) then
+            else if (any(word == value_options) .and. command%command == command_run) then
                if (k == size(words)) then
-                  call fatal_error(error, exit_deck, 'option -o needs a directory: -o DIR')
+                  call fatal_error(error, exit_deck, 'option '//word//' needs a value'// &
+                                   new_line('a')//help_text('run'))
                   return
                end if
                k = k + 1
-               command%directory = words(k)%text
+               call read_option(word, words(k)%text, command, error)
+               if (allocated(error)) return
             else if (word == '-h' .or. word == '--help') then
                command%topic = trim(command_names(command%command))
                command%command = command_help
                return
             else if (command%command == command_run) then
-               call unknown('option', word, ['-o    ', '--help'], error)
+               call unknown('option', word, [character(len=9) :: value_options, '--help'], error)
                return
             else
                call unknown('option', word, ['--help'], error)
@@ -126,6 +136,50 @@ contains
                           trim(command_names(command%command))//' DECK...')
       end if
    end subroutine read_arguments
+
+   !> Value of an option
+   subroutine read_option(option, value, command, error)
+      !> The option, one of `value_options`
+      character(len=*), intent(in) :: option
+      !> Its value
+      character(len=*), intent(in) :: value
+      !> What the user asked for
+      type(command_type), intent(inout) :: command
+      !> Value that is not allowed
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: stat
+
+      select case (option)
+      case ('-o')
+         command%directory = value
+      case ('--solver')
+         command%solver = findloc(solver_names == upper(value), .true., 1) - 1
+         if (command%solver < 0) call unknown('solver', value, lower_all(solver_names), error)
+      case default
+         stat = 1
+         if (verify(value, '0123456789') == 0 .and. len(value) <= 4) then
+            read (value, *, iostat=stat) command%threads
+         end if
+         if (stat == 0 .and. command%threads > 0) return
+         call fatal_error(error, exit_deck, "option --threads: found '"//value// &
+                          "', allowed is a number from 1 to 9999")
+      end select
+   end subroutine read_option
+
+   !> Words in small letters
+   pure function lower_all(words) result(small)
+      !> The words
+      character(len=*), intent(in) :: words(:)
+      !> The same in small letters
+      character(len=len(words)) :: small(size(words))
+
+      integer :: k
+
+      do k = 1, size(words)
+         small(k) = lower(words(k))
+      end do
+   end function lower_all
 
    !> Error for a word that is not known
    subroutine unknown(what, word, known, error)
@@ -176,13 +230,15 @@ contains
 
       select case (topic)
       case ('run')
-         text = 'usage: axijoint run DECK... [-o DIR]'//nl// &
+         text = 'usage: axijoint run DECK... [-o DIR] [--solver NAME] [--threads N]'//nl// &
             nl// &
             'Solves each deck and writes NAME.lis (listing), NAME.json (summary) and NAME.h5'//nl// &
             '(results), NAME being the name of the deck without its ending.'//nl// &
             nl// &
-            '  -o DIR   directory for the results (default: the current one)'//nl// &
-            '  --       everything that follows is a deck'//nl// &
+            '  -o DIR         directory for the results (default: the current one)'//nl// &
+            '  --solver NAME  auto, band, skyline or sparse (default: as the deck says)'//nl// &
+            '  --threads N    harmonics at once (default: OMP_NUM_THREADS, or all processors)'//nl// &
+            '  --             everything that follows is a deck'//nl// &
             nl// &
             'Exit codes: 0 ok; 2 deck or usage; 3 not converged; 4 singular or mechanism;'//nl// &
             '5 input or output; 6 memory; 70 internal. Of several decks, the largest.'
@@ -199,7 +255,7 @@ contains
             nl// &
             'usage: axijoint COMMAND'//nl// &
             nl// &
-            '  run DECK... [-o DIR]   solve decks'//nl// &
+            '  run DECK... [OPTIONS]  solve decks'//nl// &
             '  check DECK...          read and check decks only'//nl// &
             '  help [COMMAND]         help on a command'//nl// &
             '  --version              version'

@@ -7,13 +7,14 @@ module axijoint_driver_run
    use axijoint_base_progress, only : progress_type, show_progress, clear_progress
    use axijoint_base_system, only : error_output_is_terminal
    use axijoint_base_timer, only : timer_type, phase_read, phase_write
-   use axijoint_cli, only : word_type
+   use axijoint_cli, only : command_type, word_type
    use axijoint_deck_diagnostics, only : diagnostics_type, render, warning_texts
    use axijoint_deck_reader, only : read_deck
    use axijoint_deck_source, only : source_type
    use axijoint_model_model, only : model_type
    use axijoint_output_output, only : check_output, write_output, write_error_summary
    use axijoint_output_brief, only : brief_text
+   use omp_lib, only : omp_set_num_threads
    implicit none
    private
    public :: run_decks, print_error, job_name
@@ -21,11 +22,9 @@ module axijoint_driver_run
 contains
 
    !> Run decks one after the other; one that fails does not stop the rest
-   subroutine run_decks(decks, directory, exit_code)
-      !> The decks
-      type(word_type), intent(in) :: decks(:)
-      !> Directory for results
-      character(len=*), intent(in) :: directory
+   subroutine run_decks(command, exit_code)
+      !> Decks and options
+      type(command_type), intent(in) :: command
       !> Largest exit code of all decks
       integer, intent(out) :: exit_code
 
@@ -33,30 +32,33 @@ contains
       integer :: k, code
 
       exit_code = exit_ok
-      call check_names(decks, error)
+      if (command%threads > 0) call omp_set_num_threads(command%threads)
+      call check_names(command%decks, error)
       if (allocated(error)) then
          call print_error('', error)
          exit_code = error%code
          return
       end if
-      do k = 1, size(decks)
-         call run_deck(decks(k)%text, directory, code, error)
-         if (allocated(error)) then
-            call print_error(decks(k)%text, error)
-            call write_error_summary(directory, job_name(decks(k)%text), decks(k)%text, &
-                                     error%code, [error%message])
-            code = error%code
-         end if
+      do k = 1, size(command%decks)
+         associate (deck => command%decks(k)%text)
+            call run_deck(deck, command, code, error)
+            if (allocated(error)) then
+               call print_error(deck, error)
+               call write_error_summary(command%directory, job_name(deck), deck, error%code, &
+                                        [error%message])
+               code = error%code
+            end if
+         end associate
          exit_code = max(exit_code, code)
       end do
    end subroutine run_decks
 
    !> One deck, told in order
-   subroutine run_deck(deck, directory, exit_code, error)
+   subroutine run_deck(deck, command, exit_code, error)
       !> The deck
       character(len=*), intent(in) :: deck
-      !> Directory for results
-      character(len=*), intent(in) :: directory
+      !> Directory for results and other options
+      type(command_type), intent(in) :: command
       !> 0, or 3 if the results are not converged
       integer, intent(out) :: exit_code
       !> Anything else that went wrong
@@ -83,7 +85,8 @@ contains
       end if
       if (diagnostics%n_warnings > 0) write (error_unit, '(a)') render(diagnostics, source)
 
-      call check_output(directory, job_name(deck), error)
+      if (command%solver >= 0) model%solver = command%solver
+      call check_output(command%directory, job_name(deck), error)
       if (allocated(error)) return
       call analyse_model(model, results, timer, progress, error)
       call clear_progress(progress)
@@ -91,11 +94,11 @@ contains
       if (.not. results%converged) exit_code = exit_not_converged
 
       call timer%push(phase_write)
-      call write_output(directory, job_name(deck), source, warning_texts(diagnostics, source), model, &
+      call write_output(command%directory, job_name(deck), source, warning_texts(diagnostics, source), model, &
                         results, timer, exit_code, error)
       call timer%pop()
       if (allocated(error)) return
-      write (output_unit, '(a)') brief_text(directory, job_name(deck), deck, model, results, timer)
+      write (output_unit, '(a)') brief_text(command%directory, job_name(deck), deck, model, results, timer)
    end subroutine run_deck
 
    !> Two decks of one name would write the same files

@@ -21,7 +21,7 @@ program axijoint
    else
       select case (command%command)
       case (command_run)
-         call run_decks(command%decks, command%directory, exit_code)
+         call run_decks(command, exit_code)
       case (command_check)
          call check_decks(command%decks, exit_code)
       case (command_help)

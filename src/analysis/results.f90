@@ -35,10 +35,10 @@ module axijoint_analysis_results
       real(wp) :: condition = 0.0_wp
    end type harmonic_solve_type
 
-   !> What an order of the nodes would cost
+   !> How wide an order of the nodes is
    type :: ordering_type
       !> Name of the order
-      character(len=24) :: name = ''
+      character(len=22) :: name = ''
       !> Half-bandwidth and profile of the graph of the nodes
       integer :: bandwidth = 0
       integer(i8) :: profile = 0

@@ -1,12 +1,14 @@
 !> One static analysis, told in order
 module axijoint_analysis_static
    use axijoint_analysis_recovery, only : recover
-   use axijoint_analysis_results, only : results_type
+   use axijoint_analysis_results, only : results_type, ordering_type
    use axijoint_assembly_equations, only : equations_type, plan_equations, assemble_equations, &
                                            factorize_equations, solve_harmonic, backward_error, &
-                                           refine_harmonic, condition_estimate
+                                           refine_harmonic, condition_estimate, &
+                                           worth_threads
    use axijoint_assembly_force, only : applied_force, joint_force, joint_jump
    use axijoint_assembly_mechanism, only : check_mechanism
+   use axijoint_assembly_pattern, only : node_graph
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : progress_type, show_progress
@@ -19,6 +21,10 @@ module axijoint_analysis_static
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points
    use axijoint_model_mesh, only : n_nodes
    use axijoint_model_model, only : model_type, can_yield
+   use axijoint_order_graph, only : graph_type, bandwidth, profile
+   use axijoint_order_metis, only : nested_dissection
+   use axijoint_order_rcm, only : reverse_cuthill_mckee
+   use axijoint_order_sloan, only : sloan
    implicit none
    private
    public :: analyse_model, used_harmonics
@@ -53,6 +59,8 @@ contains
       call show_progress(progress, 'assembling '//to_text(size(results%harmonics))//' harmonics')
       call plan_equations(equations, model, results%harmonics, error)
       if (allocated(error)) return
+      call compare_orderings(model, results%orderings, error)
+      if (allocated(error)) return
       call assemble_equations(equations, model, points, error)
       allocate (applied(3, n_nodes(model%mesh), size(results%harmonics)))
       do k = 1, size(results%harmonics)
@@ -78,6 +86,30 @@ contains
       results%converged = results%converged .and. results%residual_ratio <= results%tolerance
       call timer%pop()
    end subroutine analyse_model
+
+   !> Bandwidth and profile of the orders side by side
+   subroutine compare_orderings(model, orderings, error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Reverse Cuthill-McKee, Sloan, nested dissection
+      type(ordering_type), allocatable, intent(out) :: orderings(:)
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(graph_type) :: graph
+      integer, allocatable :: order(:)
+
+      graph = node_graph(model%mesh)
+      allocate (orderings(3))
+      call reverse_cuthill_mckee(graph, order)
+      orderings(1) = ordering_type('reverse Cuthill-McKee', bandwidth(graph, order), &
+                                   profile(graph, order))
+      call sloan(graph, order)
+      orderings(2) = ordering_type('Sloan', bandwidth(graph, order), profile(graph, order))
+      call nested_dissection(graph, order, error)
+      orderings(3) = ordering_type('nested dissection', bandwidth(graph, order), &
+                                   profile(graph, order))
+   end subroutine compare_orderings
 
    !> Harmonics to solve: only the loaded ones of a linear job; otherwise all up
    !> to M, since opening and slip couple them
@@ -145,7 +177,7 @@ contains
          planes = new_view(model%output_angles, equations%harmonics)
          allocate (results%path(0))
          factor = sum(model%increments%factor)
-         !$omp parallel do schedule(dynamic)
+         !$omp parallel do schedule(dynamic) if (worth_threads(equations))
          do k = 1, size(equations%harmonics)
             call solve_harmonic(equations, k, factor*load(:, :, k), results%displacement(:, :, k))
             call refine_harmonic(equations, k, factor*load(:, :, k), results%displacement(:, :, k))
@@ -208,7 +240,8 @@ contains
 
       results%solver = equations%solver
       allocate (results%solves(size(equations%harmonics)))
-      !$omp parallel do schedule(dynamic) private(m, force, displacement)
+      !$omp parallel do schedule(dynamic) private(m, force, displacement) &
+      !$omp if (worth_threads(equations))
       do k = 1, size(equations%harmonics)
          m = equations%harmonics(k)
          force = applied(:, :, k) &

@@ -20,10 +20,12 @@ module axijoint_assembly_equations
    private
    public :: equations_type, plan_equations, assemble_equations, factorize_equations
    public :: solve_harmonic, elastic_force, backward_error, on_equations
-   public :: planned_seconds, needed_bytes, refine_harmonic, condition_estimate
+   public :: worth_threads, planned_seconds, needed_bytes, refine_harmonic, condition_estimate
 
    !> A band wider than this many nodes is never faster than nested dissection
    integer, parameter :: widest_band = 400
+   !> With fewer equations in all, threads cost more than they save
+   integer, parameter :: least_equations = 10000
    !> Rate of matrix products that solvers are chosen by [operations/second]
    real(wp), parameter :: nominal_rate = 5.0e10_wp
 
@@ -144,6 +146,14 @@ contains
       end do
    end function classes_of
 
+   !> Whether the harmonics are large enough to wake the threads for
+   pure logical function worth_threads(equations)
+      !> The equations, planned
+      type(equations_type), intent(in) :: equations
+
+      worth_threads = sum(equations%classes(equations%class)%dofs%n_equations) > least_equations
+   end function worth_threads
+
    !> Expected time of all factorizations, one after the other
    pure function planned_seconds(equations, rate) result(seconds)
       !> The equations, planned
@@ -183,7 +193,7 @@ contains
       if (allocated(error)) return
       call assemble_parts(equations%classes, model, joint_points)
       allocate (equations%matrices(size(equations%harmonics)))
-      !$omp parallel do schedule(dynamic)
+      !$omp parallel do schedule(dynamic) if (worth_threads(equations))
       do k = 1, size(equations%harmonics)
          call harmonic_matrix(equations%classes(equations%class(k)), equations%harmonics(k), &
                               equations%matrices(k))
@@ -230,7 +240,7 @@ contains
       allocate (equations%pivots(size(equations%harmonics)))
       call use_one_blas_thread()
       failed = huge(1)  ! the lowest harmonic that fails is the one reported, with any threads
-      !$omp parallel do schedule(dynamic) private(failure)
+      !$omp parallel do schedule(dynamic) private(failure) if (worth_threads(equations))
       do k = 1, size(equations%harmonics)
          call equations%plans(equations%class(k))%solver%factorize( &
             equations%matrices(k), equations%slots(k)%factor, equations%pivots(k), failure)

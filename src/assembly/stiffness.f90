@@ -18,6 +18,8 @@ module axijoint_assembly_stiffness
    private
    public :: stiffness_type, new_stiffness, assemble_parts, harmonic_matrix
 
+   !> Fewer elements are not worth waking the threads for
+   integer, parameter :: least_elements = 1000
    !> Unknowns of the largest element
    integer, parameter :: max_unknowns = 3*max_element_nodes
 
@@ -73,7 +75,7 @@ contains
       call element_cliques(model%mesh, start, member)
       call color_cliques(n_nodes(model%mesh), start, member, color_start, colored)
       do color = 1, size(color_start) - 1
-         !$omp parallel do schedule(static)
+         !$omp parallel do schedule(static) if (size(colored) > least_elements)
          do k = color_start(color), color_start(color + 1) - 1
             call add_element(model, kernels, colored(k), classes)
          end do

@@ -5,6 +5,7 @@ module axijoint_deck_layout
    use axijoint_base_text, only : nearest_word, to_text
    use axijoint_deck_field, only : field_type, integer_field, real_field, word_field, code_field, &
       text_field, largest_number
+   use axijoint_solver_choice, only : solver_names
    implicit none
    private
    public :: section_names, section_fields, keyword_fields, nearest_section, cards_per_entry
@@ -117,7 +118,8 @@ contains
          fields = [integer_field('the highest harmonic M', 1, 5, 0, largest_harmonic), &
                    integer_field('the number of planes', 6, 10, 2, largest_division, default=0), &
                    integer_field('the number of Gauss points (4-node)', 11, 15, 2, 3, default=2), &
-                   integer_field('the number of Gauss points (8-, 9-node)', 16, 20, 2, 3, default=3)]
+                   integer_field('the number of Gauss points (8-, 9-node)', 16, 20, 2, 3, default=3), &
+                   word_field('the solver', 21, 30, solver_names, 1)]
       case (section_increments)
          fields = [real_field('the load factor', 1, 10), &
                    real_field('the tolerance', 11, 20, above=0.0_wp, below=1.0_wp, default=1.0e-6_wp, &

@@ -1,6 +1,6 @@
 !> Residual forces of the whole structure and their norm (Eq. 17)
 module axijoint_joints_residual
-   use axijoint_assembly_equations, only : equations_type, elastic_force, on_equations
+   use axijoint_assembly_equations, only : equations_type, elastic_force, on_equations, worth_threads
    use axijoint_assembly_force, only : joint_force
    use axijoint_base_kinds, only : wp
    use axijoint_fe_fourier, only : circle_integral
@@ -71,7 +71,7 @@ contains
       real(wp), dimension(size(equations%harmonics)) :: residual, load
       integer :: k
 
-      !$omp parallel do schedule(dynamic)
+      !$omp parallel do schedule(dynamic) if (worth_threads(equations))
       do k = 1, size(equations%harmonics)
          residual(k) = residual_squared(equations, k, points, applied(:, :, k), &
                                         displacement(:, :, k), excess(:, :, k))

@@ -1,7 +1,7 @@
 !> The paper's loop: stress transfer with the initial stiffness (steps 1 to 5)
 module axijoint_joints_transfer
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
-   use axijoint_assembly_equations, only : equations_type, solve_harmonic
+   use axijoint_assembly_equations, only : equations_type, solve_harmonic, worth_threads
    use axijoint_assembly_force, only : joint_force, joint_jump
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : progress_type, show_progress
@@ -131,7 +131,7 @@ contains
       integer :: k
 
       allocate (jump(3, size(points), size(equations%harmonics)))
-      !$omp parallel do schedule(dynamic) private(total)
+      !$omp parallel do schedule(dynamic) private(total) if (worth_threads(equations))
       do k = 1, size(equations%harmonics)
          ! K is constant, so solving for the residual forces and adding is the
          ! same as solving for all forces: no rounding piles up

@@ -11,6 +11,7 @@ module axijoint_output_listing_solution
    use axijoint_output_headings, only : write_heading, write_result_heading, mark_not_converged
    use axijoint_output_text_file, only : text_file_type
    use axijoint_output_totals, only : circle_type, new_circle, total_displacement, n_unknowns
+   use axijoint_solver_choice, only : solver_names, order_name
    implicit none
    private
    public :: write_equations, write_convergence, write_displacements, write_total_displacements
@@ -22,6 +23,8 @@ module axijoint_output_listing_solution
    character(len=*), parameter :: format_equations = '(i10, 2i16)'
    !> Increment and iteration
    character(len=*), parameter :: format_iteration = '(2i12)'
+   !> Name of an order, its half-bandwidth and profile
+   character(len=*), parameter :: format_order = '(2x, a22, i10, i16)'
    !> Points that slip and that are open
    character(len=*), parameter :: format_states = '(2i12)'
    !> Phase, its wall clock and processor time, its share
@@ -46,9 +49,19 @@ contains
       type(results_type), intent(in) :: results
 
       character(len=42) :: numbers
+      character(len=50) :: order
       integer :: i
 
       call write_heading(file, "EQUATIONS ("//to_text(n_unknowns(results))//" unknowns in all)")
+      call file%put("  solver: "//trim(solver_names(results%solver))//", nodes ordered by "// &
+         order_name(results%solver))
+      call file%put("  order of the nodes       bandwidth         profile")
+      do i = 1, size(results%orderings)
+         associate (ordering => results%orderings(i))
+            write (order, format_order) ordering%name, ordering%bandwidth, ordering%profile
+            call file%put(order)
+         end associate
+      end do
       call file%put("  harmonic       equations  factor entries smallest pivot backward error      condition")
       do i = 1, size(results%solves)
          associate (solve => results%solves(i))

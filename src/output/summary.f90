@@ -12,6 +12,8 @@ module axijoint_output_summary
    use axijoint_output_run, only : run_type, status_name, status_error
    use axijoint_output_text_file, only : text_file_type
    use axijoint_output_totals, only : count_states, n_unknowns
+   use axijoint_base_text, only : lower
+   use axijoint_solver_choice, only : solver_names
    implicit none
    private
    public :: write_summary, write_failure_summary
@@ -42,6 +44,7 @@ contains
       call put_pair(file, "elements", json_number(n_elements(model%mesh)))
       call put_pair(file, "joints", json_number(n_joints(model%mesh)))
       call put_pair(file, "unknowns", json_number(n_unknowns(results)))
+      call put_pair(file, "solver", json_string(lower(trim(solver_names(results%solver)))))
       call put_pair(file, "harmonics", json_integers(results%harmonics))
       call put_pair(file, "planes", json_number(model%n_planes))
       call put_pair(file, "iterations", json_number(size(results%path)))

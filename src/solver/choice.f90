@@ -100,9 +100,10 @@ contains
       !> The time
       real(wp) :: seconds
 
-      real(wp) :: width, share
+      real(wp) :: width, share, overhead
 
       width = real(solver%factor_entries, wp)/max(1, solver%n)
+      overhead = 0.0_wp
       select case (kind)
       case (solver_band)
          share = 0.7_wp*width/(width + 250.0_wp)
@@ -110,8 +111,9 @@ contains
          share = 0.02_wp
       case default
          share = 0.25_wp*width/(width + 60.0_wp)
+         overhead = 5.0e-7_wp*solver%n  ! many small supernodes
       end select
-      seconds = solver%operations/(share*rate) + 4.0e-9_wp*real(solver%factor_entries, wp)
+      seconds = overhead + solver%operations/(share*rate) + 4.0e-9_wp*real(solver%factor_entries, wp)
    end function expected_seconds
 
 end module axijoint_solver_choice
