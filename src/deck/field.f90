@@ -46,7 +46,7 @@ module axijoint_deck_field
       !> Whether the ends of the range are outside
       logical :: above_low = .false., below_high = .false.
       !> Words to choose from
-      character(len=12) :: words(3) = ''
+      character(len=12) :: words(4) = ''
       !> Symbol of a real in the text of its range
       character(len=12) :: symbol = 'x'
    end type field_type
