@@ -54,6 +54,8 @@ contains
 
       results%converged = converged
       results%harmonics = harmonics
+      allocate (results%orderings(0))
+      results%solver = 1
       allocate (results%solves(2), results%path(3))
       results%solves%harmonic = harmonics
       results%solves%n_equations = [4, 6]
