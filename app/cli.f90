@@ -7,19 +7,21 @@ module axijoint_cli
    implicit none
    private
    public :: command_type, word_type, read_command, help_text
-   public :: command_run, command_check, command_help, command_version
+   public :: command_run, command_check, command_estimate, command_help, command_version
 
    !> Solve decks
    integer, parameter :: command_run = 1
    !> Read and check decks
    integer, parameter :: command_check = 2
+   !> Say what decks would cost
+   integer, parameter :: command_estimate = 3
    !> Print help
-   integer, parameter :: command_help = 3
+   integer, parameter :: command_help = 4
    !> Print the version
-   integer, parameter :: command_version = 4
+   integer, parameter :: command_version = 5
 
    !> Names of the commands, by number
-   character(len=*), parameter :: command_names(3) = ['run  ', 'check', 'help ']
+   character(len=*), parameter :: command_names(4) = ['run     ', 'check   ', 'estimate', 'help    ']
 
    !> Options of `run` that take a value
    character(len=*), parameter :: value_options(3) = ['-o       ', '--solver ', '--threads']
@@ -71,6 +73,8 @@ contains
          command%command = command_run
       case ('check')
          command%command = command_check
+      case ('estimate')
+         command%command = command_estimate
       case ('help', '--help', '-h')
          if (size(words) > 1) command%topic = words(2)%text
          if (len(command%topic) > 0 .and. .not. any(command_names == command%topic)) then
@@ -88,7 +92,7 @@ contains
       call read_arguments(words(2:), command, error)
    end subroutine read_command
 
-   !> Decks and options of `run` and `check`
+   !> Decks and options of `run`, `check` and `estimate`
    subroutine read_arguments(words, command, error)
       !> Words after the command
       type(word_type), intent(in) :: words(:)
@@ -247,6 +251,11 @@ contains
             nl// &
             'Reads and checks each deck, prints all its errors and what it describes, and'//nl// &
             'solves nothing. Exit codes: 0 ok; 2 deck or usage.'
+      case ('estimate')
+         text = 'usage: axijoint estimate DECK...'//nl// &
+            nl// &
+            'Says for each solver what a run of each deck would need: unknowns, entries of the'//nl// &
+            'factors, operations, memory and time. Nothing is solved.'
       case ('help')
          text = 'usage: axijoint help [COMMAND]'
       case default
@@ -257,6 +266,7 @@ contains
             nl// &
             '  run DECK... [OPTIONS]  solve decks'//nl// &
             '  check DECK...          read and check decks only'//nl// &
+            '  estimate DECK...       say what decks would cost'//nl// &
             '  help [COMMAND]         help on a command'//nl// &
             '  --version              version'
       end select

@@ -4,8 +4,9 @@ program axijoint
    use axijoint_base_error, only : error_type, exit_ok
    use axijoint_base_version, only : program_name, program_version
    use axijoint_cli, only : command_type, read_command, help_text, command_run, command_check, &
-                            command_help
+                            command_estimate, command_help
    use axijoint_driver_check, only : check_decks
+   use axijoint_driver_estimate, only : estimate_decks
    use axijoint_driver_run, only : run_decks, print_error
    implicit none
 
@@ -24,6 +25,8 @@ program axijoint
          call run_decks(command, exit_code)
       case (command_check)
          call check_decks(command%decks, exit_code)
+      case (command_estimate)
+         call estimate_decks(command%decks, exit_code)
       case (command_help)
          write (output_unit, '(a)') help_text(command%topic)
       case default

@@ -20,7 +20,7 @@ module axijoint_assembly_equations
    private
    public :: equations_type, plan_equations, assemble_equations, factorize_equations
    public :: solve_harmonic, elastic_force, backward_error, on_equations
-   public :: worth_threads, planned_seconds, needed_bytes, refine_harmonic, condition_estimate
+   public :: plan_for, worth_threads, planned_seconds, needed_bytes, refine_harmonic, condition_estimate
 
    !> A band wider than this many nodes is never faster than nested dissection
    integer, parameter :: widest_band = 400
@@ -97,6 +97,28 @@ contains
          call move_alloc(candidate, equations)
       end do
    end subroutine plan_equations
+
+   !> Plan the factorizations for one solver, chosen or not
+   subroutine plan_for(equations, model, harmonics, kind, error)
+      !> The equations, planned
+      type(equations_type), allocatable, intent(out) :: equations
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Harmonics m, ascending
+      integer, intent(in) :: harmonics(:)
+      !> Solver, one of the `solver_` parameters, not auto
+      integer, intent(in) :: kind
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(graph_type) :: graph
+      integer, allocatable :: order(:)
+
+      graph = node_graph(model%mesh)
+      call new_order(graph, kind, order, error)
+      if (allocated(error)) return
+      call plan_solver(equations, model, harmonics, graph, kind, order, error)
+   end subroutine plan_for
 
    !> Number the unknowns and analyse the patterns of all classes for a solver
    subroutine plan_solver(equations, model, harmonics, graph, kind, order, error)

@@ -1,10 +1,10 @@
 !> The LAPACK routines in use, with sizes taken from the arrays
 module axijoint_linalg_lapack
    use, intrinsic :: iso_c_binding, only : c_int
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, i8
    implicit none
    private
-   public :: band_cholesky, band_cholesky_solve, symmetric_eigen, use_one_blas_thread, norm_step
+   public :: band_cholesky, band_cholesky_solve, symmetric_eigen, use_one_blas_thread, norm_step, product_rate
 
    interface
       !> Cholesky factorization of a positive definite band matrix
@@ -33,6 +33,14 @@ module axijoint_linalg_lapack
          real(wp), intent(out) :: w(*), work(*)
          integer, intent(out) :: iwork(*), info
       end subroutine dsyevd
+      !> c = alpha a b + beta c
+      subroutine dgemm(transa, transb, m, n, k, alpha, a, lda, b, ldb, beta, c, ldc)
+         import :: wp
+         character, intent(in) :: transa, transb
+         integer, intent(in) :: m, n, k, lda, ldb, ldc
+         real(wp), intent(in) :: alpha, beta, a(lda, *), b(ldb, *)
+         real(wp), intent(inout) :: c(ldc, *)
+      end subroutine dgemm
       !> One step of Higham's estimate of a 1-norm
       subroutine dlacn2(n, v, x, isgn, est, kase, isave)
          import :: wp
@@ -108,6 +116,28 @@ contains
 
       call dlacn2(size(x), v, x, signs, estimate, kase, save)
    end subroutine norm_step
+
+   !> Rate of large matrix products of one thread, measured: the best of some runs
+   function product_rate() result(rate)
+      !> Floating-point operations a second
+      real(wp) :: rate
+
+      integer, parameter :: n = 1000, runs = 4
+      real(wp), allocatable :: a(:, :), b(:, :), c(:, :)
+      integer(i8) :: start, finish, ticks
+      integer :: k
+
+      call use_one_blas_thread()
+      allocate (a(n, n), b(n, n), source=1.0_wp)
+      allocate (c(n, n), source=0.0_wp)
+      rate = 0.0_wp
+      do k = 1, runs
+         call system_clock(start, ticks)
+         call dgemm('N', 'N', n, n, n, 1.0_wp, a, n, b, n, 0.0_wp, c, n)
+         call system_clock(finish)
+         rate = max(rate, 2.0_wp*real(n, wp)**3*real(ticks, wp)/real(max(1_i8, finish - start), wp))
+      end do
+   end function product_rate
 
    !> Leave the threads to the harmonics: a routine that shares its work among
    !> threads would give other sums with other numbers of threads

@@ -1,0 +1,84 @@
+!> `axijoint estimate`: what decks would cost
+module axijoint_driver_estimate
+   use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
+   use axijoint_analysis_estimate, only : estimate_type, estimate_job
+   use axijoint_base_error, only : error_type, exit_ok, exit_deck
+   use axijoint_base_kinds, only : wp
+   use axijoint_cli, only : word_type
+   use axijoint_deck_diagnostics, only : diagnostics_type, render
+   use axijoint_deck_reader, only : read_deck
+   use axijoint_deck_source, only : source_type
+   use axijoint_driver_run, only : print_error
+   use axijoint_linalg_lapack, only : product_rate
+   use axijoint_model_model, only : model_type
+   use axijoint_solver_choice, only : solver_band, solver_sparse, solver_names
+   implicit none
+   private
+   public :: estimate_decks
+
+   !> Solver, equations, entries, operations, memory, time
+   character(len=*), parameter :: format_row = '(2x, a8, i14, es16.3, es16.3, f14.1, f14.3)'
+
+contains
+
+   !> Print the costs of each deck with each solver
+   subroutine estimate_decks(decks, exit_code)
+      !> The decks
+      type(word_type), intent(in) :: decks(:)
+      !> Largest exit code of all decks
+      integer, intent(out) :: exit_code
+
+      type(source_type) :: source
+      type(model_type) :: model
+      type(diagnostics_type) :: diagnostics
+      type(error_type), allocatable :: error
+      real(wp) :: rate
+      integer :: k
+
+      exit_code = exit_ok
+      rate = product_rate()
+      do k = 1, size(decks)
+         call read_deck(decks(k)%text, source, model, diagnostics)
+         if (diagnostics%n_errors > 0) then
+            write (error_unit, '(a)') render(diagnostics, source)
+            exit_code = max(exit_code, exit_deck)
+            cycle
+         end if
+         call estimate_deck(decks(k)%text, model, rate, error)
+         if (allocated(error)) then
+            call print_error(decks(k)%text, error)
+            exit_code = max(exit_code, error%code)
+         end if
+      end do
+   end subroutine estimate_decks
+
+   !> Print the costs of one deck
+   subroutine estimate_deck(deck, model, rate, error)
+      !> The deck
+      character(len=*), intent(in) :: deck
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Rate of large matrix products [operations/second]
+      real(wp), intent(in) :: rate
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(estimate_type) :: estimate
+      integer :: kind
+
+      do kind = solver_band, solver_sparse
+         call estimate_job(model, kind, rate, estimate, error)
+         if (allocated(error)) return
+         if (kind == solver_band) then
+            write (output_unit, '(a, i0, a, f0.1, a)') deck//': ', estimate%n_harmonics, &
+               ' harmonics; matrix products at ', rate/1.0e9_wp, ' GFLOP/s in one thread'
+            write (output_unit, '(a)') '  solver       equations  factor entries      operations'// &
+               '  memory [MB]  factoring [s]'
+         end if
+         write (output_unit, format_row) solver_names(kind), estimate%n_equations, &
+            real(estimate%factor_entries, wp), estimate%operations, &
+            real(estimate%bytes, wp)/1.0e6_wp, estimate%seconds
+      end do
+   end subroutine estimate_deck
+
+end module axijoint_driver_estimate
