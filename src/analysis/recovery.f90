@@ -1,15 +1,16 @@
 !> Stresses, reactions and equilibrium from the displacements
 module axijoint_analysis_recovery
    use axijoint_analysis_results, only : results_type, axial, lateral, moment
-   use axijoint_assembly_equations, only : equations_type, on_equations
+   use axijoint_assembly_equations, only : equations_type, on_equations, worth_threads
    use axijoint_assembly_force, only : joint_force, joint_jump
    use axijoint_base_kinds, only : wp
-   use axijoint_element_solid, only : solid_point_type, solid_points, solid_stress, solid_force, &
+   use axijoint_element_solid, only : solid_point_type, solid_points, solid_stress, &
+                                      add_solid_force, &
                                       isotropic_elasticity
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_joints_field, only : joint_field_type, elastic_stress
    use axijoint_model_joint_points, only : model_joint_point_type
-   use axijoint_model_mesh, only : n_elements, n_nodes
+   use axijoint_model_mesh, only : n_elements, n_nodes, max_element_nodes
    use axijoint_model_model, only : model_type, gauss_order, on_axis
    implicit none
    private
@@ -34,38 +35,50 @@ contains
       !> Results; displacements are there already
       type(results_type), intent(inout) :: results
 
-      real(wp), allocatable :: internal(:, :), joint_stress(:, :, :), jump(:, :, :)
-      real(wp) :: unbalanced, load, scale
-      integer :: k, m
+      real(wp), dimension(size(equations%harmonics)) :: unbalanced, load, scale
+      real(wp), dimension(4, size(equations%harmonics)) :: resultant, reacted
+      real(wp) :: internal(3, n_nodes(model%mesh))
+      integer :: k
 
       call new_points(model, results)
-      allocate (internal(3, n_nodes(model%mesh)))
       allocate (results%reaction, mold=results%displacement)
-      allocate (jump(3, size(points), 1))
-      unbalanced = 0.0_wp
-      load = 0.0_wp
-      scale = 0.0_wp
-      results%applied = 0.0_wp
-      results%reacted = 0.0_wp
+      !$omp parallel do schedule(dynamic) private(internal) if (worth_threads(equations))
       do k = 1, size(equations%harmonics)
-         m = equations%harmonics(k)
-         call solid_fields(model, m, results%displacement(:, :, k), results%stress(:, :, k), &
-                           internal)
-         jump(:, :, 1) = joint_jump(points, results%displacement(:, :, k))
-         joint_stress = elastic_stress(model, points, jump)
-         internal = internal + joint_force(points, m, &
-                                           joint_stress(:, :, 1) - field%excess(:, :, k), &
-                                           size(internal, 2))
-         unbalanced = unbalanced &
-            + sum(on_equations(equations, k, applied(:, :, k) - internal)**2)/circle_integral(m)
-         load = load + sum(on_equations(equations, k, applied(:, :, k))**2)/circle_integral(m)
-         results%reaction(:, :, k) = merge(internal - applied(:, :, k), 0.0_wp, held(model))
-         results%applied = results%applied + rigid_resultants(model, m, applied(:, :, k))
-         results%reacted = results%reacted + rigid_resultants(model, m, results%reaction(:, :, k))
-         scale = scale + sum(abs(applied(:, :, k)))
+         associate (m => equations%harmonics(k), force => applied(:, :, k), &
+                    reaction => results%reaction(:, :, k))
+            call solid_fields(model, m, results%displacement(:, :, k), results%stress(:, :, k), &
+                              internal)
+            internal = internal + joint_force(points, m, admitted(k), size(internal, 2))
+            unbalanced(k) = sum(on_equations(equations, k, force - internal)**2)/circle_integral(m)
+            load(k) = sum(on_equations(equations, k, force)**2)/circle_integral(m)
+            reaction = merge(internal - force, 0.0_wp, held(model))
+            resultant(:, k) = rigid_resultants(model, m, force)
+            reacted(:, k) = rigid_resultants(model, m, reaction)
+            scale(k) = sum(abs(force))
+         end associate
       end do
-      results%residual_ratio = ratio(sqrt(unbalanced), sqrt(load))
-      results%equilibrium_error = imbalance(model, results, scale)
+      !$omp end parallel do
+      results%applied = sum(resultant, 2)
+      results%reacted = sum(reacted, 2)
+      results%residual_ratio = ratio(sqrt(sum(unbalanced)), sqrt(sum(load)))
+      results%equilibrium_error = imbalance(model, results, sum(scale))
+
+   contains
+
+      !> Joint stress amplitudes k d - e of one harmonic
+      function admitted(k) result(stress)
+         !> Place of the harmonic
+         integer, intent(in) :: k
+         !> The amplitudes, shape (3, joint points)
+         real(wp) :: stress(3, size(points))
+
+         real(wp), dimension(3, size(points), 1) :: jump
+
+         jump(:, :, 1) = joint_jump(points, results%displacement(:, :, k))
+         jump = elastic_stress(model, points, jump)
+         stress = jump(:, :, 1) - field%excess(:, :, k)
+      end function admitted
+
    end subroutine recover
 
    !> Place the Gauss points of all elements
@@ -115,6 +128,7 @@ contains
 
       type(solid_point_type) :: points(9)
       real(wp) :: d(6, 6)
+      real(wp), dimension(3, max_element_nodes) :: local, element_force
       integer :: element, n, n_gauss, k, last
 
       force = 0.0_wp
@@ -126,13 +140,14 @@ contains
                     material => model%materials(model%mesh%element_material(element)))
             d = isotropic_elasticity(material%young, material%poisson)
             call solid_points(model%mesh%coordinates(:, nodes), n_gauss, points(:n_gauss**2))
+            local(:, :n) = displacement(:, nodes)
+            element_force = 0.0_wp
             do k = 1, n_gauss**2
                last = last + 1
-               stress(:, last) = solid_stress(points(k), n, d, harmonic, &
-                                              reshape(displacement(:, nodes), [3*n]))
-               force(:, nodes) = force(:, nodes) + circle_integral(harmonic) &
-                  *reshape(solid_force(points(k), n, harmonic, stress(:, last)), [3, n])
+               stress(:, last) = solid_stress(points(k), n, d, harmonic, local)
+               call add_solid_force(points(k), n, harmonic, stress(:, last), element_force)
             end do
+            force(:, nodes) = force(:, nodes) + circle_integral(harmonic)*element_force(:, :n)
          end associate
       end do
    end subroutine solid_fields

@@ -6,7 +6,7 @@ module axijoint_element_solid
    implicit none
    private
    public :: solid_point_type, solid_points, isotropic_elasticity
-   public :: strain_matrices, solid_stiffness, solid_stress, solid_force
+   public :: strain_matrices, solid_stiffness, solid_stress, add_solid_force
    public :: stiffness_kernel_type, new_stiffness_kernel
 
    !> What the integrals over an element need at one Gauss point
@@ -230,7 +230,8 @@ contains
       end do
    end subroutine put_block
 
-   !> Stress amplitudes of one harmonic at a point
+   !> Stress amplitudes of one harmonic at a point: d B_m u, with the sums of
+   !> B_m u (Eq. 4) written out
    pure function solid_stress(point, n, d, harmonic, displacement) result(stress)
       !> Where
       type(solid_point_type), intent(in) :: point
@@ -240,20 +241,32 @@ contains
       real(wp), intent(in) :: d(6, 6)
       !> Harmonic m
       integer, intent(in) :: harmonic
-      !> Amplitudes u1, v1, w1, u2, ..., shape (3n)
-      real(wp), intent(in) :: displacement(:)
+      !> Amplitudes u, v, w of the nodes, shape (3, n)
+      real(wp), intent(in) :: displacement(:, :)
       !> Amplitudes of r, z, theta, rz, r-theta, z-theta
       real(wp) :: stress(6)
 
-      real(wp), dimension(6, 3*n) :: b0, b1
+      real(wp), dimension(3) :: along_r, along_z, over_r
+      integer :: i
 
-      call strain_matrices(point, n, b0, b1)
-      stress = matmul(d, matmul(b0 + harmonic*b1, displacement))
+      along_r = 0.0_wp
+      along_z = 0.0_wp
+      over_r = 0.0_wp
+      do i = 1, n
+         along_r = along_r + point%gradient(1, i)*displacement(:, i)
+         along_z = along_z + point%gradient(2, i)*displacement(:, i)
+         over_r = over_r + point%shape(i)*displacement(:, i)
+      end do
+      over_r = over_r/point%position(1)
+      stress = matmul(d, [along_r(1), along_z(2), over_r(1) + harmonic*over_r(3), &
+                          along_z(1) + along_r(2), &
+                          along_r(3) - over_r(3) - harmonic*over_r(1), &
+                          along_z(3) - harmonic*over_r(2)])
    end function solid_stress
 
-   !> Nodal forces that balance a stress of one harmonic at a point, to be
-   !> multiplied by c_m: weight B_m^T stress
-   pure function solid_force(point, n, harmonic, stress) result(force)
+   !> Add the nodal forces that balance a stress of one harmonic at a point,
+   !> but for the factor c_m: weight B_m^T stress, written out
+   pure subroutine add_solid_force(point, n, harmonic, stress, force)
       !> Where
       type(solid_point_type), intent(in) :: point
       !> Number of nodes
@@ -262,13 +275,20 @@ contains
       integer, intent(in) :: harmonic
       !> Stress amplitudes
       real(wp), intent(in) :: stress(6)
-      !> Generalized nodal forces u1, v1, w1, u2, ..., shape (3n)
-      real(wp) :: force(3*n)
+      !> Generalized nodal forces on u, v, w, shape (3, n)
+      real(wp), intent(inout) :: force(:, :)
 
-      real(wp), dimension(6, 3*n) :: b0, b1
+      real(wp), dimension(3) :: along_r, along_z, over_r
+      integer :: i
 
-      call strain_matrices(point, n, b0, b1)
-      force = point%weight*matmul(stress, b0 + harmonic*b1)
-   end function solid_force
+      along_r = point%weight*stress([1, 4, 5])
+      along_z = point%weight*stress([4, 2, 6])
+      over_r = point%weight/point%position(1) &
+         *[stress(3) - harmonic*stress(5), -harmonic*stress(6), harmonic*stress(3) - stress(5)]
+      do i = 1, n
+         force(:, i) = force(:, i) + point%gradient(1, i)*along_r + point%gradient(2, i)*along_z &
+            + point%shape(i)*over_r
+      end do
+   end subroutine add_solid_force
 
 end module axijoint_element_solid
