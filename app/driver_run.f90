@@ -1,7 +1,7 @@
 !> `axijoint run`: decks to results
 module axijoint_driver_run
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
-   use axijoint_analysis_results, only : results_type
+   use axijoint_analysis_results, only : results_type, remark_type
    use axijoint_analysis_static, only : analyse_model
    use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_not_converged
    use axijoint_base_progress, only : progress_type, show_progress, clear_progress
@@ -94,12 +94,35 @@ contains
       if (.not. results%converged) exit_code = exit_not_converged
 
       call timer%push(phase_write)
-      call write_output(command%directory, job_name(deck), source, warning_texts(diagnostics, source), model, &
+      call write_output(command%directory, job_name(deck), source, &
+                        all_warnings(warning_texts(diagnostics, source), results%remarks), model, &
                         results, timer, exit_code, error)
       call timer%pop()
       if (allocated(error)) return
       write (output_unit, '(a)') brief_text(command%directory, job_name(deck), deck, model, results, timer)
    end subroutine run_deck
+
+   !> Warnings about the deck and remarks on the results
+   function all_warnings(warnings, remarks) result(texts)
+      !> Warnings about the deck
+      character(len=*), intent(in) :: warnings(:)
+      !> Remarks on the results
+      type(remark_type), intent(in) :: remarks(:)
+      !> All of them
+      character(len=:), allocatable :: texts(:)
+
+      integer :: k, length
+
+      length = len(warnings)
+      do k = 1, size(remarks)
+         length = max(length, len(remarks(k)%text))
+      end do
+      allocate (character(len=length) :: texts(size(warnings) + size(remarks)))
+      texts(:size(warnings)) = warnings
+      do k = 1, size(remarks)
+         texts(size(warnings) + k) = remarks(k)%text
+      end do
+   end function all_warnings
 
    !> Two decks of one name would write the same files
    subroutine check_names(decks, error)

@@ -1,14 +1,15 @@
 !> Stresses, reactions and equilibrium from the displacements
 module axijoint_analysis_recovery
-   use axijoint_analysis_results, only : results_type, axial, lateral, moment
+   use axijoint_analysis_results, only : results_type, axial, lateral, moment, torque
    use axijoint_assembly_equations, only : equations_type, on_equations, worth_threads
    use axijoint_assembly_force, only : joint_force, joint_jump
+   use axijoint_assembly_mechanism, only : solid_parts
    use axijoint_base_kinds, only : wp
    use axijoint_element_solid, only : solid_point_type, solid_points, solid_stress, &
-                                      add_solid_force, &
-                                      isotropic_elasticity
+                                      add_solid_force, isotropic_elasticity
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_joints_field, only : joint_field_type, elastic_stress
+   use axijoint_joints_residual, only : ratio
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_mesh, only : n_elements, n_nodes, max_element_nodes
    use axijoint_model_model, only : model_type, gauss_order, on_axis
@@ -21,7 +22,7 @@ contains
    !> Fill stresses, reactions, the residual ratio and the equilibrium error.
    !> All forces come from the stresses, point by point, not from the assembled
    !> matrices, so that the ratio judges the whole path from mesh to solution.
-   subroutine recover(model, points, equations, applied, field, results)
+   subroutine recover(model, points, equations, applied, norm, field, results)
       !> The job
       type(model_type), intent(in) :: model
       !> Points of all joints
@@ -30,17 +31,23 @@ contains
       type(equations_type), intent(in) :: equations
       !> Applied forces, shape (3, nodes, harmonics)
       real(wp), intent(in) :: applied(:, :, :)
+      !> Norm of the largest load of the run (Psi_f)
+      real(wp), intent(in) :: norm
       !> State of the joints
       type(joint_field_type), intent(in) :: field
       !> Results; displacements are there already
       type(results_type), intent(inout) :: results
 
-      real(wp), dimension(size(equations%harmonics)) :: unbalanced, load, scale
+      real(wp), dimension(size(equations%harmonics)) :: unbalanced, scale
       real(wp), dimension(4, size(equations%harmonics)) :: resultant, reacted
+      real(wp), allocatable :: unbalance(:, :, :)
       real(wp) :: internal(3, n_nodes(model%mesh))
+      integer, allocatable :: part(:)
       integer :: k
 
       call new_points(model, results)
+      call solid_parts(model%mesh, part)
+      allocate (unbalance(4, maxval(part), size(equations%harmonics)))
       allocate (results%reaction, mold=results%displacement)
       !$omp parallel do schedule(dynamic) private(internal) if (worth_threads(equations))
       do k = 1, size(equations%harmonics)
@@ -50,18 +57,22 @@ contains
                               internal)
             internal = internal + joint_force(points, m, admitted(k), size(internal, 2))
             unbalanced(k) = sum(on_equations(equations, k, force - internal)**2)/circle_integral(m)
-            load(k) = sum(on_equations(equations, k, force)**2)/circle_integral(m)
             reaction = merge(internal - force, 0.0_wp, held(model))
             resultant(:, k) = rigid_resultants(model, m, force)
             reacted(:, k) = rigid_resultants(model, m, reaction)
+            unbalance(:, :, k) = part_resultants(model, m, part, force - internal + reaction)
             scale(k) = sum(abs(force))
          end associate
       end do
       !$omp end parallel do
       results%applied = sum(resultant, 2)
       results%reacted = sum(reacted, 2)
-      results%residual_ratio = ratio(sqrt(sum(unbalanced)), sqrt(sum(load)))
-      results%equilibrium_error = imbalance(model, results, sum(scale))
+      results%part_unbalance = sum(unbalance, 3)
+      results%part_node = [(findloc(part, k, 1), k=1, maxval(part))]
+      results%residual_ratio = ratio(sqrt(sum(unbalanced)), norm)
+      results%equilibrium_error = imbalance(model, results%applied, sum(scale), &
+                                            reshape(results%applied + results%reacted, [4, 1]))
+      results%part_error = imbalance(model, results%applied, sum(scale), results%part_unbalance)
 
    contains
 
@@ -190,37 +201,54 @@ contains
       end associate
    end function rigid_resultants
 
-   !> Largest resultant out of balance, over the scale of the loads
-   pure function imbalance(model, results, scale) result(error)
+   !> Resultants of nodal forces of one harmonic on each part
+   pure function part_resultants(model, harmonic, part, force) result(resultant)
       !> The job
       type(model_type), intent(in) :: model
-      !> Results with their resultants
-      type(results_type), intent(in) :: results
+      !> Harmonic m
+      integer, intent(in) :: harmonic
+      !> Part of each node
+      integer, intent(in) :: part(:)
+      !> Generalized forces on components, shape (3, nodes)
+      real(wp), intent(in) :: force(:, :)
+      !> Axial and lateral force, moment, torque, shape (4, parts)
+      real(wp) :: resultant(4, maxval(part))
+
+      integer :: k
+
+      resultant = 0.0_wp
+      if (harmonic > 1) return  ! no resultants
+      do k = 1, size(resultant, 2)
+         resultant(:, k) = rigid_resultants(model, harmonic, &
+                                            merge(force, 0.0_wp, spread(part == k, 1, 3)))
+      end do
+   end function part_resultants
+
+   !> Largest resultant out of balance: forces over the largest resultant force
+   !> of the loads, moments over the largest moment. Where the loads have no
+   !> resultant, the sum of their sizes stands for it.
+   pure function imbalance(model, applied, scale, unbalance) result(error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Resultants of the loads
+      real(wp), intent(in) :: applied(4)
       !> Sum of the absolute generalized forces applied
       real(wp), intent(in) :: scale
+      !> Resultants out of balance, shape (4, any)
+      real(wp), intent(in) :: unbalance(:, :)
       !> The error
       real(wp) :: error
 
-      real(wp) :: difference(4), extent
+      !> Resultants below this share of the forces are taken for zero
+      real(wp), parameter :: no_resultant = 1.0e-6_wp
+      real(wp) :: force, turning
 
-      extent = maxval(abs(model%mesh%coordinates))
-      difference = abs(results%applied + results%reacted)
-      difference([moment, 4]) = difference([moment, 4])/extent
-      error = ratio(maxval(difference), scale)
+      force = maxval(abs(applied([axial, lateral])))
+      if (force <= no_resultant*scale) force = scale
+      turning = max(maxval(abs(applied([moment, torque]))), &
+                    force*maxval(abs(model%mesh%coordinates)))
+      error = max(ratio(maxval(abs(unbalance([axial, lateral], :))), force), &
+                  ratio(maxval(abs(unbalance([moment, torque], :))), turning))
    end function imbalance
-
-   !> Quotient of two sizes; zero over zero is zero
-   pure function ratio(part, whole)
-      !> Sizes, not negative
-      real(wp), intent(in) :: part, whole
-      !> part/whole
-      real(wp) :: ratio
-
-      if (whole > 0.0_wp) then
-         ratio = part/whole
-      else
-         ratio = merge(0.0_wp, huge(1.0_wp), .not. part > 0.0_wp)
-      end if
-   end function ratio
 
 end module axijoint_analysis_recovery

@@ -4,7 +4,7 @@ module axijoint_analysis_results
    use axijoint_joints_field, only : iteration_type
    implicit none
    private
-   public :: results_type, iteration_type, harmonic_solve_type, ordering_type
+   public :: results_type, iteration_type, harmonic_solve_type, ordering_type, remark_type
    public :: axial, lateral, moment, torque
 
    !> Index of a resultant: force along z
@@ -43,6 +43,12 @@ module axijoint_analysis_results
       integer :: bandwidth = 0
       integer(i8) :: profile = 0
    end type ordering_type
+
+   !> A sentence about the results
+   type :: remark_type
+      !> The sentence
+      character(len=:), allocatable :: text
+   end type remark_type
 
    !> Results of a run. Amplitudes belong to the symmetric family:
    !> u, v ~ cos(m theta), w ~ sin(m theta).
@@ -85,12 +91,21 @@ module axijoint_analysis_results
       type(iteration_type), allocatable :: path(:)
       !> Residual-force ratio at the end (Eq. 17), from the whole structure
       real(wp) :: residual_ratio = 0.0_wp
-      !> Tolerance that the last increment worked to; zero for a linear job
+      !> Tolerance on the residual-force ratio
       real(wp) :: tolerance = 0.0_wp
       !> Resultants of the applied loads and of the reactions, shape (4)
       real(wp) :: applied(4) = 0.0_wp, reacted(4) = 0.0_wp
-      !> Largest |applied + reacted| over the scale of the loads
+      !> A node of each part of the mesh that solid elements hold together
+      integer, allocatable :: part_node(:)
+      !> Resultants of the forces on each part that nothing balances, shape (4, parts)
+      real(wp), allocatable :: part_unbalance(:, :)
+      !> Largest sum of applied and reacted resultants, over those of the loads
       real(wp) :: equilibrium_error = 0.0_wp
+      !> Largest unbalance of a part, over the resultants of the loads. Joint
+      !> forces out of balance cancel in the whole, but not on the parts
+      real(wp) :: part_error = 0.0_wp
+      !> What the user should know about the results
+      type(remark_type), allocatable :: remarks(:)
    end type results_type
 
 end module axijoint_analysis_results

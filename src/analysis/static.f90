@@ -1,7 +1,7 @@
 !> One static analysis, told in order
 module axijoint_analysis_static
    use axijoint_analysis_recovery, only : recover
-   use axijoint_analysis_results, only : results_type, ordering_type
+   use axijoint_analysis_results, only : results_type, ordering_type, remark_type
    use axijoint_assembly_equations, only : equations_type, plan_equations, assemble_equations, &
                                            factorize_equations, solve_harmonic, backward_error, &
                                            refine_harmonic, condition_estimate, &
@@ -10,12 +10,14 @@ module axijoint_analysis_static
    use axijoint_assembly_mechanism, only : check_mechanism
    use axijoint_assembly_pattern, only : node_graph
    use axijoint_base_error, only : error_type
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_memory, only : require_memory
    use axijoint_base_progress, only : progress_type, show_progress
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type, phase_assemble, phase_factor, phase_joints, &
                                    phase_recover
-   use axijoint_joints_field, only : joint_field_type, new_joint_field, elastic_stress
+   use axijoint_joints_field, only : joint_field_type, new_joint_field, elastic_stress, n_across_gaps
+   use axijoint_joints_residual, only : load_norm
    use axijoint_joints_planes, only : planes_type, new_planes, new_view, synthesize
    use axijoint_joints_transfer, only : transfer_loop
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points
@@ -28,6 +30,11 @@ module axijoint_analysis_static
    implicit none
    private
    public :: analyse_model, used_harmonics
+
+   !> Largest residual-force ratio of a linear job
+   real(wp), parameter :: linear_tolerance = 1.0e-8_wp
+   !> Tolerances above this deserve a word
+   real(wp), parameter :: coarse_tolerance = 1.0e-3_wp
 
 contains
 
@@ -48,14 +55,16 @@ contains
       type(equations_type), allocatable :: equations
       type(joint_field_type) :: field
       real(wp), allocatable :: applied(:, :, :)
+      real(wp) :: factor, largest_factor, norm
       integer :: k
 
+      call timer%push(phase_assemble)
       points = new_joint_points(model)
       results%harmonics = used_harmonics(model)
+      call require_memory(0_i8, 'the solvers', error)
+      if (allocated(error)) return
       call check_mechanism(model, points, results%harmonics, error)
       if (allocated(error)) return
-
-      call timer%push(phase_assemble)
       call show_progress(progress, 'assembling '//to_text(size(results%harmonics))//' harmonics')
       call plan_equations(equations, model, results%harmonics, error)
       if (allocated(error)) return
@@ -80,10 +89,13 @@ contains
       call timer%pop()
 
       call timer%push(phase_recover)
-      applied = applied*reached_factor(model, results)
-      call recover(model, points, equations, applied, field, results)
+      call report_load_factors(model, results, factor, largest_factor)
+      norm = largest_factor*load_norm(equations, applied)
+      applied = factor*applied
+      call recover(model, points, equations, applied, norm, field, results)
       call report_solves(points, equations, applied, field, results)
       results%converged = results%converged .and. results%residual_ratio <= results%tolerance
+      results%remarks = remarks_on(model, field, results)
       call timer%pop()
    end subroutine analyse_model
 
@@ -129,21 +141,74 @@ contains
       if (size(harmonics) == 0) harmonics = [0]
    end function used_harmonics
 
-   !> Sum of the load factors that the run reached
-   pure function reached_factor(model, results) result(factor)
+   !> Load factor that the run ended with, and the largest on its way
+   pure subroutine report_load_factors(model, results, factor, largest)
       !> The job
       type(model_type), intent(in) :: model
       !> Results with their convergence path
       type(results_type), intent(in) :: results
-      !> The factor
-      real(wp) :: factor
+      !> The factors
+      real(wp), intent(out) :: factor, largest
 
       if (size(results%path) > 0) then
          factor = results%path(size(results%path))%load_factor
+         largest = maxval(abs(results%path%load_factor))
       else
          factor = sum(model%increments%factor)
+         largest = abs(factor)
       end if
-   end function reached_factor
+   end subroutine report_load_factors
+
+   !> What the user should know about the results
+   function remarks_on(model, field, results) result(remarks)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> The results
+      type(results_type), intent(in) :: results
+      !> The sentences
+      type(remark_type), allocatable :: remarks(:)
+
+      real(wp) :: widest
+      integer :: n
+
+      allocate (remarks(0))
+      if (size(results%path) == 0) then
+         if (.not. results%converged) then
+            call add('the equations are ill-conditioned (condition number '// &
+                     to_text(maxval(results%solves%condition))//', residual '// &
+                     to_text(results%residual_ratio)//'): stiffnesses out of all proportion?')
+         end if
+         return
+      end if
+      call n_across_gaps(field, n, widest)
+      if (n > 0) call add('pressure across an open gap at '//to_text(n)//' joint points on planes '// &
+                          '(widest '//to_text(widest)//'): stress accumulated, as in the paper')
+      if (results%tolerance > coarse_tolerance) then
+         call add('a tolerance of '//to_text(results%tolerance)// &
+                  ' leaves joint stresses several per cent wrong (default 1E-6)')
+      end if
+      if (results%part_error > max(results%tolerance, coarse_tolerance)) then
+         call add('forces of '//to_text(results%part_error)//' of the load are not balanced on '// &
+                  'some part: see EQUILIBRIUM')
+      end if
+      if (model%max_harmonic + 1 == model%n_planes) then
+         call add('w of the highest harmonic vanishes on all planes: nothing of it is '// &
+                  'transferred (M + 2 planes avoid that)')
+      end if
+
+   contains
+
+      !> Add a sentence
+      subroutine add(text)
+         !> The sentence; fits a line of the listing
+         character(len=*), intent(in) :: text
+
+         remarks = [remarks, remark_type(text)]
+      end subroutine add
+
+   end function remarks_on
 
    !> Displacements and joint state: at once if no joint can yield, else by the
    !> paper's loop
@@ -168,8 +233,8 @@ contains
       integer :: k
 
       allocate (results%displacement, mold=load)
-      results%tolerance = model%increments(size(model%increments))%tolerance
       if (can_yield(model)) then
+         results%tolerance = model%increments(size(model%increments))%tolerance
          planes = new_planes(model%n_planes, equations%harmonics)
          call transfer_loop(model, points, equations, planes, load, results%displacement, field, &
                             results%path, results%converged, progress)
@@ -183,7 +248,8 @@ contains
             call refine_harmonic(equations, k, factor*load(:, :, k), results%displacement(:, :, k))
          end do
          !$omp end parallel do
-         results%converged = .true.
+         results%converged = .true.  ! if the residual says so, too
+         results%tolerance = linear_tolerance
          call elastic_field(model, points, planes, results%displacement, field)
       end if
       results%plane_angles = planes%angle

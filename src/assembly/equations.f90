@@ -244,6 +244,7 @@ contains
                + entry_bytes*size(equations%classes(class)%pattern%column, kind=i8)
          end associate
       end do
+      ! the parts A, S, C live before the factors and are no larger
    end function needed_bytes
 
    !> Factor the matrices of all harmonics, one harmonic a thread

@@ -109,13 +109,18 @@ contains
       character(len=:), allocatable :: text
 
       real(wp), allocatable :: resistance(:, :), eigenvalue(:)
+      real(wp) :: frame(2)
       integer :: n, info, k, place
 
       n = maxval(part)*max_motions
       allocate (resistance(n, n), source=0.0_wp)
       allocate (eigenvalue(n))
-      call add_supports(model, part, harmonic, resistance)
-      call add_joints(model, points, part, harmonic, resistance)
+      associate (x => model%mesh%coordinates)
+         frame(1) = 0.5_wp*(minval(x(2, :)) + maxval(x(2, :)))
+         frame(2) = max(maxval(x(1, :)), maxval(x(2, :)) - minval(x(2, :)))
+      end associate
+      call add_supports(model, part, frame, harmonic, resistance)
+      call add_joints(model, points, part, frame, harmonic, resistance)
       if (harmonic == 0) then  ! the second motion is not in use: hold it
          do k = 2, n, max_motions
             resistance(k, k) = 1.0_wp
@@ -151,9 +156,12 @@ contains
    end function motion_name
 
    !> Displacement components of a node in the rigid motions of its part
-   pure function rigid_motion(model, harmonic, node) result(motion)
+   pure function rigid_motion(model, frame, harmonic, node) result(motion)
       !> The job
       type(model_type), intent(in) :: model
+      !> Height z that motions tilt about, and the length that heights and radii
+      !> are measured in
+      real(wp), intent(in) :: frame(2)
       !> Harmonic: 0 or 1
       integer, intent(in) :: harmonic
       !> Node
@@ -166,7 +174,7 @@ contains
       if (harmonic == 0) then
          motion(2, 1) = 1.0_wp
       else
-         associate (x => model%mesh%coordinates(:, node)/maxval(abs(model%mesh%coordinates)))
+         associate (x => (model%mesh%coordinates(:, node) - [0.0_wp, frame(1)])/frame(2))
             motion(:, 1) = [1.0_wp, 0.0_wp, -1.0_wp]
             motion(:, 2) = [-x(2), x(1), x(2)]
          end associate
@@ -174,11 +182,13 @@ contains
    end function rigid_motion
 
    !> Add what the supports resist
-   subroutine add_supports(model, part, harmonic, resistance)
+   subroutine add_supports(model, part, frame, harmonic, resistance)
       !> The job
       type(model_type), intent(in) :: model
       !> Part of each node
       integer, intent(in) :: part(:)
+      !> Frame of the rigid motions
+      real(wp), intent(in) :: frame(2)
       !> Harmonic: 0 or 1
       integer, intent(in) :: harmonic
       !> Resistance matrix
@@ -189,7 +199,7 @@ contains
 
       do node = 1, n_nodes(model%mesh)
          if (.not. any(model%fixed(:, node))) cycle
-         motion = rigid_motion(model, harmonic, node)
+         motion = rigid_motion(model, frame, harmonic, node)
          first = max_motions*(part(node) - 1)
          do i = 1, 3
             if (.not. model%fixed(i, node)) cycle
@@ -199,13 +209,15 @@ contains
    end subroutine add_supports
 
    !> Add what the joints resist
-   subroutine add_joints(model, points, part, harmonic, resistance)
+   subroutine add_joints(model, points, part, frame, harmonic, resistance)
       !> The job
       type(model_type), intent(in) :: model
       !> Points of all joints
       type(model_joint_point_type), intent(in) :: points(:)
       !> Part of each node
       integer, intent(in) :: part(:)
+      !> Frame of the rigid motions
+      real(wp), intent(in) :: frame(2)
       !> Harmonic: 0 or 1
       integer, intent(in) :: harmonic
       !> Resistance matrix
@@ -225,7 +237,7 @@ contains
                        column => merge(0, max_motions, any(i == [1, 2, 5])))
                jump(:, column + 1:column + max_motions) &
                   = jump(:, column + 1:column + max_motions) &
-                  + matmul(matrix(:, 3*i - 2:3*i), rigid_motion(model, harmonic, node))
+                  + matmul(matrix(:, 3*i - 2:3*i), rigid_motion(model, frame, harmonic, node))
             end associate
          end do
          do i = 1, 3

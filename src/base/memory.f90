@@ -9,6 +9,9 @@ module axijoint_base_memory
 
    !> No limit is known
    integer(i8), parameter :: unknown = huge(1_i8)
+   !> Bytes that must stay free: BLAS takes buffers of its own when a thread
+   !> first calls it, and waits for them for ever if there are none
+   integer(i8), parameter :: head_room = 192*2_i8**20
    !> What numbers are made of
    character(len=*), parameter :: digits = '0123456789'
 
@@ -17,16 +20,16 @@ contains
    !> Make sure that memory is there before it is allocated: a system that
    !> promises more than it has would kill the process later without a word
    subroutine require_memory(bytes, purpose, error)
-      !> Bytes needed
+      !> Bytes needed, without the head-room of the libraries
       integer(i8), intent(in) :: bytes
       !> What for
       character(len=*), intent(in) :: purpose
       !> Too little memory, with the bytes
       type(error_type), allocatable, intent(out) :: error
 
-      if (bytes <= available_memory()) return
+      if (bytes + head_room <= available_memory()) return
       call fatal_error(error, exit_memory, 'out of memory: '//purpose//' need '// &
-                       in_mebibytes(bytes)//', available are '// &
+                       in_mebibytes(bytes + head_room)//', available are '// &
                        in_mebibytes(available_memory())//new_line('a')// &
                        'mend: a coarser mesh, fewer harmonics, or a larger memory limit')
    end subroutine require_memory

@@ -237,19 +237,22 @@ contains
       !> One load for each edge
       type(edge_load_type) :: loads(size(edges))
 
-      real(wp) :: stress
+      real(wp) :: stress, area_moment
+      logical :: lateral
       integer :: i, k
 
+      lateral = integer_value(table, field_kind, entry) == kind_lateral
+      area_moment = moment_of_radius(draft, edges, merge(1, 3, lateral))
       associate (value => table%values(field_value, entry))
          do i = 1, size(edges)
             loads(i)%harmonic = 1
             loads(i)%nodes = edges(i)%nodes
             do k = 1, count(edges(i)%nodes > 0)
-               if (integer_value(table, field_kind, entry) == kind_lateral) then
-                  stress = value/(2.0_wp*pi*moment_of_radius(draft, edges, 1))
+               if (lateral) then
+                  stress = value/(2.0_wp*pi*area_moment)
                   loads(i)%traction(:, k) = [stress, 0.0_wp, -stress]
                else
-                  stress = value*draft%position(1, edges(i)%nodes(k))/(pi*moment_of_radius(draft, edges, 3))
+                  stress = value*draft%position(1, edges(i)%nodes(k))/(pi*area_moment)
                   loads(i)%traction(:, k) = [0.0_wp, stress, 0.0_wp]
                end if
             end do

@@ -3,7 +3,7 @@ module axijoint_element_joint_law
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: joint_law_type, admit_stress
+   public :: joint_law_type, admit_stress, state_of
    public :: law_elastic, law_paper
    public :: state_stick, state_slip, state_open
    public :: xi, eta, theta
@@ -41,36 +41,53 @@ module axijoint_element_joint_law
 
 contains
 
-   !> Stress admitted for a trial stress, with the state of the point.
-   !> Tension releases all stress; otherwise each shear stress is cut to the
-   !> yield stress C - sigma tan(phi) (Eq. 16)
-   pure subroutine admit_stress(law, trial, stress, state)
+   !> Stress admitted for a trial stress. Tension releases all stress; otherwise
+   !> each shear stress is cut to the yield stress C - sigma tan(phi) (Eq. 16)
+   pure function admit_stress(law, trial) result(stress)
       !> Properties of the joint
       type(joint_law_type), intent(in) :: law
       !> Trial stress: tau_xi, sigma (tension positive), tau_theta
       real(wp), intent(in) :: trial(3)
       !> Stress that the law admits, same components
-      real(wp), intent(out) :: stress(3)
-      !> Stick, slip or open
-      integer, intent(out) :: state
+      real(wp) :: stress(3)
 
       real(wp) :: yield
 
       stress = trial
-      state = state_stick
       if (law%kind == law_elastic) return
-
       if (trial(eta) > 0.0_wp) then
          stress = 0.0_wp
-         state = state_open
-         return
+      else
+         yield = law%cohesion - trial(eta)*law%friction
+         stress(xi) = cut(trial(xi), yield)
+         stress(theta) = cut(trial(theta), yield)
       end if
+   end function admit_stress
 
-      yield = law%cohesion - trial(eta)*law%friction
-      if (abs(trial(xi)) > yield .or. abs(trial(theta)) > yield) state = state_slip
-      stress(xi) = cut(trial(xi), yield)
-      stress(theta) = cut(trial(theta), yield)
-   end subroutine admit_stress
+   !> State of a point from the stress that it carries and its jump: open if
+   !> apart without normal stress, slipping if a shear stress stands at yield
+   pure function state_of(law, stress, jump, small) result(state)
+      !> Properties of the joint
+      type(joint_law_type), intent(in) :: law
+      !> Stress that the law admits: tau_xi, sigma, tau_theta
+      real(wp), intent(in) :: stress(3)
+      !> Relative displacement xi, eta, theta
+      real(wp), intent(in) :: jump(3)
+      !> Stress that counts as zero
+      real(wp), intent(in) :: small
+      !> Stick, slip or open
+      integer :: state
+
+      state = state_stick
+      if (law%kind == law_elastic) return
+      if (stress(eta) >= -small .and. jump(eta) > 0.0_wp) then
+         state = state_open
+      else if (max(abs(stress(xi)), abs(stress(theta))) &
+               >= law%cohesion - stress(eta)*law%friction - small &
+               .and. maxval(abs(stress)) > small) then
+         state = state_slip
+      end if
+   end function state_of
 
    !> A shear stress cut to the yield stress, its sign kept
    pure function cut(shear, yield) result(admitted)

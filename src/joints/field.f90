@@ -1,12 +1,17 @@
 !> State of all joint points on all planes
 module axijoint_joints_field
    use axijoint_base_kinds, only : wp
-   use axijoint_element_joint_law, only : admit_stress, state_stick, state_slip, state_open
+   use axijoint_element_joint_law, only : admit_stress, state_of, state_stick, state_slip, &
+                                          state_open, eta
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: joint_field_type, iteration_type, new_joint_field, admit, elastic_stress, count_state
+   public :: joint_field_type, iteration_type, new_joint_field, admit, judge_states
+   public :: elastic_stress, count_state, n_across_gaps
+
+   !> Share of the largest joint stress, or jump, below which a value is rounding
+   real(wp), parameter :: noise = 1.0e-9_wp
 
    !> Joint points on planes
    type :: joint_field_type
@@ -72,7 +77,7 @@ contains
       end do
    end function elastic_stress
 
-   !> Let the laws admit a trial stress: new stresses and states
+   !> Let the laws admit a trial stress
    pure subroutine admit(model, points, trial, field)
       !> The job
       type(model_type), intent(in) :: model
@@ -80,18 +85,61 @@ contains
       type(model_joint_point_type), intent(in) :: points(:)
       !> Trial stress, shape (3, points, planes)
       real(wp), intent(in) :: trial(:, :, :)
-      !> Field that takes stresses and states
+      !> Field that takes the stresses
       type(joint_field_type), intent(inout) :: field
 
       integer :: j, k
 
       do j = 1, size(trial, 3)
          do k = 1, size(points)
-            call admit_stress(model%joint_materials(points(k)%material)%law, trial(:, k, j), &
-                              field%stress(:, k, j), field%state(k, j))
+            field%stress(:, k, j) = admit_stress( &
+               model%joint_materials(points(k)%material)%law, trial(:, k, j))
          end do
       end do
    end subroutine admit
+
+   !> States from stresses and jumps, not from the last trial stress: once the
+   !> loop has converged, that differs from the admitted by rounding only
+   pure subroutine judge_states(model, points, field)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Points of all joints
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Field that takes the states
+      type(joint_field_type), intent(inout) :: field
+
+      real(wp) :: small
+      integer :: j, k
+
+      small = noise*maxval([0.0_wp, abs(field%stress)])
+      do j = 1, size(field%state, 2)
+         do k = 1, size(points)
+            associate (law => model%joint_materials(points(k)%material)%law)
+               field%state(k, j) = state_of(law, field%stress(:, k, j), field%jump(:, k, j), small)
+            end associate
+         end do
+      end do
+   end subroutine judge_states
+
+   !> Points times planes that carry pressure across an open gap, and the widest
+   !> of these gaps: the accumulated stress of step 3 may leave some
+   pure subroutine n_across_gaps(field, n, widest)
+      !> The field
+      type(joint_field_type), intent(in) :: field
+      !> The number
+      integer, intent(out) :: n
+      !> The gap
+      real(wp), intent(out) :: widest
+
+      logical :: across(size(field%state, 1), size(field%state, 2))
+
+      associate (gap => field%jump(eta, :, :), stress => field%stress(eta, :, :))
+         across = gap > 1.0e-3_wp*maxval([0.0_wp, abs(gap)]) &
+            .and. stress < -1.0e-3_wp*maxval([0.0_wp, abs(stress)])
+         n = count(across)
+         widest = maxval([0.0_wp, pack(gap, across)])
+      end associate
+   end subroutine n_across_gaps
 
    !> Number of points times planes that slip and that are open
    pure subroutine count_state(field, n_slip, n_open)

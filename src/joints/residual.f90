@@ -7,83 +7,75 @@ module axijoint_joints_residual
    use axijoint_model_joint_points, only : model_joint_point_type
    implicit none
    private
-   public :: unbalanced_ratio, residual_squared, force_squared
+   public :: residual_norm, load_norm, ratio
 
 contains
 
-   !> Square of the norm of the residual forces of one harmonic,
-   !> r = f - K u + N*^T e with e the joint stress k d - P not admitted
-   function residual_squared(equations, k, points, applied, displacement, excess) result(squared)
-      !> The equations
-      type(equations_type), intent(in) :: equations
-      !> Place of the harmonic
-      integer, intent(in) :: k
-      !> Points of all joints
-      type(model_joint_point_type), intent(in) :: points(:)
-      !> Applied forces on components, shape (3, nodes)
-      real(wp), intent(in) :: applied(:, :)
-      !> Displacement amplitudes, shape (3, nodes)
-      real(wp), intent(in) :: displacement(:, :)
-      !> Amplitudes of the joint stress not admitted, shape (3, points)
-      real(wp), intent(in) :: excess(:, :)
-      !> The square
-      real(wp) :: squared
-
-      associate (m => equations%harmonics(k))
-         squared = sum((on_equations(equations, k, &
-                                applied + joint_force(points, m, excess, size(applied, 2))) &
-                        - elastic_force(equations, k, displacement))**2)/circle_integral(m)
-      end associate
-   end function residual_squared
-
-   !> Square of the norm of applied forces of one harmonic
-   function force_squared(equations, k, applied) result(squared)
-      !> The equations
-      type(equations_type), intent(in) :: equations
-      !> Place of the harmonic
-      integer, intent(in) :: k
-      !> Applied forces on components, shape (3, nodes)
-      real(wp), intent(in) :: applied(:, :)
-      !> The square
-      real(wp) :: squared
-
-      squared = sum(on_equations(equations, k, applied)**2)/circle_integral(equations%harmonics(k))
-   end function force_squared
-
-   !> Norm of the residual forces over the norm of the applied forces (Eq. 17).
-   !> The norm is that of the ring forces on all equations, squared and
-   !> integrated round the circle: the sum over m of |f_m|^2 / c_m for
-   !> generalized forces f_m. Not a number if a residual is not finite.
-   function unbalanced_ratio(equations, points, applied, displacement, excess) result(ratio)
+   !> Norm of the residual forces r = f - K u + N*^T e, with e the joint stress
+   !> k d - P not admitted: the ring forces on all equations, squared and
+   !> integrated round the circle, which is the sum over m of |r_m|^2 / c_m for
+   !> generalized forces r_m (Psi^r of Eq. 17)
+   function residual_norm(equations, points, applied, displacement, excess) result(norm)
       !> The equations
       type(equations_type), intent(in) :: equations
       !> Points of all joints
       type(model_joint_point_type), intent(in) :: points(:)
-      !> Applied forces, shape (3, nodes, harmonics)
+      !> Applied forces on components, shape (3, nodes, harmonics)
       real(wp), intent(in) :: applied(:, :, :)
-      !> Displacement amplitudes, shape (3, nodes, harmonics)
+      !> Displacement amplitudes, same shape
       real(wp), intent(in) :: displacement(:, :, :)
-      !> Joint stress not admitted, shape (3, points, harmonics)
+      !> Amplitudes of the joint stress not admitted, shape (3, points, harmonics)
       real(wp), intent(in) :: excess(:, :, :)
-      !> The ratio; zero when neither loads nor residual forces act
-      real(wp) :: ratio
+      !> The norm
+      real(wp) :: norm
 
-      real(wp), dimension(size(equations%harmonics)) :: residual, load
+      real(wp) :: squared(size(equations%harmonics))
       integer :: k
 
       !$omp parallel do schedule(dynamic) if (worth_threads(equations))
       do k = 1, size(equations%harmonics)
-         residual(k) = residual_squared(equations, k, points, applied(:, :, k), &
-                                        displacement(:, :, k), excess(:, :, k))
-         load(k) = force_squared(equations, k, applied(:, :, k))
+         associate (m => equations%harmonics(k))
+            squared(k) = sum((on_equations(equations, k, applied(:, :, k) &
+                                      + joint_force(points, m, excess(:, :, k), size(applied, 2))) &
+                              - elastic_force(equations, k, displacement(:, :, k)))**2) &
+               /circle_integral(m)
+         end associate
       end do
       !$omp end parallel do
-      ratio = 0.0_wp
-      if (sum(load) > 0.0_wp) then
-         ratio = sqrt(sum(residual)/sum(load))
-      else if (sum(residual) > 0.0_wp) then
-         ratio = huge(1.0_wp)
+      norm = sqrt(sum(squared))
+   end function residual_norm
+
+   !> Norm of applied forces (Psi_f of Eq. 17)
+   function load_norm(equations, applied) result(norm)
+      !> The equations
+      type(equations_type), intent(in) :: equations
+      !> Applied forces on components, shape (3, nodes, harmonics)
+      real(wp), intent(in) :: applied(:, :, :)
+      !> The norm
+      real(wp) :: norm
+
+      real(wp) :: squared(size(equations%harmonics))
+      integer :: k
+
+      do k = 1, size(equations%harmonics)
+         squared(k) = sum(on_equations(equations, k, applied(:, :, k))**2) &
+            /circle_integral(equations%harmonics(k))
+      end do
+      norm = sqrt(sum(squared))
+   end function load_norm
+
+   !> Quotient of two sizes; zero over zero is zero
+   pure function ratio(part, whole)
+      !> Sizes, not negative
+      real(wp), intent(in) :: part, whole
+      !> part/whole; the largest number if only the whole is zero
+      real(wp) :: ratio
+
+      if (whole > 0.0_wp) then
+         ratio = part/whole
+      else
+         ratio = merge(huge(1.0_wp), 0.0_wp, part > 0.0_wp)
       end if
-   end function unbalanced_ratio
+   end function ratio
 
 end module axijoint_joints_residual

@@ -7,9 +7,9 @@ module axijoint_joints_transfer
    use axijoint_base_progress, only : progress_type, show_progress
    use axijoint_base_text, only : to_text
    use axijoint_joints_field, only : joint_field_type, iteration_type, new_joint_field, &
-                                     elastic_stress, admit, count_state
+                                     elastic_stress, admit, judge_states, count_state
    use axijoint_joints_planes, only : planes_type, synthesize, analyse
-   use axijoint_joints_residual, only : unbalanced_ratio
+   use axijoint_joints_residual, only : residual_norm, load_norm, ratio
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type
    implicit none
@@ -45,25 +45,28 @@ contains
       !> Where to show progress
       type(progress_type), intent(inout) :: progress
 
+      real(wp) :: factor, largest_factor
       integer :: i
-      real(wp) :: factor
 
       allocate (path(0))
       displacement = 0.0_wp
       field = new_joint_field(size(points), size(planes%angle), size(equations%harmonics))
       factor = 0.0_wp
+      largest_factor = 0.0_wp
       converged = .true.
       do i = 1, size(model%increments)
          factor = factor + model%increments(i)%factor
+         largest_factor = max(largest_factor, abs(factor))  ! after unloading Psi_f would be zero
          call balance_increment(model, points, equations, planes, i, factor, factor*load, &
-                                displacement, field, path, converged, progress)
+                                largest_factor*load_norm(equations, load), displacement, field, &
+                                path, converged, progress)
          if (.not. converged) return
       end do
    end subroutine transfer_loop
 
    !> Iterate one increment to equilibrium
    subroutine balance_increment(model, points, equations, planes, increment, factor, applied, &
-                                displacement, field, path, converged, progress)
+                                norm, displacement, field, path, converged, progress)
       !> The job
       type(model_type), intent(in) :: model
       !> Points of all joints
@@ -78,6 +81,8 @@ contains
       real(wp), intent(in) :: factor
       !> Applied forces, shape (3, nodes, harmonics)
       real(wp), intent(in) :: applied(:, :, :)
+      !> Norm of the largest load so far (Psi_f)
+      real(wp), intent(in) :: norm
       !> Displacement amplitudes
       real(wp), intent(inout) :: displacement(:, :, :)
       !> State of the joints
@@ -89,22 +94,26 @@ contains
       !> Where to show progress
       type(progress_type), intent(inout) :: progress
 
-      type(iteration_type) :: now
+      type(iteration_type) :: steps(model%increments(increment)%max_iterations)
       integer :: iteration
 
       converged = .false.
-      do iteration = 1, model%increments(increment)%max_iterations
+      do iteration = 1, size(steps)
          call transfer_stress(model, points, equations, planes, applied, displacement, field)
-         now = iteration_type(increment=increment, iteration=iteration, load_factor=factor)
-         now%ratio = unbalanced_ratio(equations, points, applied, displacement, field%excess)
-         call count_state(field, now%n_slip, now%n_open)
-         path = [path, now]
-         call show_progress(progress, 'increment '//to_text(increment)//' iteration '// &
-                            to_text(iteration)//' residual '//to_text(now%ratio))
-         if (.not. ieee_is_finite(now%ratio)) return
-         converged = now%ratio <= model%increments(increment)%tolerance
-         if (converged) return
+         associate (now => steps(iteration))
+            now = iteration_type(increment=increment, iteration=iteration, load_factor=factor)
+            now%ratio = ratio(residual_norm(equations, points, applied, displacement, &
+                                            field%excess), norm)
+            call judge_states(model, points, field)
+            call count_state(field, now%n_slip, now%n_open)
+            call show_progress(progress, 'increment '//to_text(increment)//' iteration '// &
+                               to_text(iteration)//' residual '//to_text(now%ratio))
+            if (.not. ieee_is_finite(now%ratio)) exit
+            converged = now%ratio <= model%increments(increment)%tolerance
+         end associate
+         if (converged) exit
       end do
+      path = [path, steps(:min(iteration, size(steps)))]
    end subroutine balance_increment
 
    !> One sweep: solve for the residual forces (1), add the joint stress that

@@ -77,6 +77,7 @@ contains
 
       integer :: info
 
+      if (size(b) == 0) return
       call dpbtrs('L', size(band, 2), size(band, 1) - 1, size(b, 2), band, size(band, 1), &
                   b, size(b, 1), info)
    end subroutine band_cholesky_solve

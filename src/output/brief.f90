@@ -47,7 +47,8 @@ contains
          to_text(maxval(results%harmonics)))
       if (size(results%joint_state) > 0) text = text//joint_lines(results)
       text = text//line("residual ratio", to_text(results%residual_ratio))// &
-         line("equilibrium error", to_text(results%equilibrium_error))// &
+         line("equilibrium error", to_text(results%equilibrium_error)//" on the whole, "// &
+         to_text(results%part_error)//" on the worst part")// &
          displacement_line(model, results)// &
          line("time, peak memory", seconds_text(timer%seconds(phase_total))//" s, "// &
          to_text(nint(peak_memory_mb()))//" MB")// &
@@ -62,7 +63,9 @@ contains
       !> The words
       character(len=:), allocatable :: text
 
-      if (.not. results%converged) then
+      if (.not. results%converged .and. size(results%path) == 0) then
+         text = mark_not_converged//" (linear): residual ratio above "//to_text(results%tolerance)
+      else if (.not. results%converged) then
          text = mark_not_converged//" after "//to_text(size(results%path))// &
             " iterations (tolerance "//to_text(results%tolerance)//")"
       else if (size(results%path) == 0) then

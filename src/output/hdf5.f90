@@ -161,6 +161,7 @@ contains
          "Axial force, lateral force, moment, torque; (4)")
       call file%write("/resultants/reacted", results%reacted, "The same of the reactions; (4)")
       call file%attribute("/resultants", "equilibrium_error", results%equilibrium_error)
+      call file%attribute("/resultants", "part_equilibrium_error", results%part_error)
    end subroutine write_solution
 
    !> Stresses of the solids

@@ -59,7 +59,7 @@ contains
       call write_stresses(file, model, results)
       call write_joint_results(file, model, results)
       call write_reactions(file, model, results)
-      call write_equilibrium(file, results)
+      call write_equilibrium(file, model, results)
       call write_times(file, timer)
       call write_end(file, results)
    end subroutine write_listing

@@ -25,6 +25,8 @@ module axijoint_output_listing_solution
    character(len=*), parameter :: format_iteration = '(2i12)'
    !> Name of an order, its half-bandwidth and profile
    character(len=*), parameter :: format_order = '(2x, a22, i10, i16)'
+   !> Node that stands for a part
+   character(len=*), parameter :: format_part = '(i16)'
    !> Points that slip and that are open
    character(len=*), parameter :: format_states = '(2i12)'
    !> Phase, its wall clock and processor time, its share
@@ -193,12 +195,15 @@ contains
    end subroutine write_reactions
 
    !> Applied and reacted resultants
-   subroutine write_equilibrium(file, results)
+   subroutine write_equilibrium(file, model, results)
       !> The listing
       class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
       !> Results
       type(results_type), intent(in) :: results
 
+      character(len=16) :: node
       integer :: i
 
       call write_result_heading(file, "EQUILIBRIUM", results%converged)
@@ -207,8 +212,18 @@ contains
          call file%put("  "//resultant_names(i)//columns([results%applied(i), results%reacted(i), &
             results%applied(i) + results%reacted(i)], wide))
       end do
-      call file%put("  equilibrium error (largest sum over the scale of the loads)"// &
+      call file%put("  equilibrium error (largest sum over the resultants of the loads)"// &
          columns([results%equilibrium_error], wide))
+      if (size(results%part_node) < 2) return
+      call file%put("")
+      call file%put("  forces on each part that nothing balances: the joints' share of the residual")
+      call file%put("  part with node      axial force  lateral force         moment         torque")
+      do i = 1, size(results%part_node)
+         write (node, format_part) model%mesh%node_label(results%part_node(i))
+         call file%put(node//columns(results%part_unbalance(:, i), wide))
+      end do
+      call file%put("  largest of these over the resultants of the loads"// &
+         columns([results%part_error], wide))
    end subroutine write_equilibrium
 
    !> Where the time went, and the memory

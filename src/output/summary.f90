@@ -52,6 +52,7 @@ contains
       call put_pair(file, "tolerance", json_number(results%tolerance))
       call put_pair(file, "joint_states", states_text(results))
       call put_pair(file, "equilibrium_error", json_number(results%equilibrium_error))
+      call put_pair(file, "part_equilibrium_error", json_number(results%part_error))
       call put_pair(file, "seconds", seconds_text(timer))
       call put_last(file)
    end subroutine write_summary

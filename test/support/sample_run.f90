@@ -54,7 +54,9 @@ contains
 
       results%converged = converged
       results%harmonics = harmonics
-      allocate (results%orderings(0))
+      allocate (results%orderings(0), results%remarks(0))
+      results%part_node = [1]
+      results%part_unbalance = reshape([0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], [4, 1])
       results%solver = 1
       allocate (results%solves(2), results%path(3))
       results%solves%harmonic = harmonics
