@@ -9,7 +9,7 @@ module axijoint_analysis_recovery
                                       add_solid_force, isotropic_elasticity
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_joints_field, only : joint_field_type, elastic_stress
-   use axijoint_joints_residual, only : ratio
+   use axijoint_joints_residual, only : ratio, load_norm
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_mesh, only : n_elements, n_nodes, max_element_nodes
    use axijoint_model_model, only : model_type, gauss_order, on_axis
@@ -22,17 +22,18 @@ contains
    !> Fill stresses, reactions, the residual ratio and the equilibrium error.
    !> All forces come from the stresses, point by point, not from the assembled
    !> matrices, so that the ratio judges the whole path from mesh to solution.
-   subroutine recover(model, points, equations, applied, norm, field, results)
+   subroutine recover(model, points, equations, load, factor, largest_factor, field, results)
       !> The job
       type(model_type), intent(in) :: model
       !> Points of all joints
       type(model_joint_point_type), intent(in) :: points(:)
       !> Equations of the harmonics solved
       type(equations_type), intent(in) :: equations
-      !> Applied forces, shape (3, nodes, harmonics)
-      real(wp), intent(in) :: applied(:, :, :)
-      !> Norm of the largest load of the run (Psi_f)
-      real(wp), intent(in) :: norm
+      !> Loads for a factor of one, shape (3, nodes, harmonics)
+      real(wp), intent(in) :: load(:, :, :)
+      !> Load factor at the end, and the largest of the run: errors are measured
+      !> by the largest load, which does not vanish with unloading
+      real(wp), intent(in) :: factor, largest_factor
       !> State of the joints
       type(joint_field_type), intent(in) :: field
       !> Results; displacements are there already
@@ -41,7 +42,8 @@ contains
       real(wp), dimension(size(equations%harmonics)) :: unbalanced, scale
       real(wp), dimension(4, size(equations%harmonics)) :: resultant, reacted
       real(wp), allocatable :: unbalance(:, :, :)
-      real(wp) :: internal(3, n_nodes(model%mesh))
+      real(wp), dimension(3, n_nodes(model%mesh)) :: internal, force
+      real(wp) :: largest_load(4)
       integer, allocatable :: part(:)
       integer :: k
 
@@ -49,30 +51,32 @@ contains
       call solid_parts(model%mesh, part)
       allocate (unbalance(4, maxval(part), size(equations%harmonics)))
       allocate (results%reaction, mold=results%displacement)
-      !$omp parallel do schedule(dynamic) private(internal) if (worth_threads(equations))
+      !$omp parallel do schedule(dynamic) private(internal, force) if (worth_threads(equations))
       do k = 1, size(equations%harmonics)
-         associate (m => equations%harmonics(k), force => applied(:, :, k), &
-                    reaction => results%reaction(:, :, k))
+         associate (m => equations%harmonics(k), reaction => results%reaction(:, :, k))
+            force = factor*load(:, :, k)
             call solid_fields(model, m, results%displacement(:, :, k), results%stress(:, :, k), &
                               internal)
             internal = internal + joint_force(points, m, admitted(k), size(internal, 2))
             unbalanced(k) = sum(on_equations(equations, k, force - internal)**2)/circle_integral(m)
             reaction = merge(internal - force, 0.0_wp, held(model))
-            resultant(:, k) = rigid_resultants(model, m, force)
+            resultant(:, k) = rigid_resultants(model, m, load(:, :, k))
             reacted(:, k) = rigid_resultants(model, m, reaction)
             unbalance(:, :, k) = part_resultants(model, m, part, force - internal + reaction)
-            scale(k) = sum(abs(force))
+            scale(k) = largest_factor*sum(abs(load(:, :, k)))
          end associate
       end do
       !$omp end parallel do
-      results%applied = sum(resultant, 2)
+      results%applied = factor*sum(resultant, 2)
+      largest_load = largest_factor*sum(resultant, 2)
       results%reacted = sum(reacted, 2)
       results%part_unbalance = sum(unbalance, 3)
       results%part_node = [(findloc(part, k, 1), k=1, maxval(part))]
-      results%residual_ratio = ratio(sqrt(sum(unbalanced)), norm)
-      results%equilibrium_error = imbalance(model, results%applied, sum(scale), &
+      results%residual_ratio = ratio(sqrt(sum(unbalanced)), &
+                                     largest_factor*load_norm(equations, load))
+      results%equilibrium_error = imbalance(model, largest_load, sum(scale), &
                                             reshape(results%applied + results%reacted, [4, 1]))
-      results%part_error = imbalance(model, results%applied, sum(scale), results%part_unbalance)
+      results%part_error = imbalance(model, largest_load, sum(scale), results%part_unbalance)
 
    contains
 

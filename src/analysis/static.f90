@@ -17,7 +17,6 @@ module axijoint_analysis_static
    use axijoint_base_timer, only : timer_type, phase_assemble, phase_factor, phase_joints, &
                                    phase_recover
    use axijoint_joints_field, only : joint_field_type, new_joint_field, elastic_stress, n_across_gaps
-   use axijoint_joints_residual, only : load_norm
    use axijoint_joints_planes, only : planes_type, new_planes, new_view, synthesize
    use axijoint_joints_transfer, only : transfer_loop
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points
@@ -54,8 +53,8 @@ contains
       type(model_joint_point_type), allocatable :: points(:)
       type(equations_type), allocatable :: equations
       type(joint_field_type) :: field
-      real(wp), allocatable :: applied(:, :, :)
-      real(wp) :: factor, largest_factor, norm
+      real(wp), allocatable :: load(:, :, :)
+      real(wp) :: factor, largest_factor
       integer :: k
 
       call timer%push(phase_assemble)
@@ -71,9 +70,9 @@ contains
       call compare_orderings(model, results%orderings, error)
       if (allocated(error)) return
       call assemble_equations(equations, model, points, error)
-      allocate (applied(3, n_nodes(model%mesh), size(results%harmonics)))
+      allocate (load(3, n_nodes(model%mesh), size(results%harmonics)))
       do k = 1, size(results%harmonics)
-         applied(:, :, k) = applied_force(model, results%harmonics(k))
+         load(:, :, k) = applied_force(model, results%harmonics(k))
       end do
       call timer%pop()
       if (allocated(error)) return
@@ -85,15 +84,13 @@ contains
       if (allocated(error)) return
 
       call timer%push(phase_joints)
-      call solve(model, points, equations, applied, field, results, progress)
+      call solve(model, points, equations, load, field, results, progress)
       call timer%pop()
 
       call timer%push(phase_recover)
       call report_load_factors(model, results, factor, largest_factor)
-      norm = largest_factor*load_norm(equations, applied)
-      applied = factor*applied
-      call recover(model, points, equations, applied, norm, field, results)
-      call report_solves(points, equations, applied, field, results)
+      call recover(model, points, equations, load, factor, largest_factor, field, results)
+      call report_solves(points, equations, factor*load, field, results)
       results%converged = results%converged .and. results%residual_ratio <= results%tolerance
       results%remarks = remarks_on(model, field, results)
       call timer%pop()
