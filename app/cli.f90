@@ -115,8 +115,9 @@ contains
                only_decks = .true.
             else if (any(word == value_options) .and. command%command == command_run) then
                if (k == size(words)) then
-                  call fatal_error(error, exit_deck, 'option '//word//' needs a value'// &
-                                   new_line('a')//help_text('run'))
+                  call fatal_error(error, exit_deck, 'option '//word//' needs a '// &
+                                   trim(merge('directory', 'value    ', word == '-o'))// &
+                                   ": see 'axijoint help run'")
                   return
                end if
                k = k + 1

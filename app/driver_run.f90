@@ -44,8 +44,10 @@ contains
             call run_deck(deck, command, code, error)
             if (allocated(error)) then
                call print_error(deck, error)
-               call write_error_summary(command%directory, job_name(deck), deck, error%code, &
-                                        [error%message])
+               if (len(job_name(deck)) > 0) then
+                  call write_error_summary(command%directory, job_name(deck), deck, error%code, &
+                                           [error%message])
+               end if
                code = error%code
             end if
          end associate
@@ -86,7 +88,7 @@ contains
       if (diagnostics%n_warnings > 0) write (error_unit, '(a)') render(diagnostics, source)
 
       if (command%solver >= 0) model%solver = command%solver
-      call check_output(command%directory, job_name(deck), error)
+      call check_output(command%directory, job_name(deck), source, error)
       if (allocated(error)) return
       call analyse_model(model, results, timer, progress, error)
       call clear_progress(progress)

@@ -303,8 +303,8 @@ contains
                 ' (r = '//to_text(model%mesh%coordinates(1, place(2)))// &
                 ', z = '//to_text(model%mesh%coordinates(2, place(2)))// &
                 ') can move freely in direction '//trim(component_name(place(1)))//new_line('a')// &
-                'mend: is a restraint missing, is a joint stiffness zero or far below '// &
-                'that of the bodies, or is a material far softer than the rest?'
+                'mend: is a restraint missing, is a joint stiffness zero or out of all '// &
+                'proportion to the bodies, or a material far softer than the rest?'
    end function pivot_message
 
    !> Displacement of one harmonic under nodal forces

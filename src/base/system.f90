@@ -4,7 +4,7 @@ module axijoint_base_system
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: path_kind, is_directory, rename_path, unlink_path, sync_path
+   public :: path_kind, is_directory, same_file, rename_path, unlink_path, sync_path
    public :: peak_memory_mb, process_id, error_output_is_terminal
    public :: ignore_file_size_signal, last_error, set_last_error, error_text
    public :: path_absent, path_file, path_directory, path_link, path_other
@@ -39,6 +39,13 @@ module axijoint_base_system
          character(kind=c_char), intent(in) :: path(*)
          integer(c_int) :: c_is_directory
       end function c_is_directory
+
+      !> Whether two paths lead to one file; system_shim.c
+      function c_same_file(first, second) bind(c, name="axijoint_same_file")
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: first(*), second(*)
+         integer(c_int) :: c_same_file
+      end function c_same_file
 
       !> Bring a file or directory to the disk; system_shim.c
       function c_sync_path(path) bind(c, name="axijoint_sync_path")
@@ -121,6 +128,13 @@ contains
       character(len=*), intent(in) :: path
       is_directory = c_is_directory(path//c_null_char) == 1_c_int
    end function is_directory
+
+   !> Whether two paths lead to one file, links followed
+   logical function same_file(first, second)
+      !> The paths
+      character(len=*), intent(in) :: first, second
+      same_file = c_same_file(first//c_null_char, second//c_null_char) == 1_c_int
+   end function same_file
 
    !> Give a file another name in one step, replacing a file of that name
    subroutine rename_path(from, to, errno)

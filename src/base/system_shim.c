@@ -31,6 +31,14 @@ int axijoint_is_directory(const char *path)
    return S_ISDIR(status.st_mode) ? 1 : 0;
 }
 
+/* Whether two paths, links followed, lead to one file: 1 or 0. */
+int axijoint_same_file(const char *first, const char *second)
+{
+   struct stat one, other;
+   if (stat(first, &one) != 0 || stat(second, &other) != 0) return 0;
+   return one.st_dev == other.st_dev && one.st_ino == other.st_ino ? 1 : 0;
+}
+
 /* Bring what was written to a file, or a directory's entries, to the disk.
    A file system that cannot do this for directories is no error. */
 int axijoint_sync_path(const char *path)

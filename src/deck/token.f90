@@ -143,6 +143,8 @@ contains
       if (scan(token(1:1), '+-') == 1) number = token(2:)
       mark = verify(number//'E', digits//'.')
       if (mark <= len(number)) then
+         ! `1-2` is more likely a slip than 1E-2; `1.0-2` is the old way to write it
+         if (scan(number(mark:mark), '+-') == 1 .and. index(number(:mark - 1), '.') == 0) return
          call read_exponent(number(mark:), exponent)
          if (exponent > 2*endless) return
          number = number(:mark - 1)

@@ -30,7 +30,7 @@ contains
          associate (nodes => member(clique_start(clique):clique_start(clique + 1) - 1))
             free = not(iany(seen(nodes)))
             color(clique) = trailz(free)
-            seen(nodes) = ibset(iany(seen(nodes)), color(clique))
+            seen(nodes) = ibset(seen(nodes), color(clique))
          end associate
       end do
       allocate (color_start(maxval([-1, color]) + 2), colored(size(color)))

@@ -93,6 +93,7 @@ contains
       self%present = status >= 0
       if (self%present) return
       self%file = no_handle
+      call discard(path)  ! a file without its first bytes may be there
       call io_error(error, "open", path, self%failure%errno)
    end subroutine create
 

@@ -2,10 +2,10 @@
 module axijoint_output_output
    use axijoint_analysis_results, only : results_type
    use axijoint_base_error, only : error_type, fatal_error, exit_io, exit_internal
-   use axijoint_base_system, only : path_kind, is_directory, path_absent, path_file, &
+   use axijoint_base_system, only : path_kind, is_directory, same_file, path_absent, path_file, &
       path_directory, path_link, error_text
    use axijoint_base_timer, only : timer_type
-   use axijoint_deck_source, only : source_type
+   use axijoint_deck_source, only : source_type, card_file
    use axijoint_model_model, only : model_type
    use axijoint_output_echo, only : deck_path
    use axijoint_output_hdf5, only : write_results
@@ -28,11 +28,13 @@ contains
 
    !> Before the solve: the directory is there, files can be made in it, and
    !> the final names are free or regular files
-   subroutine check_output(directory, name, error)
+   subroutine check_output(directory, name, source, error)
       !> Directory of the files; empty for the current one
       character(len=*), intent(in) :: directory
       !> Name of the job
       character(len=*), intent(in) :: name
+      !> Cards of the deck: their files must not be overwritten
+      type(source_type), intent(in) :: source
       !> What stands in the way
       type(error_type), allocatable, intent(out) :: error
 
@@ -45,9 +47,39 @@ contains
       end if
       call check_names(directory, name, error)
       if (allocated(error)) return
+      call spare_sources(directory, name, source, error)
+      if (allocated(error)) return
       call probe%open(final_path(directory, name, 3), error)
       call probe%abandon()
    end subroutine check_output
+
+   !> Refuse to write over the deck or a file that it includes
+   subroutine spare_sources(directory, name, source, error)
+      !> Directory of the files
+      character(len=*), intent(in) :: directory
+      !> Name of the job
+      character(len=*), intent(in) :: name
+      !> Cards of the deck
+      type(source_type), intent(in) :: source
+      !> The file in danger
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: file
+      integer :: card, ending
+
+      file = ""
+      do card = 1, source%n_cards
+         if (card_file(source, card) == file) cycle
+         file = card_file(source, card)
+         do ending = 1, 3
+            if (.not. same_file(final_path(directory, name, ending), file)) cycle
+            call fatal_error(error, exit_io, "the results would overwrite "//file// &
+               ", a file of the deck"//new_line("a")// &
+               "mend: another name for the deck, or another directory with -o")
+            return
+         end do
+      end do
+   end subroutine spare_sources
 
    !> Write listing, summary and results. Nothing changes under a final name
    !> before all three are complete on the disk; after an error the temporary
@@ -82,8 +114,8 @@ contains
       call check_results(results, error)
       if (allocated(error)) return
       run = new_run(deck_path(source), exit_code)
-      messages(:size(warnings)) = warnings
-      if (.not. results%converged) messages(size(messages)) = convergence_text(results)
+      if (.not. results%converged) messages(1) = convergence_text(results)
+      messages(size(messages) - size(warnings) + 1:) = warnings
 
       call arrays%create(final_path(directory, name, 1), error)
       if (.not. allocated(error)) then
@@ -131,7 +163,8 @@ contains
 
       if (path_kind(final_path(directory, name, 1)) /= path_absent) return
       if (path_kind(final_path(directory, name, 2)) /= path_absent) return
-      call check_output(directory, name, error)
+      if (same_file(final_path(directory, name, 3), deck)) return
+      call check_names(directory, name, error)
       if (allocated(error)) return
       call summary%open(final_path(directory, name, 3), error)
       if (allocated(error)) return

@@ -102,7 +102,7 @@ contains
 
       real(wp) :: width, share, overhead
 
-      width = real(solver%factor_entries, wp)/max(1, solver%n)
+      width = max(1.0_wp, real(solver%factor_entries, wp)/max(1, solver%n))
       overhead = 0.0_wp
       select case (kind)
       case (solver_band)

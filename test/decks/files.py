@@ -1,0 +1,164 @@
+"""Result files that cannot be written, and memory that does not suffice"""
+import os
+import resource
+import subprocess
+
+from support import EarlierResults, INPUTS, Test, expected, read_bytes, read_text, write
+
+FIRST = os.path.realpath(os.path.join(INPUTS, 'first.dat'))
+MEBIBYTE = 2**20
+# A mesh whose factor takes some 500 MiB
+LARGE = """TITLE
+A mesh too large for the memory
+CONTROL
+0, , , , BAND
+MATERIALS
+1, 1.0, 0.3
+BLOCKS
+1, 1, 4, 200, 200
+0, 0, 1, 1
+FACES
+1, 1, 0, 0, 1, 0
+2, 1, 0, 1, 1, 1
+FIXEDFACES
+1, 010
+TRACTIONS
+2, 0, 0, 1.0
+END
+"""
+
+
+def failed(ran, code, words):
+    """Faults unless a run ended with a code and said why"""
+    faults = ran.ended_with(code)
+    if words not in ran.err or 'mend: ' not in ran.err:
+        faults.append(f'expected {words!r} and how to mend it, found\n{ran.err}')
+    return faults
+
+
+def missing(program, folder):
+    """The directory for results does not exist, and is not made"""
+    ran = program.run('run', FIRST, '-o', 'nowhere', folder=folder)
+    return failed(ran, 5, 'there is no directory nowhere') + expected('files', [],
+                                                                      os.listdir(folder))
+
+
+def is_file(program, folder):
+    """The directory for results is a file"""
+    write(folder, 'place', 'a file\n')
+    ran = program.run('run', FIRST, '-o', 'place', folder=folder)
+    return failed(ran, 5, 'place') + expected('the file', 'a file\n',
+                                              read_text(os.path.join(folder, 'place')))
+
+
+def read_only(program, folder):
+    """The directory for results may not be written"""
+    earlier = EarlierResults(os.path.join(folder, 'results'), 'job')
+    deck = write(folder, 'job.dat', read_text(FIRST))
+    os.chmod(folder, 0o755)
+    os.chmod(earlier.folder, 0o555)
+    ran = program.run_as_nobody('run', deck, '-o', 'results', folder=folder)
+    os.chmod(earlier.folder, 0o755)
+    return failed(ran, 5, 'results') + earlier.faults()
+
+
+def occupied(program, folder, make):
+    """A final name that is no file is refused, whichever of the three"""
+    faults = []
+    for ending in ('lis', 'json', 'h5'):
+        place = os.path.join(folder, ending)
+        os.mkdir(place)
+        make(os.path.join(place, f'first.{ending}'))
+        ran = program.run('run', FIRST, '-o', place)
+        faults += failed(ran, 5, f'first.{ending}')
+        faults += [f'found {name}' for name in os.listdir(place)
+                   if name not in (f'first.{ending}', 'first.json')]
+    return faults
+
+
+def deck_named_like_a_result(program, folder):
+    """A deck is not overwritten by its own results, nor is a file that it includes"""
+    faults = []
+    included = write(folder, 'parts.h5', 'END\n')
+    deck = read_text(FIRST)
+    for name, text in (('job.lis', deck), ('job.json', deck), ('job.h5', deck),
+                       ('parts.dat', deck.replace('\nFACES', '\nINCLUDE   parts.h5\nFACES'))):
+        path = write(folder, name, text)
+        ran = program.run('run', path, '-o', folder)
+        faults += [f'{name}: {fault}' for fault in ran.crash()]
+        if ran.code not in (2, 5):
+            faults.append(f'{name}: expected exit code 2 or 5, found {ran.code}')
+        if read_bytes(path) != text.encode() or read_bytes(included) != b'END\n':
+            faults.append(f'{name}: the deck was overwritten')
+    return faults
+
+
+def link(folder):
+    """Make a symbolic link to a file, and check in the end that the file is as it was"""
+    target = write(folder, 'target', 'kept\n')
+    return lambda path: os.symlink(target, path)
+
+
+def file_size_limit(program, folder):
+    """Each file in turn meets a limit on file sizes; earlier results stay"""
+    faults = []
+    earlier = EarlierResults(os.path.join(folder, 'results'), 'first')
+    for size in (0, 1, 600, 4096, 100000, 260000):
+        ran = program.run('run', FIRST, '-o', earlier.folder,
+                          limits=[(resource.RLIMIT_FSIZE, size)])
+        faults += [f'limit {size}: {fault}' for fault in failed(ran, 5, 'File too large')
+                   + earlier.faults()]
+    return faults
+
+
+def full_disk(program, folder):
+    """A small file system runs full: exit code 5, earlier results stay. It takes root to mount it;
+    where that is not allowed the limit on file sizes has to do"""
+    place = os.path.join(folder, 'disk')
+    os.mkdir(place)
+    script = '''
+        mount -t tmpfs -o size=64k axijoint "$1" 2>/dev/null || exit 77
+        for file in lis json h5; do echo earlier >"$1/first.$file"; done
+        "$2" run "$3" -o "$1" >/dev/null
+        status=$?
+        ls "$1"
+        cat "$1"/first.*
+        exit $status'''
+    ran = subprocess.run(['unshare', '-m', 'sh', '-c', script, 'sh', place, program.path, FIRST],
+                         capture_output=True, text=True, env=program.environment, timeout=60,
+                         check=False)
+    if ran.returncode in (1, 77) and 'axijoint' not in ran.stderr:
+        return []
+    faults = expected('exit code', 5, ran.returncode)
+    faults += expected('files', 'first.h5\nfirst.json\nfirst.lis\n' + 3*'earlier\n', ran.stdout)
+    return faults + ([] if 'mend: ' in ran.stderr else [ran.stderr])
+
+
+def memory(program, folder):
+    """The factor does not fit into the memory that is allowed. (Limits so small that the mesh
+    itself does not fit are not tested: the run-time library then ends the program.)"""
+    deck = write(folder, 'large.dat', LARGE)
+    earlier = EarlierResults(os.path.join(folder, 'results'), 'large')
+    ran = program.run('run', deck, '-o', earlier.folder,
+                      limits=[(resource.RLIMIT_AS, 450*MEBIBYTE)])
+    return failed(ran, 6, 'out of memory') + earlier.faults()
+
+
+def tests(program):
+    """One test a way to fail"""
+    functions = {
+        'no directory': missing, 'a file for a directory': is_file,
+        'read-only directory': read_only, 'file size limit': file_size_limit,
+        'a deck named like a result': deck_named_like_a_result,
+        'full disk': full_disk, 'memory limit': memory,
+        'directory for a file': lambda program, folder: occupied(program, folder, os.mkdir),
+        'pipe for a file': lambda program, folder: occupied(program, folder, os.mkfifo),
+    }
+
+    def symbolic_link(folder):
+        faults = occupied(program, folder, link(folder))
+        return faults + expected('target', 'kept\n', read_text(os.path.join(folder, 'target')))
+
+    return [Test('files: symbolic link for a file', symbolic_link)] + [
+        Test(f'files: {name}', lambda folder, function=function: function(program, folder))
+        for name, function in functions.items()]

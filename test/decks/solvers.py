@@ -1,0 +1,94 @@
+"""The solvers agree, and the number of threads changes nothing"""
+import json
+import os
+import re
+
+from support import INPUTS, Test, read_text, write
+
+# A ring large enough for harmonics to be solved in parallel
+RING = """TITLE
+Ring under four harmonics
+CONTROL
+5
+MATERIALS
+1, 1.0, 0.3
+BLOCKS
+1, 1, 8, 20, 20
+1, 0, 2, 1
+FACES
+1, 1, 1, 0, 2, 0
+2, 1, 1, 1, 2, 1
+FIXEDFACES
+1, 111
+TRACTIONS
+2, 0, 0, 1
+2, 1, 1, 1, -1
+2, 2, 1, 1, 1
+2, 5, 1, 1, 1
+END
+"""
+
+
+def results(program, folder, deck, *options):
+    """Listing, without header, solver and times, and summary of a run"""
+    ran = program.run('run', deck, '-o', folder, *options)
+    if ran.code != 0:
+        raise AssertionError(f'{options}: exit code {ran.code}\n{ran.err}')
+    stem = os.path.join(folder, os.path.splitext(os.path.basename(deck))[0])
+    text = read_text(stem + '.lis')
+    tables = text[text.index('\nDISPLACEMENT AMPLITUDES'):text.index('\nTIMES')]
+    return tables, json.loads(read_text(stem + '.json'))
+
+
+def numbers(tables):
+    """Displacements of the listing"""
+    return [float(word) for line in tables.split('\nTOTAL')[0].splitlines()
+            for word in line.split()[3:] if re.fullmatch(r'-?\d\.\d+E[+-]\d+', word)]
+
+
+def solvers_agree(program, folder):
+    """Displacements of the three solvers differ by rounding"""
+    faults = []
+    for deck in (write(folder, 'ring.dat', RING), os.path.join(INPUTS, 'case3.dat')):
+        found = {}
+        for solver in ('band', 'skyline', 'sparse'):
+            tables, summary = results(program, folder, deck, '--solver', solver)
+            if summary['solver'] != solver:
+                faults.append(f'asked for {solver}, found {summary["solver"]}')
+            found[solver] = numbers(tables)
+        size = max(map(abs, found['band']))
+        for solver in ('skyline', 'sparse'):
+            worst = max(abs(a - b) for a, b in zip(found['band'], found[solver]))
+            if len(found[solver]) != len(found['band']) or worst > 1e-7*size:
+                faults.append(f'{deck}: {solver} and band differ by {worst:.1e} of {size:.1e}')
+    return faults
+
+
+def threads_change_nothing(program, folder):
+    """One and two threads print the same tables"""
+    deck = write(folder, 'ring.dat', RING)
+    faults = []
+    for solver in ('band', 'sparse'):
+        one, two = (results(program, folder, deck, '--solver', solver, '--threads', threads)[0]
+                    for threads in '12')
+        if one != two:
+            faults.append(f'{solver}: the tables of one and of two threads differ')
+    return faults
+
+
+def estimate_tells_costs(program, folder):
+    """`estimate` has a line for each solver and solves nothing"""
+    ran = program.run('estimate', write(folder, 'ring.dat', RING))
+    rows = re.findall(r'^ +(BAND|SKYLINE|SPARSE) +(\d+)', ran.out, re.MULTILINE)
+    faults = [] if ran.code == 0 else [f'exit code {ran.code}']
+    if [row[0] for row in rows] != ['BAND', 'SKYLINE', 'SPARSE'] or len({row[1] for row in rows}) != 1:
+        faults.append(f'found {ran.out!r}')
+    return faults + [f'wrote {name}' for name in os.listdir(folder) if name != 'ring.dat']
+
+
+def tests(program):
+    """All of them"""
+    return [Test(f'solvers: {name}', lambda folder, check=check: check(program, folder))
+            for name, check in (('they agree', solvers_agree),
+                                ('threads', threads_change_nothing),
+                                ('estimate', estimate_tells_costs))]
