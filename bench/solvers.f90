@@ -1,0 +1,487 @@
+!> What the solvers cost against the number of unknowns, on square meshes of
+!> 9-node elements. One call measures one mesh and writes one line of
+!> comma-separated values a solver and number of threads; scripts/bench makes
+!> table and figure of them.
+!>
+!> Usage: solvers NODES [--harmonics M] [--limit SECONDS] [--solvers NAMES] [--dump FILE]
+program solvers
+   use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
+   use omp_lib, only : omp_set_num_threads, omp_get_num_procs
+   use axijoint_assembly_equations, only : equations_type, plan_equations, assemble_equations, &
+                                           factorize_equations, needed_bytes
+   use axijoint_assembly_pattern, only : node_graph
+   use axijoint_assembly_stiffness, only : stiffness_type, new_stiffness, assemble_parts, &
+                                           harmonic_matrix
+   use axijoint_base_error, only : error_type
+   use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_memory, only : available_memory
+   use axijoint_base_text, only : to_text, lower
+   use axijoint_linalg_lapack, only : use_one_blas_thread
+   use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type, multiply, infinity_norm
+   use axijoint_model_joint_points, only : model_joint_point_type
+   use axijoint_model_load, only : edge_load_type, ring_load_type, increment_type
+   use axijoint_model_material, only : solid_material_type, joint_material_type
+   use axijoint_model_model, only : model_type
+   use axijoint_order_graph, only : graph_type
+   use axijoint_solver_choice, only : solver_band, solver_sparse, solver_names, new_solver, &
+                                      new_order, expected_seconds
+   use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type
+   implicit none
+
+   !> The harmonic that is measured alone
+   integer, parameter :: harmonic = 2
+   !> Measurements of short times go on for this long, and are at least three
+   real(wp), parameter :: least_seconds = 0.3_wp
+   !> Share of the limit after which a measurement is not repeated
+   real(wp), parameter :: patience = 0.25_wp
+   !> Unknowns of the products that the machine's rate is measured with
+   integer, parameter :: product_size = 2000
+
+   interface
+      !> Matrix product
+      subroutine dgemm(transa, transb, m, n, k, alpha, a, lda, b, ldb, beta, c, ldc)
+         import :: wp
+         character, intent(in) :: transa, transb
+         integer, intent(in) :: m, n, k, lda, ldb, ldc
+         real(wp), intent(in) :: alpha, a(lda, *), b(ldb, *), beta
+         real(wp), intent(inout) :: c(ldc, *)
+      end subroutine dgemm
+   end interface
+
+   !> What the command line asks for
+   type :: config_type
+      !> Nodes along a side of the mesh
+      integer :: n_side = 0
+      !> Harmonics of the runs on several threads; none: no such runs
+      integer :: n_harmonics = 0
+      !> Expected time of a factorization from which on it is left out [second]
+      real(wp) :: limit = 60.0_wp
+      !> Names of the solvers, in any letters
+      character(len=:), allocatable :: solvers
+      !> File for the matrix as the sparse solver gets it; empty: none
+      character(len=:), allocatable :: dump
+   end type config_type
+
+   !> One line of the table; times in seconds, negative where nothing was
+   !> measured
+   type :: record_type
+      integer :: n_side = 0, n_unknowns = 0, kind = 0, n_threads = 1, n_harmonics = 1
+      real(wp) :: order = -1.0_wp, analysis = -1.0_wp, parts = -1.0_wp, matrix = -1.0_wp
+      real(wp) :: factorization = -1.0_wp, solution = -1.0_wp, operations = 0.0_wp
+      real(wp) :: rate = 0.0_wp, bytes = 0.0_wp, entries = 0.0_wp
+      real(wp) :: backward_error = -1.0_wp, lapack_ratio = -1.0_wp, expected = 0.0_wp, share = -1.0_wp
+      character(len=:), allocatable :: note
+   end type record_type
+
+   type(config_type) :: config
+   type(model_type) :: model
+   real(wp) :: rate
+   integer :: kind
+
+   call read_arguments(config)
+   call use_one_blas_thread()
+   rate = product_rate()
+   model = square(config%n_side)
+   call print_header()
+   do kind = solver_band, solver_sparse
+      if (index(config%solvers, trim(lower(solver_names(kind)))) == 0) cycle
+      call measure_solver(kind)
+   end do
+
+contains
+
+   !> Read the command line
+   subroutine read_arguments(config)
+      !> What it asks for
+      type(config_type), intent(out) :: config
+
+      character(len=1024) :: word
+      integer :: k, stat
+
+      config%solvers = 'band,skyline,sparse'
+      config%dump = ''
+      call get_command_argument(1, word)
+      read (word, *, iostat=stat) config%n_side
+      if (stat /= 0 .or. config%n_side < 3 .or. mod(config%n_side, 2) == 0) then
+         call fail('the first argument is the number of nodes along a side: odd, from 3 on')
+      end if
+      do k = 2, command_argument_count() - 1, 2
+         call get_command_argument(k, word)
+         select case (word)
+         case ('--harmonics')
+            call get_command_argument(k + 1, word)
+            read (word, *) config%n_harmonics
+         case ('--limit')
+            call get_command_argument(k + 1, word)
+            read (word, *) config%limit
+         case ('--solvers')
+            call get_command_argument(k + 1, word)
+            config%solvers = lower(trim(word))
+         case ('--dump')
+            call get_command_argument(k + 1, word)
+            config%dump = trim(word)
+         case default
+            call fail('unknown option '//trim(word))
+         end select
+      end do
+   end subroutine read_arguments
+
+   !> Measure one solver, first on one harmonic, then on several with one thread
+   !> and with all
+   subroutine measure_solver(kind)
+      !> One of the `solver_` parameters
+      integer, intent(in) :: kind
+
+      type(record_type) :: record
+      integer :: n_threads
+
+      call measure_harmonic(kind, record)
+      call print_record(record)
+      if (config%n_harmonics == 0 .or. record%factorization < 0.0_wp) return
+      if (record%factorization*config%n_harmonics > patience*config%limit) return
+      n_threads = 1
+      do
+         call measure_threads(kind, n_threads, record)
+         call print_record(record)
+         if (n_threads == min(2, omp_get_num_procs())) exit
+         n_threads = 2
+      end do
+   end subroutine measure_solver
+
+   !> All steps of one solver for one harmonic on one thread
+   subroutine measure_harmonic(kind, record)
+      !> One of the `solver_` parameters
+      integer, intent(in) :: kind
+      !> What was measured
+      type(record_type), intent(out) :: record
+
+      type(graph_type) :: graph
+      type(stiffness_type) :: stiffness(1)
+      type(symmetric_matrix_type) :: matrix
+      class(solver_type), allocatable :: solver
+      type(error_type), allocatable :: error
+      integer, allocatable :: order(:)
+      real(wp) :: start
+
+      call omp_set_num_threads(1)
+      start = seconds()
+      graph = node_graph(model%mesh)
+      call new_order(graph, kind, order, error)
+      call stop_on(error)
+      record%order = seconds() - start
+      start = seconds()
+      call new_stiffness(stiffness(1), model, harmonic, graph, order)
+      call new_solver(solver, kind)
+      call solver%analyse(stiffness(1)%pattern, error)
+      call stop_on(error)
+      record%analysis = seconds() - start
+      call describe(record, kind, solver)
+      if (.not. feasible(record)) return
+      start = seconds()
+      call assemble_parts(stiffness, model, [model_joint_point_type ::])
+      record%parts = seconds() - start
+      start = seconds()
+      call harmonic_matrix(stiffness(1), harmonic, matrix)
+      record%matrix = seconds() - start
+      deallocate (stiffness(1)%parts)
+      if (kind == solver_sparse .and. len(config%dump) > 0) call dump_matrix(matrix, config%dump)
+      call measure_factor(solver, matrix, record)
+   end subroutine measure_harmonic
+
+   !> What is known of a factorization before it
+   subroutine describe(record, kind, solver)
+      !> The line of the table
+      type(record_type), intent(inout) :: record
+      !> One of the `solver_` parameters
+      integer, intent(in) :: kind
+      !> The plan
+      class(solver_type), intent(in) :: solver
+
+      record%n_side = config%n_side
+      record%n_unknowns = solver%n
+      record%kind = kind
+      record%rate = rate
+      record%operations = solver%operations
+      record%entries = real(solver%factor_entries, wp)
+      record%bytes = real(solver%factor_bytes, wp)
+      record%expected = expected_seconds(solver, kind, rate)
+      record%note = ''
+   end subroutine describe
+
+   !> Whether a factorization is expected to end in time and to fit in memory
+   logical function feasible(record)
+      !> The line of the table; the reason is put in its note
+      type(record_type), intent(inout) :: record
+
+      feasible = .false.
+      if (record%expected > config%limit) then
+         record%note = 'left out: '//to_text(nint(record%expected))//' s expected'
+      else if (record%bytes > 0.8_wp*real(available_memory(), wp)) then
+         record%note = 'left out: '//to_text(nint(record%bytes/2.0_wp**20))//' MiB needed'
+      else
+         feasible = .true.
+      end if
+   end function feasible
+
+   !> Factorization, solution and errors
+   subroutine measure_factor(solver, matrix, record)
+      !> The plan
+      class(solver_type), intent(in) :: solver
+      !> The matrix
+      type(symmetric_matrix_type), intent(in) :: matrix
+      !> The line of the table
+      type(record_type), intent(inout) :: record
+
+      class(factor_type), allocatable :: factor
+      type(pivot_report_type) :: pivots
+      type(error_type), allocatable :: error
+      real(wp), allocatable :: times(:), b(:), x(:, :), correction(:, :)
+      real(wp) :: start, processor, processor_end, norm
+
+      call cpu_time(processor)
+      allocate (times(0), x(matrix%n, 1), correction(matrix%n, 1))
+      do
+         if (allocated(factor)) deallocate (factor)  ! every factor takes fresh memory
+         start = seconds()
+         call solver%factorize(matrix, factor, pivots, error)
+         call stop_on(error)
+         times = [times, seconds() - start]
+         if (pivots%equation > 0) call fail('a pivot is not positive')
+         if (size(times) >= 3 .and. sum(times) > least_seconds) exit
+         if (sum(times) > patience*config%limit) exit
+      end do
+      call cpu_time(processor_end)
+      record%share = (processor_end - processor)/sum(times)
+      record%factorization = median(times)
+      allocate (b(matrix%n), source=1.0_wp)
+      times = [real(wp) ::]
+      do
+         x(:, 1) = b
+         start = seconds()
+         call factor%solve(x)
+         times = [times, seconds() - start]
+         if (size(times) >= 3 .and. sum(times) > 0.3_wp*least_seconds) exit
+      end do
+      record%solution = median(times)
+      norm = infinity_norm(matrix)
+      correction(:, 1) = b - multiply(matrix, x(:, 1))
+      record%lapack_ratio = maxval(abs(correction))/(norm*maxval(abs(x))*matrix%n*epsilon(norm))
+      call factor%solve(correction)
+      x = x + correction
+      record%backward_error = maxval(abs(b - multiply(matrix, x(:, 1)))) &
+         /(norm*maxval(abs(x)) + maxval(abs(b)))
+   end subroutine measure_factor
+
+   !> Factorizations of harmonics 1, 2, ... as in a run of axijoint
+   subroutine measure_threads(kind, n_threads, record)
+      !> One of the `solver_` parameters
+      integer, intent(in) :: kind
+      !> Harmonics factored at once
+      integer, intent(in) :: n_threads
+      !> What was measured
+      type(record_type), intent(out) :: record
+
+      type(equations_type), allocatable :: equations
+      type(error_type), allocatable :: error
+      real(wp) :: start, processor, processor_end
+      integer :: m
+
+      call omp_set_num_threads(n_threads)
+      model%solver = kind
+      start = seconds()
+      call plan_equations(equations, model, [(m, m=1, config%n_harmonics)], error)
+      call stop_on(error)
+      record%analysis = seconds() - start
+      call describe(record, kind, equations%plans(1)%solver)
+      record%n_threads = n_threads
+      record%n_harmonics = config%n_harmonics
+      record%operations = record%operations*config%n_harmonics
+      record%expected = record%expected*config%n_harmonics
+      record%bytes = real(needed_bytes(equations), wp)
+      if (.not. feasible(record)) return
+      start = seconds()
+      call assemble_equations(equations, model, [model_joint_point_type ::], error)
+      call stop_on(error)
+      record%matrix = seconds() - start
+      call cpu_time(processor)
+      start = seconds()
+      call factorize_equations(equations, model, error)
+      call stop_on(error)
+      record%factorization = seconds() - start
+      call cpu_time(processor_end)
+      record%share = (processor_end - processor)/record%factorization
+   end subroutine measure_threads
+
+   !> Square of 9-node elements, r = 1..2, z = 0..1, its bottom held
+   function square(n_side) result(model)
+      !> Nodes along a side, odd
+      integer, intent(in) :: n_side
+      !> The model
+      type(model_type) :: model
+
+      integer, parameter :: di(9) = [0, 2, 2, 0, 1, 2, 1, 0, 1], dj(9) = [0, 0, 2, 2, 0, 1, 2, 1, 1]
+      integer :: i, j, k, n_nodes, n_elements
+
+      n_nodes = n_side**2
+      n_elements = ((n_side - 1)/2)**2
+      model%title = 'square'
+      model%materials = [solid_material_type(1, 1.0_wp, 0.3_wp)]
+      model%max_harmonic = config%n_harmonics
+      allocate (model%joint_materials(0), model%edge_loads(0), model%ring_loads(0))
+      model%increments = [increment_type()]
+      model%output_angles = [real(wp) ::]
+      associate (mesh => model%mesh)
+         mesh%node_label = [(i, i=1, n_nodes)]
+         mesh%element_label = [(i, i=1, n_elements)]
+         mesh%element_material = spread(1, 1, n_elements)
+         mesh%element_body = spread(1, 1, n_elements)
+         mesh%element_size = spread(9, 1, n_elements)
+         allocate (mesh%joint_label(0), mesh%joint_material(0), mesh%joint_size(0))
+         allocate (mesh%joint_nodes(6, 0), mesh%coordinates(2, n_nodes))
+         allocate (mesh%element_nodes(9, n_elements))
+         do j = 0, n_side - 1
+            do i = 0, n_side - 1
+               mesh%coordinates(:, 1 + i + j*n_side) = [1.0_wp, 0.0_wp] &
+                  + real([i, j], wp)/(n_side - 1)
+            end do
+         end do
+         k = 0
+         do j = 0, n_side - 3, 2
+            do i = 0, n_side - 3, 2
+               k = k + 1
+               mesh%element_nodes(:, k) = 1 + i + di + (j + dj)*n_side
+            end do
+         end do
+         allocate (model%fixed(3, n_nodes))
+         model%fixed = spread(mesh%coordinates(2, :) <= 0.0_wp, 1, 3)
+      end associate
+   end function square
+
+   !> Write a matrix for other solvers: order and entries (8 bytes), starts of
+   !> the rows (8 bytes), columns (4 bytes) and values of the lower triangle by
+   !> rows, counted from one
+   subroutine dump_matrix(matrix, path)
+      !> The matrix
+      type(symmetric_matrix_type), intent(in) :: matrix
+      !> The file
+      character(len=*), intent(in) :: path
+
+      integer :: unit, stat
+
+      open (newunit=unit, file=path, access='stream', form='unformatted', status='replace', &
+            action='write', iostat=stat)
+      if (stat /= 0) call fail('cannot write '//path)
+      write (unit) int(matrix%n, i8), size(matrix%column, kind=i8), matrix%row_start, &
+         matrix%column, matrix%value
+      close (unit)
+   end subroutine dump_matrix
+
+   !> Operations a second of a large matrix product: the machine's rate
+   function product_rate() result(rate)
+      !> The rate, the median of five
+      real(wp) :: rate
+
+      real(wp), allocatable :: a(:, :), b(:, :), c(:, :)
+      real(wp) :: times(5), start
+      integer :: k
+
+      allocate (a(product_size, product_size), b(product_size, product_size))
+      allocate (c(product_size, product_size), source=0.0_wp)
+      call random_number(a)
+      call random_number(b)
+      do k = 0, size(times)  ! the first is not counted
+         start = seconds()
+         call dgemm('N', 'N', product_size, product_size, product_size, 1.0_wp, a, product_size, &
+                    b, product_size, 0.0_wp, c, product_size)
+         if (k > 0) times(k) = seconds() - start
+      end do
+      rate = 2.0_wp*real(product_size, wp)**3/median(times)
+   end function product_rate
+
+   !> Names of the columns
+   subroutine print_header()
+      write (output_unit, '(a)') 'nodes_per_side,unknowns,solver,threads,harmonics,order_s,'// &
+         'analysis_s,assembly_parts_s,assembly_matrix_s,factorization_s,solve_s,operations,'// &
+         'gflops,dgemm_gflops,dgemm_fraction,factor_mb,factor_entries,backward_error,'// &
+         'lapack_ratio,expected_s,processor_share,note'
+   end subroutine print_header
+
+   !> One line; what was not measured is empty
+   subroutine print_record(record)
+      !> The line
+      type(record_type), intent(in) :: record
+
+      character(len=:), allocatable :: line
+      real(wp) :: speed
+
+      speed = -1.0_wp
+      if (record%factorization > 0.0_wp) speed = record%operations/record%factorization
+      line = to_text(record%n_side)//','//to_text(record%n_unknowns)//','// &
+             trim(lower(solver_names(record%kind)))//','//to_text(record%n_threads)//','// &
+             to_text(record%n_harmonics)//','//cell(record%order)//','//cell(record%analysis)//','// &
+             cell(record%parts)//','//cell(record%matrix)//','//cell(record%factorization)//','// &
+             cell(record%solution)//','//cell(record%operations)//','//cell(speed/1.0e9_wp)//','// &
+             cell(record%rate/1.0e9_wp)//','//cell(speed/record%rate)//','// &
+             cell(record%bytes/2.0_wp**20)//','//cell(record%entries)//','// &
+             cell(record%backward_error)//','//cell(record%lapack_ratio)//','// &
+             cell(record%expected)//','//cell(record%share)//','//record%note
+      write (output_unit, '(a)') line
+      flush (output_unit)
+   end subroutine print_record
+
+   !> A number that is not negative, or nothing
+   function cell(value) result(text)
+      !> The number
+      real(wp), intent(in) :: value
+      !> Its text
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (value >= 0.0_wp) text = to_text(value)
+   end function cell
+
+   !> Median
+   pure function median(values)
+      !> The values
+      real(wp), intent(in) :: values(:)
+      !> Their median
+      real(wp) :: median
+
+      integer :: k, less
+
+      median = values(1)
+      do k = 1, size(values)  ! short lists: the value with half of the others below it
+         less = count(values < values(k)) + count(.not. abs(values(:k - 1) - values(k)) > 0.0_wp)
+         if (less == (size(values) - 1)/2) median = values(k)
+      end do
+   end function median
+
+   !> Wall clock [second]
+   function seconds()
+      !> The reading
+      real(wp) :: seconds
+
+      integer(i8) :: count, rate
+
+      call system_clock(count, rate)
+      seconds = real(count, wp)/real(rate, wp)
+   end function seconds
+
+   !> End with the message of an error
+   subroutine stop_on(error)
+      !> The error, if any
+      type(error_type), allocatable, intent(in) :: error
+
+      if (allocated(error)) call fail(error%message)
+   end subroutine stop_on
+
+   !> End with a message
+   subroutine fail(message)
+      !> The message
+      character(len=*), intent(in) :: message
+
+      write (error_unit, '(2a)') 'solvers: ', message
+      error stop 2, quiet=.true.
+   end subroutine fail
+
+end program solvers
