@@ -167,7 +167,9 @@ def print_comparison(ours, peers):
     if not peers:
         print("  no peer is installed: scripts/setup peers")
         return
-    print(f"Factorization, axijoint / best peer ({best[2]}): {own / best[0]:.2f}")
+    print(f"Factorization, axijoint / best peer ({best[2]}): {own / best[0]:.2f}"
+          + (f"; into memory that the peer kept: {own / best[1]:.2f}"
+             if math.isfinite(best[1]) else ""))
 
 
 def print_shares(rows, side):

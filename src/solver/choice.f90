@@ -87,9 +87,10 @@ contains
       end select
    end function order_name
 
-   !> Time of one factorization at a given rate of matrix products. Each solver
-   !> reaches a share of that rate that grows with the size of its dense blocks;
-   !> the shares were fitted to runs of the solver benchmark.
+   !> Time of one factorization at a given rate of matrix products: operations
+   !> at a share of that rate, and a time for each entry of the factor, which is
+   !> memory taken, filled and written whatever the rate. The constants are fitted
+   !> to runs of the benchmark of the solvers; see doc/benchmarks.md.
    pure function expected_seconds(solver, kind, rate) result(seconds)
       !> The plan, analysed
       class(solver_type), intent(in) :: solver
@@ -100,20 +101,22 @@ contains
       !> The time
       real(wp) :: seconds
 
-      real(wp) :: width, share, overhead
+      real(wp) :: share, entry_seconds, set_up
 
-      width = max(1.0_wp, real(solver%factor_entries, wp)/max(1, solver%n))
-      overhead = 0.0_wp
+      set_up = 0.0_wp
       select case (kind)
       case (solver_band)
-         share = 0.7_wp*width/(width + 250.0_wp)
+         share = 0.75_wp
+         entry_seconds = 1.8e-9_wp
       case (solver_skyline)
-         share = 0.02_wp
+         share = 0.14_wp
+         entry_seconds = 0.0_wp
       case default
-         share = 0.25_wp*width/(width + 60.0_wp)
-         overhead = 5.0e-7_wp*solver%n  ! many small supernodes
+         share = 0.33_wp
+         entry_seconds = 7.7e-9_wp
+         set_up = 2.0e-4_wp  ! counts in small jobs only
       end select
-      seconds = overhead + solver%operations/(share*rate) + 4.0e-9_wp*real(solver%factor_entries, wp)
+      seconds = set_up + solver%operations/(share*rate) + entry_seconds*real(solver%factor_entries, wp)
    end function expected_seconds
 
 end module axijoint_solver_choice
