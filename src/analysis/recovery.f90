@@ -42,7 +42,7 @@ contains
       real(wp), dimension(size(equations%harmonics)) :: unbalanced, scale
       real(wp), dimension(4, size(equations%harmonics)) :: resultant, reacted
       real(wp), allocatable :: unbalance(:, :, :)
-      real(wp), dimension(3, n_nodes(model%mesh)) :: internal, force
+      real(wp), allocatable :: internal(:, :), force(:, :)  ! threads have small stacks
       real(wp) :: largest_load(4)
       integer, allocatable :: part(:)
       integer :: k
@@ -55,6 +55,7 @@ contains
       do k = 1, size(equations%harmonics)
          associate (m => equations%harmonics(k), reaction => results%reaction(:, :, k))
             force = factor*load(:, :, k)
+            internal = force  ! for its shape
             call solid_fields(model, m, results%displacement(:, :, k), results%stress(:, :, k), &
                               internal)
             internal = internal + joint_force(points, m, admitted(k), size(internal, 2))

@@ -298,7 +298,7 @@ contains
       !> Results that take the report
       type(results_type), intent(inout) :: results
 
-      real(wp), dimension(3, size(applied, 2)) :: force, displacement
+      real(wp), allocatable :: force(:, :), displacement(:, :)  ! threads have small stacks
       integer :: k, m
 
       results%solver = equations%solver
@@ -309,6 +309,7 @@ contains
          m = equations%harmonics(k)
          force = applied(:, :, k) &
             + joint_force(points, m, field%excess(:, :, k), size(applied, 2))
+         displacement = force  ! for its shape
          call solve_harmonic(equations, k, force, displacement)
          call refine_harmonic(equations, k, force, displacement)
          associate (report => results%solves(k))

@@ -136,7 +136,7 @@ contains
       type(joint_field_type), intent(inout) :: field
 
       real(wp), allocatable :: jump(:, :, :), jump_change(:, :, :), trial(:, :, :)
-      real(wp) :: total(3, size(applied, 2))
+      real(wp), allocatable :: total(:, :)  ! threads have small stacks
       integer :: k
 
       allocate (jump(3, size(points), size(equations%harmonics)))
@@ -145,7 +145,7 @@ contains
          ! K is constant, so solving for the residual forces and adding is the
          ! same as solving for all forces: no rounding piles up
          total = applied(:, :, k) &
-            + joint_force(points, equations%harmonics(k), field%excess(:, :, k), size(total, 2))
+            + joint_force(points, equations%harmonics(k), field%excess(:, :, k), size(applied, 2))
          call solve_harmonic(equations, k, total, displacement(:, :, k))
          jump(:, :, k) = joint_jump(points, displacement(:, :, k))
       end do

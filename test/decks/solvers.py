@@ -2,6 +2,7 @@
 import json
 import os
 import re
+import resource
 
 from support import INPUTS, Test, read_text, write
 
@@ -76,6 +77,14 @@ def threads_change_nothing(program, folder):
     return faults
 
 
+def stacks_stay_small(program, folder):
+    """Threads have stacks of some MB at most: no array of the mesh's size may lie there"""
+    deck = write(folder, 'fine.dat', RING.replace('1, 1, 8, 20, 20', '1, 1, 4, 120, 120'))
+    ran = program.run('run', deck, '-o', folder, '--threads', '2',
+                      limits=[(resource.RLIMIT_STACK, 512*1024)])
+    return [] if ran.code == 0 else [f'expected exit code 0, found {ran.code}', ran.err]
+
+
 def estimate_tells_costs(program, folder):
     """`estimate` has a line for each solver and solves nothing"""
     ran = program.run('estimate', write(folder, 'ring.dat', RING))
@@ -91,4 +100,5 @@ def tests(program):
     return [Test(f'solvers: {name}', lambda folder, check=check: check(program, folder))
             for name, check in (('they agree', solvers_agree),
                                 ('threads', threads_change_nothing),
+                                ('stacks', stacks_stay_small),
                                 ('estimate', estimate_tells_costs))]
