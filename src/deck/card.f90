@@ -2,9 +2,11 @@
 module axijoint_deck_card
    use axijoint_deck_diagnostics, only : diagnostics_type, add_error
    use axijoint_base_text, only : to_text
-   use axijoint_deck_field, only : field_type
+   use axijoint_deck_decimal_comma, only : has_decimal_comma, report_decimal_comma
+   use axijoint_deck_field, only : field_type, kind_text
    use axijoint_deck_layout, only : card_width
    use axijoint_deck_source, only : source_type, card_content, tab
+   use axijoint_deck_strange_byte, only : has_strange_byte, report_strange_byte
    implicit none
    private
    public :: slot_type, divide_card
@@ -50,68 +52,17 @@ contains
                         mend='shorten the card; a comment begins with !')
          content = content(:len_trim(content(:card_width)))
       end if
-      if (free) then
+      if (has_decimal_comma(content, fields)) then
+         slots = slot_type(1, len(content), 1, 0, .false.)
+         call report_decimal_comma(diagnostics, card, content)
+      else if (fields(1)%kind == kind_text .and. .not. free) then
+         call divide_keyword(card, content, fields, slots, diagnostics)
+      else if (free) then
          call divide_free(card, content, fields, slots, diagnostics)
       else
          call divide_fixed(card, content, fields, slots, diagnostics)
       end if
    end subroutine divide_card
-
-   !> Whether a card has a byte that no field may have
-   pure logical function has_strange_byte(content, free)
-      !> The card without its comment
-      character(len=*), intent(in) :: content
-      !> Whether it is written with commas, where tabs are blanks
-      logical, intent(in) :: free
-
-      has_strange_byte = strange_byte(content, free) > 0
-   end function has_strange_byte
-
-   !> Column of the first byte that no field may have; 0 if there is none
-   pure integer function strange_byte(content, free) result(column)
-      !> The card without its comment
-      character(len=*), intent(in) :: content
-      !> Whether it is written with commas
-      logical, intent(in) :: free
-
-      do column = 1, len(content)
-         if (iachar(content(column:column)) >= 128) return
-         if (content(column:column) == tab .and. .not. free) return
-      end do
-      column = 0
-   end function strange_byte
-
-   !> Report a tab, or a character that is not ASCII
-   subroutine report_strange_byte(diagnostics, card, content, free)
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
-      !> The card
-      integer, intent(in) :: card
-      !> The card without its comment
-      character(len=*), intent(in) :: content
-      !> Whether it is written with commas
-      logical, intent(in) :: free
-
-      character(len=2) :: code
-      integer :: first, last
-
-      first = strange_byte(content, free)
-      last = first
-      if (content(first:first) == tab) then
-         call add_error(diagnostics, card, first, last, 'there is a tab on a fixed card', &
-                        mend='write blanks, or separate the values by commas')
-         return
-      end if
-      ! The further bytes of a character in UTF-8 begin with the bits 10.
-      do while (last < len(content))
-         if (iand(iachar(content(last + 1:last + 1)), 192) /= 128) exit
-         last = last + 1
-      end do
-      write (code, '(z2.2)') iachar(content(first:first))
-      call add_error(diagnostics, card, first, last, 'this character is not ASCII', &
-                     found='a character that begins with the byte '//code//' (hexadecimal)', &
-                     allowed='ASCII; any text in the title and in comments')
-   end subroutine report_strange_byte
 
    !> Divide a card at its commas
    subroutine divide_free(card, content, fields, slots, diagnostics)
@@ -144,7 +95,8 @@ contains
          else if (to >= from) then
             call add_error(diagnostics, card, from, len(content), 'the card has too many values', &
                            found=content(from:), &
-                           allowed=to_text(size(fields))//' values, separated by commas')
+                           allowed=to_text(size(fields))//' values, separated by commas', &
+                           mend='decimals are written with a point; comments begin with !')
             return
          end if
          first = last + 2
@@ -174,6 +126,48 @@ contains
                      found=content(slot%from:slot%to), allowed='one value without blanks')
    end function one_value
 
+   !> Divide a fixed keyword card: the keyword, and the number of entries in its columns.
+   !> Anything else is reported as one text
+   subroutine divide_keyword(card, content, fields, slots, diagnostics)
+      !> The card
+      integer, intent(in) :: card
+      !> The card without its comment, the keyword from column 1
+      character(len=*), intent(in) :: content
+      !> The keyword and, where entries are counted, their number
+      type(field_type), intent(in) :: fields(:)
+      !> Place of each field
+      type(slot_type), intent(out) :: slots(:)
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      character(len=:), allocatable :: mend
+      integer :: first, last
+
+      slots%first = fields%first
+      slots%last = fields%last
+      mend = 'nothing follows this keyword on its card; comments begin with !'
+      last = scan(content//' ', ' ') - 1
+      slots(1)%to = last
+      first = last + verify(content(last + 1:)//'.', ' ')
+      if (size(fields) > 1) then
+         associate (count_field => fields(2), slot => slots(2))
+            mend = 'the number of entries goes in columns '//to_text(count_field%first)//' to '// &
+                   to_text(count_field%last)//'; comments begin with !'
+            last = first - 2 + scan(content(first:)//' ', ' ')
+            if (first >= count_field%first .and. last <= count_field%last .and. &
+                scan(content(first:min(first, len(content))), '+-.0123456789') == 1) then
+               slot%from = first
+               slot%to = last
+               first = last + verify(content(last + 1:)//'.', ' ')
+            end if
+         end associate
+      end if
+      if (first <= len(content)) then
+         call add_error(diagnostics, card, first, len(content), 'there is text behind the keyword', &
+                        found=content(first:), mend=mend)
+      end if
+   end subroutine divide_keyword
+
    !> Divide a card by its columns
    subroutine divide_fixed(card, content, fields, slots, diagnostics)
       !> The card
@@ -197,6 +191,12 @@ contains
       do while (first <= len(content))
          first = first - 1 + verify(content(first:)//'.', ' ')
          if (first > len(content)) exit
+         if (first > fields(size(fields))%last) then
+            call add_error(diagnostics, card, first, len(content), 'there is text behind the last field', &
+                           found=content(first:), &
+                           mend='a comment begins with !; see the columns of this section')
+            exit
+         end if
          last = first - 2 + scan(content(first:)//' ', ' ')
          call place_run(card, content, fields, first, last, slots, diagnostics)
          first = last + 1
@@ -215,7 +215,7 @@ contains
       character(len=*), intent(in) :: content
       !> Fields, side by side
       type(field_type), intent(in) :: fields(:)
-      !> Columns of the characters
+      !> Columns of the characters, the first of which is in a field
       integer, intent(in) :: first, last
       !> Place of each field
       type(slot_type), intent(inout) :: slots(:)
@@ -225,12 +225,8 @@ contains
       integer :: i, k
 
       i = count(fields%last < first) + 1  ! field of the first character
-      k = count(fields%first <= last)     ! field of the last, unless beyond all
-      if (i > size(fields)) then
-         call add_error(diagnostics, card, first, last, 'there is text behind the last field', &
-                        found=content(first:last), &
-                        mend='a comment begins with !; see the columns of this section')
-      else if (i < k .or. last > fields(size(fields))%last) then
+      k = count(fields%first <= last)     ! field of the last character
+      if (i < k .or. last > fields(size(fields))%last) then
          slots(i:k)%whole = .false.
          call report_crossing(card, content(first:last), fields(i:k), first, last, diagnostics)
       else

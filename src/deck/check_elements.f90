@@ -41,7 +41,8 @@ contains
       type(diagnostics_type), intent(inout) :: diagnostics
 
       type(sample_type) :: samples(4:9)
-      integer :: element, n, errors_before
+      type(diagnostics_type) :: found
+      integer :: element, n
 
       samples(4) = new_sample(4, gauss_linear)
       samples(8) = new_sample(8, gauss_quadratic)
@@ -50,14 +51,43 @@ contains
          n = draft%element_size(element)
          if (any(draft%element_nodes(:n, element) == 0)) cycle
          if (.not. all(draft%node_good(draft%element_nodes(:n, element)))) cycle
-         errors_before = diagnostics%n_errors
-         if (n > 4) call check_middles(draft, element, diagnostics)
-         if (diagnostics%n_errors == errors_before) then
-            call check_jacobian(samples(n), draft, element, n, diagnostics)
+         call check_shape(samples, draft, element, n, found)
+         if (found%n_errors == 0) cycle
+         draft%element_good(element) = .false.
+         if (corners_come_first(draft, element, n)) then
+            call report_corners_first(draft, element, n, diagnostics)
+            draft%elements_complete = .false.  ! its neighbours would be reported for its sides
+         else
+            call check_shape(samples, draft, element, n, diagnostics)
          end if
-         if (diagnostics%n_errors > errors_before) draft%element_good(element) = .false.
+         found = diagnostics_type()
       end do
    end subroutine check_elements
+
+   !> Check the shape of an element
+   subroutine check_shape(samples, draft, element, n, diagnostics)
+      !> Points where to look, for elements of 4, 8 and 9 nodes
+      type(sample_type), intent(in) :: samples(4:)
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> The element, and its number of nodes
+      integer, intent(in) :: element, n
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      integer :: errors_before
+
+      errors_before = diagnostics%n_errors
+      if (n > 4) call check_middles(draft, element, diagnostics)
+      if (diagnostics%n_errors > errors_before) return
+      if (n == 9) then
+         if (only_centre_is_off(samples, draft%position(:, draft%element_nodes(:9, element)))) then
+            call report_centre(draft, element, diagnostics)
+            return
+         end if
+      end if
+      call check_jacobian(samples(n), draft, element, n, diagnostics)
+   end subroutine check_shape
 
    !> Corners and Gauss points of an element with n nodes
    pure function new_sample(n, gauss) result(sample)
@@ -96,13 +126,33 @@ contains
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
-      real(wp) :: x(2, 9), jacobian(2, 2), sine(most_points)
+      real(wp) :: x(2, 9), sine(most_points)
       integer :: i
 
       x(:, :n) = draft%position(:, draft%element_nodes(:n, element))
+      sine = sines(sample, x(:, :n))
+      if (all(sine > least_sine)) return
+      i = minloc(sine, 1)
+      if (any(sine(:n_corners) <= least_sine)) i = minloc(sine(:n_corners), 1)
+      call report_jacobian(draft, element, n, sine(:sample%n), i, &
+                           matmul(x(:, :n), sample%shape(:n, i)), diagnostics)
+   end subroutine check_jacobian
+
+   !> Sines of the angles between the lines of the natural coordinates
+   pure function sines(sample, x) result(sine)
+      !> Points where to look
+      type(sample_type), intent(in) :: sample
+      !> The nodes of the element, shape (2, nodes)
+      real(wp), intent(in) :: x(:, :)
+      !> The sines; 1 beyond the number of points
+      real(wp) :: sine(most_points)
+
+      real(wp) :: jacobian(2, 2)
+      integer :: i
+
       sine = 1.0_wp
       do i = 1, sample%n
-         jacobian = matmul(x(:, :n), transpose(sample%derivative(:, :n, i)))
+         jacobian = matmul(x, transpose(sample%derivative(:, :size(x, 2), i)))
          associate (a => jacobian(:, 1), b => jacobian(:, 2))
             if (norm2(a) > 0.0_wp .and. norm2(b) > 0.0_wp) then
                sine(i) = (a(1)/norm2(a))*(b(2)/norm2(b)) - (a(2)/norm2(a))*(b(1)/norm2(b))
@@ -111,12 +161,99 @@ contains
             end if
          end associate
       end do
-      if (all(sine > least_sine)) return
-      i = minloc(sine, 1)
-      if (any(sine(:n_corners) <= least_sine)) i = minloc(sine(:n_corners), 1)
-      call report_jacobian(draft, element, n, sine(:sample%n), i, &
-                           matmul(x(:, :n), sample%shape(:n, i)), diagnostics)
-   end subroutine check_jacobian
+   end function sines
+
+   !> Whether an element of nine nodes would be sound with its centre node left out
+   pure logical function only_centre_is_off(samples, x)
+      !> Points where to look, for elements of 4, 8 and 9 nodes
+      type(sample_type), intent(in) :: samples(4:)
+      !> Its nodes
+      real(wp), intent(in) :: x(2, 9)
+
+      only_centre_is_off = any(sines(samples(9), x) <= least_sine) .and. &
+                           all(sines(samples(8), x(:, :8)) > least_sine)
+   end function only_centre_is_off
+
+   !> Report a centre node that is too far from the centre
+   subroutine report_centre(draft, element, diagnostics)
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> The element
+      integer, intent(in) :: element
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      real(wp) :: centre(2)
+
+      associate (nodes => draft%element_nodes(:, element))
+         centre = 0.5_wp*sum(draft%position(:, nodes(5:8)), 2) - 0.25_wp*sum(draft%position(:, nodes(:4)), 2)
+         call add_error(diagnostics, draft%element_card(element), 0, 0, &
+                        'centre node '//to_text(draft%node_label(nodes(9)))//' of element '// &
+                        to_text(draft%element_label(element))//' is too far from the centre: the '// &
+                        'Jacobian is not positive at a Gauss point', &
+                        found=place_text(draft%position(:, nodes(9))), &
+                        mend='move it to '//place_text(centre)//', or remove its card: it is then made there')
+      end associate
+   end subroutine report_centre
+
+   !> Whether an element of 8 or 9 nodes has its middle nodes in the middles of its sides if
+   !> the card is read as four corners, then four middle nodes
+   pure logical function corners_come_first(draft, element, n)
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> The element, and its number of nodes
+      integer, intent(in) :: element, n
+
+      real(wp) :: x(2, 8), side(2), offset(2)
+      integer :: i
+
+      corners_come_first = .false.
+      if (n == 4) return
+      x = draft%position(:, draft%element_nodes(perimeter_quadratic, element))
+      do i = 1, 4
+         side = x(:, mod(i, 4) + 1) - x(:, i)
+         offset = x(:, 4 + i) - (x(:, i) + 0.5_wp*side)
+         if (norm2(offset) > (middle_to - 0.5_wp)*norm2(side)) return
+      end do
+      corners_come_first = .true.
+   end function corners_come_first
+
+   !> Report an element whose card has the corners first
+   subroutine report_corners_first(draft, element, n, diagnostics)
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> The element, and its number of nodes
+      integer, intent(in) :: element, n
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      integer, allocatable :: on_card(:)
+
+      on_card = draft%node_label(draft%element_nodes(perimeter_quadratic, element))
+      on_card = on_card(perimeter_quadratic)  ! now corners and middles by turns
+      if (n == 9) on_card = [on_card, draft%node_label(draft%element_nodes(9, element))]
+      call add_error(diagnostics, draft%element_card(element), 0, 0, &
+                     'element '//to_text(draft%element_label(element))// &
+                     ' is given by its corners, then its mid-side nodes', &
+                     allowed='corner, mid-side node, corner, ... counterclockwise round the perimeter', &
+                     mend='write '//numbers_text(on_card))
+   end subroutine report_corners_first
+
+   !> Numbers separated by blanks
+   pure function numbers_text(numbers) result(text)
+      !> The numbers
+      integer, intent(in) :: numbers(:)
+      !> The text
+      character(len=:), allocatable :: text
+
+      integer :: i
+
+      text = ''
+      do i = 1, size(numbers)
+         text = text//' '//to_text(numbers(i))
+      end do
+      text = text(2:)
+   end function numbers_text
 
    !> Report an element whose Jacobian is not positive
    subroutine report_jacobian(draft, element, n, sine, worst, place, diagnostics)
@@ -168,17 +305,12 @@ contains
       character(len=:), allocatable :: text
 
       integer, allocatable :: order(:)
-      integer :: i
 
       if (n == 4) order = perimeter_linear
       if (n > 4) order = perimeter_quadratic
       order = [order(1), order(size(order):2:-1)]
       if (n == 9) order = [order, 9]
-      text = ''
-      do i = 1, n
-         text = text//' '//to_text(draft%node_label(draft%element_nodes(order(i), element)))
-      end do
-      text = text(2:)
+      text = numbers_text(draft%node_label(draft%element_nodes(order, element)))
    end function reversed_nodes
 
    !> Check that middle nodes are in the middle half of their sides

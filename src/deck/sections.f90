@@ -292,14 +292,18 @@ contains
       end do
    end subroutine read_keywords
 
-   !> Whether the first column of a card is not blank
+   !> Whether the first column of a keyword card is the keyword's, not a blank or a byte
+   !> that is not ASCII
    pure logical function starts_with_letter(source, card)
       !> The deck
       type(source_type), intent(in) :: source
       !> The card
       integer, intent(in) :: card
 
-      starts_with_letter = scan(card_content(source, card), ' '//tab) /= 1
+      character(len=:), allocatable :: content
+
+      content = card_content(source, card)
+      starts_with_letter = scan(content, ' '//tab) /= 1 .and. iachar(content(1:1)) < 128
    end function starts_with_letter
 
    !> Check that there is one CONTROL card
@@ -311,10 +315,18 @@ contains
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
+      integer :: card
+
       if (control%n > 1) then
          call entry_error(diagnostics, control, 2, 'CONTROL has one data card only', &
                           mend='a fixed card may have comments, but no second line')
       else if (control%n == 0 .and. source%complete) then
+         card = findloc(source%cards(:source%n_cards)%keyword, section_control, 1)
+         if (card > 0) then
+            call add_error(diagnostics, card, 0, 0, 'the data card of CONTROL is missing', &
+                           mend='below CONTROL, give the highest harmonic M in columns 1 to 5')
+            return
+         end if
          call add_error(diagnostics, 0, 0, 0, 'the deck has no CONTROL card', &
                         mend='add CONTROL and, below it, the highest harmonic M in columns 1 to 5')
       end if

@@ -7,7 +7,8 @@ module axijoint_deck_source_reader
    use axijoint_deck_layout, only : n_sections, section_names, section_title, section_include, &
       section_end, nearest_section, keyword_last
    use axijoint_deck_source, only : source_type, add_file, add_card, card_content, &
-      card_title, card_data, card_keyword, tab
+      card_text, card_title, card_data, card_keyword, tab
+   use axijoint_deck_strange_byte, only : report_strange_byte
    implicit none
    private
    public :: read_source
@@ -117,6 +118,10 @@ contains
          call add_card(source, file, line, first, last)
          first = next_line(source%files(file)%bytes, last)
          card = source%n_cards
+         if (title_next .and. looks_like_keyword(card_text(source, card))) then
+            title_next = .false.
+            call report_keyword_as_title(source, card, diagnostics)
+         end if
          if (title_next) then
             source%cards(card)%kind = card_title
             title_next = .false.
@@ -141,6 +146,38 @@ contains
       call report_no_end(source, last_card, diagnostics)
    end subroutine splice_lines
 
+   !> Whether a card has a keyword from column 1, and at most a number of entries behind it
+   pure logical function looks_like_keyword(text)
+      !> The card
+      character(len=*), intent(in) :: text
+
+      character(len=keyword_last) :: word
+      integer :: behind
+
+      word = text
+      behind = scan(text, ' !'//tab)
+      if (behind > 0 .and. behind <= keyword_last) word(behind:) = ''
+      looks_like_keyword = any(section_names == upper(word))
+      if (behind == 0) behind = len(text) + 1
+      looks_like_keyword = looks_like_keyword .and. &
+                           verify(text(min(behind, keyword_last + 1):), ' 0123456789'//tab) == 0
+   end function looks_like_keyword
+
+   !> Report a keyword where the title should be; the card is read as the keyword
+   subroutine report_keyword_as_title(source, card, diagnostics)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> The card after TITLE
+      integer, intent(in) :: card
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      call add_error(diagnostics, card, 1, len_trim(card_text(source, card)), &
+                     'the card after TITLE is the title, but it looks like a keyword', &
+                     found=card_text(source, card), &
+                     mend='write the title, or a blank card, between TITLE and this card')
+   end subroutine report_keyword_as_title
+
    !> A card with contents: its kind and, on a keyword card, its section
    subroutine classify(source, card, diagnostics)
       !> The deck
@@ -154,7 +191,7 @@ contains
       integer :: first, keyword
 
       content = card_content(source, card)
-      first = verify(content, ' '//tab)
+      first = max(1, first_letter(content))
       word = content(first:min(len(content), first + keyword_last - 1))
       word = word(:scan(word//' ', ' ,'//tab) - 1)
       keyword = findloc(section_names, upper(word), 1)
@@ -164,11 +201,26 @@ contains
       source%cards(card)%keyword = keyword
       if (keyword == 0) then
          call report_keyword(source, card, word, diagnostics)
+      else if (verify(content(:first - 1), ' '//tab) > 0) then
+         call report_strange_byte(diagnostics, card, content, .true.)
       else if (first > 1) then
          call add_error(diagnostics, card, first, first + len(word) - 1, &
                         'the keyword does not begin in column 1', found=word)
       end if
    end subroutine classify
+
+   !> Place of the first byte that is ASCII and no blank: a byte order mark or a blank that
+   !> is not ASCII does not hide a keyword. 0 if there is none
+   pure integer function first_letter(content) result(first)
+      !> The card without its comment
+      character(len=*), intent(in) :: content
+
+      do first = 1, len(content)
+         if (content(first:first) /= ' ' .and. content(first:first) /= tab &
+             .and. iachar(content(first:first)) < 128) return
+      end do
+      first = 0
+   end function first_letter
 
    !> Whether a character is an ASCII letter
    pure logical function is_letter(character)
