@@ -2,6 +2,7 @@
 module axijoint_driver_estimate
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
    use axijoint_analysis_estimate, only : estimate_type, estimate_job
+   use axijoint_assembly_pattern, only : node_graph
    use axijoint_base_error, only : error_type, exit_ok, exit_deck
    use axijoint_base_kinds, only : wp
    use axijoint_cli, only : word_type
@@ -11,7 +12,8 @@ module axijoint_driver_estimate
    use axijoint_driver_run, only : print_error
    use axijoint_linalg_lapack, only : product_rate
    use axijoint_model_model, only : model_type
-   use axijoint_solver_choice, only : solver_band, solver_sparse, solver_names
+   use axijoint_solver_choice, only : solver_band, solver_sparse, solver_names, orders_type, &
+                                      new_orders
    implicit none
    private
    public :: estimate_decks
@@ -64,10 +66,13 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(estimate_type) :: estimate
+      type(orders_type) :: orders
       integer :: kind
 
+      call new_orders(orders, node_graph(model%mesh), error)
+      if (allocated(error)) return
       do kind = solver_band, solver_sparse
-         call estimate_job(model, kind, rate, estimate, error)
+         call estimate_job(model, orders, kind, rate, estimate, error)
          if (allocated(error)) return
          if (kind == solver_band) then
             write (output_unit, '(a, i0, a, f0.1, a)') deck//': ', estimate%n_harmonics, &

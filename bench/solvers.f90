@@ -24,7 +24,7 @@ program solvers
    use axijoint_model_model, only : model_type
    use axijoint_order_graph, only : graph_type
    use axijoint_solver_choice, only : solver_band, solver_sparse, solver_names, new_solver, &
-                                      new_order, expected_seconds
+                                      orders_type, new_orders, order_for, expected_seconds
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type
    implicit none
 
@@ -160,14 +160,16 @@ contains
       type(symmetric_matrix_type) :: matrix
       class(solver_type), allocatable :: solver
       type(error_type), allocatable :: error
+      type(orders_type) :: orders
       integer, allocatable :: order(:)
       real(wp) :: start
 
       call omp_set_num_threads(1)
       start = seconds()
       graph = node_graph(model%mesh)
-      call new_order(graph, kind, order, error)
+      call new_orders(orders, graph, error)
       call stop_on(error)
+      order = order_for(orders, kind)
       record%order = seconds() - start
       start = seconds()
       call new_stiffness(stiffness(1), model, harmonic, graph, order)
@@ -281,6 +283,7 @@ contains
       !> What was measured
       type(record_type), intent(out) :: record
 
+      type(orders_type) :: orders
       type(equations_type), allocatable :: equations
       type(error_type), allocatable :: error
       real(wp) :: start, processor, processor_end
@@ -289,7 +292,9 @@ contains
       call omp_set_num_threads(n_threads)
       model%solver = kind
       start = seconds()
-      call plan_equations(equations, model, [(m, m=1, config%n_harmonics)], error)
+      call new_orders(orders, node_graph(model%mesh), error)
+      call stop_on(error)
+      call plan_equations(equations, model, [(m, m=1, config%n_harmonics)], orders, error)
       call stop_on(error)
       record%analysis = seconds() - start
       call describe(record, kind, equations%plans(1)%solver)

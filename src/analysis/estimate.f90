@@ -1,11 +1,12 @@
 !> What a job would cost with each solver, before anything is solved
 module axijoint_analysis_estimate
    use axijoint_analysis_static, only : used_harmonics
-   use axijoint_assembly_equations, only : equations_type, plan_for, planned_seconds, needed_bytes
+   use axijoint_assembly_equations, only : equations_type, plan_solver, planned_seconds, needed_bytes
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp, i8
    use axijoint_model_mesh, only : n_nodes, n_elements
    use axijoint_model_model, only : model_type, gauss_order
+   use axijoint_solver_choice, only : orders_type
    implicit none
    private
    public :: estimate_type, estimate_job
@@ -34,9 +35,11 @@ module axijoint_analysis_estimate
 contains
 
    !> Costs of a job with a solver
-   subroutine estimate_job(model, kind, rate, estimate, error)
+   subroutine estimate_job(model, orders, kind, rate, estimate, error)
       !> The job
       type(model_type), intent(in) :: model
+      !> Orders of its nodes
+      type(orders_type), intent(in) :: orders
       !> Solver, one of the `solver_` parameters, not auto
       integer, intent(in) :: kind
       !> Rate of large matrix products [operations/second]
@@ -49,7 +52,7 @@ contains
       type(equations_type), allocatable :: equations
       integer :: k
 
-      call plan_for(equations, model, used_harmonics(model), kind, error)
+      call plan_solver(equations, model, used_harmonics(model), orders, kind, error)
       if (allocated(error)) return
       estimate%n_harmonics = size(equations%harmonics)
       do k = 1, size(equations%harmonics)

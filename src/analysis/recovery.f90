@@ -60,7 +60,7 @@ contains
                               internal)
             internal = internal + joint_force(points, m, admitted(k), size(internal, 2))
             unbalanced(k) = sum(on_equations(equations, k, force - internal)**2)/circle_integral(m)
-            reaction = merge(internal - force, 0.0_wp, held(model))
+            reaction = merge(internal - force, 0.0_wp, held(model, m))
             resultant(:, k) = rigid_resultants(model, m, load(:, :, k))
             reacted(:, k) = rigid_resultants(model, m, reaction)
             unbalance(:, :, k) = part_resultants(model, m, part, force - internal + reaction)
@@ -168,19 +168,29 @@ contains
       end do
    end subroutine solid_fields
 
-   !> Components that supports hold; on the axis u and w hold each other
-   pure function held(model)
+   !> Components that supports hold. On the axis the pole conditions hold the
+   !> rest: only v in harmonic 0, and u and w together in harmonic 1, are left
+   pure function held(model, harmonic)
       !> The job
       type(model_type), intent(in) :: model
+      !> Harmonic m
+      integer, intent(in) :: harmonic
       !> Shape (3, nodes)
       logical :: held(3, size(model%mesh%node_label))
 
       logical :: pole(size(model%mesh%node_label))
 
       held = model%fixed
-      pole = on_axis(model%mesh) .and. (held(1, :) .or. held(3, :))
-      held(1, :) = held(1, :) .or. pole
-      held(3, :) = held(3, :) .or. pole
+      pole = on_axis(model%mesh)
+      if (harmonic == 1) then
+         held(1, :) = held(1, :) .or. pole .and. held(3, :)
+         held(3, :) = held(3, :) .or. pole .and. held(1, :)
+         held(2, :) = held(2, :) .and. .not. pole
+      else
+         held(1, :) = held(1, :) .and. .not. pole
+         held(3, :) = held(3, :) .and. .not. pole
+         if (harmonic > 1) held(2, :) = held(2, :) .and. .not. pole
+      end if
    end function held
 
    !> Resultants of nodal forces of one harmonic: their work on unit rigid motions

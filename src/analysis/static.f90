@@ -22,10 +22,8 @@ module axijoint_analysis_static
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points
    use axijoint_model_mesh, only : n_nodes
    use axijoint_model_model, only : model_type, can_yield
-   use axijoint_order_graph, only : graph_type, bandwidth, profile
-   use axijoint_order_metis, only : nested_dissection
-   use axijoint_order_rcm, only : reverse_cuthill_mckee
-   use axijoint_order_sloan, only : sloan
+   use axijoint_order_graph, only : bandwidth, profile
+   use axijoint_solver_choice, only : orders_type, new_orders
    implicit none
    private
    public :: analyse_model, used_harmonics
@@ -53,6 +51,7 @@ contains
       type(model_joint_point_type), allocatable :: points(:)
       type(equations_type), allocatable :: equations
       type(joint_field_type) :: field
+      type(orders_type) :: orders
       real(wp), allocatable :: load(:, :, :)
       real(wp) :: factor, largest_factor
       integer :: k
@@ -65,9 +64,10 @@ contains
       call check_mechanism(model, points, results%harmonics, error)
       if (allocated(error)) return
       call show_progress(progress, 'assembling '//to_text(size(results%harmonics))//' harmonics')
-      call plan_equations(equations, model, results%harmonics, error)
+      call new_orders(orders, node_graph(model%mesh), error)
       if (allocated(error)) return
-      call compare_orderings(model, results%orderings, error)
+      results%orderings = compare_orders(orders)
+      call plan_equations(equations, model, results%harmonics, orders, error)
       if (allocated(error)) return
       call assemble_equations(equations, model, points, error)
       allocate (load(3, n_nodes(model%mesh), size(results%harmonics)))
@@ -97,28 +97,22 @@ contains
    end subroutine analyse_model
 
    !> Bandwidth and profile of the orders side by side
-   subroutine compare_orderings(model, orderings, error)
-      !> The job
-      type(model_type), intent(in) :: model
+   pure function compare_orders(orders) result(orderings)
+      !> The orders
+      type(orders_type), intent(in) :: orders
       !> Reverse Cuthill-McKee, Sloan, nested dissection
-      type(ordering_type), allocatable, intent(out) :: orderings(:)
-      !> Out of memory
-      type(error_type), allocatable, intent(out) :: error
+      type(ordering_type) :: orderings(3)
 
-      type(graph_type) :: graph
-      integer, allocatable :: order(:)
-
-      graph = node_graph(model%mesh)
-      allocate (orderings(3))
-      call reverse_cuthill_mckee(graph, order)
-      orderings(1) = ordering_type('reverse Cuthill-McKee', bandwidth(graph, order), &
-                                   profile(graph, order))
-      call sloan(graph, order)
-      orderings(2) = ordering_type('Sloan', bandwidth(graph, order), profile(graph, order))
-      call nested_dissection(graph, order, error)
-      orderings(3) = ordering_type('nested dissection', bandwidth(graph, order), &
-                                   profile(graph, order))
-   end subroutine compare_orderings
+      associate (graph => orders%graph)
+         orderings = [ordering_type('reverse Cuthill-McKee', &
+                                    bandwidth(graph, orders%cuthill_mckee), &
+                                    profile(graph, orders%cuthill_mckee)), &
+                      ordering_type('Sloan', bandwidth(graph, orders%sloan), &
+                                    profile(graph, orders%sloan)), &
+                      ordering_type('nested dissection', bandwidth(graph, orders%dissection), &
+                                    profile(graph, orders%dissection))]
+      end associate
+   end function compare_orders
 
    !> Harmonics to solve: only the loaded ones of a linear job; otherwise all up
    !> to M, since opening and slip couple them

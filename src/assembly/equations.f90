@@ -1,7 +1,6 @@
 !> The equations of all harmonics: matrices, factors, solution
 module axijoint_assembly_equations
    use axijoint_assembly_dofs, only : gather, expand, kinematic_class, component_name
-   use axijoint_assembly_pattern, only : node_graph
    use axijoint_assembly_stiffness, only : stiffness_type, new_stiffness, assemble_parts, &
                                            harmonic_matrix
    use axijoint_base_error, only : error_type, fatal_error, exit_singular
@@ -12,15 +11,15 @@ module axijoint_assembly_equations
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type, multiply, infinity_norm
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type, on_axis
-   use axijoint_order_graph, only : graph_type, bandwidth
-   use axijoint_solver_choice, only : solver_auto, solver_band, solver_skyline, solver_sparse, &
-                                      new_solver, new_order, expected_seconds
+   use axijoint_order_graph, only : bandwidth
+   use axijoint_solver_choice, only : solver_auto, solver_band, solver_sparse, orders_type, &
+                                      order_for, new_solver, expected_seconds
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type
    implicit none
    private
    public :: equations_type, plan_equations, assemble_equations, factorize_equations
    public :: solve_harmonic, elastic_force, backward_error, on_equations
-   public :: plan_for, worth_threads, planned_seconds, needed_bytes, refine_harmonic, condition_estimate
+   public :: plan_solver, worth_threads, planned_seconds, needed_bytes, refine_harmonic, condition_estimate
 
    !> A band wider than this many nodes is never faster than nested dissection
    integer, parameter :: widest_band = 400
@@ -65,81 +64,54 @@ module axijoint_assembly_equations
 contains
 
    !> Choose a solver and plan the factorizations; nothing is assembled yet
-   subroutine plan_equations(equations, model, harmonics, error)
+   subroutine plan_equations(equations, model, harmonics, orders, error)
       !> The equations, planned
       type(equations_type), allocatable, intent(out) :: equations
       !> The job
       type(model_type), intent(in) :: model
       !> Harmonics m, ascending
       integer, intent(in) :: harmonics(:)
+      !> Orders of the nodes
+      type(orders_type), intent(in) :: orders
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      type(equations_type), allocatable :: candidate
-      type(graph_type) :: graph
-      integer, allocatable :: order(:)
-      integer :: kind
+      type(equations_type), allocatable :: banded
 
-      graph = node_graph(model%mesh)
-      do kind = solver_band, solver_sparse
-         if (model%solver /= solver_auto .and. model%solver /= kind) cycle
-         if (model%solver == solver_auto .and. kind == solver_skyline) cycle  ! never the fastest
-         call new_order(graph, kind, order, error)
-         if (allocated(error)) return
-         if (model%solver == solver_auto .and. kind == solver_band) then
-            if (bandwidth(graph, order) > widest_band) cycle
-         end if
-         call plan_solver(candidate, model, harmonics, graph, kind, order, error)
-         if (allocated(error)) return
-         if (allocated(equations)) then
-            if (planned_seconds(equations) <= planned_seconds(candidate)) cycle
-         end if
-         call move_alloc(candidate, equations)
-      end do
+      if (model%solver /= solver_auto) then
+         call plan_solver(equations, model, harmonics, orders, model%solver, error)
+         return
+      end if
+      call plan_solver(equations, model, harmonics, orders, solver_sparse, error)
+      if (allocated(error)) return
+      if (bandwidth(orders%graph, orders%cuthill_mckee) > widest_band) return
+      call plan_solver(banded, model, harmonics, orders, solver_band, error)
+      if (allocated(error)) return
+      if (planned_seconds(banded) < planned_seconds(equations)) then
+         call move_alloc(banded, equations)
+      end if
    end subroutine plan_equations
 
-   !> Plan the factorizations for one solver, chosen or not
-   subroutine plan_for(equations, model, harmonics, kind, error)
-      !> The equations, planned
-      type(equations_type), allocatable, intent(out) :: equations
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Harmonics m, ascending
-      integer, intent(in) :: harmonics(:)
-      !> Solver, one of the `solver_` parameters, not auto
-      integer, intent(in) :: kind
-      !> Out of memory
-      type(error_type), allocatable, intent(out) :: error
-
-      type(graph_type) :: graph
-      integer, allocatable :: order(:)
-
-      graph = node_graph(model%mesh)
-      call new_order(graph, kind, order, error)
-      if (allocated(error)) return
-      call plan_solver(equations, model, harmonics, graph, kind, order, error)
-   end subroutine plan_for
-
    !> Number the unknowns and analyse the patterns of all classes for a solver
-   subroutine plan_solver(equations, model, harmonics, graph, kind, order, error)
+   subroutine plan_solver(equations, model, harmonics, orders, kind, error)
       !> The equations, planned
       type(equations_type), allocatable, intent(out) :: equations
       !> The job
       type(model_type), intent(in) :: model
       !> Harmonics m, ascending
       integer, intent(in) :: harmonics(:)
-      !> Graph of the nodes
-      type(graph_type), intent(in) :: graph
+      !> Orders of the nodes
+      type(orders_type), intent(in) :: orders
       !> Solver, one of the `solver_` parameters, not auto
       integer, intent(in) :: kind
-      !> order(k) is the k-th node to be numbered
-      integer, intent(in) :: order(:)
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
+      integer, allocatable :: order(:)
       integer :: k, n_classes
 
       allocate (equations)
+      order = order_for(orders, kind)
       equations%harmonics = harmonics
       equations%solver = kind
       equations%class = classes_of(kinematic_class(harmonics, any(on_axis(model%mesh))))
@@ -147,7 +119,7 @@ contains
       allocate (equations%classes(n_classes), equations%plans(n_classes))
       do k = 1, n_classes
          call new_stiffness(equations%classes(k), model, &
-                            harmonics(findloc(equations%class, k, 1)), graph, order)
+                            harmonics(findloc(equations%class, k, 1)), orders%graph, order)
          call new_solver(equations%plans(k)%solver, kind)
          call equations%plans(k)%solver%analyse(equations%classes(k)%pattern, error)
          if (allocated(error)) return

@@ -13,7 +13,7 @@ module axijoint_solver_choice
    implicit none
    private
    public :: solver_auto, solver_band, solver_skyline, solver_sparse, solver_names
-   public :: new_solver, new_order, order_name, expected_seconds
+   public :: orders_type, new_orders, order_for, new_solver, order_name, expected_seconds
 
    !> The solver with the least expected time
    integer, parameter :: solver_auto = 0
@@ -25,6 +25,14 @@ module axijoint_solver_choice
    integer, parameter :: solver_sparse = 3
    !> Names on cards and the command line, by number
    character(len=*), parameter :: solver_names(0:3) = ['AUTO   ', 'BAND   ', 'SKYLINE', 'SPARSE ']
+
+   !> The nodes in different orders: order(k) is the k-th node
+   type :: orders_type
+      !> Graph of the nodes
+      type(graph_type) :: graph
+      !> Reverse Cuthill-McKee, Sloan, nested dissection
+      integer, allocatable :: cuthill_mckee(:), sloan(:), dissection(:)
+   end type orders_type
 
 contains
 
@@ -45,30 +53,42 @@ contains
       end select
    end subroutine new_solver
 
-   !> Order of the nodes that suits a solver
-   subroutine new_order(graph, kind, order, error)
+   !> Order the nodes in every way
+   subroutine new_orders(orders, graph, error)
+      !> The orders
+      type(orders_type), intent(out) :: orders
       !> Graph of the nodes
       type(graph_type), intent(in) :: graph
-      !> One of the `solver_` parameters, not auto
-      integer, intent(in) :: kind
-      !> order(k) is the k-th node
-      integer, allocatable, intent(out) :: order(:)
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      integer, allocatable :: other(:)
+      orders%graph = graph
+      call reverse_cuthill_mckee(graph, orders%cuthill_mckee)
+      call sloan(graph, orders%sloan)
+      call nested_dissection(graph, orders%dissection, error)
+   end subroutine new_orders
+
+   !> Order of the nodes that suits a solver
+   pure function order_for(orders, kind) result(order)
+      !> All orders
+      type(orders_type), intent(in) :: orders
+      !> One of the `solver_` parameters, not auto
+      integer, intent(in) :: kind
+      !> order(k) is the k-th node
+      integer, allocatable :: order(:)
 
       select case (kind)
       case (solver_band)
-         call reverse_cuthill_mckee(graph, order)
+         order = orders%cuthill_mckee
       case (solver_skyline)
-         call sloan(graph, order)
-         call reverse_cuthill_mckee(graph, other)
-         if (profile(graph, other) < profile(graph, order)) call move_alloc(other, order)
+         order = orders%sloan
+         if (profile(orders%graph, orders%cuthill_mckee) < profile(orders%graph, order)) then
+            order = orders%cuthill_mckee
+         end if
       case default
-         call nested_dissection(graph, order, error)
+         order = orders%dissection
       end select
-   end subroutine new_order
+   end function order_for
 
    !> Name of the order that suits a solver
    pure function order_name(kind) result(name)
