@@ -15,7 +15,7 @@ module axijoint_analysis_recovery
    use axijoint_model_model, only : model_type, gauss_order, on_axis
    implicit none
    private
-   public :: recover, rigid_resultants
+   public :: recover
 
 contains
 
