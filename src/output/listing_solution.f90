@@ -113,7 +113,10 @@ contains
 
       ratio = to_text(results%residual_ratio)
       tolerance = to_text(results%tolerance)
-      if (.not. results%converged) then
+      if (.not. results%converged .and. size(results%path) == 0) then
+         text = mark_not_converged//" linear job: residual ratio "//ratio//" above "//tolerance// &
+            ": its equations are ill-conditioned"
+      else if (.not. results%converged) then
          text = mark_not_converged//" residual ratio "//ratio//", tolerance "//tolerance// &
             ", after "//to_text(size(results%path))//" iterations: these results are no equilibrium"
       else if (size(results%path) == 0) then
