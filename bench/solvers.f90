@@ -330,7 +330,7 @@ contains
       n_nodes = n_side**2
       n_elements = ((n_side - 1)/2)**2
       model%title = 'square'
-      model%materials = [solid_material_type(1, 1.0_wp, 0.3_wp)]
+      model%materials = [solid_material_type(label=1, young=1.0_wp, poisson=0.3_wp)]
       model%max_harmonic = config%n_harmonics
       allocate (model%joint_materials(0), model%edge_loads(0), model%ring_loads(0))
       model%increments = [increment_type()]

@@ -126,8 +126,8 @@ contains
 
       harmonics = [(m, m = 0, model%max_harmonic)]
       if (can_yield(model)) return
-      harmonics = pack(harmonics, [(any(model%edge_loads%harmonic == m) &
-                                    .or. any(model%ring_loads%harmonic == m), &
+      harmonics = pack(harmonics, [(any(model%edge_loads%mode%harmonic == m) &
+                                    .or. any(model%ring_loads%mode%harmonic == m), &
                                     m = 0, model%max_harmonic)])
       if (size(harmonics) == 0) harmonics = [0]
    end function used_harmonics

@@ -27,12 +27,12 @@ contains
 
       force = 0.0_wp
       do k = 1, size(model%edge_loads)
-         if (model%edge_loads(k)%harmonic /= harmonic) cycle
+         if (model%edge_loads(k)%mode%harmonic /= harmonic) cycle
          call add_edge_load(model%edge_loads(k), model%mesh%coordinates, force)
       end do
       do k = 1, size(model%ring_loads)
          associate (load => model%ring_loads(k))
-            if (load%harmonic /= harmonic) cycle
+            if (load%mode%harmonic /= harmonic) cycle
             force(:, load%node) = force(:, load%node) + load%force
          end associate
       end do
@@ -56,7 +56,7 @@ contains
       associate (corners => coordinates(:, load%nodes(:n)))
          do k = 1, 3
             call shape_line(n, x(k), shape(:n), derivative(:n))
-            weight = w(k)*circle_integral(load%harmonic)*dot_product(corners(1, :), shape(:n)) &
+            weight = w(k)*circle_integral(load%mode%harmonic)*dot_product(corners(1, :), shape(:n)) &
                *norm2(matmul(corners, derivative(:n)))
             traction = matmul(load%traction(:, :n), shape(:n))
             do i = 1, n

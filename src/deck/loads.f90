@@ -132,7 +132,7 @@ contains
       end do
       from = 0.0_wp
       do i = 1, size(edges)
-         loads(i)%harmonic = integer_value(table, field_harmonic, entry)
+         loads(i)%mode%harmonic = integer_value(table, field_harmonic, entry)
          loads(i)%nodes = edges(i)%nodes
          half = from + arc_length(draft, edges(i), 0.0_wp)
          loads(i)%traction(:, 1) = first + from/total*(last - first)
@@ -245,7 +245,7 @@ contains
       area_moment = moment_of_radius(draft, edges, merge(1, 3, lateral))
       associate (value => table%values(field_value, entry))
          do i = 1, size(edges)
-            loads(i)%harmonic = 1
+            loads(i)%mode%harmonic = 1
             loads(i)%nodes = edges(i)%nodes
             do k = 1, count(edges(i)%nodes > 0)
                if (lateral) then

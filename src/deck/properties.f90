@@ -52,9 +52,9 @@ contains
       call number_entries(source, laws, 'law', properties%law_of, properties%laws_complete, diagnostics)
       allocate (properties%materials(materials%n), properties%laws(laws%n))
       do entry = 1, materials%n
-         properties%materials(entry) = solid_material_type(integer_value(materials, 1, entry), &
-                                                           materials%values(2, entry), &
-                                                           materials%values(3, entry))
+         properties%materials(entry) = solid_material_type( &
+            label=integer_value(materials, 1, entry), young=materials%values(2, entry), &
+            poisson=materials%values(3, entry))
       end do
       do entry = 1, laws%n
          if (laws%good(entry)) call check_law(source, laws, entry, diagnostics)

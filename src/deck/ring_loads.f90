@@ -71,26 +71,26 @@ contains
       integer :: component, allowed
 
       load%node = node
-      load%harmonic = integer_value(table, field_harmonic, entry)
+      load%mode%harmonic = integer_value(table, field_harmonic, entry)
       load%force = table%values(field_first:field_first + 2, entry)
       if (r > 0.0_wp) then
-         load%force = merge(2.0_wp, 1.0_wp, load%harmonic == 0)*pi*r*load%force
+         load%force = merge(2.0_wp, 1.0_wp, load%mode%harmonic == 0)*pi*r*load%force
          return
       end if
       ! On the axis the circle is a point: the force itself is given, along z in
       ! harmonic 0 and along theta = 0 in harmonic 1; the work of the latter on the
       ! amplitudes u and w = -u of a translation is counted with u.
-      if (load%harmonic > 1) then
+      if (load%mode%harmonic > 1) then
          call field_error(diagnostics, source, table, entry, field_harmonic, &
-                          'a node on the axis has no load in harmonic '//to_text(load%harmonic), &
+                          'a node on the axis has no load in harmonic '//to_text(load%mode%harmonic), &
                           allowed='0 (axial force in q_z) or 1 (lateral force in q_r)')
          return
       end if
-      allowed = merge(2, 1, load%harmonic == 0)
+      allowed = merge(2, 1, load%mode%harmonic == 0)
       do component = 1, 3
          if (component == allowed .or. .not. abs(load%force(component)) > 0.0_wp) cycle
          call field_error(diagnostics, source, table, entry, field_first - 1 + component, &
-                          'a node on the axis has no such load in harmonic '//to_text(load%harmonic), &
+                          'a node on the axis has no such load in harmonic '//to_text(load%mode%harmonic), &
                           allowed='harmonic 0: q_z, the axial force; harmonic 1: q_r, the lateral force')
       end do
    end subroutine read_ring_load

@@ -1,22 +1,19 @@
-!> Loads as Fourier amplitudes, and load increments
+!> Loads as Fourier amplitudes, supports that yield, load cases and increments
 module axijoint_model_load
    use axijoint_base_kinds, only : wp
+   use axijoint_fe_mode, only : mode_type, family_symmetric, family_antisymmetric
    implicit none
    private
-   public :: edge_load_type, ring_load_type, increment_type
+   public :: edge_load_type, ring_load_type, body_load_type, thermal_load_type, prescribed_type, &
+      initial_stress_type, edge_support_type, combination_type, increment_type, truncation_type
    public :: family_symmetric, family_antisymmetric
-
-   !> u, v ~ cos(m theta), w ~ sin(m theta)
-   integer, parameter :: family_symmetric = 1
-   !> u, v ~ sin(m theta), w ~ -cos(m theta)
-   integer, parameter :: family_antisymmetric = 2
 
    !> Traction on one edge of a solid element
    type :: edge_load_type
-      !> Harmonic m
-      integer :: harmonic = 0
-      !> Fourier family
-      integer :: family = family_symmetric
+      !> Harmonic and family
+      type(mode_type) :: mode
+      !> Load case (index)
+      integer :: case = 1
       !> Nodes of the edge: first, last and, on a quadratic edge, middle (else 0)
       integer :: nodes(3) = 0
       !> Amplitudes of t_r, t_z, t_theta at these nodes [stress], shape (3, 3)
@@ -25,10 +22,10 @@ module axijoint_model_load
 
    !> Load on a nodal circle
    type :: ring_load_type
-      !> Harmonic m
-      integer :: harmonic = 0
-      !> Fourier family
-      integer :: family = family_symmetric
+      !> Harmonic and family
+      type(mode_type) :: mode
+      !> Load case (index)
+      integer :: case = 1
       !> Node
       integer :: node = 0
       !> Generalized nodal forces: the work of the load over the whole circle on
@@ -36,6 +33,79 @@ module axijoint_model_load
       !> gives pi r q (2 pi r q for m = 0)
       real(wp) :: force(3) = 0.0_wp
    end type ring_load_type
+
+   !> Force on the mass of all solids: density times acceleration
+   type :: body_load_type
+      !> Harmonic and family
+      type(mode_type) :: mode
+      !> Load case (index)
+      integer :: case = 1
+      !> Amplitudes along r, z, theta [length/time^2]
+      real(wp) :: acceleration(3) = 0.0_wp
+      !> Square of the angular velocity: acceleration along r per radius [1/time^2]
+      real(wp) :: spin_squared = 0.0_wp
+   end type body_load_type
+
+   !> Temperature change of the solids
+   type :: thermal_load_type
+      !> Harmonic and family: ~ cos or sin(m theta)
+      type(mode_type) :: mode
+      !> Load case (index)
+      integer :: case = 1
+      !> Body it is given for; 0 for all
+      integer :: body = 0
+      !> Amplitude at each node, shape (nodes); interpolated by the elements
+      real(wp), allocatable :: temperature(:)
+   end type thermal_load_type
+
+   !> Displacement of a component that is held; other modes hold it at zero
+   type :: prescribed_type
+      !> Harmonic and family
+      type(mode_type) :: mode
+      !> Load case (index)
+      integer :: case = 1
+      !> Node, and component: 1 u, 2 v, 3 w
+      integer :: node = 0, component = 0
+      !> Amplitude [length]
+      real(wp) :: value = 0.0_wp
+   end type prescribed_type
+
+   !> In-situ stress of a body before all loads, symmetric of harmonic 0
+   type :: initial_stress_type
+      !> Load case (index)
+      integer :: case = 1
+      !> Body
+      integer :: body = 0
+      !> sigma_r, sigma_z, sigma_theta, tau_rz at z = 0 [stress], and how they
+      !> grow with z [stress/length]
+      real(wp) :: stress(4) = 0.0_wp, gradient(4) = 0.0_wp
+   end type initial_stress_type
+
+   !> Springs between one edge of a solid element and the ground, in all modes
+   type :: edge_support_type
+      !> Nodes of the edge: first, last and, on a quadratic edge, middle (else 0)
+      integer :: nodes(3) = 0
+      !> Stiffness per area normal to the edge, along it in the meridional plane,
+      !> and along theta [stress/length]
+      real(wp) :: stiffness(3) = 0.0_wp
+   end type edge_support_type
+
+   !> Load cases added with factors; each combination is solved and reported
+   type :: combination_type
+      !> The user's number
+      integer :: label = 1
+      !> Factor of each load case, shape (cases)
+      real(wp), allocatable :: factor(:)
+   end type combination_type
+
+   !> What the harmonics in use leave of a load given as a function of theta
+   type :: truncation_type
+      !> The load in words
+      character(len=:), allocatable :: name
+      !> Root mean square of what is left out, over that of the load; 1 if the
+      !> load is concentrated in points
+      real(wp) :: left_out = 0.0_wp
+   end type truncation_type
 
    !> A load increment in the tradition of Owen and Hinton
    type :: increment_type

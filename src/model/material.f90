@@ -14,14 +14,27 @@ module axijoint_model_material
    !> Points at the nodes of a joint
    integer, parameter :: rule_lobatto = 3
 
-   !> Isotropic elastic solid
+   !> Elastic solid. Directions 1 and 2 lie in the meridional plane, 3 is theta
    type :: solid_material_type
       !> The user's number
       integer :: label = 0
-      !> Young's modulus E [stress]
-      real(wp) :: young = 0.0_wp
-      !> Poisson's ratio
-      real(wp) :: poisson = 0.0_wp
+      !> Whether the constants differ with the direction
+      logical :: orthotropic = .false.
+      !> Young's modulus E and Poisson's ratio of an isotropic solid [stress, 1]
+      real(wp) :: young = 0.0_wp, poisson = 0.0_wp
+      !> E_1, E_2, E_3 of an orthotropic solid [stress]
+      real(wp) :: moduli(3) = 0.0_wp
+      !> nu_12, nu_23, nu_13: contraction along the second direction under stress
+      !> along the first, nu_ij/E_i = nu_ji/E_j
+      real(wp) :: ratios(3) = 0.0_wp
+      !> G_12, G_23, G_13 [stress]
+      real(wp) :: shears(3) = 0.0_wp
+      !> Angle from r to direction 1, counterclockwise in the (r, z) plane [radian]
+      real(wp) :: angle = 0.0_wp
+      !> Mass density [mass/volume]
+      real(wp) :: density = 0.0_wp
+      !> Thermal expansion along 1, 2, 3 [1/temperature]
+      real(wp) :: expansion(3) = 0.0_wp
    end type solid_material_type
 
    !> Joint: its law and the points where the law is checked

@@ -2,7 +2,9 @@
 module axijoint_model_model
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : law_elastic
-   use axijoint_model_load, only : edge_load_type, ring_load_type, increment_type
+   use axijoint_model_load, only : edge_load_type, ring_load_type, body_load_type, &
+      thermal_load_type, prescribed_type, initial_stress_type, edge_support_type, &
+      combination_type, increment_type, truncation_type
    use axijoint_model_material, only : solid_material_type, joint_material_type
    use axijoint_model_mesh, only : mesh_type
    implicit none
@@ -19,16 +21,34 @@ module axijoint_model_model
       type(solid_material_type), allocatable :: materials(:)
       !> Materials of the joints
       type(joint_material_type), allocatable :: joint_materials(:)
-      !> Fixed components u, v, w of each node in every harmonic, shape (3, nodes)
+      !> Fixed components u, v, w of each node in every mode, shape (3, nodes);
+      !> a component that is prescribed anywhere is one of them
       logical, allocatable :: fixed(:, :)
       !> Tractions on edges
       type(edge_load_type), allocatable :: edge_loads(:)
       !> Loads on nodal circles
       type(ring_load_type), allocatable :: ring_loads(:)
+      !> Forces on the mass of the solids
+      type(body_load_type), allocatable :: body_loads(:)
+      !> Temperatures
+      type(thermal_load_type), allocatable :: thermal_loads(:)
+      !> Displacements that are not zero
+      type(prescribed_type), allocatable :: prescribed(:)
+      !> In-situ stresses
+      type(initial_stress_type), allocatable :: initial_stresses(:)
+      !> Springs to the ground
+      type(edge_support_type), allocatable :: edge_supports(:)
+      !> Combinations of the load cases, at least one
+      type(combination_type), allocatable :: combinations(:)
+      !> What the harmonics leave of the loads, one entry a load that is given
+      !> as a function of theta
+      type(truncation_type), allocatable :: truncations(:)
       !> Load increments, at least one
       type(increment_type), allocatable :: increments(:)
       !> Highest harmonic M
       integer :: max_harmonic = 0
+      !> Harmonics in use, ascending, each up to M
+      integer, allocatable :: harmonics(:)
       !> Number of planes theta from 0 to pi on which the joint law is checked
       integer :: n_planes = 0
       !> Gauss points in each direction of 4-node, and of 8- and 9-node elements

@@ -148,7 +148,7 @@ contains
       do i = 1, size(model%edge_loads)
          associate (load => model%edge_loads(i))
             do k = 1, count(load%nodes > 0)
-               write (label, format_load) load%harmonic, model%mesh%node_label(load%nodes(k))
+               write (label, format_load) load%mode%harmonic, model%mesh%node_label(load%nodes(k))
                call file%put(label//columns(model%mesh%coordinates(:, load%nodes(k)), narrow)// &
                   columns(load%traction(:, k), wide))
             end do
@@ -172,7 +172,7 @@ contains
          "            F_w")
       do i = 1, size(model%ring_loads)
          associate (load => model%ring_loads(i))
-            write (label, format_load) load%harmonic, model%mesh%node_label(load%node)
+            write (label, format_load) load%mode%harmonic, model%mesh%node_label(load%node)
             call file%put(label//columns(model%mesh%coordinates(:, load%node), narrow)// &
                columns(load%force, wide))
          end associate

@@ -24,7 +24,7 @@ contains
       type(model_type) :: model
 
       model%title = 'scene'
-      model%materials = [solid_material_type(1, young, poisson)]
+      model%materials = [solid_material_type(label=1, young=young, poisson=poisson)]
       allocate (model%joint_materials(1))
       model%max_harmonic = max_harmonic
       model%n_planes = 4*max_harmonic + 2
@@ -185,7 +185,7 @@ contains
             nodes = edge_of(model, element, k)
             if (.not. on_segment(model%mesh%coordinates(:, nodes(1)), from, to)) cycle
             if (.not. on_segment(model%mesh%coordinates(:, nodes(2)), from, to)) cycle
-            load%harmonic = harmonic
+            load%mode%harmonic = harmonic
             load%nodes = nodes
             do i = 1, count(nodes > 0)
                load%traction(:, i) = traction(model%mesh%coordinates(:, nodes(i)))
