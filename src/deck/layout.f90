@@ -10,8 +10,11 @@ module axijoint_deck_layout
    private
    public :: section_names, section_fields, keyword_fields, nearest_section, cards_per_entry
 
-   !> Last column of a card, and of the keyword on a keyword card
+   !> Last column of a card, and the last one of a keyword before the number of entries.
+   !> A longer keyword leaves less room for that number
    integer, parameter, public :: card_width = 80, keyword_last = 10
+   !> Letters of the longest keyword
+   integer, parameter, public :: keyword_length = 12
 
    !> Number of keywords
    integer, parameter, public :: n_sections = 21
@@ -23,7 +26,8 @@ module axijoint_deck_layout
       section_increments = 18, section_output = 19, section_include = 20, section_end = 21
 
    !> The keywords
-   character(len=10), parameter :: section_names(n_sections) = [character(len=10) :: &
+   character(len=keyword_length), parameter :: section_names(n_sections) = &
+      [character(len=keyword_length) :: &
       'TITLE', 'CONTROL', 'NODES', 'LINES', 'ELEMENTS', 'BLOCKS', 'MATERIALS', 'LAWS', 'JOINTS', &
       'FACES', 'CHAINS', 'INTERFACES', 'RESTRAINTS', 'FIXEDFACES', 'TRACTIONS', 'RESULTANTS', &
       'RINGLOADS', 'INCREMENTS', 'OUTPUT', 'INCLUDE', 'END']

@@ -5,7 +5,7 @@ module axijoint_deck_source_reader
    use axijoint_deck_file_bytes, only : read_bytes, line_end, next_line, control_byte
    use axijoint_deck_include_path, only : locate_path, path_fault, nesting_fault, folder
    use axijoint_deck_layout, only : n_sections, section_names, section_title, section_include, &
-      section_end, nearest_section, keyword_last
+      section_end, nearest_section, keyword_last, keyword_length
    use axijoint_deck_source, only : source_type, add_file, add_card, card_content, &
       card_text, card_title, card_data, card_keyword, tab
    use axijoint_deck_strange_byte, only : report_strange_byte
@@ -151,12 +151,12 @@ contains
       !> The card
       character(len=*), intent(in) :: text
 
-      character(len=keyword_last) :: word
+      character(len=keyword_length) :: word
       integer :: behind
 
       word = text
       behind = scan(text, ' !'//tab)
-      if (behind > 0 .and. behind <= keyword_last) word(behind:) = ''
+      if (behind > 0 .and. behind <= keyword_length) word(behind:) = ''
       looks_like_keyword = any(section_names == upper(word))
       if (behind == 0) behind = len(text) + 1
       looks_like_keyword = looks_like_keyword .and. &
@@ -192,7 +192,7 @@ contains
 
       content = card_content(source, card)
       first = max(1, first_letter(content))
-      word = content(first:min(len(content), first + keyword_last - 1))
+      word = content(first:min(len(content), first + keyword_length - 1))
       word = word(:scan(word//' ', ' ,'//tab) - 1)
       keyword = findloc(section_names, upper(word), 1)
       source%cards(card)%kind = card_data
