@@ -1,13 +1,13 @@
 !> `axijoint check`: read decks and report on them
 module axijoint_driver_check
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
-   use axijoint_analysis_static, only : used_harmonics
    use axijoint_base_error, only : exit_ok, exit_deck
    use axijoint_base_text, only : to_text
    use axijoint_cli, only : word_type
    use axijoint_deck_diagnostics, only : diagnostics_type, render
    use axijoint_deck_reader, only : read_deck
    use axijoint_deck_source, only : source_type
+   use axijoint_model_modes, only : used_modes
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type
    implicit none
@@ -41,7 +41,7 @@ contains
                to_text(n_nodes(model%mesh))//' nodes, '// &
                to_text(n_elements(model%mesh))//' elements, '// &
                to_text(n_joints(model%mesh))//' joints, '// &
-               to_text(size(used_harmonics(model)))//' harmonics to solve'
+               to_text(size(used_modes(model)))//' harmonics to solve'
          end if
       end do
    end subroutine check_decks

@@ -12,7 +12,9 @@ program solvers
    use axijoint_assembly_pattern, only : node_graph
    use axijoint_assembly_stiffness, only : stiffness_type, new_stiffness, assemble_parts, &
                                            harmonic_matrix
+   use axijoint_assembly_support, only : support_point_type
    use axijoint_base_error, only : error_type
+   use axijoint_fe_mode, only : mode_type
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_memory, only : available_memory
    use axijoint_base_text, only : to_text, lower
@@ -172,7 +174,7 @@ contains
       order = order_for(orders, kind)
       record%order = seconds() - start
       start = seconds()
-      call new_stiffness(stiffness(1), model, harmonic, graph, order)
+      call new_stiffness(stiffness(1), model, mode_type(harmonic), graph, order)
       call new_solver(solver, kind)
       call solver%analyse(stiffness(1)%pattern, error)
       call stop_on(error)
@@ -180,7 +182,7 @@ contains
       call describe(record, kind, solver)
       if (.not. feasible(record)) return
       start = seconds()
-      call assemble_parts(stiffness, model, [model_joint_point_type ::])
+      call assemble_parts(stiffness, model, [model_joint_point_type ::], [support_point_type ::])
       record%parts = seconds() - start
       start = seconds()
       call harmonic_matrix(stiffness(1), harmonic, matrix)
@@ -294,7 +296,7 @@ contains
       start = seconds()
       call new_orders(orders, node_graph(model%mesh), error)
       call stop_on(error)
-      call plan_equations(equations, model, [(m, m=1, config%n_harmonics)], orders, error)
+      call plan_equations(equations, model, [(mode_type(m), m=1, config%n_harmonics)], orders, error)
       call stop_on(error)
       record%analysis = seconds() - start
       call describe(record, kind, equations%plans(1)%solver)
@@ -305,7 +307,8 @@ contains
       record%bytes = real(needed_bytes(equations), wp)
       if (.not. feasible(record)) return
       start = seconds()
-      call assemble_equations(equations, model, [model_joint_point_type ::], error)
+      call assemble_equations(equations, model, [model_joint_point_type ::], &
+                              [support_point_type ::], error)
       call stop_on(error)
       record%matrix = seconds() - start
       call cpu_time(processor)

@@ -1,11 +1,11 @@
 !> What a job would cost with each solver, before anything is solved
 module axijoint_analysis_estimate
-   use axijoint_analysis_static, only : used_harmonics
    use axijoint_assembly_equations, only : equations_type, plan_solver, planned_seconds, needed_bytes
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp, i8
    use axijoint_model_mesh, only : n_nodes, n_elements
    use axijoint_model_model, only : model_type, gauss_order
+   use axijoint_model_modes, only : used_modes
    use axijoint_solver_choice, only : orders_type
    implicit none
    private
@@ -52,11 +52,11 @@ contains
       type(equations_type), allocatable :: equations
       integer :: k
 
-      call plan_solver(equations, model, used_harmonics(model), orders, kind, error)
+      call plan_solver(equations, model, used_modes(model), orders, kind, error)
       if (allocated(error)) return
-      estimate%n_harmonics = size(equations%harmonics)
-      do k = 1, size(equations%harmonics)
-         associate (solver => equations%plans(equations%class(k))%solver)
+      estimate%n_harmonics = size(equations%systems)
+      do k = 1, size(equations%systems)
+         associate (solver => equations%plans(equations%systems(k)%class)%solver)
             estimate%n_equations = estimate%n_equations + solver%n
             estimate%factor_entries = estimate%factor_entries + solver%factor_entries
             estimate%operations = estimate%operations + solver%operations
@@ -64,25 +64,25 @@ contains
       end do
       estimate%seconds = planned_seconds(equations, rate)
       estimate%bytes = program_bytes + needed_bytes(equations) &
-         + field_bytes(model, size(equations%harmonics))
+         + field_bytes(model, size(equations%modes))
    end subroutine estimate_job
 
    !> Bytes of displacements, forces, reactions and stresses
-   pure function field_bytes(model, n_harmonics) result(bytes)
+   pure function field_bytes(model, n_modes) result(bytes)
       !> The job
       type(model_type), intent(in) :: model
-      !> Number of harmonics
-      integer, intent(in) :: n_harmonics
+      !> Number of modes
+      integer, intent(in) :: n_modes
       !> The bytes
       integer(i8) :: bytes
 
       integer :: element
 
-      bytes = 9*int(n_nodes(model%mesh), i8)  ! displacements, loads, reactions
+      bytes = 12*int(n_nodes(model%mesh), i8)  ! displacements, loads twice, reactions
       do element = 1, n_elements(model%mesh)
          bytes = bytes + 6*gauss_order(model, model%mesh%element_size(element))**2
       end do
-      bytes = bytes*n_harmonics*real_bytes
+      bytes = bytes*n_modes*real_bytes
    end function field_bytes
 
 end module axijoint_analysis_estimate

@@ -1,17 +1,20 @@
 !> Stresses, reactions and equilibrium from the displacements
 module axijoint_analysis_recovery
-   use axijoint_analysis_results, only : results_type, axial, lateral, moment, torque
-   use axijoint_assembly_equations, only : equations_type, on_equations, worth_threads
-   use axijoint_assembly_force, only : joint_force, joint_jump
+   use axijoint_analysis_results, only : results_type, axial, lateral, moment, torque, &
+                                         lateral_90, moment_90, n_resultants
+   use axijoint_analysis_structure, only : structure_type
+   use axijoint_assembly_equations, only : on_equations, worth_threads
+   use axijoint_assembly_force, only : joint_force, joint_jump, elastic_joint_stress
+   use axijoint_assembly_loading, only : loading_type
    use axijoint_assembly_mechanism, only : solid_parts
+   use axijoint_assembly_solid_force, only : solid_force
+   use axijoint_assembly_support, only : add_support_force
    use axijoint_base_kinds, only : wp
-   use axijoint_element_solid, only : solid_point_type, solid_points, solid_stress, &
-                                      add_solid_force, isotropic_elasticity
-   use axijoint_fe_fourier, only : circle_integral
-   use axijoint_joints_field, only : joint_field_type, elastic_stress
+   use axijoint_element_solid, only : solid_point_type, solid_points
+   use axijoint_fe_mode, only : mode_type, mode_integral, is_torsion, family_symmetric
+   use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_residual, only : ratio, load_norm
-   use axijoint_model_joint_points, only : model_joint_point_type
-   use axijoint_model_mesh, only : n_elements, n_nodes, max_element_nodes
+   use axijoint_model_mesh, only : n_elements, n_nodes
    use axijoint_model_model, only : model_type, gauss_order, on_axis
    implicit none
    private
@@ -22,15 +25,13 @@ contains
    !> Fill stresses, reactions, the residual ratio and the equilibrium error.
    !> All forces come from the stresses, point by point, not from the assembled
    !> matrices, so that the ratio judges the whole path from mesh to solution.
-   subroutine recover(model, points, equations, load, factor, largest_factor, field, results)
+   subroutine recover(model, structure, loading, factor, largest_factor, field, results)
       !> The job
       type(model_type), intent(in) :: model
-      !> Points of all joints
-      type(model_joint_point_type), intent(in) :: points(:)
-      !> Equations of the harmonics solved
-      type(equations_type), intent(in) :: equations
-      !> Loads for a factor of one, shape (3, nodes, harmonics)
-      real(wp), intent(in) :: load(:, :, :)
+      !> Joints, springs, equations
+      type(structure_type), intent(in) :: structure
+      !> Loads for a factor of one
+      type(loading_type), intent(in) :: loading
       !> Load factor at the end, and the largest of the run: errors are measured
       !> by the largest load, which does not vanish with unloading
       real(wp), intent(in) :: factor, largest_factor
@@ -39,60 +40,88 @@ contains
       !> Results; displacements are there already
       type(results_type), intent(inout) :: results
 
-      real(wp), dimension(size(equations%harmonics)) :: unbalanced, scale
-      real(wp), dimension(4, size(equations%harmonics)) :: resultant, reacted
+      real(wp), dimension(size(results%modes)) :: unbalanced, load_scale, reaction_scale
+      real(wp), dimension(n_resultants, size(results%modes)) :: resultant, reacted
       real(wp), allocatable :: unbalance(:, :, :)
       real(wp), allocatable :: internal(:, :), force(:, :)  ! threads have small stacks
-      real(wp) :: largest_load(4)
       integer, allocatable :: part(:)
       integer :: k
 
       call new_points(model, results)
       call solid_parts(model%mesh, part)
-      allocate (unbalance(4, maxval(part), size(equations%harmonics)))
+      allocate (unbalance(n_resultants, maxval(part), size(results%modes)))
       allocate (results%reaction, mold=results%displacement)
-      !$omp parallel do schedule(dynamic) private(internal, force) if (worth_threads(equations))
-      do k = 1, size(equations%harmonics)
-         associate (m => equations%harmonics(k), reaction => results%reaction(:, :, k))
-            force = factor*load(:, :, k)
-            internal = force  ! for its shape
-            call solid_fields(model, m, results%displacement(:, :, k), results%stress(:, :, k), &
-                              internal)
-            internal = internal + joint_force(points, m, admitted(k), size(internal, 2))
-            unbalanced(k) = sum(on_equations(equations, k, force - internal)**2)/circle_integral(m)
-            reaction = merge(internal - force, 0.0_wp, held(model, m))
-            resultant(:, k) = rigid_resultants(model, m, load(:, :, k))
-            reacted(:, k) = rigid_resultants(model, m, reaction)
-            unbalance(:, :, k) = part_resultants(model, m, part, force - internal + reaction)
-            scale(k) = largest_factor*sum(abs(load(:, :, k)))
+      !$omp parallel do schedule(dynamic) private(internal, force) &
+      !$omp if (worth_threads(structure%equations))
+      do k = 1, size(results%modes)
+         associate (mode => results%modes(k), reaction => results%reaction(:, :, k))
+            force = factor*loading%external(:, :, k)
+            internal = internal_force(k)
+            unbalanced(k) = sum(on_equations(structure%equations, k, force - internal)**2) &
+               /mode_integral(mode)
+            reaction = merge(internal - force, 0.0_wp, held(model, mode))
+            internal = internal - spring_force(k)
+            reaction = reaction - spring_force(k)
+            resultant(:, k) = rigid_resultants(model, mode, loading%external(:, :, k))
+            reacted(:, k) = rigid_resultants(model, mode, reaction)
+            unbalance(:, :, k) = part_resultants(model, mode, part, force - internal + reaction)
+            load_scale(k) = largest_factor*sum(abs(loading%external(:, :, k)))
+            reaction_scale(k) = sum(abs(reaction))
          end associate
       end do
       !$omp end parallel do
       results%applied = factor*sum(resultant, 2)
-      largest_load = largest_factor*sum(resultant, 2)
       results%reacted = sum(reacted, 2)
       results%part_unbalance = sum(unbalance, 3)
       results%part_node = [(findloc(part, k, 1), k=1, maxval(part))]
       results%residual_ratio = ratio(sqrt(sum(unbalanced)), &
-                                     largest_factor*load_norm(equations, load))
-      results%equilibrium_error = imbalance(model, largest_load, sum(scale), &
-                                            reshape(results%applied + results%reacted, [4, 1]))
-      results%part_error = imbalance(model, largest_load, sum(scale), results%part_unbalance)
+                                     largest_factor*load_norm(structure%equations, loading%right))
+      ! displacements and temperatures load without external forces
+      associate (largest => largest_factor*sum(resultant, 2), &
+                 scale => merge(sum(load_scale), sum(reaction_scale), sum(load_scale) > 0.0_wp), &
+                 whole => reshape(results%applied + results%reacted, [n_resultants, 1]))
+         results%equilibrium_error = imbalance(model, largest, scale, whole)
+         results%part_error = imbalance(model, largest, scale, results%part_unbalance)
+      end associate
 
    contains
 
-      !> Joint stress amplitudes k d - e of one harmonic
+      !> Nodal forces of solids, joints and springs in one mode; fills the stress
+      function internal_force(k) result(internal)
+         !> Place of the mode
+         integer, intent(in) :: k
+         !> Forces on components, shape (3, nodes)
+         real(wp), allocatable :: internal(:, :)
+
+         allocate (internal, mold=results%displacement(:, :, k))
+         call solid_force(model, loading%initial, factor, k, results%modes(k), &
+                          results%displacement(:, :, k), internal, results%stress(:, :, k))
+         internal = internal + spring_force(k) + joint_force(structure%joint_points, &
+            results%modes(k)%harmonic, admitted(k), size(internal, 2))
+      end function internal_force
+
+      !> Nodal forces that hold the springs in one mode
+      function spring_force(k) result(force)
+         !> Place of the mode
+         integer, intent(in) :: k
+         !> Forces on components, shape (3, nodes)
+         real(wp), allocatable :: force(:, :)
+
+         allocate (force(3, n_nodes(model%mesh)), source=0.0_wp)
+         call add_support_force(structure%support_points, results%modes(k)%harmonic, &
+                                results%displacement(:, :, k), force)
+      end function spring_force
+
+      !> Joint stress amplitudes k d - e of one mode
       function admitted(k) result(stress)
-         !> Place of the harmonic
+         !> Place of the mode
          integer, intent(in) :: k
          !> The amplitudes, shape (3, joint points)
-         real(wp) :: stress(3, size(points))
+         real(wp), allocatable :: stress(:, :)
 
-         real(wp), dimension(3, size(points), 1) :: jump
-
-         jump(:, :, 1) = joint_jump(points, results%displacement(:, :, k))
-         jump = elastic_stress(model, points, jump)
-         stress = jump(:, :, 1) - field%excess(:, :, k)
+         stress = elastic_joint_stress(model, structure%joint_points, &
+            joint_jump(structure%joint_points, results%displacement(:, :, k))) &
+            - field%excess(:, :, k)
       end function admitted
 
    end subroutine recover
@@ -113,7 +142,7 @@ contains
             n = n + gauss_order(model, mesh%element_size(element))**2
          end do
          allocate (results%point_element(n), results%point_position(2, n))
-         allocate (results%stress(6, n, size(results%harmonics)))
+         allocate (results%stress(6, n, size(results%modes)))
          last = 0
          do element = 1, n_elements(mesh)
             n = gauss_order(model, mesh%element_size(element))
@@ -129,112 +158,83 @@ contains
       end associate
    end subroutine new_points
 
-   !> Stress amplitudes of one harmonic and the nodal forces that balance them
-   subroutine solid_fields(model, harmonic, displacement, stress, force)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Harmonic m
-      integer, intent(in) :: harmonic
-      !> Displacement amplitudes, shape (3, nodes)
-      real(wp), intent(in) :: displacement(:, :)
-      !> Stress amplitudes at the Gauss points, shape (6, points)
-      real(wp), intent(out) :: stress(:, :)
-      !> Forces on components, shape (3, nodes)
-      real(wp), intent(out) :: force(:, :)
-
-      type(solid_point_type) :: points(9)
-      real(wp) :: d(6, 6)
-      real(wp), dimension(3, max_element_nodes) :: local, element_force
-      integer :: element, n, n_gauss, k, last
-
-      force = 0.0_wp
-      last = 0
-      do element = 1, n_elements(model%mesh)
-         n = model%mesh%element_size(element)
-         n_gauss = gauss_order(model, n)
-         associate (nodes => model%mesh%element_nodes(:n, element), &
-                    material => model%materials(model%mesh%element_material(element)))
-            d = isotropic_elasticity(material%young, material%poisson)
-            call solid_points(model%mesh%coordinates(:, nodes), n_gauss, points(:n_gauss**2))
-            local(:, :n) = displacement(:, nodes)
-            element_force = 0.0_wp
-            do k = 1, n_gauss**2
-               last = last + 1
-               stress(:, last) = solid_stress(points(k), n, d, harmonic, local)
-               call add_solid_force(points(k), n, harmonic, stress(:, last), element_force)
-            end do
-            force(:, nodes) = force(:, nodes) + circle_integral(harmonic)*element_force(:, :n)
-         end associate
-      end do
-   end subroutine solid_fields
-
    !> Components that supports hold. On the axis the pole conditions hold the
    !> rest: only v in harmonic 0, and u and w together in harmonic 1, are left
-   pure function held(model, harmonic)
+   pure function held(model, mode)
       !> The job
       type(model_type), intent(in) :: model
-      !> Harmonic m
-      integer, intent(in) :: harmonic
+      !> The mode
+      type(mode_type), intent(in) :: mode
       !> Shape (3, nodes)
       logical :: held(3, size(model%mesh%node_label))
 
       logical :: pole(size(model%mesh%node_label))
 
       held = model%fixed
+      if (is_torsion(mode)) then
+         held(1:2, :) = .false.
+      else if (mode%harmonic == 0) then
+         held(3, :) = .false.
+      end if
       pole = on_axis(model%mesh)
-      if (harmonic == 1) then
+      if (mode%harmonic == 1) then
          held(1, :) = held(1, :) .or. pole .and. held(3, :)
          held(3, :) = held(3, :) .or. pole .and. held(1, :)
          held(2, :) = held(2, :) .and. .not. pole
       else
          held(1, :) = held(1, :) .and. .not. pole
          held(3, :) = held(3, :) .and. .not. pole
-         if (harmonic > 1) held(2, :) = held(2, :) .and. .not. pole
+         if (mode%harmonic > 1) held(2, :) = held(2, :) .and. .not. pole
       end if
    end function held
 
-   !> Resultants of nodal forces of one harmonic: their work on unit rigid motions
-   pure function rigid_resultants(model, harmonic, force) result(resultant)
+   !> Resultants of nodal forces of one mode: their work on unit rigid motions
+   pure function rigid_resultants(model, mode, force) result(resultant)
       !> The job
       type(model_type), intent(in) :: model
-      !> Harmonic m
-      integer, intent(in) :: harmonic
+      !> The mode
+      type(mode_type), intent(in) :: mode
       !> Generalized forces on components, shape (3, nodes)
       real(wp), intent(in) :: force(:, :)
-      !> Axial and lateral force, moment, torque
-      real(wp) :: resultant(4)
+      !> The resultants
+      real(wp) :: resultant(n_resultants)
+
+      logical :: symmetric
 
       resultant = 0.0_wp
+      symmetric = mode%family == family_symmetric
       associate (r => model%mesh%coordinates(1, :), z => model%mesh%coordinates(2, :))
-         select case (harmonic)
-         case (0)
+         if (is_torsion(mode)) then  ! w = -r turns by one about z
+            resultant(torque) = -sum(r*force(3, :))
+         else if (mode%harmonic == 0) then
             resultant(axial) = sum(force(2, :))
-         case (1)
-            resultant(lateral) = sum(force(1, :) - force(3, :))
-            resultant(moment) = sum(r*force(2, :) - z*(force(1, :) - force(3, :)))
-         end select
+         else if (mode%harmonic == 1) then
+            resultant(merge(lateral, lateral_90, symmetric)) = sum(force(1, :) - force(3, :))
+            resultant(merge(moment, moment_90, symmetric)) = &
+               sum(r*force(2, :) - z*(force(1, :) - force(3, :)))
+         end if
       end associate
    end function rigid_resultants
 
-   !> Resultants of nodal forces of one harmonic on each part
-   pure function part_resultants(model, harmonic, part, force) result(resultant)
+   !> Resultants of nodal forces of one mode on each part
+   pure function part_resultants(model, mode, part, force) result(resultant)
       !> The job
       type(model_type), intent(in) :: model
-      !> Harmonic m
-      integer, intent(in) :: harmonic
+      !> The mode
+      type(mode_type), intent(in) :: mode
       !> Part of each node
       integer, intent(in) :: part(:)
       !> Generalized forces on components, shape (3, nodes)
       real(wp), intent(in) :: force(:, :)
-      !> Axial and lateral force, moment, torque, shape (4, parts)
-      real(wp) :: resultant(4, maxval(part))
+      !> The resultants, shape (n_resultants, parts)
+      real(wp) :: resultant(n_resultants, maxval(part))
 
       integer :: k
 
       resultant = 0.0_wp
-      if (harmonic > 1) return  ! no resultants
+      if (mode%harmonic > 1) return  ! no resultants
       do k = 1, size(resultant, 2)
-         resultant(:, k) = rigid_resultants(model, harmonic, &
+         resultant(:, k) = rigid_resultants(model, mode, &
                                             merge(force, 0.0_wp, spread(part == k, 1, 3)))
       end do
    end function part_resultants
@@ -246,10 +246,10 @@ contains
       !> The job
       type(model_type), intent(in) :: model
       !> Resultants of the loads
-      real(wp), intent(in) :: applied(4)
+      real(wp), intent(in) :: applied(n_resultants)
       !> Sum of the absolute generalized forces applied
       real(wp), intent(in) :: scale
-      !> Resultants out of balance, shape (4, any)
+      !> Resultants out of balance, shape (n_resultants, any)
       real(wp), intent(in) :: unbalance(:, :)
       !> The error
       real(wp) :: error
@@ -258,12 +258,12 @@ contains
       real(wp), parameter :: no_resultant = 1.0e-6_wp
       real(wp) :: force, turning
 
-      force = maxval(abs(applied([axial, lateral])))
+      force = maxval(abs(applied([axial, lateral, lateral_90])))
       if (force <= no_resultant*scale) force = scale
-      turning = max(maxval(abs(applied([moment, torque]))), &
+      turning = max(maxval(abs(applied([moment, torque, moment_90]))), &
                     force*maxval(abs(model%mesh%coordinates)))
-      error = max(ratio(maxval(abs(unbalance([axial, lateral], :))), force), &
-                  ratio(maxval(abs(unbalance([moment, torque], :))), turning))
+      error = max(ratio(maxval(abs(unbalance([axial, lateral, lateral_90], :))), force), &
+                  ratio(maxval(abs(unbalance([moment, torque, moment_90], :))), turning))
    end function imbalance
 
 end module axijoint_analysis_recovery

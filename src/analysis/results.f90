@@ -1,11 +1,12 @@
 !> Everything that a run computes and the output reports
 module axijoint_analysis_results
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_fe_mode, only : mode_type
    use axijoint_joints_field, only : iteration_type
    implicit none
    private
-   public :: results_type, iteration_type, harmonic_solve_type, ordering_type, remark_type
-   public :: axial, lateral, moment, torque
+   public :: results_type, iteration_type, mode_solve_type, ordering_type, remark_type
+   public :: axial, lateral, moment, torque, lateral_90, moment_90, n_resultants
 
    !> Index of a resultant: force along z
    integer, parameter :: axial = 1
@@ -16,11 +17,16 @@ module axijoint_analysis_results
    integer, parameter :: moment = 3
    !> Index of a resultant: moment about z
    integer, parameter :: torque = 4
+   !> Indices of resultants: force along theta = 90 degrees, and the moment that
+   !> lifts that side
+   integer, parameter :: lateral_90 = 5, moment_90 = 6
+   !> Number of resultants
+   integer, parameter :: n_resultants = 6
 
-   !> How well the equations of one harmonic were solved
-   type :: harmonic_solve_type
-      !> Harmonic m
-      integer :: harmonic = 0
+   !> How well the equations of one mode were solved
+   type :: mode_solve_type
+      !> Harmonic and family
+      type(mode_type) :: mode
       !> Number of equations
       integer :: n_equations = 0
       !> Entries of the factor (fill and all)
@@ -33,7 +39,7 @@ module axijoint_analysis_results
       !> Estimate of the condition number |K| |K^-1| in the 1-norm (a lower bound,
       !> seldom more than three times too small)
       real(wp) :: condition = 0.0_wp
-   end type harmonic_solve_type
+   end type mode_solve_type
 
    !> How wide an order of the nodes is
    type :: ordering_type
@@ -50,30 +56,30 @@ module axijoint_analysis_results
       character(len=:), allocatable :: text
    end type remark_type
 
-   !> Results of a run. Amplitudes belong to the symmetric family:
-   !> u, v ~ cos(m theta), w ~ sin(m theta).
+   !> Results of a run. Amplitudes belong to a mode: u, v ~ cos(m theta),
+   !> w ~ sin(m theta) in the symmetric family, ~ sin and -cos in the other.
    type :: results_type
       !> Whether every increment reached its tolerance
       logical :: converged = .false.
-      !> Harmonics m that were solved, ascending
-      integer, allocatable :: harmonics(:)
+      !> Modes that were solved, ascending
+      type(mode_type), allocatable :: modes(:)
       !> Solver that was used, one of the `solver_` parameters
       integer :: solver = 0
       !> Orders of the nodes side by side
       type(ordering_type), allocatable :: orderings(:)
-      !> One entry for each harmonic
-      type(harmonic_solve_type), allocatable :: solves(:)
-      !> Displacement amplitudes u, v, w, shape (3, nodes, harmonics) [length]
+      !> One entry for each mode
+      type(mode_solve_type), allocatable :: solves(:)
+      !> Displacement amplitudes u, v, w, shape (3, nodes, modes) [length]
       real(wp), allocatable :: displacement(:, :, :)
-      !> Generalized reactions of fixed components, shape (3, nodes, harmonics):
+      !> Generalized reactions of fixed components and springs, shape (3, nodes, modes):
       !> work over the whole circle on unit amplitudes [force]
       real(wp), allocatable :: reaction(:, :, :)
       !> Element (index) of each solid Gauss point, ascending
       integer, allocatable :: point_element(:)
       !> r and z of each solid Gauss point, shape (2, points)
       real(wp), allocatable :: point_position(:, :)
-      !> Stress amplitudes at solid Gauss points, shape (6, points, harmonics), in
-      !> the order r, z, theta, rz ~ cos(m theta); r-theta, z-theta ~ sin(m theta)
+      !> Stress amplitudes at solid Gauss points, shape (6, points, modes), in
+      !> the order r, z, theta, rz (they go with u, v); r-theta, z-theta (with w)
       real(wp), allocatable :: stress(:, :, :)
       !> Angles of the planes of the joint results [radian]
       real(wp), allocatable :: plane_angles(:)
@@ -93,11 +99,11 @@ module axijoint_analysis_results
       real(wp) :: residual_ratio = 0.0_wp
       !> Tolerance on the residual-force ratio
       real(wp) :: tolerance = 0.0_wp
-      !> Resultants of the applied loads and of the reactions, shape (4)
-      real(wp) :: applied(4) = 0.0_wp, reacted(4) = 0.0_wp
+      !> Resultants of the applied loads and of the reactions
+      real(wp) :: applied(n_resultants) = 0.0_wp, reacted(n_resultants) = 0.0_wp
       !> A node of each part of the mesh that solid elements hold together
       integer, allocatable :: part_node(:)
-      !> Resultants of the forces on each part that nothing balances, shape (4, parts)
+      !> Resultants of the forces on each part that nothing balances, shape (n_resultants, parts)
       real(wp), allocatable :: part_unbalance(:, :)
       !> Largest sum of applied and reacted resultants, over those of the loads
       real(wp) :: equilibrium_error = 0.0_wp

@@ -1,6 +1,7 @@
 !> Unknowns: which displacement component is which equation
 module axijoint_assembly_dofs
    use axijoint_base_kinds, only : wp
+   use axijoint_fe_mode, only : mode_type, is_torsion
    implicit none
    private
    public :: dofs_type, new_dofs, gather, expand, kinematic_class
@@ -9,7 +10,7 @@ module axijoint_assembly_dofs
    !> Names of the components u, v, w
    character(len=*), parameter :: component_name(3) = ['u (r)    ', 'v (z)    ', 'w (theta)']
 
-   !> Equations of the symmetric family in one class of harmonics
+   !> Equations in one class of modes
    type :: dofs_type
       !> Number of equations
       integer :: n_equations = 0
@@ -21,24 +22,26 @@ module axijoint_assembly_dofs
 
 contains
 
-   !> Harmonics of one class share their equations: 0 has no w; from 1 on, all
-   !> have u, v, w, but on the axis 1 and the rest differ
-   elemental integer function kinematic_class(harmonic, touches_axis)
-      !> Harmonic m
-      integer, intent(in) :: harmonic
+   !> Modes of one class share their equations: torsion has w only, the
+   !> symmetric harmonic 0 no w; from 1 on, all have u, v, w, but on the axis 1
+   !> and the rest differ
+   elemental integer function kinematic_class(mode, touches_axis)
+      !> The mode
+      type(mode_type), intent(in) :: mode
       !> Whether the mesh has nodes at r = 0
       logical, intent(in) :: touches_axis
 
-      kinematic_class = min(harmonic, merge(2, 1, touches_axis))
+      kinematic_class = min(mode%harmonic, merge(2, 1, touches_axis))
+      if (is_torsion(mode)) kinematic_class = -1
    end function kinematic_class
 
    !> Number the unknowns. At the pole r = 0 the displacement must be the same
-   !> from all sides: m = 0: u = 0; m = 1: v = 0, w = -u; m >= 2: all zero
-   subroutine new_dofs(dofs, harmonic, on_axis, fixed, order)
+   !> from all sides: m = 0: u = w = 0; m = 1: v = 0, w = -u; m >= 2: all zero
+   subroutine new_dofs(dofs, mode, on_axis, fixed, order)
       !> The unknowns
       type(dofs_type), intent(out) :: dofs
-      !> Harmonic m
-      integer, intent(in) :: harmonic
+      !> Any mode of the class
+      type(mode_type), intent(in) :: mode
       !> Nodes at r = 0, shape (nodes)
       logical, intent(in) :: on_axis(:)
       !> Components that supports hold, shape (3, nodes)
@@ -54,11 +57,15 @@ contains
       do k = 1, size(order)
          node = order(k)
          free = .not. fixed(:, node)
-         if (harmonic == 0) free(3) = .false.
+         if (is_torsion(mode)) then
+            free(1:2) = .false.
+         else if (mode%harmonic == 0) then
+            free(3) = .false.
+         end if
          if (on_axis(node)) then
-            select case (harmonic)
+            select case (mode%harmonic)
             case (0)
-               free(1) = .false.
+               free([1, 3]) = .false.
             case (1)  ! w follows u, and is held with it
                free = [free(1) .and. free(3), .false., .false.]
             case default
@@ -70,7 +77,7 @@ contains
             dofs%n_equations = dofs%n_equations + 1
             dofs%equation(i, node) = dofs%n_equations
          end do
-         if (on_axis(node) .and. harmonic == 1) then
+         if (on_axis(node) .and. mode%harmonic == 1) then
             dofs%equation(3, node) = dofs%equation(1, node)
             dofs%factor(3, node) = -1.0_wp
          end if

@@ -3,10 +3,12 @@ module axijoint_assembly_equations
    use axijoint_assembly_dofs, only : gather, expand, kinematic_class, component_name
    use axijoint_assembly_stiffness, only : stiffness_type, new_stiffness, assemble_parts, &
                                            harmonic_matrix
+   use axijoint_assembly_support, only : support_point_type
    use axijoint_base_error, only : error_type, fatal_error, exit_singular
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_memory, only : require_memory
    use axijoint_base_text, only : to_text
+   use axijoint_fe_mode, only : mode_type
    use axijoint_linalg_lapack, only : use_one_blas_thread, norm_step
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type, multiply, infinity_norm
    use axijoint_model_joint_points, only : model_joint_point_type
@@ -17,9 +19,9 @@ module axijoint_assembly_equations
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type
    implicit none
    private
-   public :: equations_type, plan_equations, assemble_equations, factorize_equations
-   public :: solve_harmonic, elastic_force, backward_error, on_equations
-   public :: plan_solver, worth_threads, planned_seconds, needed_bytes, refine_harmonic, condition_estimate
+   public :: equations_type, system_type, plan_equations, assemble_equations, factorize_equations
+   public :: solve_mode, elastic_force, backward_error, on_equations
+   public :: plan_solver, worth_threads, planned_seconds, needed_bytes, refine_mode, condition_estimate
 
    !> A band wider than this many nodes is never faster than nested dissection
    integer, parameter :: widest_band = 400
@@ -28,11 +30,20 @@ module axijoint_assembly_equations
    !> Rate of matrix products that solvers are chosen by [operations/second]
    real(wp), parameter :: nominal_rate = 5.0e10_wp
 
-   !> Factor of one harmonic
-   type :: factor_slot_type
-      !> The factor
+   !> K_m of one harmonic: both families of it share the matrix; m = 0 has one for
+   !> the symmetric family and one for torsion
+   type :: system_type
+      !> Harmonic m
+      integer :: harmonic = 0
+      !> Class: its place in `classes` and `plans`
+      integer :: class = 0
+      !> Places of the modes that are solved with it
+      integer, allocatable :: modes(:)
+      !> The matrix, its factor and pivots
+      type(symmetric_matrix_type) :: matrix
       class(factor_type), allocatable :: factor
-   end type factor_slot_type
+      type(pivot_report_type) :: pivots
+   end type system_type
 
    !> Plan of one class
    type :: plan_slot_type
@@ -40,12 +51,14 @@ module axijoint_assembly_equations
       class(solver_type), allocatable :: solver
    end type plan_slot_type
 
-   !> Equations of the harmonics in use
+   !> Equations of the modes in use
    type :: equations_type
-      !> Harmonics m, ascending
-      integer, allocatable :: harmonics(:)
-      !> Class of each harmonic: its place in `classes` and `plans`
-      integer, allocatable :: class(:)
+      !> Modes, ascending
+      type(mode_type), allocatable :: modes(:)
+      !> System of each mode
+      integer, allocatable :: system(:)
+      !> Systems of equations
+      type(system_type), allocatable :: systems(:)
       !> Solver, one of the `solver_` parameters, never auto
       integer :: solver = 0
       !> Unknowns and sparsity of the classes; parts are dropped once the
@@ -53,24 +66,18 @@ module axijoint_assembly_equations
       type(stiffness_type), allocatable :: classes(:)
       !> Plans of the solver, one a class
       type(plan_slot_type), allocatable :: plans(:)
-      !> K_m of each harmonic
-      type(symmetric_matrix_type), allocatable :: matrices(:)
-      !> Factors of each harmonic
-      type(factor_slot_type), allocatable :: slots(:)
-      !> Pivots of each harmonic
-      type(pivot_report_type), allocatable :: pivots(:)
    end type equations_type
 
 contains
 
    !> Choose a solver and plan the factorizations; nothing is assembled yet
-   subroutine plan_equations(equations, model, harmonics, orders, error)
+   subroutine plan_equations(equations, model, modes, orders, error)
       !> The equations, planned
       type(equations_type), allocatable, intent(out) :: equations
       !> The job
       type(model_type), intent(in) :: model
-      !> Harmonics m, ascending
-      integer, intent(in) :: harmonics(:)
+      !> Modes, ascending
+      type(mode_type), intent(in) :: modes(:)
       !> Orders of the nodes
       type(orders_type), intent(in) :: orders
       !> Out of memory
@@ -79,13 +86,13 @@ contains
       type(equations_type), allocatable :: banded
 
       if (model%solver /= solver_auto) then
-         call plan_solver(equations, model, harmonics, orders, model%solver, error)
+         call plan_solver(equations, model, modes, orders, model%solver, error)
          return
       end if
-      call plan_solver(equations, model, harmonics, orders, solver_sparse, error)
+      call plan_solver(equations, model, modes, orders, solver_sparse, error)
       if (allocated(error)) return
       if (bandwidth(orders%graph, orders%cuthill_mckee) > widest_band) return
-      call plan_solver(banded, model, harmonics, orders, solver_band, error)
+      call plan_solver(banded, model, modes, orders, solver_band, error)
       if (allocated(error)) return
       if (planned_seconds(banded) < planned_seconds(equations)) then
          call move_alloc(banded, equations)
@@ -93,13 +100,13 @@ contains
    end subroutine plan_equations
 
    !> Number the unknowns and analyse the patterns of all classes for a solver
-   subroutine plan_solver(equations, model, harmonics, orders, kind, error)
+   subroutine plan_solver(equations, model, modes, orders, kind, error)
       !> The equations, planned
       type(equations_type), allocatable, intent(out) :: equations
       !> The job
       type(model_type), intent(in) :: model
-      !> Harmonics m, ascending
-      integer, intent(in) :: harmonics(:)
+      !> Modes, ascending
+      type(mode_type), intent(in) :: modes(:)
       !> Orders of the nodes
       type(orders_type), intent(in) :: orders
       !> Solver, one of the `solver_` parameters, not auto
@@ -112,40 +119,59 @@ contains
 
       allocate (equations)
       order = order_for(orders, kind)
-      equations%harmonics = harmonics
+      equations%modes = modes
       equations%solver = kind
-      equations%class = classes_of(kinematic_class(harmonics, any(on_axis(model%mesh))))
-      n_classes = maxval([0, equations%class])
+      call divide_modes(modes, any(on_axis(model%mesh)), equations%system, equations%systems)
+      n_classes = maxval([0, equations%systems%class])
       allocate (equations%classes(n_classes), equations%plans(n_classes))
       do k = 1, n_classes
-         call new_stiffness(equations%classes(k), model, &
-                            harmonics(findloc(equations%class, k, 1)), orders%graph, order)
+         associate (first => equations%systems(findloc(equations%systems%class, k, 1))%modes(1))
+            call new_stiffness(equations%classes(k), model, modes(first), orders%graph, order)
+         end associate
          call new_solver(equations%plans(k)%solver, kind)
          call equations%plans(k)%solver%analyse(equations%classes(k)%pattern, error)
          if (allocated(error)) return
       end do
    end subroutine plan_solver
 
-   !> Numbers of the classes without gaps
-   pure function classes_of(kinds) result(class)
-      !> Kinematic class of each harmonic, ascending
-      integer, intent(in) :: kinds(:)
-      !> Numbers from 1 on
-      integer :: class(size(kinds))
+   !> Divide the modes into systems, and the systems into classes
+   subroutine divide_modes(modes, touches_axis, system, systems)
+      !> Modes, ascending
+      type(mode_type), intent(in) :: modes(:)
+      !> Whether the mesh has nodes at r = 0
+      logical, intent(in) :: touches_axis
+      !> System of each mode
+      integer, allocatable, intent(out) :: system(:)
+      !> Systems, without matrices
+      type(system_type), allocatable, intent(out) :: systems(:)
 
-      integer :: k
+      integer :: kinds(size(modes)), k, s
+      logical :: first(size(modes))
 
-      do k = 1, size(kinds)  ! a class begins wherever the kind changes
-         class(k) = 1 + count(kinds(2:k) /= kinds(:k - 1))
+      kinds = kinematic_class(modes, touches_axis)
+      first = .true.
+      do k = 2, size(modes)
+         first(k) = modes(k)%harmonic /= modes(k - 1)%harmonic .or. kinds(k) /= kinds(k - 1)
       end do
-   end function classes_of
+      system = [(count(first(:k)), k=1, size(modes))]
+      allocate (systems(count(first)))
+      do s = 1, size(systems)
+         systems(s)%modes = pack([(k, k=1, size(modes))], system == s)
+         k = systems(s)%modes(1)
+         systems(s)%harmonic = modes(k)%harmonic
+         systems(s)%class = 1
+         if (s == 1) cycle
+         ! a class begins wherever the kind changes: modes of one kind follow each other
+         systems(s)%class = systems(s - 1)%class + merge(0, 1, kinds(k) == kinds(k - 1))
+      end do
+   end subroutine divide_modes
 
    !> Whether the harmonics are large enough to wake the threads for
    pure logical function worth_threads(equations)
       !> The equations, planned
       type(equations_type), intent(in) :: equations
 
-      worth_threads = sum(equations%classes(equations%class)%dofs%n_equations) > least_equations
+      worth_threads = sum(equations%classes(equations%systems%class)%dofs%n_equations) > least_equations
    end function worth_threads
 
    !> Expected time of all factorizations, one after the other
@@ -163,34 +189,35 @@ contains
       speed = nominal_rate
       if (present(rate)) speed = rate
       seconds = 0.0_wp
-      do k = 1, size(equations%harmonics)
-         seconds = seconds + expected_seconds(equations%plans(equations%class(k))%solver, &
+      do k = 1, size(equations%systems)
+         seconds = seconds + expected_seconds(equations%plans(equations%systems(k)%class)%solver, &
                                               equations%solver, speed)
       end do
    end function planned_seconds
 
    !> Assemble the matrices of all harmonics
-   subroutine assemble_equations(equations, model, joint_points, error)
+   subroutine assemble_equations(equations, model, joint_points, support_points, error)
       !> The equations, planned
       type(equations_type), intent(inout) :: equations
       !> The job
       type(model_type), intent(in) :: model
-      !> Points of all joints
+      !> Points of all joints, and of all springs
       type(model_joint_point_type), intent(in) :: joint_points(:)
+      type(support_point_type), intent(in) :: support_points(:)
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
       integer :: k
 
       call require_memory(needed_bytes(equations), 'the factors of '// &
-                          to_text(size(equations%harmonics))//' harmonics', error)
+                          to_text(size(equations%systems))//' harmonics', error)
       if (allocated(error)) return
-      call assemble_parts(equations%classes, model, joint_points)
-      allocate (equations%matrices(size(equations%harmonics)))
+      call assemble_parts(equations%classes, model, joint_points, support_points)
       !$omp parallel do schedule(dynamic) if (worth_threads(equations))
-      do k = 1, size(equations%harmonics)
-         call harmonic_matrix(equations%classes(equations%class(k)), equations%harmonics(k), &
-                              equations%matrices(k))
+      do k = 1, size(equations%systems)
+         associate (system => equations%systems(k))
+            call harmonic_matrix(equations%classes(system%class), system%harmonic, system%matrix)
+         end associate
       end do
       !$omp end parallel do
       do k = 1, size(equations%classes)
@@ -210,8 +237,8 @@ contains
       integer :: k
 
       bytes = 0
-      do k = 1, size(equations%harmonics)
-         associate (class => equations%class(k))
+      do k = 1, size(equations%systems)
+         associate (class => equations%systems(k)%class)
             bytes = bytes + equations%plans(class)%solver%factor_bytes &
                + entry_bytes*size(equations%classes(class)%pattern%column, kind=i8)
          end associate
@@ -231,17 +258,16 @@ contains
       type(error_type), allocatable :: failure
       integer :: k, failed
 
-      allocate (equations%slots(size(equations%harmonics)))
-      allocate (equations%pivots(size(equations%harmonics)))
       call use_one_blas_thread()
       failed = huge(1)  ! the lowest harmonic that fails is the one reported, with any threads
       !$omp parallel do schedule(dynamic) private(failure) if (worth_threads(equations))
-      do k = 1, size(equations%harmonics)
-         call equations%plans(equations%class(k))%solver%factorize( &
-            equations%matrices(k), equations%slots(k)%factor, equations%pivots(k), failure)
-         if (.not. allocated(failure) .and. equations%pivots(k)%equation > 0) then
+      do k = 1, size(equations%systems)
+         call equations%plans(equations%systems(k)%class)%solver%factorize( &
+            equations%systems(k)%matrix, equations%systems(k)%factor, equations%systems(k)%pivots, &
+            failure)
+         if (.not. allocated(failure) .and. equations%systems(k)%pivots%equation > 0) then
             call fatal_error(failure, exit_singular, &
-                             pivot_message(equations, k, equations%pivots(k)%equation, model))
+                             pivot_message(equations, k, equations%systems(k)%pivots%equation, model))
          end if
          if (.not. allocated(failure)) cycle
          !$omp critical
@@ -258,7 +284,7 @@ contains
    function pivot_message(equations, k, equation, model) result(message)
       !> The equations
       type(equations_type), intent(in) :: equations
-      !> Place of the harmonic
+      !> Place of the system
       integer, intent(in) :: k
       !> Equation of the pivot
       integer, intent(in) :: equation
@@ -269,8 +295,8 @@ contains
 
       integer :: place(2)
 
-      place = findloc(equations%classes(equations%class(k))%dofs%equation, equation)
-      message = 'the stiffness of harmonic '//to_text(equations%harmonics(k))// &
+      place = findloc(equations%classes(equations%systems(k)%class)%dofs%equation, equation)
+      message = 'the stiffness of harmonic '//to_text(equations%systems(k)%harmonic)// &
                 ' is singular: node '//to_text(model%mesh%node_label(place(2)))// &
                 ' (r = '//to_text(model%mesh%coordinates(1, place(2)))// &
                 ', z = '//to_text(model%mesh%coordinates(2, place(2)))// &
@@ -279,11 +305,11 @@ contains
                 'proportion to the bodies, or a material far softer than the rest?'
    end function pivot_message
 
-   !> Displacement of one harmonic under nodal forces
-   subroutine solve_harmonic(equations, k, force, displacement)
+   !> Displacement of one mode under nodal forces
+   subroutine solve_mode(equations, k, force, displacement)
       !> The equations, factored
       type(equations_type), intent(in) :: equations
-      !> Place of the harmonic
+      !> Place of the mode
       integer, intent(in) :: k
       !> Forces on components, shape (3, nodes)
       real(wp), intent(in) :: force(:, :)
@@ -292,19 +318,19 @@ contains
 
       real(wp), allocatable :: b(:, :)
 
-      associate (dofs => equations%classes(equations%class(k))%dofs)
+      associate (dofs => equations%classes(equations%systems(equations%system(k))%class)%dofs)
          allocate (b(dofs%n_equations, 1))
          b(:, 1) = gather(dofs, force)
-         call equations%slots(k)%factor%solve(b)
+         call equations%systems(equations%system(k))%factor%solve(b)
          displacement = expand(dofs, b(:, 1))
       end associate
-   end subroutine solve_harmonic
+   end subroutine solve_mode
 
    !> One step of iterative refinement
-   subroutine refine_harmonic(equations, k, force, displacement)
+   subroutine refine_mode(equations, k, force, displacement)
       !> The equations, factored
       type(equations_type), intent(in) :: equations
-      !> Place of the harmonic
+      !> Place of the mode
       integer, intent(in) :: k
       !> Forces on components, shape (3, nodes)
       real(wp), intent(in) :: force(:, :)
@@ -313,19 +339,19 @@ contains
 
       real(wp), allocatable :: b(:, :)
 
-      associate (dofs => equations%classes(equations%class(k))%dofs)
+      associate (dofs => equations%classes(equations%systems(equations%system(k))%class)%dofs)
          allocate (b(dofs%n_equations, 1))
          b(:, 1) = gather(dofs, force) - elastic_force(equations, k, displacement)
-         call equations%slots(k)%factor%solve(b)
+         call equations%systems(equations%system(k))%factor%solve(b)
          displacement = displacement + expand(dofs, b(:, 1))
       end associate
-   end subroutine refine_harmonic
+   end subroutine refine_mode
 
-   !> Estimate of the condition number of one harmonic in the 1-norm
+   !> Estimate of the condition number of one system in the 1-norm
    function condition_estimate(equations, k) result(condition)
       !> The equations, factored
       type(equations_type), intent(in) :: equations
-      !> Place of the harmonic
+      !> Place of the system
       integer, intent(in) :: k
       !> The estimate; zero without equations
       real(wp) :: condition
@@ -335,7 +361,7 @@ contains
       real(wp) :: inverse_norm
       integer :: kase, save(3)
 
-      associate (n => equations%matrices(k)%n)
+      associate (n => equations%systems(k)%matrix%n)
          allocate (v(n), x(n, 1), signs(n))
       end associate
       condition = 0.0_wp
@@ -349,44 +375,44 @@ contains
       do
          call norm_step(v, x(:, 1), signs, inverse_norm, kase, save)
          if (kase == 0) exit
-         call equations%slots(k)%factor%solve(x)  ! symmetric: the transpose is the same
+         call equations%systems(k)%factor%solve(x)  ! symmetric: the transpose is the same
       end do
-      condition = inverse_norm*infinity_norm(equations%matrices(k))
+      condition = inverse_norm*infinity_norm(equations%systems(k)%matrix)
    end function condition_estimate
 
-   !> Forces on the equations of one harmonic, from forces on components
+   !> Forces on the equations of one mode, from forces on components
    function on_equations(equations, k, force) result(vector)
       !> The equations
       type(equations_type), intent(in) :: equations
-      !> Place of the harmonic
+      !> Place of the mode
       integer, intent(in) :: k
       !> Forces on components, shape (3, nodes)
       real(wp), intent(in) :: force(:, :)
       !> Forces on equations
       real(wp), allocatable :: vector(:)
 
-      vector = gather(equations%classes(equations%class(k))%dofs, force)
+      vector = gather(equations%classes(equations%systems(equations%system(k))%class)%dofs, force)
    end function on_equations
 
    !> Forces K_m u of the elastic structure, joints sticking, on the equations
    function elastic_force(equations, k, displacement) result(force)
       !> The equations
       type(equations_type), intent(in) :: equations
-      !> Place of the harmonic
+      !> Place of the mode
       integer, intent(in) :: k
       !> Displacement amplitudes, shape (3, nodes)
       real(wp), intent(in) :: displacement(:, :)
       !> Forces, shape (n_equations)
       real(wp), allocatable :: force(:)
 
-      force = multiply(equations%matrices(k), on_unknowns(equations, k, displacement))
+      force = multiply(equations%systems(equations%system(k))%matrix, on_unknowns(equations, k, displacement))
    end function elastic_force
 
    !> Values of the unknowns from displacement components
    function on_unknowns(equations, k, displacement) result(vector)
       !> The equations
       type(equations_type), intent(in) :: equations
-      !> Place of the harmonic
+      !> Place of the mode
       integer, intent(in) :: k
       !> Displacement amplitudes, shape (3, nodes)
       real(wp), intent(in) :: displacement(:, :)
@@ -395,7 +421,7 @@ contains
 
       integer :: node, i
 
-      associate (dofs => equations%classes(equations%class(k))%dofs)
+      associate (dofs => equations%classes(equations%systems(equations%system(k))%class)%dofs)
          allocate (vector(dofs%n_equations))
          do node = 1, size(displacement, 2)
             do i = 1, 3
@@ -407,11 +433,11 @@ contains
       end associate
    end function on_unknowns
 
-   !> Backward error |b - K u| / (|K| |u| + |b|) of one harmonic, maximum norms
+   !> Backward error |b - K u| / (|K| |u| + |b|) of one mode, maximum norms
    function backward_error(equations, k, force, displacement) result(ratio)
       !> The equations
       type(equations_type), intent(in) :: equations
-      !> Place of the harmonic
+      !> Place of the mode
       integer, intent(in) :: k
       !> Forces on components, shape (3, nodes)
       real(wp), intent(in) :: force(:, :)
@@ -424,7 +450,7 @@ contains
       real(wp) :: scale
 
       b = on_equations(equations, k, force)
-      scale = infinity_norm(equations%matrices(k))*maxval(abs(displacement)) &
+      scale = infinity_norm(equations%systems(equations%system(k))%matrix)*maxval(abs(displacement)) &
          + maxval([0.0_wp, abs(b)])
       ratio = 0.0_wp
       if (scale > 0.0_wp) then

@@ -1,4 +1,4 @@
-!> Applied loads and internal forces of one harmonic, on displacement components
+!> Forces of edge loads and joints in one harmonic, on displacement components
 module axijoint_assembly_force
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint, only : jump_matrix
@@ -10,39 +10,17 @@ module axijoint_assembly_force
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: applied_force, joint_force, joint_jump
+   public :: add_edge_load, joint_force, joint_jump, elastic_joint_stress
 
 contains
 
-   !> Generalized nodal forces of the applied loads of one harmonic
-   pure function applied_force(model, harmonic) result(force)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Harmonic m
-      integer, intent(in) :: harmonic
-      !> Forces, shape (3, nodes)
-      real(wp) :: force(3, size(model%mesh%node_label))
-
-      integer :: k
-
-      force = 0.0_wp
-      do k = 1, size(model%edge_loads)
-         if (model%edge_loads(k)%mode%harmonic /= harmonic) cycle
-         call add_edge_load(model%edge_loads(k), model%mesh%coordinates, force)
-      end do
-      do k = 1, size(model%ring_loads)
-         associate (load => model%ring_loads(k))
-            if (load%mode%harmonic /= harmonic) cycle
-            force(:, load%node) = force(:, load%node) + load%force
-         end associate
-      end do
-   end function applied_force
-
    !> Add the work-equivalent forces of a traction on an edge:
    !> c_m times the integral of N t r ds
-   pure subroutine add_edge_load(load, coordinates, force)
+   pure subroutine add_edge_load(load, factor, coordinates, force)
       !> The load
       type(edge_load_type), intent(in) :: load
+      !> Factor on it
+      real(wp), intent(in) :: factor
       !> r and z of all nodes
       real(wp), intent(in) :: coordinates(:, :)
       !> Forces, shape (3, nodes)
@@ -56,8 +34,8 @@ contains
       associate (corners => coordinates(:, load%nodes(:n)))
          do k = 1, 3
             call shape_line(n, x(k), shape(:n), derivative(:n))
-            weight = w(k)*circle_integral(load%mode%harmonic)*dot_product(corners(1, :), shape(:n)) &
-               *norm2(matmul(corners, derivative(:n)))
+            weight = factor*w(k)*circle_integral(load%mode%harmonic) &
+               *dot_product(corners(1, :), shape(:n))*norm2(matmul(corners, derivative(:n)))
             traction = matmul(load%traction(:, :n), shape(:n))
             do i = 1, n
                force(:, load%nodes(i)) = force(:, load%nodes(i)) + weight*shape(i)*traction
@@ -84,6 +62,24 @@ contains
          jump(:, k) = matmul(matrix(:, :3*n), reshape(displacement(:, points(k)%nodes(:n)), [3*n]))
       end do
    end function joint_jump
+
+   !> Elastic joint stress of relative displacements (Eq. 9)
+   pure function elastic_joint_stress(model, points, jump) result(stress)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Points of all joints
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Relative displacements xi, eta, theta, shape (3, points)
+      real(wp), intent(in) :: jump(:, :)
+      !> Stresses, same shape
+      real(wp) :: stress(3, size(points))
+
+      integer :: k
+
+      do k = 1, size(points)
+         stress(:, k) = model%joint_materials(points(k)%material)%law%stiffness*jump(:, k)
+      end do
+   end function elastic_joint_stress
 
    !> Generalized nodal forces that balance joint stress amplitudes of one
    !> harmonic: c_m times the integral of N*^T P r ds

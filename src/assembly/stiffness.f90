@@ -2,12 +2,14 @@
 module axijoint_assembly_stiffness
    use axijoint_assembly_dofs, only : dofs_type, new_dofs
    use axijoint_assembly_pattern, only : new_pattern, element_cliques
+   use axijoint_assembly_support, only : support_point_type, support_stiffness
    use axijoint_base_kinds, only : wp, i8
    use axijoint_element_joint, only : joint_stiffness
    use axijoint_element_solid, only : solid_point_type, solid_points, solid_stiffness, &
                                       isotropic_elasticity, stiffness_kernel_type, &
                                       new_stiffness_kernel
    use axijoint_fe_fourier, only : circle_integral
+   use axijoint_fe_mode, only : mode_type
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type, entry_position
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_mesh, only : max_element_nodes, n_nodes
@@ -23,7 +25,7 @@ module axijoint_assembly_stiffness
    !> Unknowns of the largest element
    integer, parameter :: max_unknowns = 3*max_element_nodes
 
-   !> Stiffness of one class of harmonics
+   !> Stiffness of one class of modes
    type :: stiffness_type
       !> The unknowns
       type(dofs_type) :: dofs
@@ -35,20 +37,20 @@ module axijoint_assembly_stiffness
 
 contains
 
-   !> Unknowns and sparsity of the class that a harmonic belongs to
-   subroutine new_stiffness(stiffness, model, harmonic, graph, order)
+   !> Unknowns and sparsity of the class that a mode belongs to
+   subroutine new_stiffness(stiffness, model, mode, graph, order)
       !> The stiffness, parts zero
       type(stiffness_type), intent(out) :: stiffness
       !> The job
       type(model_type), intent(in) :: model
-      !> Any harmonic of the class
-      integer, intent(in) :: harmonic
+      !> Any mode of the class
+      type(mode_type), intent(in) :: mode
       !> Graph of the nodes
       type(graph_type), intent(in) :: graph
       !> order(k) is the k-th node to be numbered
       integer, intent(in) :: order(:)
 
-      call new_dofs(stiffness%dofs, harmonic, on_axis(model%mesh), model%fixed, order)
+      call new_dofs(stiffness%dofs, mode, on_axis(model%mesh), model%fixed, order)
       call new_pattern(stiffness%pattern, graph, stiffness%dofs, order)
       allocate (stiffness%parts(3, size(stiffness%pattern%column)), source=0.0_wp)
    end subroutine new_stiffness
@@ -56,13 +58,14 @@ contains
    !> Integrate every element and joint once, for all classes. Elements of one
    !> colour share no node, so threads never meet; sums do not depend on the
    !> number of threads.
-   subroutine assemble_parts(classes, model, joint_points)
+   subroutine assemble_parts(classes, model, joint_points, support_points)
       !> The classes in use
       type(stiffness_type), intent(inout) :: classes(:)
       !> The job
       type(model_type), intent(in) :: model
-      !> Points of all joints
+      !> Points of all joints, and of all springs
       type(model_joint_point_type), intent(in) :: joint_points(:)
+      type(support_point_type), intent(in) :: support_points(:)
 
       type(stiffness_kernel_type) :: kernels(size(model%materials))
       integer, allocatable :: start(:), member(:), color_start(:), colored(:)
@@ -83,6 +86,9 @@ contains
       end do
       do k = 1, size(joint_points)
          call add_joint_point(model, joint_points(k), classes)
+      end do
+      do k = 1, size(support_points)
+         call add_support_point(support_points(k), classes)
       end do
    end subroutine assemble_parts
 
@@ -135,6 +141,23 @@ contains
          call scatter(classes(i), point%nodes(:n), parts, 1)
       end do
    end subroutine add_joint_point
+
+   !> Add one point of a spring; free of the harmonic, too
+   subroutine add_support_point(point, classes)
+      !> The point
+      type(support_point_type), intent(in) :: point
+      !> The classes in use
+      type(stiffness_type), intent(inout) :: classes(:)
+
+      real(wp) :: parts(max_unknowns, max_unknowns, 1)
+      integer :: n, i
+
+      n = point%n_pairs
+      call support_stiffness(point, parts(:3*n, :3*n, 1))
+      do i = 1, size(classes)
+         call scatter(classes(i), point%nodes(:n), parts, 1)
+      end do
+   end subroutine add_support_point
 
    !> Add the parts of an element matrix. The equations of a node follow each
    !> other, and the rows of a node have the same columns up to the node itself:

@@ -27,6 +27,8 @@ module axijoint_deck_reader
    use axijoint_deck_sections, only : sections_type, read_sections
    use axijoint_deck_source, only : source_type
    use axijoint_deck_source_reader, only : read_source
+   use axijoint_base_kinds, only : wp
+   use axijoint_model_load, only : combination_type
    use axijoint_model_model, only : model_type
    implicit none
    private
@@ -169,10 +171,14 @@ contains
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
-      integer :: highest
+      integer :: highest, m
 
       allocate (model%fixed(3, draft%n_nodes), source=.false.)
       allocate (model%edge_loads(0))
+      allocate (model%body_loads(0), model%thermal_loads(0), model%prescribed(0))
+      allocate (model%initial_stresses(0), model%edge_supports(0), model%truncations(0))
+      model%combinations = [combination_type(label=1, factor=[1.0_wp])]
+      model%harmonics = [(m, m=0, model%max_harmonic)]
       associate (tables => sections%tables)
          highest = -1
          if (tables(section_control)%n > 0) then

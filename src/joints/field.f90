@@ -1,5 +1,6 @@
 !> State of all joint points on all planes
 module axijoint_joints_field
+   use axijoint_assembly_force, only : elastic_joint_stress
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : admit_stress, state_of, state_stick, state_slip, &
                                           state_open, eta
@@ -22,7 +23,7 @@ module axijoint_joints_field
       !> Stick, slip or open, shape (points, planes)
       integer, allocatable :: state(:, :)
       !> Amplitudes of the stress k d - P that was not admitted and has been
-      !> transferred to the structure, shape (3, points, harmonics)
+      !> transferred to the structure, shape (3, points, modes)
       real(wp), allocatable :: excess(:, :, :)
    end type joint_field_type
 
@@ -43,15 +44,15 @@ module axijoint_joints_field
 contains
 
    !> Joint without stress
-   pure function new_joint_field(n_points, n_planes, n_harmonics) result(field)
-      !> Numbers of points, planes and harmonics
-      integer, intent(in) :: n_points, n_planes, n_harmonics
+   pure function new_joint_field(n_points, n_planes, n_modes) result(field)
+      !> Numbers of points, planes and modes
+      integer, intent(in) :: n_points, n_planes, n_modes
       !> The field
       type(joint_field_type) :: field
 
       allocate (field%jump(3, n_points, n_planes), source=0.0_wp)
       allocate (field%stress(3, n_points, n_planes), source=0.0_wp)
-      allocate (field%excess(3, n_points, n_harmonics), source=0.0_wp)
+      allocate (field%excess(3, n_points, n_modes), source=0.0_wp)
       allocate (field%state(n_points, n_planes), source=state_stick)
    end function new_joint_field
 
@@ -66,14 +67,10 @@ contains
       !> Stresses, same shape
       real(wp) :: stress(3, size(jump, 2), size(jump, 3))
 
-      integer :: i, k
+      integer :: j
 
-      do k = 1, size(points)
-         associate (stiffness => model%joint_materials(points(k)%material)%law%stiffness)
-            do i = 1, 3
-               stress(i, k, :) = stiffness(i)*jump(i, k, :)
-            end do
-         end associate
+      do j = 1, size(jump, 3)
+         stress(:, :, j) = elastic_joint_stress(model, points, jump(:, :, j))
       end do
    end function elastic_stress
 

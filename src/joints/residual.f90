@@ -20,21 +20,21 @@ contains
       type(equations_type), intent(in) :: equations
       !> Points of all joints
       type(model_joint_point_type), intent(in) :: points(:)
-      !> Applied forces on components, shape (3, nodes, harmonics)
+      !> Applied forces on components, shape (3, nodes, modes)
       real(wp), intent(in) :: applied(:, :, :)
       !> Displacement amplitudes, same shape
       real(wp), intent(in) :: displacement(:, :, :)
-      !> Amplitudes of the joint stress not admitted, shape (3, points, harmonics)
+      !> Amplitudes of the joint stress not admitted, shape (3, points, modes)
       real(wp), intent(in) :: excess(:, :, :)
       !> The norm
       real(wp) :: norm
 
-      real(wp) :: squared(size(equations%harmonics))
+      real(wp) :: squared(size(equations%modes))
       integer :: k
 
       !$omp parallel do schedule(dynamic) if (worth_threads(equations))
-      do k = 1, size(equations%harmonics)
-         associate (m => equations%harmonics(k))
+      do k = 1, size(equations%modes)
+         associate (m => equations%modes(k)%harmonic)
             squared(k) = sum((on_equations(equations, k, applied(:, :, k) &
                                       + joint_force(points, m, excess(:, :, k), size(applied, 2))) &
                               - elastic_force(equations, k, displacement(:, :, k)))**2) &
@@ -49,17 +49,17 @@ contains
    function load_norm(equations, applied) result(norm)
       !> The equations
       type(equations_type), intent(in) :: equations
-      !> Applied forces on components, shape (3, nodes, harmonics)
+      !> Applied forces on components, shape (3, nodes, modes)
       real(wp), intent(in) :: applied(:, :, :)
       !> The norm
       real(wp) :: norm
 
-      real(wp) :: squared(size(equations%harmonics))
+      real(wp) :: squared(size(equations%modes))
       integer :: k
 
-      do k = 1, size(equations%harmonics)
+      do k = 1, size(equations%modes)
          squared(k) = sum(on_equations(equations, k, applied(:, :, k))**2) &
-            /circle_integral(equations%harmonics(k))
+            /circle_integral(equations%modes(k)%harmonic)
       end do
       norm = sqrt(sum(squared))
    end function load_norm

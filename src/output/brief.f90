@@ -43,8 +43,8 @@ contains
          to_text(n_elements(model%mesh))//" elements, "// &
          to_text(n_joints(model%mesh))//" joints")// &
          line("unknowns", to_text(n_unknowns(results))//" in "// &
-         to_text(size(results%harmonics))//" harmonics, highest m = "// &
-         to_text(maxval(results%harmonics)))
+         to_text(size(results%modes))//" harmonics, highest m = "// &
+         to_text(maxval(results%modes%harmonic)))
       if (size(results%joint_state) > 0) text = text//joint_lines(results)
       text = text//line("residual ratio", to_text(results%residual_ratio))// &
          line("equilibrium error", to_text(results%equilibrium_error)//" on the whole, "// &

@@ -86,7 +86,7 @@ contains
          call file%write("/mesh/coordinates", mesh%coordinates, "r and z; (2, node) [length]")
          call file%write("/mesh/node_label", mesh%node_label, "Number in the deck; (node)")
          call file%write("/mesh/fixed", merge(1, 0, model%fixed), &
-            "1 where u, v, w is fixed in every harmonic; (3, node)")
+            "1 where u, v, w is fixed in every mode; (3, node)")
          call file%write("/mesh/element_label", mesh%element_label, "Number; (element)")
          call file%write("/mesh/element_material", mesh%element_material, &
             "Index into /materials; (element)")
@@ -138,28 +138,29 @@ contains
       !> Results
       type(results_type), intent(in) :: results
 
-      call file%write("/harmonics", results%harmonics, "Harmonic m; (harmonic)")
+      call file%group("/modes")
+      call file%write("/modes/harmonic", (results%modes%harmonic), "Harmonic m; (mode)")
+      call file%write("/modes/family", (results%modes%family), "1 symmetric, 2 antisymmetric; (mode)")
       call file%write("/displacement", results%displacement, &
-         "Amplitudes u, v, w; (3, node, harmonic, family: symmetric, antisymmetric) [length]", &
-         families=.true.)
+         "Amplitudes u, v, w; (3, node, mode) [length]")
       call file%write("/reaction", results%reaction, "Work of the reactions over the circle "// &
-         "on unit amplitudes; (3, node, harmonic, family) [force]", families=.true.)
+         "on unit amplitudes; (3, node, mode) [force]")
       call file%group("/equations")
       associate (solves => results%solves)
-         call file%write("/equations/number", (solves%n_equations), "Unknowns; (harmonic)")
+         call file%write("/equations/number", (solves%n_equations), "Unknowns; (mode)")
          call file%write("/equations/factor_entries", real(solves%factor_entries, wp), &
-            "Entries of the factor; (harmonic)")
+            "Entries of the factor; (mode)")
          call file%write("/equations/smallest_pivot", (solves%smallest_pivot), &
-            "Smallest ratio of a pivot to its diagonal entry; (harmonic)")
+            "Smallest ratio of a pivot to its diagonal entry; (mode)")
          call file%write("/equations/backward_error", (solves%backward_error), &
-            "Backward error after one step of refinement; (harmonic)")
+            "Backward error after one step of refinement; (mode)")
          call file%write("/equations/condition", (solves%condition), &
-            "Estimate of the condition number, 1-norm; (harmonic)")
+            "Estimate of the condition number, 1-norm; (mode)")
       end associate
       call file%group("/resultants")
       call file%write("/resultants/applied", results%applied, &
-         "Axial force, lateral force, moment, torque; (4)")
-      call file%write("/resultants/reacted", results%reacted, "The same of the reactions; (4)")
+         "Axial force, lateral force, moment, torque, lateral force and moment at 90 degrees; (6)")
+      call file%write("/resultants/reacted", results%reacted, "The same of the reactions; (6)")
       call file%attribute("/resultants", "equilibrium_error", results%equilibrium_error)
       call file%attribute("/resultants", "part_equilibrium_error", results%part_error)
    end subroutine write_solution
@@ -175,7 +176,7 @@ contains
       call file%write("/stress/element", results%point_element, "Element (index); (point)")
       call file%write("/stress/position", results%point_position, "r and z; (2, point) [length]")
       call file%write("/stress/amplitude", results%stress, "Amplitudes r, z, theta, rz, "// &
-         "r-theta, z-theta; (6, point, harmonic, family) [stress]", families=.true.)
+         "r-theta, z-theta; (6, point, mode) [stress]")
    end subroutine write_stress
 
    !> Joints on the planes

@@ -4,7 +4,7 @@ module axijoint_output_hdf5_data
    use, intrinsic :: iso_c_binding, only : c_ptr, c_loc, c_char
    use axijoint_base_system, only : last_error, set_last_error
    use hdf5, only : hid_t, hsize_t, size_t, h5screate_simple_f, h5screate_f, &
-      h5sselect_hyperslab_f, h5sclose_f, h5s_scalar_f, h5s_select_set_f, h5pcreate_f, &
+      h5sclose_f, h5s_scalar_f, h5pcreate_f, &
       h5pset_chunk_f, h5pset_shuffle_f, h5pset_deflate_f, h5pset_fletcher32_f, h5pclose_f, &
       h5p_dataset_create_f, h5dcreate_f, h5dwrite_f, h5dclose_f, h5acreate_f, h5awrite_f, &
       h5aclose_f, h5oopen_f, h5oclose_f, h5tcopy_f, h5tset_size_f, h5tset_cset_f, &
@@ -21,10 +21,6 @@ module axijoint_output_hdf5_data
    integer(hsize_t), parameter :: chunk_values = 131072_hsize_t
    !> Effort of the compression, from 1 (fast) to 9
    integer, parameter :: deflate_level = 1
-   !> Fourier families that a dataset has room for
-   integer(hsize_t), parameter :: n_families = 2_hsize_t
-   !> Highest rank of a dataset
-   integer, parameter :: max_rank = 4
 
    !> The first failure of a file; nothing is done after it
    type :: hdf5_failure_type
@@ -60,7 +56,7 @@ contains
    end subroutine check
 
    !> Write an array with checksums and compression
-   subroutine write_array(file, name, file_type, memory_type, extent, families, values, failure)
+   subroutine write_array(file, name, file_type, memory_type, extent, values, failure)
       !> Handle of the file
       integer(hid_t), intent(in) :: file
       !> Absolute path in the file
@@ -69,40 +65,28 @@ contains
       integer(hid_t), intent(in) :: file_type, memory_type
       !> Extents of the array
       integer(hsize_t), intent(in) :: extent(:)
-      !> Whether to make room for both Fourier families and fill the first
-      logical, intent(in) :: families
       !> The first value
       type(c_ptr), intent(in) :: values
       !> What failed first; nothing is done after a failure
       type(hdf5_failure_type), intent(inout) :: failure
 
-      integer(hid_t) :: memory_space, space, properties, dataset
-      integer(hsize_t) :: file_extent(max_rank), slab(max_rank)
-      integer :: rank, status
+      integer(hid_t) :: space, properties, dataset
+      integer :: status
 
       if (failure%failed) return
-      memory_space = no_handle; space = no_handle; properties = no_handle; dataset = no_handle
-      rank = size(extent)
-      slab(:rank) = extent
-      file_extent(:rank) = extent
-      if (families) then
-         rank = rank + 1
-         slab(rank) = 1_hsize_t
-         file_extent(rank) = n_families
-      end if
+      space = no_handle; properties = no_handle; dataset = no_handle
       call set_last_error(0)
-      call make_space(name, slab(:rank), slab(:rank), memory_space, failure)
-      call make_space(name, file_extent(:rank), slab(:rank), space, failure)
-      call make_properties(name, slab(:rank), properties, failure)
+      call make_space(name, extent, space, failure)
+      call make_properties(name, extent, properties, failure)
       if (.not. failure%failed) then
          call h5dcreate_f(file, name, file_type, space, dataset, status, properties)
          call failure%check(status, name)
       end if
       if (.not. failure%failed .and. product(extent) > 0_hsize_t) then
-         call h5dwrite_f(dataset, memory_type, values, status, memory_space, space)
+         call h5dwrite_f(dataset, memory_type, values, status)
          call failure%check(status, name)
       end if
-      call close_handles(name, failure, dataset, properties, space, memory_space)
+      call close_handles(name, failure, dataset, properties, space)
    end subroutine write_array
 
    !> Write a text as a scalar dataset of fixed length, UTF-8
@@ -160,27 +144,22 @@ contains
       call close_handles(object, failure, type=type)
    end subroutine write_string_attribute
 
-   !> Make the space of an array, its first part selected
-   subroutine make_space(name, extent, slab, space, failure)
+   !> Make the space of an array
+   subroutine make_space(name, extent, space, failure)
       !> Dataset, for the message
       character(len=*), intent(in) :: name
-      !> Extents of the array, and of the part that is selected
-      integer(hsize_t), intent(in) :: extent(:), slab(:)
+      !> Extents of the array
+      integer(hsize_t), intent(in) :: extent(:)
       !> The space
       integer(hid_t), intent(out) :: space
       !> What failed first; nothing is done after a failure
       type(hdf5_failure_type), intent(inout) :: failure
 
-      integer(hsize_t) :: first(max_rank)
       integer :: status
 
       space = no_handle
       if (failure%failed) return
       call h5screate_simple_f(size(extent), extent, space, status)
-      call failure%check(status, name)
-      if (failure%failed .or. product(slab) == 0_hsize_t) return
-      first = 0_hsize_t
-      call h5sselect_hyperslab_f(space, h5s_select_set_f, first(:size(slab)), slab, status)
       call failure%check(status, name)
    end subroutine make_space
 
@@ -304,13 +283,13 @@ contains
    end subroutine write_attribute
 
    !> Close the handles that are open
-   subroutine close_handles(name, failure, dataset, properties, space, memory_space, type)
+   subroutine close_handles(name, failure, dataset, properties, space, type)
       !> Object, for the message
       character(len=*), intent(in) :: name
       !> What failed first; handles are closed after a failure too
       type(hdf5_failure_type), intent(inout) :: failure
       !> Handles, `no_handle` if not open
-      integer(hid_t), intent(in), optional :: dataset, properties, space, memory_space, type
+      integer(hid_t), intent(in), optional :: dataset, properties, space, type
 
       integer :: status
 
@@ -320,8 +299,6 @@ contains
       if (is_open(properties)) call h5pclose_f(properties, status)
       call failure%check(status, name)
       if (is_open(space)) call h5sclose_f(space, status)
-      call failure%check(status, name)
-      if (is_open(memory_space)) call h5sclose_f(memory_space, status)
       call failure%check(status, name)
       if (is_open(type)) call h5tclose_f(type, status)
       call failure%check(status, name)

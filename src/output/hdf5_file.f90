@@ -117,7 +117,7 @@ contains
    end subroutine group
 
    !> Write reals of any rank
-   subroutine write_reals(self, name, values, description, families)
+   subroutine write_reals(self, name, values, description)
       !> The file
       class(hdf5_file_type), intent(inout) :: self
       !> Absolute path in the file
@@ -126,16 +126,9 @@ contains
       real(wp), intent(in), target, contiguous :: values(..)
       !> Meaning, order of indices in Fortran, unit
       character(len=*), intent(in) :: description
-      !> Whether the dataset gets one more index, the Fourier family; the
-      !> values fill the first, the second reads as zeros and takes no room
-      logical, intent(in), optional :: families
 
-      logical :: room
-
-      room = .false.
-      if (present(families)) room = families
       call write_array(self%file, name, h5t_ieee_f64le, h5t_native_double, &
-         extent_of(shape(values, kind=hsize_t)), room, c_loc(values), self%failure)
+         extent_of(shape(values, kind=hsize_t)), c_loc(values), self%failure)
       call self%attribute(name, "description", description)
    end subroutine write_reals
 
@@ -151,7 +144,7 @@ contains
       character(len=*), intent(in) :: description
 
       call write_array(self%file, name, h5t_std_i32le, h5t_native_integer, &
-         extent_of(shape(values, kind=hsize_t)), .false., c_loc(values), self%failure)
+         extent_of(shape(values, kind=hsize_t)), c_loc(values), self%failure)
       call self%attribute(name, "description", description)
    end subroutine write_integers
 

@@ -1,11 +1,12 @@
 !> Tables of the listing that show equations, convergence, displacements,
 !> reactions and equilibrium
 module axijoint_output_listing_solution
-   use axijoint_analysis_results, only : results_type
+   use axijoint_analysis_results, only : results_type, n_resultants, torque
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_system, only : peak_memory_mb
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type, n_phases, phase_names, phase_total
+   use axijoint_fe_mode, only : mode_type, mode_name, family_symmetric
    use axijoint_model_model, only : model_type
    use axijoint_output_columns, only : columns
    use axijoint_output_headings, only : write_heading, write_result_heading, mark_not_converged
@@ -19,8 +20,8 @@ module axijoint_output_listing_solution
 
    !> Number of an entry
    character(len=*), parameter :: format_label = '(i10)'
-   !> Harmonic, number of equations, entries of the factor
-   character(len=*), parameter :: format_equations = '(i10, 2i16)'
+   !> Harmonic and family, number of equations, entries of the factor
+   character(len=*), parameter :: format_equations = '(i10, 1x, a1, i14, i16)'
    !> Increment and iteration
    character(len=*), parameter :: format_iteration = '(2i12)'
    !> Name of an order, its half-bandwidth and profile
@@ -37,9 +38,10 @@ module axijoint_output_listing_solution
    integer, parameter :: narrow = 13, wide = 15
 
    !> Names of the resultants, in the order of the results
-   character(len=34), parameter :: resultant_names(4) = [character(len=34) :: &
+   character(len=34), parameter :: resultant_names(n_resultants) = [character(len=34) :: &
       "axial force (along z)", "lateral force (along theta = 0)", &
-      "moment (lifts theta = 0)", "torque (about z)"]
+      "moment (lifts theta = 0)", "torque (about z)", "lateral force (along theta = 90)", &
+      "moment (lifts theta = 90)"]
 
 contains
 
@@ -67,7 +69,7 @@ contains
       call file%put("  harmonic       equations  factor entries smallest pivot backward error      condition")
       do i = 1, size(results%solves)
          associate (solve => results%solves(i))
-            write (numbers, format_equations) solve%harmonic, solve%n_equations, &
+            write (numbers, format_equations) solve%mode%harmonic, family_letter(solve%mode), solve%n_equations, &
                solve%factor_entries
             call file%put(numbers//columns([solve%smallest_pivot, solve%backward_error, &
                solve%condition], wide))
@@ -138,9 +140,9 @@ contains
 
       integer :: i, node
 
-      do i = 1, size(results%harmonics)
+      do i = 1, size(results%modes)
          call write_result_heading(file, "DISPLACEMENT AMPLITUDES, harmonic "// &
-            to_text(results%harmonics(i))//" (u, v ~ cos, w ~ sin)", results%converged)
+            mode_name(results%modes(i))//" ("//factors_text(results%modes(i))//")", results%converged)
          call file%put("      node            r            z              u              v"// &
             "              w")
          do node = 1, size(results%displacement, 2)
@@ -162,7 +164,7 @@ contains
       integer :: i, node
 
       do i = 1, size(model%output_angles)
-         circle = new_circle(results%harmonics, model%output_angles(i))
+         circle = new_circle(results%modes, model%output_angles(i))
          call write_result_heading(file, "TOTAL DISPLACEMENTS, theta = "// &
             to_text(circle%angle/degree)//" degrees", results%converged)
          call file%put("      node            r            z              u              v"// &
@@ -185,13 +187,13 @@ contains
 
       integer :: i, node
 
-      do i = 1, size(results%harmonics)
-         call write_result_heading(file, "REACTIONS, harmonic "//to_text(results%harmonics(i))// &
+      do i = 1, size(results%modes)
+         call write_result_heading(file, "REACTIONS, harmonic "//mode_name(results%modes(i))// &
             " (work over the circle on unit amplitudes)", results%converged)
          call file%put("      node            r            z            R_u            R_v"// &
             "            R_w")
          do node = 1, size(results%reaction, 2)
-            if (.not. any(model%fixed(:, node))) cycle
+            if (.not. any(model%fixed(:, node) .or. abs(results%reaction(:, node, i)) > 0.0_wp)) cycle
             call write_node(file, model, node, results%reaction(:, node, i))
          end do
       end do
@@ -211,7 +213,7 @@ contains
 
       call write_result_heading(file, "EQUILIBRIUM", results%converged)
       call file%put("                                            applied        reacted            sum")
-      do i = 1, size(resultant_names)
+      do i = 1, n_shown(results)
          call file%put("  "//resultant_names(i)//columns([results%applied(i), results%reacted(i), &
             results%applied(i) + results%reacted(i)], wide))
       end do
@@ -220,10 +222,15 @@ contains
       if (size(results%part_node) < 2) return
       call file%put("")
       call file%put("  forces on each part that nothing balances: the joints' share of the residual")
-      call file%put("  part with node      axial force  lateral force         moment         torque")
+      if (n_shown(results) == torque) then
+         call file%put("  part with node      axial force  lateral force         moment         torque")
+      else
+         call file%put("  part with node      axial force  lateral force         moment         torque"// &
+            "  lateral at 90   moment at 90")
+      end if
       do i = 1, size(results%part_node)
          write (node, format_part) model%mesh%node_label(results%part_node(i))
-         call file%put(node//columns(results%part_unbalance(:, i), wide))
+         call file%put(node//columns(results%part_unbalance(:n_shown(results), i), wide))
       end do
       call file%put("  largest of these over the resultants of the loads"// &
          columns([results%part_error], wide))
@@ -270,5 +277,35 @@ contains
       call file%put(label//columns(model%mesh%coordinates(:, node), narrow)// &
          columns(components, wide))
    end subroutine write_node
+
+   !> Resultants worth showing: those along theta = 90 only if a load or a
+   !> displacement is antisymmetric
+   pure integer function n_shown(results)
+      !> Results
+      type(results_type), intent(in) :: results
+
+      n_shown = merge(torque, n_resultants, all(results%modes%family == family_symmetric))
+   end function n_shown
+
+   !> S or A
+   pure function family_letter(mode) result(letter)
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> The letter
+      character(len=1) :: letter
+
+      letter = merge("S", "A", mode%family == family_symmetric)
+   end function family_letter
+
+   !> What the components of a mode are multiplied by
+   pure function factors_text(mode) result(text)
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> The words
+      character(len=:), allocatable :: text
+
+      text = "u, v ~ cos, w ~ sin"
+      if (mode%family /= family_symmetric) text = "u, v ~ sin, w ~ -cos"
+   end function factors_text
 
 end module axijoint_output_listing_solution

@@ -37,7 +37,7 @@ contains
       integer :: i, point, local
 
       do i = 1, size(model%output_angles)
-         circle = new_circle(results%harmonics, model%output_angles(i))
+         circle = new_circle(results%modes, model%output_angles(i))
          call write_result_heading(file, "TOTAL STRESSES AT GAUSS POINTS, theta = "// &
             to_text(circle%angle/degree)//" degrees", results%converged)
          call file%put("   element pt           r           z       sigma_r       sigma_z"// &

@@ -221,7 +221,7 @@ contains
       !> An array is missing
       type(error_type), allocatable, intent(out) :: error
 
-      if (allocated(results%harmonics) .and. allocated(results%solves) &
+      if (allocated(results%modes) .and. allocated(results%solves) &
          .and. allocated(results%displacement) .and. allocated(results%reaction) &
          .and. allocated(results%point_element) .and. allocated(results%point_position) &
          .and. allocated(results%stress) .and. allocated(results%plane_angles) &

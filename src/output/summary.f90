@@ -6,6 +6,7 @@ module axijoint_output_summary
       phase_factor, phase_joints, phase_recover, phase_write, phase_total
    use axijoint_base_version, only : program_name, program_version
    use axijoint_element_joint_law, only : state_stick, state_slip, state_open
+   use axijoint_fe_mode, only : family_symmetric, family_antisymmetric
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type
    use axijoint_output_json, only : json_string, json_number, json_integers, json_strings
@@ -45,7 +46,8 @@ contains
       call put_pair(file, "joints", json_number(n_joints(model%mesh)))
       call put_pair(file, "unknowns", json_number(n_unknowns(results)))
       call put_pair(file, "solver", json_string(lower(trim(solver_names(results%solver)))))
-      call put_pair(file, "harmonics", json_integers(results%harmonics))
+      call put_pair(file, "harmonics", json_integers(distinct((results%modes%harmonic))))
+      call put_pair(file, "families", json_strings(family_names(results)))
       call put_pair(file, "planes", json_number(model%n_planes))
       call put_pair(file, "iterations", json_number(size(results%path)))
       call put_pair(file, "residual_ratio", json_number(results%residual_ratio))
@@ -75,6 +77,7 @@ contains
          call put_pair(file, trim(unknown(i)), "null")
       end do
       call put_pair(file, "harmonics", "[]")
+      call put_pair(file, "families", "[]")
       call put_pair(file, "joint_states", '{"stick": null, "slip": null, "open": null}')
       call put_pair(file, "seconds", no_seconds_text())
       call put_last(file)
@@ -170,5 +173,30 @@ contains
       end do
       json = json//"}"
    end function no_seconds_text
+
+   !> Ascending numbers, each once
+   pure function distinct(numbers)
+      !> The numbers, ascending
+      integer, intent(in) :: numbers(:)
+      !> The same without repetitions
+      integer, allocatable :: distinct(:)
+
+      integer :: k
+
+      distinct = pack(numbers, [(k == 1 .or. numbers(k) /= numbers(max(1, k - 1)), &
+                                 k=1, size(numbers))])
+   end function distinct
+
+   !> Fourier families in use
+   pure function family_names(results) result(names)
+      !> Results
+      type(results_type), intent(in) :: results
+      !> The names
+      character(len=13), allocatable :: names(:)
+
+      names = pack([character(len=13) :: 'symmetric', 'antisymmetric'], &
+                   [any(results%modes%family == family_symmetric), &
+                    any(results%modes%family == family_antisymmetric)])
+   end function family_names
 
 end module axijoint_output_summary

@@ -4,20 +4,21 @@ module axijoint_output_totals
    use axijoint_analysis_results, only : results_type
    use axijoint_base_kinds, only : wp, pi
    use axijoint_element_joint_law, only : eta
+   use axijoint_fe_mode, only : mode_type, meridional, circumferential, family_symmetric
    implicit none
    private
    public :: circle_type, new_circle, total_displacement, total_stress, n_unknowns
    public :: peak_type, largest_displacement, largest_pressure, count_states
 
-   !> Intervals of 0 to pi in the search for the largest displacement
-   integer, parameter :: search_intervals = 36
+   !> Intervals of the circle in the search for the largest displacement
+   integer, parameter :: search_intervals = 72
 
-   !> cos(m theta) and sin(m theta) of all harmonics at one angle
+   !> Factors of all modes at one angle
    type :: circle_type
       !> The angle [radian]
       real(wp) :: angle = 0.0_wp
-      !> Of each harmonic, in the order of the results
-      real(wp), allocatable :: cosine(:), sine(:)
+      !> Of r and z components, and of theta components, in the order of the results
+      real(wp), allocatable :: meridional(:), circumferential(:)
    end type circle_type
 
    !> An extreme value and where it stands
@@ -32,19 +33,19 @@ module axijoint_output_totals
 
 contains
 
-   !> Factors of all harmonics at an angle. What is zero but for rounding, as
+   !> Factors of all modes at an angle. What is zero but for rounding, as
    !> cos(pi/2), is zero.
-   pure function new_circle(harmonics, angle) result(circle)
-      !> Harmonics m
-      integer, intent(in) :: harmonics(:)
+   pure function new_circle(modes, angle) result(circle)
+      !> The modes
+      type(mode_type), intent(in) :: modes(:)
       !> Angle [radian]
       real(wp), intent(in) :: angle
       !> The factors
       type(circle_type) :: circle
 
       circle%angle = angle
-      circle%cosine = without_rounding(cos(real(harmonics, wp)*angle), harmonics)
-      circle%sine = without_rounding(sin(real(harmonics, wp)*angle), harmonics)
+      circle%meridional = without_rounding(meridional(modes, angle), modes%harmonic)
+      circle%circumferential = without_rounding(circumferential(modes, angle), modes%harmonic)
    end function new_circle
 
    !> Zero for what lies within the rounding of the angle m theta
@@ -58,33 +59,33 @@ contains
       if (abs(value) < 4.0_wp*real(max(1, harmonic), wp)*epsilon(1.0_wp)) clean = 0.0_wp
    end function without_rounding
 
-   !> Displacement u, v, w at an angle (Eq. 1): u, v ~ cos, w ~ sin
+   !> Displacement u, v, w at an angle (Eq. 1)
    pure function total_displacement(amplitude, circle) result(total)
-      !> Amplitudes, shape (3, harmonics)
+      !> Amplitudes, shape (3, modes)
       real(wp), intent(in) :: amplitude(:, :)
       !> The angle
       type(circle_type), intent(in) :: circle
       !> u, v, w
       real(wp) :: total(3)
 
-      total(1:2) = matmul(amplitude(1:2, :), circle%cosine)
-      total(3) = dot_product(amplitude(3, :), circle%sine)
+      total(1:2) = matmul(amplitude(1:2, :), circle%meridional)
+      total(3) = dot_product(amplitude(3, :), circle%circumferential)
    end function total_displacement
 
-   !> Stress r, z, theta, rz ~ cos and r-theta, z-theta ~ sin at an angle
+   !> Stress r, z, theta, rz, r-theta, z-theta at an angle
    pure function total_stress(amplitude, circle) result(total)
-      !> Amplitudes, shape (6, harmonics)
+      !> Amplitudes, shape (6, modes)
       real(wp), intent(in) :: amplitude(:, :)
       !> The angle
       type(circle_type), intent(in) :: circle
       !> Six stresses
       real(wp) :: total(6)
 
-      total(1:4) = matmul(amplitude(1:4, :), circle%cosine)
-      total(5:6) = matmul(amplitude(5:6, :), circle%sine)
+      total(1:4) = matmul(amplitude(1:4, :), circle%meridional)
+      total(5:6) = matmul(amplitude(5:6, :), circle%circumferential)
    end function total_stress
 
-   !> Number of unknowns of all harmonics together
+   !> Number of unknowns of all modes together
    pure integer function n_unknowns(results)
       !> Results
       type(results_type), intent(in) :: results
@@ -102,16 +103,18 @@ contains
 
       type(circle_type) :: circles(0:search_intervals)
       real(wp) :: length
-      integer :: node, i
+      integer :: node, i, last
 
-      do i = 0, search_intervals
-         circles(i) = new_circle(results%harmonics, pi*real(i, wp)/real(search_intervals, wp))
+      last = search_intervals
+      if (all(results%modes%family == family_symmetric)) last = search_intervals/2
+      do i = 0, last
+         circles(i) = new_circle(results%modes, 2.0_wp*pi*real(i, wp)/real(search_intervals, wp))
       end do
       do node = 1, size(results%displacement, 2)
          associate (amplitude => results%displacement(:, node, :))
             if (.not. all(ieee_is_finite(amplitude))) cycle
             if (norm2(sum(abs(amplitude), dim=2)) <= peak%value) cycle
-            do i = 0, search_intervals
+            do i = 0, last
                length = norm2(total_displacement(amplitude, circles(i)))
                if (length > peak%value) peak = peak_type(length, node, circles(i)%angle)
             end do

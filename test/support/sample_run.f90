@@ -4,6 +4,7 @@ module axijoint_test_sample_run
    use axijoint_base_kinds, only : wp, pi
    use axijoint_deck_source, only : source_type, add_file, add_card
    use axijoint_element_joint_law, only : state_stick, state_slip, state_open
+   use axijoint_fe_mode, only : mode_type
    use axijoint_model_model, only : model_type
    use axijoint_test_scenes, only : new_scene
    implicit none
@@ -53,13 +54,13 @@ contains
       integer :: k
 
       results%converged = converged
-      results%harmonics = harmonics
+      results%modes = [mode_type(harmonics(1)), mode_type(harmonics(2))]
       allocate (results%orderings(0), results%remarks(0))
       results%part_node = [1]
-      results%part_unbalance = reshape([0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], [4, 1])
+      results%part_unbalance = reshape([(0.0_wp, k=1, 6)], [6, 1])
       results%solver = 1
       allocate (results%solves(2), results%path(3))
-      results%solves%harmonic = harmonics
+      results%solves%mode%harmonic = harmonics
       results%solves%n_equations = [4, 6]
       results%path%increment = 1
       results%path%iteration = [1, 2, 3]

@@ -2,7 +2,7 @@
 module axijoint_test_scenes
    use axijoint_base_kinds, only : wp, pi
    use axijoint_element_joint_law, only : joint_law_type, law_elastic
-   use axijoint_model_load, only : edge_load_type, ring_load_type, increment_type
+   use axijoint_model_load, only : edge_load_type, ring_load_type, increment_type, combination_type
    use axijoint_model_material, only : solid_material_type, joint_material_type
    use axijoint_model_model, only : model_type
    implicit none
@@ -23,6 +23,8 @@ contains
       !> The model
       type(model_type) :: model
 
+      integer :: m
+
       model%title = 'scene'
       model%materials = [solid_material_type(label=1, young=young, poisson=poisson)]
       allocate (model%joint_materials(1))
@@ -31,6 +33,10 @@ contains
       model%output_angles = [0.0_wp, 0.5_wp*pi, pi]
       model%increments = [increment_type()]
       allocate (model%edge_loads(0), model%ring_loads(0), model%fixed(3, 0))
+      allocate (model%body_loads(0), model%thermal_loads(0), model%prescribed(0))
+      allocate (model%initial_stresses(0), model%edge_supports(0), model%truncations(0))
+      model%combinations = [combination_type(label=1, factor=[1.0_wp])]
+      model%harmonics = [(m, m=0, max_harmonic)]
       associate (mesh => model%mesh)
          allocate (mesh%coordinates(2, 0), mesh%node_label(0), mesh%element_label(0))
          allocate (mesh%element_material(0), mesh%element_body(0), mesh%element_size(0))

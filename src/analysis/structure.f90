@@ -1,0 +1,112 @@
+!> What all load combinations of a job share: modes, joints, factored equations
+module axijoint_analysis_structure
+   use axijoint_analysis_results, only : ordering_type
+   use axijoint_assembly_equations, only : equations_type, plan_equations, assemble_equations, &
+                                           factorize_equations
+   use axijoint_assembly_mechanism, only : check_mechanism
+   use axijoint_assembly_pattern, only : node_graph
+   use axijoint_assembly_support, only : support_point_type, new_support_points
+   use axijoint_base_error, only : error_type
+   use axijoint_base_kinds, only : i8
+   use axijoint_base_memory, only : require_memory
+   use axijoint_base_progress, only : progress_type, show_progress
+   use axijoint_base_text, only : to_text
+   use axijoint_base_timer, only : timer_type, phase_assemble, phase_factor
+   use axijoint_fe_mode, only : mode_type
+   use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points
+   use axijoint_model_model, only : model_type
+   use axijoint_model_modes, only : used_modes
+   use axijoint_order_graph, only : bandwidth, profile
+   use axijoint_solver_choice, only : orders_type, new_orders
+   implicit none
+   private
+   public :: structure_type, build_structure
+
+   !> A structure ready to be loaded
+   type :: structure_type
+      !> Modes to solve
+      type(mode_type), allocatable :: modes(:)
+      !> Points of all joints, and of all springs
+      type(model_joint_point_type), allocatable :: joint_points(:)
+      type(support_point_type), allocatable :: support_points(:)
+      !> Equations of all modes, factored
+      type(equations_type), allocatable :: equations
+      !> Orders of the nodes side by side
+      type(ordering_type), allocatable :: orderings(:)
+   end type structure_type
+
+contains
+
+   !> Assemble and factor the equations of all modes
+   subroutine build_structure(model, structure, timer, progress, error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(out) :: structure
+      !> Times of the phases
+      type(timer_type), intent(inout) :: timer
+      !> Where to show progress
+      type(progress_type), intent(inout) :: progress
+      !> Singular stiffness, or out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      call timer%push(phase_assemble)
+      call assemble(model, structure, progress, error)
+      call timer%pop()
+      if (allocated(error)) return
+      call timer%push(phase_factor)
+      call show_progress(progress, 'factoring '//to_text(size(structure%equations%systems))//' harmonics')
+      call factorize_equations(structure%equations, model, error)
+      call timer%pop()
+   end subroutine build_structure
+
+   !> Assemble the equations of all modes
+   subroutine assemble(model, structure, progress, error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(inout) :: structure
+      !> Where to show progress
+      type(progress_type), intent(inout) :: progress
+      !> A mechanism, or out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(orders_type) :: orders
+
+      structure%joint_points = new_joint_points(model)
+      structure%support_points = new_support_points(model)
+      structure%modes = used_modes(model)
+      call require_memory(0_i8, 'the solvers', error)
+      if (allocated(error)) return
+      call check_mechanism(model, structure%joint_points, structure%support_points, &
+                           structure%modes, error)
+      if (allocated(error)) return
+      call show_progress(progress, 'assembling '//to_text(size(structure%modes))//' modes')
+      call new_orders(orders, node_graph(model%mesh), error)
+      if (allocated(error)) return
+      structure%orderings = compare_orders(orders)
+      call plan_equations(structure%equations, model, structure%modes, orders, error)
+      if (allocated(error)) return
+      call assemble_equations(structure%equations, model, structure%joint_points, &
+                              structure%support_points, error)
+   end subroutine assemble
+
+   !> Bandwidth and profile of the orders side by side
+   pure function compare_orders(orders) result(orderings)
+      !> The orders
+      type(orders_type), intent(in) :: orders
+      !> Reverse Cuthill-McKee, Sloan, nested dissection
+      type(ordering_type) :: orderings(3)
+
+      associate (graph => orders%graph)
+         orderings = [ordering_type('reverse Cuthill-McKee', &
+                                    bandwidth(graph, orders%cuthill_mckee), &
+                                    profile(graph, orders%cuthill_mckee)), &
+                      ordering_type('Sloan', bandwidth(graph, orders%sloan), &
+                                    profile(graph, orders%sloan)), &
+                      ordering_type('nested dissection', bandwidth(graph, orders%dissection), &
+                                    profile(graph, orders%dissection))]
+      end associate
+   end function compare_orders
+
+end module axijoint_analysis_structure

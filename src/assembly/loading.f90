@@ -1,0 +1,191 @@
+!> Loads of one combination of load cases, mode by mode
+module axijoint_assembly_loading
+   use axijoint_assembly_force, only : add_edge_load, joint_force, joint_jump, elastic_joint_stress
+   use axijoint_assembly_solid_force, only : initial_state_type, solid_force, add_mass_force
+   use axijoint_assembly_support, only : support_point_type, add_support_force
+   use axijoint_base_kinds, only : wp
+   use axijoint_fe_mode, only : mode_type, same_mode
+   use axijoint_model_joint_points, only : model_joint_point_type
+   use axijoint_model_load, only : combination_type
+   use axijoint_model_mesh, only : n_nodes
+   use axijoint_model_model, only : model_type, on_axis
+   implicit none
+   private
+   public :: loading_type, new_loading
+
+   !> Loads for a load factor of one
+   type :: loading_type
+      !> External forces on components, shape (3, nodes, modes)
+      real(wp), allocatable :: external(:, :, :)
+      !> Displacements of components that are held, same shape; not allocated
+      !> if all are held at zero
+      real(wp), allocatable :: held(:, :, :)
+      !> Stress of the solids without strain
+      type(initial_state_type) :: initial
+      !> Forces that the unknowns answer to, same shape: external forces less what
+      !> held displacements and initial stresses already balance
+      real(wp), allocatable :: right(:, :, :)
+   end type loading_type
+
+contains
+
+   !> Loads of a combination
+   subroutine new_loading(model, joint_points, supports, modes, combination, loading)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Points of all joints
+      type(model_joint_point_type), intent(in) :: joint_points(:)
+      !> Points of all springs
+      type(support_point_type), intent(in) :: supports(:)
+      !> Modes in use
+      type(mode_type), intent(in) :: modes(:)
+      !> Factors of the load cases
+      type(combination_type), intent(in) :: combination
+      !> The loads
+      type(loading_type), intent(out) :: loading
+
+      real(wp), allocatable :: stress(:, :), internal(:, :), still(:, :)
+      integer :: k
+
+      associate (n => n_nodes(model%mesh))
+         allocate (loading%external(3, n, size(modes)), source=0.0_wp)
+         allocate (still(3, n), source=0.0_wp)
+         allocate (internal(3, n))
+      end associate
+      do k = 1, size(modes)
+         call add_external(model, modes(k), combination%factor, loading%external(:, :, k))
+      end do
+      if (size(model%prescribed) > 0) then
+         allocate (loading%held, mold=loading%external)
+         do k = 1, size(modes)
+            loading%held(:, :, k) = prescribed_displacement(model, modes(k), combination%factor)
+         end do
+      end if
+      call new_initial_state(model, modes, combination%factor, loading%initial)
+      loading%right = loading%external
+      if (.not. allocated(loading%held) .and. .not. loading%initial%present) return
+      do k = 1, size(modes)
+         if (allocated(loading%held)) still = loading%held(:, :, k)
+         call solid_force(model, loading%initial, 1.0_wp, k, modes(k), still, internal)
+         stress = elastic_joint_stress(model, joint_points, joint_jump(joint_points, still))
+         internal = internal + joint_force(joint_points, modes(k)%harmonic, stress, size(still, 2))
+         call add_support_force(supports, modes(k)%harmonic, still, internal)
+         loading%right(:, :, k) = loading%right(:, :, k) - internal
+      end do
+   end subroutine new_loading
+
+   !> Add the external forces of one mode: on edges, nodal circles and masses
+   subroutine add_external(model, mode, factor, force)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> Factors of the load cases
+      real(wp), intent(in) :: factor(:)
+      !> Forces on components, shape (3, nodes)
+      real(wp), intent(inout) :: force(:, :)
+
+      integer :: k
+
+      do k = 1, size(model%edge_loads)
+         associate (load => model%edge_loads(k))
+            if (.not. same_mode(load%mode, mode)) cycle
+            call add_edge_load(load, factor(load%case), model%mesh%coordinates, force)
+         end associate
+      end do
+      do k = 1, size(model%ring_loads)
+         associate (load => model%ring_loads(k))
+            if (.not. same_mode(load%mode, mode)) cycle
+            force(:, load%node) = force(:, load%node) + factor(load%case)*load%force
+         end associate
+      end do
+      do k = 1, size(model%body_loads)
+         associate (load => model%body_loads(k))
+            if (.not. same_mode(load%mode, mode)) cycle
+            call add_mass_force(model, load, factor(load%case), force)
+         end associate
+      end do
+   end subroutine add_external
+
+   !> Displacements of held components in one mode. At the pole a lateral
+   !> displacement is u = -w in harmonic 1, and higher harmonics have none
+   pure function prescribed_displacement(model, mode, factor) result(displacement)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> Factors of the load cases
+      real(wp), intent(in) :: factor(:)
+      !> Amplitudes u, v, w, shape (3, nodes)
+      real(wp) :: displacement(3, size(model%mesh%node_label))
+
+      integer :: k, node
+
+      displacement = 0.0_wp
+      do k = 1, size(model%prescribed)
+         associate (move => model%prescribed(k))
+            if (.not. same_mode(move%mode, mode)) cycle
+            displacement(move%component, move%node) = displacement(move%component, move%node) &
+               + factor(move%case)*move%value
+         end associate
+      end do
+      associate (pole => on_axis(model%mesh))
+         do node = 1, size(pole)
+            if (.not. pole(node)) cycle
+            associate (u => displacement(:, node))
+               select case (mode%harmonic)
+               case (0)
+                  u = [0.0_wp, u(2), 0.0_wp]
+               case (1)
+                  if (abs(u(1)) > 0.0_wp) then
+                     u = [u(1), 0.0_wp, -u(1)]
+                  else
+                     u = [-u(3), 0.0_wp, u(3)]
+                  end if
+               case default
+                  u = 0.0_wp
+               end select
+            end associate
+         end do
+      end associate
+   end function prescribed_displacement
+
+   !> Temperatures and in-situ stresses of a combination
+   subroutine new_initial_state(model, modes, factor, state)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Modes in use
+      type(mode_type), intent(in) :: modes(:)
+      !> Factors of the load cases
+      real(wp), intent(in) :: factor(:)
+      !> The state
+      type(initial_state_type), intent(out) :: state
+
+      integer, allocatable :: body(:)
+      integer :: k, j
+
+      state%in_situ = model%initial_stresses
+      do k = 1, size(state%in_situ)
+         state%in_situ(k)%stress = factor(state%in_situ(k)%case)*state%in_situ(k)%stress
+         state%in_situ(k)%gradient = factor(state%in_situ(k)%case)*state%in_situ(k)%gradient
+      end do
+      state%present = size(state%in_situ) > 0 .or. size(model%thermal_loads) > 0
+      if (size(model%thermal_loads) == 0) return
+      allocate (body(n_nodes(model%mesh)), source=0)
+      do k = 1, size(model%mesh%element_body)  ! the bodies share no nodes
+         body(model%mesh%element_nodes(:model%mesh%element_size(k), k)) = model%mesh%element_body(k)
+      end do
+      allocate (state%temperature(size(body), size(modes)), source=0.0_wp)
+      do j = 1, size(modes)
+         do k = 1, size(model%thermal_loads)
+            associate (load => model%thermal_loads(k))
+               if (.not. same_mode(load%mode, modes(j))) cycle
+               where (load%body == 0 .or. load%body == body)
+                  state%temperature(:, j) = state%temperature(:, j) + factor(load%case)*load%temperature
+               end where
+            end associate
+         end do
+      end do
+   end subroutine new_initial_state
+
+end module axijoint_assembly_loading

@@ -1,0 +1,144 @@
+!> Stresses of the solids and the nodal forces that they and their mass give
+module axijoint_assembly_solid_force
+   use axijoint_base_kinds, only : wp
+   use axijoint_element_solid, only : solid_point_type, solid_points, solid_stress, &
+                                      add_solid_force, isotropic_elasticity
+   use axijoint_fe_fourier, only : circle_integral
+   use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
+   use axijoint_model_load, only : body_load_type, initial_stress_type
+   use axijoint_model_mesh, only : n_elements, max_element_nodes
+   use axijoint_model_model, only : model_type, gauss_order
+   implicit none
+   private
+   public :: initial_state_type, solid_force, add_mass_force
+
+   !> What stresses the solids without strain
+   type :: initial_state_type
+      !> Whether there is anything of it
+      logical :: present = .false.
+      !> Temperature at the nodes, shape (nodes, modes); not allocated if none
+      real(wp), allocatable :: temperature(:, :)
+      !> In-situ stresses, factors of the load cases in them
+      type(initial_stress_type), allocatable :: in_situ(:)
+   end type initial_state_type
+
+contains
+
+   !> Nodal forces that balance the stresses of one mode, and the stresses
+   subroutine solid_force(model, initial, factor, k, mode, displacement, force, stress)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Stress without strain, and the load factor on it
+      type(initial_state_type), intent(in) :: initial
+      real(wp), intent(in) :: factor
+      !> The mode, and its place
+      integer, intent(in) :: k
+      type(mode_type), intent(in) :: mode
+      !> Displacement amplitudes, shape (3, nodes)
+      real(wp), intent(in) :: displacement(:, :)
+      !> Forces on components, shape (3, nodes)
+      real(wp), intent(out) :: force(:, :)
+      !> Stress amplitudes at the Gauss points, shape (6, points)
+      real(wp), intent(out), optional :: stress(:, :)
+
+      type(solid_point_type) :: points(9)
+      real(wp) :: d(6, 6), now(6)
+      real(wp), dimension(3, max_element_nodes) :: local, element_force
+      integer :: element, n, n_gauss, i, last
+
+      force = 0.0_wp
+      last = 0
+      do element = 1, n_elements(model%mesh)
+         n = model%mesh%element_size(element)
+         n_gauss = gauss_order(model, n)
+         associate (nodes => model%mesh%element_nodes(:n, element), &
+                    material => model%materials(model%mesh%element_material(element)))
+            d = isotropic_elasticity(material%young, material%poisson)
+            call solid_points(model%mesh%coordinates(:, nodes), n_gauss, points(:n_gauss**2))
+            local(:, :n) = displacement(:, nodes)
+            element_force = 0.0_wp
+            do i = 1, n_gauss**2
+               now = solid_stress(points(i), n, d, mode%harmonic, local)
+               if (initial%present) then
+                  now = now + factor*initial_stress(model, initial, k, mode, element, points(i), d)
+               end if
+               call add_solid_force(points(i), n, mode%harmonic, now, element_force)
+               if (present(stress)) stress(:, last + i) = now
+            end do
+            last = last + n_gauss**2
+            force(:, nodes) = force(:, nodes) + circle_integral(mode%harmonic)*element_force(:, :n)
+         end associate
+      end do
+   end subroutine solid_force
+
+   !> Stress at a point that nothing strains: in-situ stress less D alpha T
+   pure function initial_stress(model, initial, k, mode, element, point, d) result(stress)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Temperatures and in-situ stresses
+      type(initial_state_type), intent(in) :: initial
+      !> The mode, and its place
+      integer, intent(in) :: k
+      type(mode_type), intent(in) :: mode
+      !> The element, and the point
+      integer, intent(in) :: element
+      type(solid_point_type), intent(in) :: point
+      !> Elasticity matrix
+      real(wp), intent(in) :: d(6, 6)
+      !> Amplitudes of r, z, theta, rz, r-theta, z-theta
+      real(wp) :: stress(6)
+
+      real(wp) :: expansion(6)
+      integer :: i, n
+
+      stress = 0.0_wp
+      n = model%mesh%element_size(element)
+      if (allocated(initial%temperature)) then
+         expansion = 0.0_wp
+         expansion(:3) = model%materials(model%mesh%element_material(element))%expansion
+         associate (nodes => model%mesh%element_nodes(:n, element))
+            stress = -dot_product(point%shape(:n), initial%temperature(nodes, k))*matmul(d, expansion)
+         end associate
+      end if
+      if (.not. same_mode(mode, mode_type(0, family_symmetric))) return
+      do i = 1, size(initial%in_situ)
+         associate (state => initial%in_situ(i))
+            if (state%body /= 0 .and. state%body /= model%mesh%element_body(element)) cycle
+            stress(:4) = stress(:4) + state%stress + point%position(2)*state%gradient
+         end associate
+      end do
+   end function initial_stress
+
+   !> Add the nodal forces of an acceleration of all masses
+   subroutine add_mass_force(model, load, factor, force)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The acceleration, and the factor on it
+      type(body_load_type), intent(in) :: load
+      real(wp), intent(in) :: factor
+      !> Forces on components, shape (3, nodes)
+      real(wp), intent(inout) :: force(:, :)
+
+      type(solid_point_type) :: points(9)
+      real(wp) :: acceleration(3), weight
+      integer :: element, n, n_gauss, i, j
+
+      do element = 1, n_elements(model%mesh)
+         n = model%mesh%element_size(element)
+         n_gauss = gauss_order(model, n)
+         associate (nodes => model%mesh%element_nodes(:n, element), &
+                    density => model%materials(model%mesh%element_material(element))%density)
+            call solid_points(model%mesh%coordinates(:, nodes), n_gauss, points(:n_gauss**2))
+            do i = 1, n_gauss**2
+               acceleration = load%acceleration
+               acceleration(1) = acceleration(1) + load%spin_squared*points(i)%position(1)
+               weight = factor*circle_integral(load%mode%harmonic)*density*points(i)%weight
+               do j = 1, n
+                  force(:, nodes(j)) = force(:, nodes(j)) + weight*points(i)%shape(j)*acceleration
+               end do
+            end do
+         end associate
+      end do
+   end subroutine add_mass_force
+
+end module axijoint_assembly_solid_force
