@@ -2,10 +2,12 @@
 module axijoint_driver_run
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
    use axijoint_analysis_results, only : results_type, remark_type
-   use axijoint_analysis_static, only : analyse_model
+   use axijoint_analysis_static, only : analyse_combination
+   use axijoint_analysis_structure, only : structure_type, build_structure
    use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_not_converged
    use axijoint_base_progress, only : progress_type, show_progress, clear_progress
    use axijoint_base_system, only : error_output_is_terminal
+   use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type, phase_read, phase_write
    use axijoint_cli, only : command_type, word_type
    use axijoint_deck_diagnostics, only : diagnostics_type, render, warning_texts
@@ -69,9 +71,10 @@ contains
       type(source_type) :: source
       type(model_type) :: model
       type(diagnostics_type) :: diagnostics
-      type(results_type) :: results
+      type(structure_type) :: structure
       type(timer_type) :: timer
       type(progress_type) :: progress
+      integer :: k, code
 
       exit_code = exit_ok
       progress%enabled = error_output_is_terminal()
@@ -88,21 +91,77 @@ contains
       if (diagnostics%n_warnings > 0) write (error_unit, '(a)') render(diagnostics, source)
 
       if (command%solver >= 0) model%solver = command%solver
-      call check_output(command%directory, job_name(deck), source, error)
-      if (allocated(error)) return
-      call analyse_model(model, results, timer, progress, error)
+      do k = 1, size(model%combinations)
+         call check_output(command%directory, result_name(deck, model, k), source, error)
+         if (allocated(error)) return
+      end do
+      call build_structure(model, structure, timer, progress, error)
+      do k = 1, size(model%combinations)
+         if (allocated(error)) exit
+         call run_combination(deck, command, model, structure, k, source, &
+                              warning_texts(diagnostics, source), timer, progress, code, error)
+         exit_code = max(exit_code, code)
+      end do
       call clear_progress(progress)
-      if (allocated(error)) return
-      if (.not. results%converged) exit_code = exit_not_converged
+   end subroutine run_deck
 
+   !> Solve one combination and write its results, before the next is begun
+   subroutine run_combination(deck, command, model, structure, k, source, warnings, timer, progress, &
+                              exit_code, error)
+      !> The deck
+      character(len=*), intent(in) :: deck
+      !> Directory for results and other options
+      type(command_type), intent(in) :: command
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Its structure, factored
+      type(structure_type), intent(in) :: structure
+      !> Place of the combination
+      integer, intent(in) :: k
+      !> Cards of the deck
+      type(source_type), intent(in) :: source
+      !> Warnings about the deck
+      character(len=*), intent(in) :: warnings(:)
+      !> Times of the run
+      type(timer_type), intent(inout) :: timer
+      !> Where to show progress
+      type(progress_type), intent(inout) :: progress
+      !> 0, or 3 if the results are not converged
+      integer, intent(out) :: exit_code
+      !> The results cannot be written
+      type(error_type), allocatable, intent(out) :: error
+
+      type(results_type) :: results
+      character(len=:), allocatable :: name
+
+      name = result_name(deck, model, k)
+      call analyse_combination(model, structure, model%combinations(k), results, timer, progress)
+      call clear_progress(progress)
+      if (size(model%combinations) > 1) results%combination = model%combinations(k)%label
+      exit_code = merge(exit_ok, exit_not_converged, results%converged)
       call timer%push(phase_write)
-      call write_output(command%directory, job_name(deck), source, &
-                        all_warnings(warning_texts(diagnostics, source), results%remarks), model, &
-                        results, timer, exit_code, error)
+      call write_output(command%directory, name, source, all_warnings(warnings, results%remarks), &
+                        model, results, timer, exit_code, error)
       call timer%pop()
       if (allocated(error)) return
-      write (output_unit, '(a)') brief_text(command%directory, job_name(deck), deck, model, results, timer)
-   end subroutine run_deck
+      write (output_unit, '(a)') brief_text(command%directory, name, deck, model, results, timer)
+   end subroutine run_combination
+
+   !> Name of the result files: that of the deck, with the number of the
+   !> combination if there are several
+   function result_name(deck, model, k) result(name)
+      !> Path of the deck
+      character(len=*), intent(in) :: deck
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Place of the combination
+      integer, intent(in) :: k
+      !> The name
+      character(len=:), allocatable :: name
+
+      name = job_name(deck)
+      if (size(model%combinations) > 1) name = name//'.'//to_text(model%combinations(k)%label)
+   end function result_name
 
    !> Warnings about the deck and remarks on the results
    function all_warnings(warnings, remarks) result(texts)

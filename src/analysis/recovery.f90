@@ -40,7 +40,7 @@ contains
       !> Results; displacements are there already
       type(results_type), intent(inout) :: results
 
-      real(wp), dimension(size(results%modes)) :: unbalanced, load_scale, reaction_scale
+      real(wp), dimension(size(results%modes)) :: unbalanced, scale
       real(wp), dimension(n_resultants, size(results%modes)) :: resultant, reacted
       real(wp), allocatable :: unbalance(:, :, :)
       real(wp), allocatable :: internal(:, :), force(:, :)  ! threads have small stacks
@@ -65,8 +65,9 @@ contains
             resultant(:, k) = rigid_resultants(model, mode, loading%external(:, :, k))
             reacted(:, k) = rigid_resultants(model, mode, reaction)
             unbalance(:, :, k) = part_resultants(model, mode, part, force - internal + reaction)
-            load_scale(k) = largest_factor*sum(abs(loading%external(:, :, k)))
-            reaction_scale(k) = sum(abs(reaction))
+            ! displacements and temperatures load without external forces
+            scale(k) = largest_factor*(sum(abs(loading%external(:, :, k))) &
+                                       + sum(abs(loading%right(:, :, k) - loading%external(:, :, k))))
          end associate
       end do
       !$omp end parallel do
@@ -75,13 +76,11 @@ contains
       results%part_unbalance = sum(unbalance, 3)
       results%part_node = [(findloc(part, k, 1), k=1, maxval(part))]
       results%residual_ratio = ratio(sqrt(sum(unbalanced)), &
-                                     largest_factor*load_norm(structure%equations, loading%right))
-      ! displacements and temperatures load without external forces
+                                     largest_factor*load_norm(structure%equations, loading))
       associate (largest => largest_factor*sum(resultant, 2), &
-                 scale => merge(sum(load_scale), sum(reaction_scale), sum(load_scale) > 0.0_wp), &
                  whole => reshape(results%applied + results%reacted, [n_resultants, 1]))
-         results%equilibrium_error = imbalance(model, largest, scale, whole)
-         results%part_error = imbalance(model, largest, scale, results%part_unbalance)
+         results%equilibrium_error = imbalance(model, largest, sum(scale), whole)
+         results%part_error = imbalance(model, largest, sum(scale), results%part_unbalance)
       end associate
 
    contains

@@ -61,6 +61,8 @@ module axijoint_analysis_results
    type :: results_type
       !> Whether every increment reached its tolerance
       logical :: converged = .false.
+      !> Number of the load combination; 0 if there is one only
+      integer :: combination = 0
       !> Modes that were solved, ascending
       type(mode_type), allocatable :: modes(:)
       !> Solver that was used, one of the `solver_` parameters

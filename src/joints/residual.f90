@@ -2,6 +2,7 @@
 module axijoint_joints_residual
    use axijoint_assembly_equations, only : equations_type, elastic_force, on_equations, worth_threads
    use axijoint_assembly_force, only : joint_force
+   use axijoint_assembly_loading, only : loading_type
    use axijoint_base_kinds, only : wp
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_model_joint_points, only : model_joint_point_type
@@ -45,12 +46,13 @@ contains
       norm = sqrt(sum(squared))
    end function residual_norm
 
-   !> Norm of applied forces (Psi_f of Eq. 17)
-   function load_norm(equations, applied) result(norm)
+   !> Norm of the loads (Psi_f of Eq. 17): of the external forces, and of those
+   !> that held displacements and initial stresses give, which may balance them
+   function load_norm(equations, loading) result(norm)
       !> The equations
       type(equations_type), intent(in) :: equations
-      !> Applied forces on components, shape (3, nodes, modes)
-      real(wp), intent(in) :: applied(:, :, :)
+      !> Loads for a factor of one
+      type(loading_type), intent(in) :: loading
       !> The norm
       real(wp) :: norm
 
@@ -58,8 +60,11 @@ contains
       integer :: k
 
       do k = 1, size(equations%modes)
-         squared(k) = sum(on_equations(equations, k, applied(:, :, k))**2) &
-            /circle_integral(equations%modes(k)%harmonic)
+         associate (external => loading%external(:, :, k), right => loading%right(:, :, k))
+            squared(k) = (sum(on_equations(equations, k, external)**2) &
+                          + sum(on_equations(equations, k, right - external)**2)) &
+               /circle_integral(equations%modes(k)%harmonic)
+         end associate
       end do
       norm = sqrt(sum(squared))
    end function load_norm

@@ -59,7 +59,7 @@ contains
          factor = factor + model%increments(i)%factor
          largest_factor = max(largest_factor, abs(factor))  ! after unloading Psi_f would be zero
          call balance_increment(model, points, equations, planes, i, factor, loading, &
-                                largest_factor*load_norm(equations, loading%right), displacement, field, &
+                                largest_factor*load_norm(equations, loading), displacement, field, &
                                 path, converged, progress)
          if (.not. converged) return
       end do

@@ -38,7 +38,9 @@ contains
       !> Lines, the last without its end
       character(len=:), allocatable :: text
 
-      text = line("deck", deck)//line("status", status_text(results))// &
+      text = line("deck", deck)
+      if (results%combination > 0) text = text//line("combination", to_text(results%combination))
+      text = text//line("status", status_text(results))// &
          line("mesh", to_text(n_nodes(model%mesh))//" nodes, "// &
          to_text(n_elements(model%mesh))//" elements, "// &
          to_text(n_joints(model%mesh))//" joints")// &

@@ -69,6 +69,7 @@ contains
       call file%attribute("/", "date", run%date)
       call file%attribute("/", "run", run%stamp)
       call file%attribute("/", "status", status_name(results))
+      call file%attribute("/", "combination", results%combination)
       call file%attribute("/", "exit_code", run%exit_code)
       call file%attribute("/", "conventions", conventions)
       call file%write("/messages", joined(messages), "Warnings and how the iteration ended")

@@ -16,6 +16,7 @@ module axijoint_output_listing
    use axijoint_output_listing_stress, only : write_stresses, write_joint_results
    use axijoint_output_run, only : run_type
    use axijoint_output_text_file, only : text_file_type
+   use axijoint_base_text, only : to_text
    implicit none
    private
    public :: write_listing
@@ -80,6 +81,7 @@ contains
          "   Fourier finite element analysis of axisymmetric bodies with joints")
       call write_lines(file, "title   ", model%title)
       call write_lines(file, "deck    ", run%deck)
+      if (results%combination > 0) call file%put("loads   combination "//to_text(results%combination))
       call file%put("date    "//run%date)
       call file%put("run     "//run%stamp)
       call write_lines(file, "status  ", convergence_text(results))

@@ -41,6 +41,7 @@ contains
       type(timer_type), intent(in) :: timer
 
       call write_tags(file, run, status_name(results), messages, json_string(model%title))
+      call put_pair(file, "combination", json_number(results%combination))
       call put_pair(file, "nodes", json_number(n_nodes(model%mesh)))
       call put_pair(file, "elements", json_number(n_elements(model%mesh)))
       call put_pair(file, "joints", json_number(n_joints(model%mesh)))
