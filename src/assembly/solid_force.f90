@@ -2,10 +2,11 @@
 module axijoint_assembly_solid_force
    use axijoint_base_kinds, only : wp
    use axijoint_element_solid, only : solid_point_type, solid_points, solid_stress, &
-                                      add_solid_force, isotropic_elasticity
+                                      add_solid_force
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
    use axijoint_model_load, only : body_load_type, initial_stress_type
+   use axijoint_model_material, only : elasticity, thermal_strain
    use axijoint_model_mesh, only : n_elements, max_element_nodes
    use axijoint_model_model, only : model_type, gauss_order
    implicit none
@@ -53,7 +54,7 @@ contains
          n_gauss = gauss_order(model, n)
          associate (nodes => model%mesh%element_nodes(:n, element), &
                     material => model%materials(model%mesh%element_material(element)))
-            d = isotropic_elasticity(material%young, material%poisson)
+            d = elasticity(material)
             call solid_points(model%mesh%coordinates(:, nodes), n_gauss, points(:n_gauss**2))
             local(:, :n) = displacement(:, nodes)
             element_force = 0.0_wp
@@ -94,8 +95,7 @@ contains
       stress = 0.0_wp
       n = model%mesh%element_size(element)
       if (allocated(initial%temperature)) then
-         expansion = 0.0_wp
-         expansion(:3) = model%materials(model%mesh%element_material(element))%expansion
+         expansion = thermal_strain(model%materials(model%mesh%element_material(element)))
          associate (nodes => model%mesh%element_nodes(:n, element))
             stress = -dot_product(point%shape(:n), initial%temperature(nodes, k))*matmul(d, expansion)
          end associate

@@ -6,12 +6,12 @@ module axijoint_assembly_stiffness
    use axijoint_base_kinds, only : wp, i8
    use axijoint_element_joint, only : joint_stiffness
    use axijoint_element_solid, only : solid_point_type, solid_points, solid_stiffness, &
-                                      isotropic_elasticity, stiffness_kernel_type, &
-                                      new_stiffness_kernel
+                                      stiffness_kernel_type, new_stiffness_kernel
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_fe_mode, only : mode_type
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type, entry_position
    use axijoint_model_joint_points, only : model_joint_point_type
+   use axijoint_model_material, only : elasticity
    use axijoint_model_mesh, only : max_element_nodes, n_nodes
    use axijoint_model_model, only : model_type, gauss_order, on_axis
    use axijoint_order_coloring, only : color_cliques
@@ -72,8 +72,7 @@ contains
       integer :: color, k
 
       do k = 1, size(kernels)
-         kernels(k) = new_stiffness_kernel(isotropic_elasticity(model%materials(k)%young, &
-                                                                model%materials(k)%poisson))
+         kernels(k) = new_stiffness_kernel(elasticity(model%materials(k)))
       end do
       call element_cliques(model%mesh, start, member)
       call color_cliques(n_nodes(model%mesh), start, member, color_start, colored)

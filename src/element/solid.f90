@@ -5,7 +5,7 @@ module axijoint_element_solid
    use axijoint_fe_shape, only : shape_quadrilateral
    implicit none
    private
-   public :: solid_point_type, solid_points, isotropic_elasticity
+   public :: solid_point_type, solid_points
    public :: strain_matrices, solid_stiffness, solid_stress, add_solid_force
    public :: stiffness_kernel_type, new_stiffness_kernel
 
@@ -70,28 +70,6 @@ contains
          end do
       end do
    end subroutine solid_points
-
-   !> Elasticity matrix of an isotropic solid; strains r, z, theta, rz, r-theta, z-theta
-   pure function isotropic_elasticity(young, poisson) result(d)
-      !> Young's modulus
-      real(wp), intent(in) :: young
-      !> Poisson's ratio
-      real(wp), intent(in) :: poisson
-      !> Stress = d strain
-      real(wp) :: d(6, 6)
-
-      real(wp) :: lame, shear
-      integer :: i
-
-      lame = young*poisson/((1.0_wp + poisson)*(1.0_wp - 2.0_wp*poisson))
-      shear = 0.5_wp*young/(1.0_wp + poisson)
-      d = 0.0_wp
-      d(1:3, 1:3) = lame
-      do i = 1, 3
-         d(i, i) = lame + 2.0_wp*shear
-         d(i + 3, i + 3) = shear
-      end do
-   end function isotropic_elasticity
 
    !> The strain matrix is linear in the harmonic: B_m = B0 + m B1 (Eq. 4)
    pure subroutine strain_matrices(point, n, b0, b1)

@@ -1,10 +1,12 @@
 !> Properties of solids and joints
 module axijoint_model_material
    use axijoint_base_kinds, only : wp
+   use axijoint_element_elasticity, only : isotropic_elasticity, orthotropic_elasticity, &
+      directional_expansion
    use axijoint_element_joint_law, only : joint_law_type
    implicit none
    private
-   public :: solid_material_type, joint_material_type
+   public :: solid_material_type, joint_material_type, elasticity, thermal_strain
    public :: rule_centroid, rule_gauss, rule_lobatto
 
    !> One point at the middle of a joint (Eq. 13, the paper's rule)
@@ -46,5 +48,33 @@ module axijoint_model_material
       !> Law with its constants
       type(joint_law_type) :: law
    end type joint_material_type
+
+contains
+
+   !> Elasticity matrix of a solid: stress = D strain, both in the order r, z,
+   !> theta, rz, r-theta, z-theta
+   pure function elasticity(material) result(d)
+      !> The solid
+      type(solid_material_type), intent(in) :: material
+      !> The matrix [stress]
+      real(wp) :: d(6, 6)
+
+      if (material%orthotropic) then
+         d = orthotropic_elasticity(material%moduli, material%ratios, material%shears, &
+                                    material%angle)
+      else
+         d = isotropic_elasticity(material%young, material%poisson)
+      end if
+   end function elasticity
+
+   !> Strain of a solid per degree of temperature, in the same order
+   pure function thermal_strain(material) result(strain)
+      !> The solid
+      type(solid_material_type), intent(in) :: material
+      !> The strain [1/temperature]; r-theta and z-theta are zero
+      real(wp) :: strain(6)
+
+      strain = directional_expansion(material%expansion, material%angle)
+   end function thermal_strain
 
 end module axijoint_model_material
