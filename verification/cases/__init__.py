@@ -1,0 +1,7 @@
+"""Cases of the manual"""
+
+
+def all_cases():
+    """All cases, in the order of the manual"""
+    from cases import rings
+    return [*rings.CASES]

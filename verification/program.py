@@ -1,0 +1,64 @@
+"""Runs axijoint and reads its results"""
+import os
+import pathlib
+import subprocess
+
+import h5py
+import numpy as np
+
+
+class ProgramError(Exception):
+    """A run that did not end well"""
+
+
+class Results:
+    """What the tables need of NAME.h5; nodes and points count from 0"""
+
+    def __init__(self, path):
+        with h5py.File(path) as file:
+            self.coordinates = file["mesh/coordinates"][()]
+            self.labels = file["mesh/node_label"][()]
+            self.displacement = by_mode(file, file["displacement"][()])
+            self.stress = by_mode(file, file["stress/amplitude"][()])
+            self.position = file["stress/position"][()]
+            self.element = file["stress/element"][()] - 1
+            self.element_body = file["mesh/element_body"][()]
+            self.element_nodes = file["mesh/element_nodes"][()]
+            self.joints = {name: values[()] for name, values in file["joints"].items()}
+
+    def nodal(self, mode, count, first=0):
+        """Amplitudes of the nodes numbered first + 1, ..., first + count, shape (count, 3)"""
+        row = np.empty(self.labels.max() + 1, dtype=int)
+        row[self.labels] = np.arange(len(self.labels))
+        return self.displacement[mode][row[first + 1:first + count + 1]]
+
+    def points_of_body(self, body):
+        """Which Gauss points lie in a body"""
+        return self.element_body[self.element] == body
+
+
+def by_mode(file, array):
+    """(harmonic, family) -> amplitudes of that mode, shape (nodes or points, components)"""
+    if "modes" in file:
+        modes = zip(file["modes/harmonic"][()], file["modes/family"][()])
+        return {(int(m), int(f)): array[i] for i, (m, f) in enumerate(modes)}
+    return {(int(m), f + 1): array[f, i] for i, m in enumerate(file["harmonics"][()])
+            for f in range(2)}
+
+
+class Program:
+    """The program, and a directory for decks and results"""
+
+    def __init__(self, path, directory):
+        self.path, self.directory = path, pathlib.Path(directory)
+
+    def run(self, name, text):
+        """Runs a deck; its results"""
+        deck = self.directory/f"{name}.dat"
+        deck.write_text(text)
+        done = subprocess.run([self.path, "run", deck, "-o", self.directory, "--threads", "1"],
+                              capture_output=True, text=True, env=os.environ, check=False)
+        if done.returncode:
+            words = (done.stderr or done.stdout).strip()
+            raise ProgramError(f"{deck}: exit code {done.returncode}\n{words}")
+        return Results(self.directory/f"{name}.h5")
