@@ -3,8 +3,11 @@
 module axijoint_deck_layout
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : nearest_word, to_text
+   use axijoint_deck_common_fields, only : number, numbers, last_number, body, step, length, ratio, &
+      largest_body, largest_division, largest_harmonic
    use axijoint_deck_field, only : field_type, integer_field, real_field, word_field, code_field, &
       text_field, largest_number
+   use axijoint_deck_load_fields, only : load_fields
    use axijoint_solver_choice, only : solver_names
    implicit none
    private
@@ -17,25 +20,22 @@ module axijoint_deck_layout
    integer, parameter, public :: keyword_length = 12
 
    !> Number of keywords
-   integer, parameter, public :: n_sections = 21
+   integer, parameter, public :: n_sections = 25
    integer, parameter, public :: section_title = 1, section_control = 2, section_nodes = 3, &
       section_lines = 4, section_elements = 5, section_blocks = 6, section_materials = 7, &
       section_laws = 8, section_joints = 9, section_faces = 10, section_chains = 11, &
       section_interfaces = 12, section_restraints = 13, section_fixed_faces = 14, &
       section_tractions = 15, section_resultants = 16, section_ring_loads = 17, &
-      section_increments = 18, section_output = 19, section_include = 20, section_end = 21
+      section_increments = 18, section_output = 19, section_include = 20, section_end = 21, &
+      section_shapes = 22, section_pressures = 23, section_point_loads = 24, section_harmonics = 25
 
    !> The keywords
    character(len=keyword_length), parameter :: section_names(n_sections) = &
       [character(len=keyword_length) :: &
       'TITLE', 'CONTROL', 'NODES', 'LINES', 'ELEMENTS', 'BLOCKS', 'MATERIALS', 'LAWS', 'JOINTS', &
       'FACES', 'CHAINS', 'INTERFACES', 'RESTRAINTS', 'FIXEDFACES', 'TRACTIONS', 'RESULTANTS', &
-      'RINGLOADS', 'INCREMENTS', 'OUTPUT', 'INCLUDE', 'END']
-
-   !> Largest numbers of a body, of elements along a side of a block, of a harmonic
-   integer, parameter :: largest_body = 9999, largest_division = 100000, largest_harmonic = 9999
-   !> Greatest grading of a block or a line, and its inverse
-   real(wp), parameter :: largest_ratio = 1.0e6_wp
+      'RINGLOADS', 'INCREMENTS', 'OUTPUT', 'INCLUDE', 'END', &
+      'SHAPES', 'PRESSURES', 'POINTLOADS', 'HARMONICS']
 
 contains
 
@@ -98,13 +98,11 @@ contains
          fields = [number('the law', 1), number('face a', 6), number('face b', 11)]
       case (section_restraints)
          fields = [number('the node', 1), code_field('the code', 6, 10), &
-                   integer_field('the last node', 11, 15, 1, largest_number, default=0), step(16)]
+                   last_number('the last node', 11), step(16)]
       case (section_fixed_faces)
          fields = [number('the face', 1), code_field('the code', 6, 10)]
-      case (section_tractions, section_resultants, section_ring_loads)
-         fields = load_fields(section)
       case default
-         allocate (fields(0))
+         fields = load_fields(section_names(section))
       end select
    end function section_fields
 
@@ -180,123 +178,5 @@ contains
                    word_field('the rule', 66, 75, [character(len=8) :: 'CENTROID', 'GAUSS', 'LOBATTO'], 2)]
       end if
    end function property_fields
-
-   !> Fields of TRACTIONS, RESULTANTS and RINGLOADS
-   pure function load_fields(section) result(fields)
-      !> The section
-      integer, intent(in) :: section
-      !> The fields
-      type(field_type), allocatable :: fields(:)
-
-      select case (section)
-      case (section_tractions)
-         fields = [number('the face', 1), harmonic(6), components('t', ' at the first point', 11), &
-                   components('t', ' at the last point', 41)]
-      case (section_resultants)
-         fields = [number('the face', 1), &
-                   word_field('the kind of resultant', 6, 15, [character(len=7) :: 'LATERAL', 'MOMENT']), &
-                   real_field('the value', 16, 25)]
-      case default
-         fields = [number('the node', 1), harmonic(6), components('q', '', 11)]
-      end select
-   end function load_fields
-
-   !> Field of the number of a thing
-   pure function number(name, first) result(field)
-      !> Name
-      character(len=*), intent(in) :: name
-      !> First column
-      integer, intent(in) :: first
-      !> The field
-      type(field_type) :: field
-      field = integer_field(name, first, first + 4, 1, largest_number)
-   end function number
-
-   !> Fields of several numbers, the first of which are required
-   pure function numbers(name, n, n_required, first) result(fields)
-      !> Name of one
-      character(len=*), intent(in) :: name
-      !> How many, and how many at least
-      integer, intent(in) :: n, n_required
-      !> First column
-      integer, intent(in) :: first
-      !> The fields
-      type(field_type) :: fields(n)
-
-      integer :: i
-
-      do i = 1, n
-         fields(i) = number(name//' '//to_text(i), first + 5*(i - 1))
-         fields(i)%required = i <= n_required
-      end do
-   end function numbers
-
-   !> Field of a body
-   pure function body(first) result(field)
-      !> First column
-      integer, intent(in) :: first
-      !> The field
-      type(field_type) :: field
-      field = integer_field('the body', first, first + 4, 1, largest_body, default=1)
-   end function body
-
-   !> Field of a step between numbers
-   pure function step(first) result(field)
-      !> First column
-      integer, intent(in) :: first
-      !> The field
-      type(field_type) :: field
-      field = integer_field('the step', first, first + 4, 1, largest_number, default=1)
-   end function step
-
-   !> Field of a harmonic
-   pure function harmonic(first) result(field)
-      !> First column
-      integer, intent(in) :: first
-      !> The field
-      type(field_type) :: field
-      field = integer_field('the harmonic', first, first + 4, 0, largest_harmonic)
-   end function harmonic
-
-   !> Field of a coordinate
-   pure function length(name, first, from) result(field)
-      !> Name
-      character(len=*), intent(in) :: name
-      !> First column
-      integer, intent(in) :: first
-      !> Smallest value
-      real(wp), intent(in), optional :: from
-      !> The field
-      type(field_type) :: field
-      field = real_field(name, first, first + 9, from=from, symbol=name(1:1))
-   end function length
-
-   !> Field of the ratio of the last to the first interval
-   pure function ratio(name, first) result(field)
-      !> Name
-      character(len=*), intent(in) :: name
-      !> First column
-      integer, intent(in) :: first
-      !> The field
-      type(field_type) :: field
-      field = real_field(name, first, first + 9, from=1.0_wp/largest_ratio, to=largest_ratio, &
-                         default=1.0_wp, symbol='ratio')
-   end function ratio
-
-   !> Fields of the components of a load along r, z and theta, 0 if blank
-   pure function components(symbol, place, first) result(fields)
-      !> Symbol of the load
-      character(len=*), intent(in) :: symbol
-      !> Where it acts, for the names
-      character(len=*), intent(in) :: place
-      !> First column
-      integer, intent(in) :: first
-      !> The fields
-      type(field_type) :: fields(3)
-
-      fields = [real_field(symbol//'_r'//place, first, first + 9, default=0.0_wp), &
-                real_field(symbol//'_z'//place, first + 10, first + 19, default=0.0_wp), &
-                real_field(symbol//'_theta'//place, first + 20, first + 29, default=0.0_wp)]
-   end function components
 
 end module axijoint_deck_layout

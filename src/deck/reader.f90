@@ -6,7 +6,7 @@ module axijoint_deck_reader
    use axijoint_deck_check_mesh, only : snap_to_axis, check_used, check_coincident, check_near, &
       check_hanging, check_touching
    use axijoint_deck_control, only : read_control, check_planes
-   use axijoint_deck_diagnostics, only : diagnostics_type, add_error, add_warning
+   use axijoint_deck_diagnostics, only : diagnostics_type, add_error
    use axijoint_deck_draft, only : draft_type, new_draft
    use axijoint_deck_edges, only : edge_table_type, new_edge_table, check_edges
    use axijoint_deck_elements, only : draft_elements
@@ -17,18 +17,13 @@ module axijoint_deck_reader
    use axijoint_deck_joints, only : draft_joints
    use axijoint_deck_layout, only : section_control, section_nodes, section_lines, section_elements, &
       section_blocks, section_materials, section_laws, section_joints, section_faces, section_chains, &
-      section_interfaces, section_restraints, section_fixed_faces, section_tractions, &
-      section_resultants, section_ring_loads, section_increments, section_output
-   use axijoint_deck_loads, only : read_tractions, read_resultants
+      section_interfaces, section_increments, section_output
+   use axijoint_deck_loads, only : read_loads
    use axijoint_deck_places, only : group_places, new_point_tree, point_tree_type, same_place
    use axijoint_deck_properties, only : properties_type, read_properties
-   use axijoint_deck_restraints, only : fix_nodes, fix_faces
-   use axijoint_deck_ring_loads, only : read_ring_loads
    use axijoint_deck_sections, only : sections_type, read_sections
    use axijoint_deck_source, only : source_type
    use axijoint_deck_source_reader, only : read_source
-   use axijoint_base_kinds, only : wp
-   use axijoint_model_load, only : combination_type
    use axijoint_model_model, only : model_type
    implicit none
    private
@@ -157,46 +152,6 @@ contains
          call sort_joints(draft)
       end associate
    end subroutine make_joints_and_faces
-
-   !> Read restraints and loads
-   subroutine read_loads(source, sections, draft, model, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
-      !> Its sections
-      type(sections_type), intent(in) :: sections
-      !> The mesh
-      type(draft_type), intent(in) :: draft
-      !> The job
-      type(model_type), intent(inout) :: model
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
-
-      integer :: highest, m
-
-      allocate (model%fixed(3, draft%n_nodes), source=.false.)
-      allocate (model%edge_loads(0))
-      allocate (model%body_loads(0), model%thermal_loads(0), model%prescribed(0))
-      allocate (model%initial_stresses(0), model%edge_supports(0), model%truncations(0))
-      model%combinations = [combination_type(label=1, factor=[1.0_wp])]
-      model%harmonics = [(m, m=0, model%max_harmonic)]
-      associate (tables => sections%tables)
-         highest = -1
-         if (tables(section_control)%n > 0) then
-            if (tables(section_control)%given(1, 1)) highest = model%max_harmonic
-         end if
-         call fix_nodes(source, tables(section_restraints), draft, model%fixed, diagnostics)
-         call fix_faces(source, tables(section_fixed_faces), draft, model%fixed, diagnostics)
-         call read_tractions(source, tables(section_tractions), draft, highest, model%edge_loads, diagnostics)
-         call read_resultants(source, tables(section_resultants), draft, highest, model%edge_loads, &
-                              diagnostics)
-         call read_ring_loads(source, tables(section_ring_loads), draft, highest, model%ring_loads, &
-                              diagnostics)
-         if (tables(section_tractions)%n + tables(section_resultants)%n &
-             + tables(section_ring_loads)%n == 0) then
-            call add_warning(diagnostics, 0, 0, 0, 'the deck has no loads: all results will be zero')
-         end if
-      end associate
-   end subroutine read_loads
 
    !> Move the finished mesh into the model
    subroutine take_model(draft, properties, model)

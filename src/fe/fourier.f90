@@ -1,9 +1,10 @@
-!> Harmonics round the circle: exact values at fractions of pi, integrals
+!> Harmonics round the circle: exact values at fractions of pi and at multiples of
+!> 90 degrees, integrals
 module axijoint_fe_fourier
-   use axijoint_base_kinds, only : wp, pi
+   use axijoint_base_kinds, only : wp, pi, degree
    implicit none
    private
-   public :: circle_integral, cosine_of_fraction, sine_of_fraction
+   public :: circle_integral, cosine_of_fraction, sine_of_fraction, cosine_of_degrees, sine_of_degrees
 
 contains
 
@@ -49,5 +50,42 @@ contains
 
       sine = cosine_of_fraction(2*p - q, 2*q)  ! sin x = cos(x - pi/2)
    end function sine_of_fraction
+
+   !> Cosine of an angle in degrees, with exact zeros and ones: a load along theta = 90
+   !> has no symmetric part, not one of rounding
+   elemental function cosine_of_degrees(angle) result(cosine)
+      !> The angle [degree]
+      real(wp), intent(in) :: angle
+      !> The cosine
+      real(wp) :: cosine
+
+      cosine = sine_of_degrees(90.0_wp - abs(modulo_360(angle)))
+   end function cosine_of_degrees
+
+   !> Sine of an angle in degrees, with exact zeros and ones
+   elemental function sine_of_degrees(angle) result(sine)
+      !> The angle [degree]
+      real(wp), intent(in) :: angle
+      !> The sine
+      real(wp) :: sine
+
+      real(wp) :: x
+
+      x = modulo_360(angle)
+      if (abs(x) > 90.0_wp) x = sign(180.0_wp, x) - x
+      sine = sin(degree*x)
+      if (abs(x) > 45.0_wp) sine = sign(cos(degree*(90.0_wp - abs(x))), x)
+   end function sine_of_degrees
+
+   !> An angle less full turns, -180 to 180; without rounding
+   elemental function modulo_360(angle) result(turned)
+      !> The angle [degree]
+      real(wp), intent(in) :: angle
+      !> The same direction
+      real(wp) :: turned
+
+      turned = mod(angle, 360.0_wp)
+      if (abs(turned) > 180.0_wp) turned = turned - sign(360.0_wp, turned)
+   end function modulo_360
 
 end module axijoint_fe_fourier

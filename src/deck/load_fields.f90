@@ -1,0 +1,95 @@
+!> Fields of the cards of loads, and of harmonics
+module axijoint_deck_load_fields
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_text, only : to_text
+   use axijoint_deck_common_fields, only : number, last_number, step, components, angle, largest_harmonic
+   use axijoint_deck_field, only : field_type, integer_field, real_field, word_field, largest_number
+   implicit none
+   private
+   public :: load_fields
+   public :: name_harmonic, name_family, name_shape, shape_kinds, resultant_kinds
+
+   !> Names by which the fields of the distribution round the circle are found
+   character(len=*), parameter :: name_harmonic = 'the harmonic', name_family = 'the family', &
+      name_shape = 'the shape'
+   !> Families, kinds of shapes and of resultants; their places are the fields' values
+   character(len=1), parameter :: families(2) = ['S', 'A']
+   character(len=6), parameter :: shape_kinds(3) = [character(len=6) :: 'PATCH', 'COSINE', 'TABLE']
+   character(len=7), parameter :: resultant_kinds(4) = &
+      [character(len=7) :: 'LATERAL', 'MOMENT', 'AXIAL', 'TORQUE']
+
+contains
+
+   !> Fields of the cards of a section, in the order of their columns
+   pure function load_fields(keyword) result(fields)
+      !> Keyword of the section
+      character(len=*), intent(in) :: keyword
+      !> The fields; none if it is no section of loads
+      type(field_type), allocatable :: fields(:)
+
+      select case (keyword)
+      case ('HARMONICS')
+         fields = [integer_field('the first harmonic', 1, 5, 0, largest_harmonic), &
+                   integer_field('the last harmonic', 6, 10, 0, largest_harmonic, default=0), step(11)]
+      case ('SHAPES')
+         fields = shape_fields()
+      case ('TRACTIONS')
+         fields = [number('the face', 1), harmonic(6), components('t', ' at the first point', 11), &
+                   components('t', ' at the last point', 41), family(71), shape_number(76)]
+      case ('PRESSURES')
+         fields = [number('the face', 1), harmonic(6), real_field('p at the first point', 11, 20), &
+                   real_field('p at the last point', 21, 30, default=0.0_wp), family(31), shape_number(36)]
+      case ('RESULTANTS')
+         fields = [number('the face', 1), word_field('the kind of resultant', 6, 15, resultant_kinds), &
+                   real_field('the value', 16, 25), angle('theta0', 26)]
+      case ('RINGLOADS')
+         fields = [number('the node', 1), harmonic(6), components('q', '', 11), family(41), shape_number(46)]
+      case ('POINTLOADS')
+         fields = [number('the node', 1), angle('theta', 6), components('F', '', 16)]
+         fields(2)%required = .true.
+      case default
+         allocate (fields(0))
+      end select
+   end function load_fields
+
+   !> Fields of SHAPES: the meaning of the numbers depends on the kind
+   pure function shape_fields() result(fields)
+      !> The fields
+      type(field_type), allocatable :: fields(:)
+
+      integer :: i
+
+      fields = [number(name_shape, 1), word_field('the kind of shape', 6, 15, shape_kinds), &
+                (real_field('number '//to_text(i)//' of the shape', 6 + 10*i, 15 + 10*i, default=0.0_wp), &
+                 i=1, 6)]
+      fields(3)%required = .true.
+   end function shape_fields
+
+   !> Field of a harmonic, blank if a shape is given
+   pure function harmonic(first) result(field)
+      !> First column
+      integer, intent(in) :: first
+      !> The field
+      type(field_type) :: field
+      field = integer_field(name_harmonic, first, first + 4, 0, largest_harmonic, default=0)
+   end function harmonic
+
+   !> Field of a family
+   pure function family(first) result(field)
+      !> First column
+      integer, intent(in) :: first
+      !> The field
+      type(field_type) :: field
+      field = word_field(name_family, first, first + 4, families, 1)
+   end function family
+
+   !> Field of the number of a shape; blank if a harmonic is given
+   pure function shape_number(first) result(field)
+      !> First column
+      integer, intent(in) :: first
+      !> The field
+      type(field_type) :: field
+      field = last_number(name_shape, first)
+   end function shape_number
+
+end module axijoint_deck_load_fields
