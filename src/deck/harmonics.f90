@@ -13,7 +13,8 @@ module axijoint_deck_harmonics
 
 contains
 
-   !> The harmonics in use: those of the cards, or all from 0 to M if there are none
+   !> The harmonics in use: those of the cards, or all from 0 to M if there are none. If a
+   !> card is at fault they are all, too: no load is to blame for it
    subroutine read_harmonics(source, table, highest, harmonics, diagnostics)
       !> The deck
       type(source_type), intent(in) :: source
@@ -27,14 +28,16 @@ contains
       type(diagnostics_type), intent(inout) :: diagnostics
 
       logical, allocatable :: used(:)
-      integer :: entry, first, last, step, m
+      integer :: entry, first, last, step, m, errors_before
 
+      errors_before = diagnostics%n_errors
       allocate (used(0:max(0, highest)), source=table%n == 0)
       do entry = 1, table%n
          if (.not. table%good(entry) .or. highest < 0) cycle
          call read_range(source, table, entry, highest, first, last, step, diagnostics)
          used(first:last:step) = .true.
       end do
+      if (diagnostics%n_errors > errors_before .or. .not. all(table%good(:table%n))) used = .true.
       harmonics = pack([(m, m=0, max(0, highest))], used)
    end subroutine read_harmonics
 

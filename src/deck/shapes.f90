@@ -122,7 +122,9 @@ contains
       type(diagnostics_type), intent(inout) :: diagnostics
 
       real(wp) :: from, width
+      integer :: errors_before
 
+      errors_before = diagnostics%n_errors
       call check_angle(source, table, entry, field_number, diagnostics)
       if (.not. table%given(field_number + 1, entry)) then
          call field_error(diagnostics, source, table, entry, field_number + 1, &
@@ -131,6 +133,7 @@ contains
       end if
       call check_angle(source, table, entry, field_number + 1, diagnostics)
       call check_blank(source, table, entry, field_number + 2, diagnostics)
+      if (diagnostics%n_errors > errors_before) return
       from = table%values(field_number, entry)
       width = table%values(field_number + 1, entry) - from
       if (width > 360.0_wp) then

@@ -12,18 +12,16 @@ module axijoint_output_listing_model
    implicit none
    private
    public :: write_warnings, write_model, write_materials, write_joint_materials
-   public :: write_loads, write_increments
+   public :: write_increments
 
    !> A word and what belongs to it
    character(len=*), parameter :: format_fact = '(2x, a, t34, a)'
    !> Number of an entry
    character(len=*), parameter :: format_label = '(i10)'
-   !> Harmonic and node of a load
-   character(len=*), parameter :: format_load = '(2i10)'
    !> Most iterations of an increment
    character(len=*), parameter :: format_iterations = '(i12)'
-   !> Columns of coordinates and of other reals
-   integer, parameter :: narrow = 14, wide = 15
+   !> Columns of reals
+   integer, parameter :: wide = 15
 
 contains
 
@@ -67,6 +65,9 @@ contains
          end if
       end associate
       call write_fact(file, "highest harmonic M", to_text(model%max_harmonic))
+      if (size(model%harmonics) <= model%max_harmonic) then
+         call write_fact(file, "harmonics in use", number_list(model%harmonics))
+      end if
       call write_fact(file, "planes theta from 0 to pi", to_text(model%n_planes))
       call write_fact(file, "Gauss points, 4-node", to_text(model%gauss_linear)//" x "// &
          to_text(model%gauss_linear))
@@ -118,66 +119,6 @@ contains
          end associate
       end do
    end subroutine write_joint_materials
-
-   !> Loads by harmonic
-   subroutine write_loads(file, model)
-      !> The listing
-      class(text_file_type), intent(inout) :: file
-      !> The job
-      type(model_type), intent(in) :: model
-
-      call write_heading(file, "LOADS (amplitudes for load factor 1)")
-      if (size(model%edge_loads) + size(model%ring_loads) == 0) call file%put("  none")
-      if (size(model%edge_loads) > 0) call write_edge_loads(file, model)
-      if (size(model%ring_loads) > 0) call write_ring_loads(file, model)
-   end subroutine write_loads
-
-   !> Tractions on edges, one line a node
-   subroutine write_edge_loads(file, model)
-      !> The listing
-      class(text_file_type), intent(inout) :: file
-      !> The job
-      type(model_type), intent(in) :: model
-
-      character(len=20) :: label
-      integer :: i, k
-
-      call file%put("  tractions on edges: first, last and middle node of each edge")
-      call file%put("  harmonic      node             r             z            t_r            t_z"// &
-         "        t_theta")
-      do i = 1, size(model%edge_loads)
-         associate (load => model%edge_loads(i))
-            do k = 1, count(load%nodes > 0)
-               write (label, format_load) load%mode%harmonic, model%mesh%node_label(load%nodes(k))
-               call file%put(label//columns(model%mesh%coordinates(:, load%nodes(k)), narrow)// &
-                  columns(load%traction(:, k), wide))
-            end do
-         end associate
-      end do
-   end subroutine write_edge_loads
-
-   !> Loads on nodal circles
-   subroutine write_ring_loads(file, model)
-      !> The listing
-      class(text_file_type), intent(inout) :: file
-      !> The job
-      type(model_type), intent(in) :: model
-
-      character(len=20) :: label
-      integer :: i
-
-      call file%put("  loads on nodal circles: generalized forces (work over the circle on unit "// &
-         "amplitudes)")
-      call file%put("  harmonic      node             r             z            F_u            F_v"// &
-         "            F_w")
-      do i = 1, size(model%ring_loads)
-         associate (load => model%ring_loads(i))
-            write (label, format_load) load%mode%harmonic, model%mesh%node_label(load%node)
-            call file%put(label//columns(model%mesh%coordinates(:, load%node), narrow)// &
-               columns(load%force, wide))
-         end associate
-      end do
-   end subroutine write_ring_loads
 
    !> Load increments
    subroutine write_increments(file, model)
@@ -240,6 +181,27 @@ contains
          body = minval(mesh%element_body, mask=mesh%element_body > body)
       end do
    end function body_list
+
+   !> Numbers, not more than fit on a line
+   pure function number_list(numbers) result(text)
+      !> The numbers
+      integer, intent(in) :: numbers(:)
+      !> Such as 0, 2, 4
+      character(len=:), allocatable :: text
+
+      integer, parameter :: room = 80
+      integer :: i
+
+      text = ""
+      do i = 1, size(numbers)
+         if (len(text) > room) then
+            text = text//", ..."
+            return
+         end if
+         if (i > 1) text = text//", "
+         text = text//to_text(numbers(i))
+      end do
+   end function number_list
 
    !> Smallest to largest value
    pure function extent_text(values) result(text)
