@@ -3,9 +3,11 @@
     ! expect: joint_states.open = 0              a key of the summary; `exit`: the exit code
     ! expect: m = 1: u = -1.0E-3*(z**2 + 0.3*r**2)    amplitudes of harmonic 1 at all nodes
     ! expect: node 7, m = 1: u = 1.2E-3          at one node
+    ! expect: m = 0 A: w = -1.0E-3*r             of the antisymmetric family
     ! expect: stresses, theta = 0: sigma_z = 10  at all Gauss points
     ! expect: joints: sigma = -10                at all joint points on all planes
-    ! expect: reacted: axial = -3.2              resultants
+    ! expect: reacted: axial = -3.2              resultants: axial, lateral, moment, torque, and
+                                                 lateral_90, moment_90 at theta = 90
     ! warns: 7: warning: ...                     a warning; without one there must be none
 
 An expression may name the columns of its row, pi, and the functions sqrt, sin and cos. The largest

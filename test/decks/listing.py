@@ -10,15 +10,19 @@ COLUMNS = {
     'equilibrium': ('applied', 'reacted', 'sum'),
 }
 HEADINGS = (
-    (re.compile(r'DISPLACEMENT AMPLITUDES, harmonic (\d+)'), 'm = {}', 'displacements'),
+    (re.compile(r'DISPLACEMENT AMPLITUDES, harmonic (\d+) symmetric'), 'm = {}', 'displacements'),
+    (re.compile(r'DISPLACEMENT AMPLITUDES, harmonic (\d+) antisymmetric'), 'm = {} A',
+     'displacements'),
     (re.compile(r'TOTAL DISPLACEMENTS, theta = (\S+) degrees'), 'theta = {}', 'displacements'),
     (re.compile(r'TOTAL STRESSES AT GAUSS POINTS, theta = (\S+) degrees'), 'stresses, theta = {}',
      'stresses'),
     (re.compile(r'JOINT STRESSES(), RELATIVE DISPLACEMENTS'), 'joints', 'joints'),
     (re.compile(r'EQUILIBRIUM()'), 'equilibrium', 'equilibrium'),
 )
-RESULTANTS = {'axial force': 'axial', 'lateral force': 'lateral', 'moment': 'moment',
-              'torque': 'torque'}
+RESULTANTS = {'axial force': 'axial', 'lateral force (along theta = 0)': 'lateral',
+              'moment (lifts theta = 0)': 'moment', 'torque': 'torque',
+              'lateral force (along theta = 90)': 'lateral_90',
+              'moment (lifts theta = 90)': 'moment_90'}
 
 
 def tables(text):
