@@ -20,14 +20,15 @@ module axijoint_deck_layout
    integer, parameter, public :: keyword_length = 12
 
    !> Number of keywords
-   integer, parameter, public :: n_sections = 25
+   integer, parameter, public :: n_sections = 26
    integer, parameter, public :: section_title = 1, section_control = 2, section_nodes = 3, &
       section_lines = 4, section_elements = 5, section_blocks = 6, section_materials = 7, &
       section_laws = 8, section_joints = 9, section_faces = 10, section_chains = 11, &
       section_interfaces = 12, section_restraints = 13, section_fixed_faces = 14, &
       section_tractions = 15, section_resultants = 16, section_ring_loads = 17, &
       section_increments = 18, section_output = 19, section_include = 20, section_end = 21, &
-      section_shapes = 22, section_pressures = 23, section_point_loads = 24, section_harmonics = 25
+      section_shapes = 22, section_pressures = 23, section_point_loads = 24, section_harmonics = 25, &
+      section_orthotropic = 26
 
    !> The keywords
    character(len=keyword_length), parameter :: section_names(n_sections) = &
@@ -35,7 +36,7 @@ module axijoint_deck_layout
       'TITLE', 'CONTROL', 'NODES', 'LINES', 'ELEMENTS', 'BLOCKS', 'MATERIALS', 'LAWS', 'JOINTS', &
       'FACES', 'CHAINS', 'INTERFACES', 'RESTRAINTS', 'FIXEDFACES', 'TRACTIONS', 'RESULTANTS', &
       'RINGLOADS', 'INCREMENTS', 'OUTPUT', 'INCLUDE', 'END', &
-      'SHAPES', 'PRESSURES', 'POINTLOADS', 'HARMONICS']
+      'SHAPES', 'PRESSURES', 'POINTLOADS', 'HARMONICS', 'ORTHOTROPIC']
 
 contains
 
@@ -50,7 +51,7 @@ contains
    pure integer function cards_per_entry(section)
       !> The section
       integer, intent(in) :: section
-      cards_per_entry = merge(2, 1, section == section_blocks)
+      cards_per_entry = merge(2, 1, section == section_blocks .or. section == section_orthotropic)
    end function cards_per_entry
 
    !> Fields of a keyword card: the keyword and the number of entries
@@ -84,7 +85,7 @@ contains
          fields = [number('the element', 1), number('the material', 6), body(11), numbers('node', 9, 4, 16)]
       case (section_blocks)
          fields = block_fields()
-      case (section_materials, section_laws)
+      case (section_materials, section_orthotropic, section_laws)
          fields = property_fields(section)
       case (section_joints)
          fields = [number('the joint', 1), number('the law', 6), numbers('node', 6, 4, 11)]
@@ -157,7 +158,7 @@ contains
       end do
    end function block_fields
 
-   !> Fields of MATERIALS and LAWS
+   !> Fields of MATERIALS, ORTHOTROPIC and LAWS
    pure function property_fields(section) result(fields)
       !> The section
       integer, intent(in) :: section
@@ -166,7 +167,11 @@ contains
 
       if (section == section_materials) then
          fields = [number('the material', 1), real_field('Young''s modulus', 6, 15, above=0.0_wp, symbol='E'), &
-                   real_field('Poisson''s ratio', 16, 25, from=0.0_wp, below=0.5_wp, symbol='nu')]
+                   real_field('Poisson''s ratio', 16, 25, from=0.0_wp, below=0.5_wp, symbol='nu'), &
+                   real_field('the density', 26, 35, from=0.0_wp, default=0.0_wp, symbol='density'), &
+                   real_field('the expansion', 36, 45, default=0.0_wp)]
+      else if (section == section_orthotropic) then
+         fields = orthotropic_fields()
       else
          fields = [number('the law', 1), real_field('k_xi', 6, 15, from=0.0_wp, symbol='k_xi'), &
                    real_field('k_eta', 16, 25, above=0.0_wp, symbol='k_eta'), &
@@ -178,5 +183,27 @@ contains
                    word_field('the rule', 66, 75, [character(len=8) :: 'CENTROID', 'GAUSS', 'LOBATTO'], 2)]
       end if
    end function property_fields
+
+   !> Fields of the two cards of an orthotropic material
+   pure function orthotropic_fields() result(fields)
+      !> The fields
+      type(field_type), allocatable :: fields(:)
+
+      character(len=2), parameter :: pairs(3) = ['12', '23', '13']
+      type(field_type) :: second(7)
+      integer :: i
+
+      fields = [number('the material', 1), &
+                (real_field('E_'//to_text(i), 10*i - 4, 10*i + 5, above=0.0_wp, symbol='E'), i=1, 3), &
+                real_field('the angle of direction 1', 36, 45, from=-360.0_wp, to=360.0_wp, &
+                           default=0.0_wp, symbol='angle'), &
+                real_field('the density', 46, 55, from=0.0_wp, default=0.0_wp, symbol='density'), &
+                (real_field('expansion '//to_text(i), 10*i + 46, 10*i + 55, default=0.0_wp), i=1, 2)]
+      second = [(real_field('nu_'//pairs(i), 10*i - 9, 10*i), i=1, 3), &
+                (real_field('G_'//pairs(i), 10*i + 21, 10*i + 30, above=0.0_wp, symbol='G'), i=1, 3), &
+                real_field('expansion 3', 61, 70, default=0.0_wp)]
+      second%card = 2
+      fields = [fields, second]
+   end function orthotropic_fields
 
 end module axijoint_deck_layout

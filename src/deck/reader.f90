@@ -17,7 +17,7 @@ module axijoint_deck_reader
    use axijoint_deck_joints, only : draft_joints
    use axijoint_deck_layout, only : section_control, section_nodes, section_lines, section_elements, &
       section_blocks, section_materials, section_laws, section_joints, section_faces, section_chains, &
-      section_interfaces, section_increments, section_output
+      section_interfaces, section_increments, section_output, section_orthotropic
    use axijoint_deck_loads, only : read_loads
    use axijoint_deck_places, only : group_places, new_point_tree, point_tree_type, same_place
    use axijoint_deck_properties, only : properties_type, read_properties
@@ -55,8 +55,8 @@ contains
          model%title = sections%title
          call read_control(tables(section_control), tables(section_increments), &
                            tables(section_output), model)
-         call read_properties(source, tables(section_materials), tables(section_laws), properties, &
-                              diagnostics)
+         call read_properties(source, tables(section_materials), tables(section_orthotropic), &
+                              tables(section_laws), properties, diagnostics)
          call make_solids(source, sections, properties, model, draft, diagnostics)
          call number_faces(source, tables(section_faces), tables(section_chains), draft, diagnostics)
          call make_joints_and_faces(source, sections, properties, draft, diagnostics)

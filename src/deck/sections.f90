@@ -3,7 +3,8 @@ module axijoint_deck_sections
    use axijoint_base_text, only : to_text, count_of
    use axijoint_deck_diagnostics, only : diagnostics_type, add_error, add_warning
    use axijoint_deck_layout, only : n_sections, section_names, section_fields, keyword_fields, &
-      cards_per_entry, section_title, section_control, section_include, section_end, card_width
+      cards_per_entry, section_title, section_control, section_include, section_end, section_orthotropic, &
+      card_width
    use axijoint_deck_source, only : source_type, card_text, card_content, card_position, card_title, &
       card_data, card_keyword, tab
    use axijoint_deck_table, only : table_type, new_table, read_entry, entry_error, field_error, &
@@ -255,8 +256,15 @@ contains
          if (first_card(card) == 0) cycle
          sections%complete = .false.
          if (.not. source%complete) cycle
-         call add_error(diagnostics, first_card(card), 0, 0, 'the second card of the block is lacking', &
-                        allowed='two cards: numbers and divisions; then the corners')
+         if (source%cards(card)%keyword == section_orthotropic) then
+            call add_error(diagnostics, first_card(card), 0, 0, &
+                           'the second card of the material is lacking', &
+                           allowed='two cards: E, angle, density; then nu and G')
+         else
+            call add_error(diagnostics, first_card(card), 0, 0, &
+                           'the second card of the block is lacking', &
+                           allowed='two cards: numbers and divisions; then the corners')
+         end if
       end do
    end subroutine read_entries
 

@@ -116,8 +116,25 @@ contains
 
       call file%group("/materials")
       call file%write("/materials/label", (model%materials%label), "Number; (material)")
-      call file%write("/materials/young", (model%materials%young), "E; (material) [stress]")
-      call file%write("/materials/poisson", (model%materials%poisson), "nu; (material)")
+      call file%write("/materials/young", (model%materials%young), "E, 0 if orthotropic; (material) [stress]")
+      call file%write("/materials/poisson", (model%materials%poisson), &
+         "nu, 0 if orthotropic; (material)")
+      call file%write("/materials/density", (model%materials%density), "(material) [mass/volume]")
+      associate (materials => model%materials, n => size(model%materials))
+         call file%write("/materials/expansion", &
+            reshape([(materials(i)%expansion, i=1, n)], [3, n]), &
+            "Along directions 1, 2, 3; (3, material) [1/temperature]")
+         call file%write("/materials/orthotropic", merge(1, 0, materials%orthotropic), &
+            "1 if orthotropic; (material)")
+         call file%write("/materials/moduli", reshape([(materials(i)%moduli, i=1, n)], [3, n]), &
+            "E_1, E_2, E_3, 0 if isotropic; (3, material) [stress]")
+         call file%write("/materials/ratios", reshape([(materials(i)%ratios, i=1, n)], [3, n]), &
+            "nu_12, nu_23, nu_13, 0 if isotropic; (3, material)")
+         call file%write("/materials/shears", reshape([(materials(i)%shears, i=1, n)], [3, n]), &
+            "G_12, G_23, G_13, 0 if isotropic; (3, material) [stress]")
+         call file%write("/materials/angle", (materials%angle), &
+            "From r to direction 1; (material) [radian]")
+      end associate
       call file%group("/joint_materials")
       associate (materials => model%joint_materials)
          call file%write("/joint_materials/label", (materials%label), "Number; (law)")

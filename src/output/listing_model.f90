@@ -20,6 +20,8 @@ module axijoint_output_listing_model
    character(len=*), parameter :: format_label = '(i10)'
    !> Most iterations of an increment
    character(len=*), parameter :: format_iterations = '(i12)'
+   !> Pairs of directions of an orthotropic material
+   character(len=*), parameter :: pairs(3) = ['12', '23', '13']
    !> Columns of reals
    integer, parameter :: wide = 15
 
@@ -87,14 +89,48 @@ contains
       integer :: i
 
       call write_heading(file, "MATERIALS")
-      call file%put("  material              E             nu")
+      call file%put("  material              E             nu        density      expansion")
       do i = 1, size(model%materials)
          associate (material => model%materials(i))
+            if (material%orthotropic) cycle
             write (label, format_label) material%label
-            call file%put(label//columns([material%young, material%poisson], wide))
+            call file%put(label//columns([material%young, material%poisson, material%density, &
+                                          material%expansion(1)], wide))
          end associate
       end do
+      call write_orthotropic(file, model)
    end subroutine write_materials
+
+   !> Orthotropic materials of the solids
+   subroutine write_orthotropic(file, model)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+
+      character(len=:), allocatable :: text
+      character(len=10) :: label
+      integer :: i, j
+
+      if (.not. any(model%materials%orthotropic)) return
+      call write_heading(file, "ORTHOTROPIC MATERIALS")
+      call file%put("  material  direction            E      expansion  pair             nu" &
+                    //"              G    angle [deg]        density")
+      do i = 1, size(model%materials)
+         associate (material => model%materials(i))
+            if (.not. material%orthotropic) cycle
+            do j = 1, 3
+               write (label, format_label) material%label
+               if (j > 1) label = ''
+               text = label//'          '//to_text(j) &
+                  //columns([material%moduli(j), material%expansion(j)], wide)//'    '//pairs(j) &
+                  //columns([material%ratios(j), material%shears(j)], wide)
+               if (j == 1) text = text//columns([material%angle/degree, material%density], wide)
+               call file%put(text)
+            end do
+         end associate
+      end do
+   end subroutine write_orthotropic
 
    !> Laws of the joints
    subroutine write_joint_materials(file, model)
