@@ -69,7 +69,7 @@ contains
       type(orders_type) :: orders
       integer :: kind
 
-      call new_orders(orders, node_graph(model%mesh), error)
+      call new_orders(orders, node_graph(model%mesh), error=error)
       if (allocated(error)) return
       do kind = solver_band, solver_sparse
          call estimate_job(model, orders, kind, rate, estimate, error)

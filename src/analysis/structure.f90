@@ -82,7 +82,7 @@ contains
                            structure%modes, error)
       if (allocated(error)) return
       call show_progress(progress, 'assembling '//to_text(size(structure%modes))//' modes')
-      call new_orders(orders, node_graph(model%mesh), error)
+      call new_orders(orders, node_graph(model%mesh), error=error)
       if (allocated(error)) return
       structure%orderings = compare_orders(orders)
       call plan_equations(structure%equations, model, structure%modes, orders, error)

@@ -4,7 +4,9 @@ module axijoint_linalg_lapack
    use axijoint_base_kinds, only : wp, i8
    implicit none
    private
-   public :: band_cholesky, band_cholesky_solve, symmetric_eigen, use_one_blas_thread, norm_step, product_rate
+   public :: band_cholesky, dpbtrs, dtrsm, dgemm
+   public :: cholesky, inverse_from_cholesky, product_with_transpose, symmetric_eigen, use_one_blas_thread, norm_step
+   public :: product_rate
 
    interface
       !> Cholesky factorization of a positive definite band matrix
@@ -24,6 +26,30 @@ module axijoint_linalg_lapack
          real(wp), intent(inout) :: b(ldb, *)
          integer, intent(out) :: info
       end subroutine dpbtrs
+      !> Solution with a triangular matrix: op(a) x = alpha b
+      subroutine dtrsm(side, uplo, transa, diag, m, n, alpha, a, lda, b, ldb)
+         import :: wp
+         character, intent(in) :: side, uplo, transa, diag
+         integer, intent(in) :: m, n, lda, ldb
+         real(wp), intent(in) :: alpha, a(lda, *)
+         real(wp), intent(inout) :: b(ldb, *)
+      end subroutine dtrsm
+      !> Cholesky factorization of a positive definite matrix
+      subroutine dpotrf(uplo, n, a, lda, info)
+         import :: wp
+         character, intent(in) :: uplo
+         integer, intent(in) :: n, lda
+         real(wp), intent(inout) :: a(lda, *)
+         integer, intent(out) :: info
+      end subroutine dpotrf
+      !> Inverse from the factor of `dpotrf`
+      subroutine dpotri(uplo, n, a, lda, info)
+         import :: wp
+         character, intent(in) :: uplo
+         integer, intent(in) :: n, lda
+         real(wp), intent(inout) :: a(lda, *)
+         integer, intent(out) :: info
+      end subroutine dpotri
       !> Eigenvalues and vectors of a symmetric matrix by divide and conquer
       subroutine dsyevd(jobz, uplo, n, a, lda, w, work, lwork, iwork, liwork, info)
          import :: wp
@@ -41,6 +67,14 @@ module axijoint_linalg_lapack
          real(wp), intent(in) :: alpha, beta, a(lda, *), b(ldb, *)
          real(wp), intent(inout) :: c(ldc, *)
       end subroutine dgemm
+      !> c = alpha a a^T + beta c, one triangle of it
+      subroutine dsyrk(uplo, trans, n, k, alpha, a, lda, beta, c, ldc)
+         import :: wp
+         character, intent(in) :: uplo, trans
+         integer, intent(in) :: n, k, lda, ldc
+         real(wp), intent(in) :: alpha, beta, a(lda, *)
+         real(wp), intent(inout) :: c(ldc, *)
+      end subroutine dsyrk
       !> One step of Higham's estimate of a 1-norm
       subroutine dlacn2(n, v, x, isgn, est, kase, isave)
          import :: wp
@@ -68,19 +102,45 @@ contains
       call dpbtrf('L', size(band, 2), size(band, 1) - 1, band, size(band, 1), info)
    end subroutine band_cholesky
 
-   !> Solve with the factor of `band_cholesky`
-   subroutine band_cholesky_solve(band, b)
-      !> The factor
-      real(wp), intent(in), contiguous :: band(:, :)
-      !> Right-hand sides, then solutions, shape (n, any)
-      real(wp), intent(inout), contiguous :: b(:, :)
+   !> Cholesky factor of a dense matrix in place
+   subroutine cholesky(a, info)
+      !> The matrix, only its lower triangle in use; the factor on return
+      real(wp), intent(inout), contiguous :: a(:, :)
+      !> Zero, or the order of the first minor that is not positive definite
+      integer, intent(out) :: info
 
-      integer :: info
+      call dpotrf('L', size(a, 2), a, max(1, size(a, 1)), info)
+   end subroutine cholesky
 
-      if (size(b) == 0) return
-      call dpbtrs('L', size(band, 2), size(band, 1) - 1, size(b, 2), band, size(band, 1), &
-                  b, size(b, 1), info)
-   end subroutine band_cholesky_solve
+   !> The whole symmetric inverse from a Cholesky factor, in place
+   subroutine inverse_from_cholesky(a)
+      !> The factor in the lower triangle, its diagonal without zeros; the inverse
+      !> of its matrix on return
+      real(wp), intent(inout), contiguous :: a(:, :)
+
+      integer :: info, i
+
+      call dpotri('L', size(a, 2), a, max(1, size(a, 1)), info)
+      do i = 2, size(a, 2)
+         a(:i - 1, i) = a(i, :i - 1)
+      end do
+   end subroutine inverse_from_cholesky
+
+   !> c = a a^T, the whole of it
+   subroutine product_with_transpose(a, c)
+      !> a
+      real(wp), intent(in), contiguous :: a(:, :)
+      !> c, shape (rows of a, rows of a)
+      real(wp), intent(inout), contiguous :: c(:, :)
+
+      integer :: i
+
+      call dsyrk('L', 'N', size(a, 1), size(a, 2), 1.0_wp, a, max(1, size(a, 1)), 0.0_wp, c, &
+                 max(1, size(c, 1)))
+      do i = 2, size(c, 2)
+         c(:i - 1, i) = c(i, :i - 1)
+      end do
+   end subroutine product_with_transpose
 
    !> Eigenvalues, ascending, and eigenvectors of a symmetric matrix
    subroutine symmetric_eigen(a, eigenvalue, info)

@@ -3,7 +3,7 @@ module axijoint_order_graph
    use axijoint_base_kinds, only : i8
    implicit none
    private
-   public :: graph_type, new_graph, degree, bandwidth, profile
+   public :: graph_type, new_graph, subgraph, degree, bandwidth, profile
 
    !> Neighbours of each node, the node itself left out
    type :: graph_type
@@ -55,6 +55,34 @@ contains
          if (pass == 1) allocate (graph%neighbour(count))
       end do
    end subroutine new_graph
+
+   !> Graph of some of the nodes
+   pure function subgraph(graph, nodes) result(part)
+      !> Graph of all nodes
+      type(graph_type), intent(in) :: graph
+      !> Nodes of the part, ascending: its node k is nodes(k)
+      integer, intent(in) :: nodes(:)
+      !> The graph of the part
+      type(graph_type) :: part
+
+      integer :: place(graph%n), k, l, count
+
+      place = 0
+      place(nodes) = [(k, k=1, size(nodes))]
+      part%n = size(nodes)
+      allocate (part%start(part%n + 1), part%neighbour(size(graph%neighbour)))
+      count = 0
+      do k = 1, part%n
+         part%start(k) = count + 1
+         do l = graph%start(nodes(k)), graph%start(nodes(k) + 1) - 1
+            if (place(graph%neighbour(l)) == 0) cycle
+            count = count + 1
+            part%neighbour(count) = place(graph%neighbour(l))
+         end do
+      end do
+      part%start(part%n + 1) = count + 1
+      part%neighbour = part%neighbour(:count)
+   end function subgraph
 
    !> Cliques that each node belongs to
    subroutine invert(n, clique_start, member, touch_start, touch)

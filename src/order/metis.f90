@@ -2,7 +2,7 @@
 module axijoint_order_metis
    use, intrinsic :: iso_c_binding, only : c_int32_t, c_ptr, c_null_ptr
    use axijoint_base_error, only : error_type, fatal_error, exit_internal, exit_memory
-   use axijoint_order_graph, only : graph_type
+   use axijoint_order_graph, only : graph_type, subgraph
    implicit none
    private
    public :: nested_dissection
@@ -38,7 +38,33 @@ contains
 
    !> Order of the nodes with little fill: separators last (Karypis and Kumar,
    !> SIAM J. Sci. Comput. 20, 1998)
-   subroutine nested_dissection(graph, order, error)
+   subroutine nested_dissection(graph, order, last, error)
+      !> Graph of the nodes
+      type(graph_type), intent(in) :: graph
+      !> order(k) is the k-th node, shape (n)
+      integer, allocatable, intent(out) :: order(:)
+      !> Nodes to be ordered behind all others, in this order
+      integer, intent(in), optional :: last(:)
+      !> Out of memory, or an error inside METIS
+      type(error_type), allocatable, intent(out) :: error
+
+      integer, allocatable :: rest(:)
+      logical :: free(graph%n)
+      integer :: k
+
+      if (.not. present(last)) then
+         call dissect(graph, order, error)
+      else
+         free = .true.
+         free(last) = .false.
+         rest = pack([(k, k=1, graph%n)], free)
+         call dissect(subgraph(graph, rest), order, error)
+         if (.not. allocated(error)) order = [rest(order), last]
+      end if
+   end subroutine nested_dissection
+
+   !> Order all nodes
+   subroutine dissect(graph, order, error)
       !> Graph of the nodes
       type(graph_type), intent(in) :: graph
       !> order(k) is the k-th node, shape (n)
@@ -59,6 +85,6 @@ contains
       else if (code /= ok) then
          call fatal_error(error, exit_internal, 'METIS could not order the nodes')
       end if
-   end subroutine nested_dissection
+   end subroutine dissect
 
 end module axijoint_order_metis

@@ -3,9 +3,11 @@ module axijoint_solver_band
    use axijoint_base_error, only : error_type, fatal_error, exit_memory
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_text, only : to_text
-   use axijoint_linalg_lapack, only : band_cholesky, band_cholesky_solve
+   use axijoint_linalg_band_solve, only : band_cholesky_solve
+   use axijoint_linalg_lapack, only : band_cholesky
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type, judge_pivots
+   use axijoint_solver_trailing, only : trailing_factor_type
    implicit none
    private
    public :: band_solver_type
@@ -20,11 +22,11 @@ module axijoint_solver_band
    end type band_solver_type
 
    !> Lower triangular band factor
-   type, extends(factor_type) :: band_factor_type
+   type, extends(trailing_factor_type) :: band_factor_type
       !> L(i, j) in band(1 + i - j, j)
       real(wp), allocatable :: band(:, :)
    contains
-      procedure :: solve
+      procedure :: solve_trailing
    end type band_factor_type
 
 contains
@@ -69,6 +71,7 @@ contains
       integer :: i, stat
 
       allocate (new)
+      new%n = self%n
       allocate (new%band(self%half_bandwidth + 1, self%n), stat=stat)
       if (stat /= 0) then
          call fatal_error(error, exit_memory, &
@@ -87,14 +90,16 @@ contains
       call move_alloc(new, factor)
    end subroutine factorize
 
-   !> Solve for a block of right-hand sides
-   subroutine solve(self, b)
+   !> Solve with the rows and columns of the factor from one on
+   subroutine solve_trailing(self, first, b)
       !> The factor
       class(band_factor_type), intent(in) :: self
-      !> Right-hand sides, then solutions, shape (n, any)
+      !> First row and column
+      integer, intent(in) :: first
+      !> Right-hand sides, then solutions, shape (n - first + 1, any)
       real(wp), intent(inout), contiguous :: b(:, :)
 
-      call band_cholesky_solve(self%band, b)
-   end subroutine solve
+      call band_cholesky_solve(self%band(:, first:), b)
+   end subroutine solve_trailing
 
 end module axijoint_solver_band

@@ -54,18 +54,27 @@ contains
    end subroutine new_solver
 
    !> Order the nodes in every way
-   subroutine new_orders(orders, graph, error)
+   subroutine new_orders(orders, graph, last, error)
       !> The orders
       type(orders_type), intent(out) :: orders
       !> Graph of the nodes
       type(graph_type), intent(in) :: graph
+      !> Nodes whose flexibility is wanted: nested dissection orders them behind
+      !> all others, so that the factor holds their Schur complement
+      logical, intent(in), optional :: last(:)
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
       orders%graph = graph
       call reverse_cuthill_mckee(graph, orders%cuthill_mckee)
       call sloan(graph, orders%sloan)
-      call nested_dissection(graph, orders%dissection, error)
+      if (present(last)) then
+         associate (k => orders%cuthill_mckee)
+            call nested_dissection(graph, orders%dissection, pack(k, last(k)), error)
+         end associate
+      else
+         call nested_dissection(graph, orders%dissection, error=error)
+      end if
    end subroutine new_orders
 
    !> Order of the nodes that suits a solver

@@ -163,3 +163,44 @@ int axijoint_cholmod_solve(void *pointer, int64_t n_rhs, double *b) {
    cholmod_l_free_dense(&x, &handle->common);
    return 0;
 }
+
+/* The columns of the factor at a set of equations, counted from one, as a dense lower triangle:
+   its Schur complement is the product of that triangle and its transpose, if no entry of the
+   columns lies outside the set. That is so where the set is ordered last, and stays so whatever
+   order the elimination tree then asks for. `place` takes the place in the set of each row of the
+   triangle. 0; 1 if there is no memory; 2 if entries lie outside the set. */
+int axijoint_cholmod_trailing(const void *pointer, int64_t count, const int32_t *set,
+                              double *triangle, int32_t *place) {
+   const handle_type *handle = pointer;
+   const cholmod_factor *l = handle->factor;
+   const int64_t *order = l->Perm, *super = l->super, *pi = l->pi, *px = l->px, *rows = l->s;
+   const double *x = l->x;
+   int64_t k, s, c, n = handle->n, found = 0;
+   int64_t *rank = malloc(sizeof *rank * (size_t)(n + 1)); /* by equation, then by row of L */
+   int64_t *by_row = malloc(sizeof *by_row * (size_t)(n + 1));
+   int code = !rank || !by_row;
+   if (!code) {
+      for (k = 0; k < n; k++) rank[k] = -1;
+      for (k = 0; k < count; k++) rank[set[k] - 1] = k;
+      for (k = 0; k < n; k++) {
+         int64_t member = rank[order[k]];
+         by_row[k] = member < 0 ? -1 : found;
+         if (member >= 0) place[found++] = (int32_t)(member + 1);
+      }
+      for (s = 0; s < (int64_t)l->nsuper && !code; s++) {
+         int64_t height = pi[s + 1] - pi[s];
+         for (c = super[s]; c < super[s + 1] && !code; c++) {
+            const double *column = x + px[s] + (c - super[s]) * height;
+            if (by_row[c] < 0) continue;
+            for (k = c - super[s]; k < height && !code; k++) {
+               int64_t row = by_row[rows[pi[s] + k]];
+               if (row >= 0) triangle[by_row[c] * count + row] = column[k];
+               else if (column[k] != 0.0) code = 2;
+            }
+         }
+      }
+   }
+   free(rank);
+   free(by_row);
+   return code;
+}

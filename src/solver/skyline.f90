@@ -5,6 +5,7 @@ module axijoint_solver_skyline
    use axijoint_base_text, only : to_text
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type, judge_pivots
+   use axijoint_solver_trailing, only : trailing_factor_type
    implicit none
    private
    public :: skyline_solver_type
@@ -21,7 +22,7 @@ module axijoint_solver_skyline
    end type skyline_solver_type
 
    !> Lower triangular factor, row by row from the first column to the diagonal
-   type, extends(factor_type) :: skyline_factor_type
+   type, extends(trailing_factor_type) :: skyline_factor_type
       !> First column of each row
       integer, allocatable :: first(:)
       !> Place of each row's diagonal in `entry`
@@ -29,7 +30,7 @@ module axijoint_solver_skyline
       !> Entries of the rows
       real(wp), allocatable :: entry(:)
    contains
-      procedure :: solve
+      procedure :: solve_trailing
    end type skyline_factor_type
 
 contains
@@ -86,6 +87,7 @@ contains
                           to_text(self%factor_bytes)//' bytes')
          return
       end if
+      new%n = self%n
       new%first = self%first
       new%diagonal = self%diagonal
       new%entry = 0.0_wp
@@ -133,32 +135,37 @@ contains
       end associate
    end subroutine factor_row
 
-   !> Solve for a block of right-hand sides
-   subroutine solve(self, b)
+   !> Solve with the rows and columns of the factor from one on
+   subroutine solve_trailing(self, first, b)
       !> The factor
       class(skyline_factor_type), intent(in) :: self
-      !> Right-hand sides, then solutions, shape (n, any)
+      !> First row and column
+      integer, intent(in) :: first
+      !> Right-hand sides, then solutions, shape (n - first + 1, any)
       real(wp), intent(inout), contiguous :: b(:, :)
 
       integer(i8) :: row
-      integer :: i, k
+      integer :: i, k, from, above
 
-      do k = 1, size(b, 2)
-         do i = 1, size(b, 1)
-            row = self%diagonal(i) - i
-            associate (f => self%first(i))
-               b(i, k) = (b(i, k) - dot_product(self%entry(row + f:row + i - 1), b(f:i - 1, k))) &
-                  /self%entry(row + i)
-            end associate
-         end do
-         do i = size(b, 1), 1, -1
-            row = self%diagonal(i) - i
-            b(i, k) = b(i, k)/self%entry(row + i)
-            associate (f => self%first(i))
-               b(f:i - 1, k) = b(f:i - 1, k) - b(i, k)*self%entry(row + f:row + i - 1)
-            end associate
+      above = first - 1  ! rows that `b` leaves out
+      do i = first, self%n
+         row = self%diagonal(i) - i
+         from = max(self%first(i), first)
+         do k = 1, size(b, 2)
+            b(i - above, k) = (b(i - above, k) - dot_product(self%entry(row + from:row + i - 1), &
+                                                             b(from - above:i - 1 - above, k))) &
+               /self%entry(row + i)
          end do
       end do
-   end subroutine solve
+      do i = self%n, first, -1
+         row = self%diagonal(i) - i
+         from = max(self%first(i), first)
+         do k = 1, size(b, 2)
+            b(i - above, k) = b(i - above, k)/self%entry(row + i)
+            b(from - above:i - 1 - above, k) = b(from - above:i - 1 - above, k) &
+               - b(i - above, k)*self%entry(row + from:row + i - 1)
+         end do
+      end do
+   end subroutine solve_trailing
 
 end module axijoint_solver_skyline

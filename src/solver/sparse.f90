@@ -5,11 +5,18 @@ module axijoint_solver_sparse
    use axijoint_base_error, only : error_type, fatal_error, exit_memory
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_text, only : to_text
+   use axijoint_linalg_lapack, only : inverse_from_cholesky, product_with_transpose
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
-   use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type, judge_pivots
+   use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type, judge_pivots, &
+                                    invert_flexibility, new_block
    implicit none
    private
    public :: sparse_solver_type
+
+   !> Right-hand sides solved at once for a set that is not ordered last
+   integer, parameter :: block_size = 64
+   !> The columns of a set have entries outside the set
+   integer(c_int), parameter :: not_last = 2
 
    !> Plan: supernodes of the order that the matrix comes in, postordered
    type, extends(solver_type) :: sparse_solver_type
@@ -27,6 +34,8 @@ module axijoint_solver_sparse
       type(c_ptr), private :: handle = c_null_ptr
    contains
       procedure :: solve
+      procedure :: inverse_block
+      procedure :: schur_complement
       final :: free_factor
    end type sparse_factor_type
 
@@ -62,6 +71,17 @@ module axijoint_solver_sparse
          real(c_double), intent(inout) :: b(*)
          integer(c_int) :: code
       end function cholmod_solve
+      !> Columns of the factor at a set of equations
+      function cholmod_trailing(handle, n_set, set, triangle, place) result(code) &
+         bind(c, name='axijoint_cholmod_trailing')
+         import :: c_ptr, c_int, c_int32_t, c_int64_t, c_double
+         type(c_ptr), value :: handle
+         integer(c_int64_t), value :: n_set
+         integer(c_int32_t), intent(in) :: set(*)
+         real(c_double), intent(inout) :: triangle(*)
+         integer(c_int32_t), intent(out) :: place(*)
+         integer(c_int) :: code
+      end function cholmod_trailing
       !> Free a plan or a factor
       subroutine cholmod_free(handle) bind(c, name='axijoint_cholmod_free')
          import :: c_ptr
@@ -111,6 +131,7 @@ contains
       integer(c_int64_t) :: failed
 
       allocate (new)
+      new%n = self%n
       new%handle = cholmod_factorize(self%handle, matrix%row_start, matrix%column, matrix%value, &
                                      root, failed)
       pivots%equation = int(failed)
@@ -134,6 +155,140 @@ contains
          error stop 'out of memory: solution with a sparse factor'
       end if
    end subroutine solve
+
+   !> The inverse restricted to a set: from the trailing triangle of the factor
+   !> where the set is ordered last, else by unit loads
+   subroutine inverse_block(self, set, inverse, error)
+      !> The factor
+      class(sparse_factor_type), intent(in) :: self
+      !> Equations, each once, in any order
+      integer, intent(in) :: set(:)
+      !> inverse(i, j) is the inverse's entry at set(i), set(j)
+      real(wp), allocatable, intent(out) :: inverse(:, :)
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp), allocatable :: triangle(:, :)
+      integer :: place(size(set))
+      logical :: last
+
+      call trailing_triangle(self, set, triangle, place, last, error)
+      if (allocated(error)) return
+      if (last) then
+         call inverse_from_cholesky(triangle)
+         call arrange(triangle, place, inverse, error)
+      else
+         call inverse_by_loads(self, set, inverse, error)
+      end if
+   end subroutine inverse_block
+
+   !> Schur complement on a set: the product of the trailing triangle of the
+   !> factor and its transpose where the set is ordered last, else the inverse of
+   !> the flexibility
+   subroutine schur_complement(self, set, schur, error)
+      !> The factor
+      class(sparse_factor_type), intent(in) :: self
+      !> Equations, each once, in any order
+      integer, intent(in) :: set(:)
+      !> schur(i, j) belongs to set(i), set(j)
+      real(wp), allocatable, intent(out) :: schur(:, :)
+      !> Out of memory; a flexibility lost in rounding
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp), allocatable :: triangle(:, :), product(:, :)
+      integer :: place(size(set))
+      logical :: last
+
+      call trailing_triangle(self, set, triangle, place, last, error)
+      if (allocated(error)) return
+      if (last) then
+         call new_block(product, size(set), size(set), error)
+         if (allocated(error)) return
+         call product_with_transpose(triangle, product)
+         call arrange(product, place, schur, error)
+      else
+         call invert_flexibility(self, set, schur, error)
+      end if
+   end subroutine schur_complement
+
+   !> The columns of the factor at a set of equations
+   subroutine trailing_triangle(self, set, triangle, place, last, error)
+      !> The factor
+      class(sparse_factor_type), intent(in) :: self
+      !> Equations, each once, in any order
+      integer, intent(in) :: set(:)
+      !> Lower triangle of the columns
+      real(wp), allocatable, intent(out) :: triangle(:, :)
+      !> Place in the set of each row of the triangle
+      integer, intent(out) :: place(:)
+      !> Whether the columns have no entries elsewhere: the set is ordered last
+      logical, intent(out) :: last
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      integer(c_int) :: code
+
+      last = .false.
+      call new_block(triangle, size(set), size(set), error)
+      if (allocated(error)) return
+      code = cholmod_trailing(self%handle, size(set, kind=c_int64_t), set, triangle, place)
+      last = code == 0
+      if (last .or. code == not_last) return
+      call fatal_error(error, exit_memory, 'out of memory: columns of a sparse factor')
+   end subroutine trailing_triangle
+
+   !> A matrix of the rows of the triangle in the order of the set
+   subroutine arrange(matrix, place, arranged, error)
+      !> The matrix
+      real(wp), intent(in) :: matrix(:, :)
+      !> Place in the set of each of its rows
+      integer, intent(in) :: place(:)
+      !> The matrix of the set
+      real(wp), allocatable, intent(out) :: arranged(:, :)
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: j
+
+      call new_block(arranged, size(place), size(place), error)
+      if (allocated(error)) return
+      do j = 1, size(place)
+         arranged(place, place(j)) = matrix(:, j)
+      end do
+   end subroutine arrange
+
+   !> The inverse restricted to a set by unit loads
+   subroutine inverse_by_loads(self, set, inverse, error)
+      !> The factor
+      class(sparse_factor_type), intent(in) :: self
+      !> Equations, each once, in any order
+      integer, intent(in) :: set(:)
+      !> inverse(i, j) is the inverse's entry at set(i), set(j)
+      real(wp), allocatable, intent(out) :: inverse(:, :)
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp), allocatable :: b(:, :)
+      integer :: j, k, last
+
+      call new_block(inverse, size(set), size(set), error)
+      if (allocated(error)) return
+      do k = 1, size(set), block_size
+         last = min(k + block_size - 1, size(set))
+         call new_block(b, self%n, last - k + 1, error)
+         if (allocated(error)) return
+         do j = k, last
+            b(set(j), j - k + 1) = 1.0_wp
+         end do
+         call self%solve(b)
+         do j = k, last
+            inverse(:, j) = b(set, j - k + 1)
+         end do
+      end do
+      do j = 2, size(set)  ! as symmetric as the matrix
+         inverse(:j - 1, j) = inverse(j, :j - 1)
+      end do
+   end subroutine inverse_by_loads
 
    !> Free the symbolic factor
    subroutine free_solver(self)

@@ -1,11 +1,14 @@
 !> What every solver of symmetric positive definite systems offers
 module axijoint_solver_type
-   use axijoint_base_error, only : error_type
+   use axijoint_base_error, only : error_type, fatal_error, exit_memory, exit_singular
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_text, only : to_text
+   use axijoint_linalg_lapack, only : cholesky, inverse_from_cholesky
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    implicit none
    private
    public :: solver_type, factor_type, pivot_report_type, judge_pivots
+   public :: invert_flexibility, new_block
 
    !> A pivot below this share of the diagonal entry that it started from is
    !> rounding, so the matrix is singular to working precision. Cholesky
@@ -40,9 +43,15 @@ module axijoint_solver_type
 
    !> Factor of one matrix
    type, abstract :: factor_type
+      !> Order of the matrix
+      integer :: n = 0
    contains
       !> Solve for a block of right-hand sides
       procedure(solve_interface), deferred :: solve
+      !> Rows and columns of the inverse at a set of equations
+      procedure(inverse_interface), deferred :: inverse_block
+      !> Schur complement on a set of equations
+      procedure :: schur_complement => invert_flexibility
    end type factor_type
 
    abstract interface
@@ -80,9 +89,68 @@ module axijoint_solver_type
          !> Right-hand sides, then solutions, shape (n, any)
          real(wp), intent(inout), contiguous :: b(:, :)
       end subroutine solve_interface
+
+      !> The inverse restricted to a set: the flexibility of its unknowns
+      subroutine inverse_interface(self, set, inverse, error)
+         import :: factor_type, error_type, wp
+         !> The factor
+         class(factor_type), intent(in) :: self
+         !> Equations, each once, in any order
+         integer, intent(in) :: set(:)
+         !> inverse(i, j) is the inverse's entry at set(i), set(j)
+         real(wp), allocatable, intent(out) :: inverse(:, :)
+         !> Out of memory
+         type(error_type), allocatable, intent(out) :: error
+      end subroutine inverse_interface
    end interface
 
 contains
+
+   !> Schur complement K_bb - K_ba K_aa^-1 K_ab on a set b of equations: the
+   !> inverse of the flexibility of the set. Solvers that hold it in their factor
+   !> do better.
+   subroutine invert_flexibility(self, set, schur, error)
+      !> The factor
+      class(factor_type), intent(in) :: self
+      !> Equations, each once, in any order
+      integer, intent(in) :: set(:)
+      !> schur(i, j) belongs to set(i), set(j)
+      real(wp), allocatable, intent(out) :: schur(:, :)
+      !> Out of memory; a flexibility lost in rounding
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: info
+
+      call self%inverse_block(set, schur, error)
+      if (allocated(error)) return
+      call cholesky(schur, info)
+      if (info == 0) then
+         call inverse_from_cholesky(schur)
+      else
+         call fatal_error(error, exit_singular, 'the flexibility of '//to_text(size(set))// &
+                          ' unknowns is not positive definite: the matrix is ill-conditioned')
+      end if
+   end subroutine invert_flexibility
+
+   !> A block of zeros, or words for an error
+   subroutine new_block(block, rows, columns, error)
+      !> The block, shape (rows, columns)
+      real(wp), allocatable, intent(out) :: block(:, :)
+      !> Its shape
+      integer, intent(in) :: rows, columns
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: stat
+
+      allocate (block(rows, columns), stat=stat)
+      if (stat == 0) then
+         block = 0.0_wp
+      else
+         call fatal_error(error, exit_memory, 'out of memory: a block of '//to_text(rows)// &
+                          ' x '//to_text(columns)//' numbers')
+      end if
+   end subroutine new_block
 
    !> Compare each pivot with the diagonal entry that it started from
    pure subroutine judge_pivots(diagonal, root, pivots)
