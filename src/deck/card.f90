@@ -103,7 +103,7 @@ contains
       end do
    end subroutine divide_free
 
-   !> A value without blanks inside, or marked and reported
+   !> A value without blanks inside, or marked and reported; a text may have blanks
    function one_value(card, content, field, slot, diagnostics) result(checked)
       !> The card
       integer, intent(in) :: card
@@ -119,7 +119,7 @@ contains
       type(slot_type) :: checked
 
       checked = slot
-      if (scan(content(slot%from:slot%to), ' '//tab) == 0) return
+      if (field%kind == kind_text .or. scan(content(slot%from:slot%to), ' '//tab) == 0) return
       checked%whole = .false.
       call add_error(diagnostics, card, slot%first, slot%last, &
                      trim(field%name)//' has a blank inside', &

@@ -106,7 +106,7 @@ contains
       if (face > 0 .or. .not. draft%faces_complete) return
       call field_error(diagnostics, source, table, entry, field, &
                        'face '//to_text(integer_value(table, field, entry))//' is not defined', &
-                       allowed='a face of a FACES or CHAINS card')
+                       allowed='a face of a FACES or CHAINS card, or a FACE of GROUPS')
    end subroutine find_face
 
    !> Find the edges of all faces

@@ -1,4 +1,4 @@
-!> The path on an INCLUDE card, and whether it may be followed
+!> The path on an INCLUDE or a GMSH card, and whether it may be followed
 module axijoint_deck_include_path
    use axijoint_base_text, only : to_text
    use axijoint_deck_layout, only : card_width, keyword_last
@@ -40,7 +40,9 @@ contains
    end subroutine locate_path
 
    !> What is wrong with a path as it is written; empty if nothing is
-   pure function path_fault(path) result(fault)
+   pure function path_fault(keyword, path) result(fault)
+      !> Keyword of the card
+      character(len=*), intent(in) :: keyword
       !> The path
       character(len=*), intent(in) :: path
       !> What is wrong
@@ -48,7 +50,7 @@ contains
 
       fault = ''
       if (len(path) == 0) then
-         fault = 'INCLUDE has no path'
+         fault = keyword//' has no path'
       else if (scan(path, tab) > 0) then
          fault = 'there is a tab in the path'
       else if (scan(path(1:1), '/\~') > 0 .or. index(path, ':') == 2) then

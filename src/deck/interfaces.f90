@@ -11,7 +11,7 @@ module axijoint_deck_interfaces
    use axijoint_model_material, only : rule_centroid
    implicit none
    private
-   public :: refer_interfaces, lay_interfaces
+   public :: refer_interfaces, lay_interfaces, check_interface, lay_interface
 
    !> Fields of INTERFACES
    integer, parameter :: field_law = 1, field_a = 2, field_b = 3
@@ -70,7 +70,8 @@ contains
          errors_before = diagnostics%n_errors
          call match_faces(table, entry, reference(:, entry), group, draft, a, b, diagnostics)
          if (diagnostics%n_errors > errors_before) cycle
-         call check_interface(source, table, entry, properties%laws(reference(field_law, entry))%rule, &
+         call check_interface(source, table, entry, [field_law, field_b], &
+                              properties%laws(reference(field_law, entry))%rule, &
                               draft, a, b, diagnostics)
          if (diagnostics%n_errors > errors_before) cycle
          call lay_interface(table%cards(1, entry), reference(field_law, entry), a, b, draft)
@@ -159,13 +160,15 @@ contains
    end subroutine reverse
 
    !> Check that joints may lie between two faces that match
-   subroutine check_interface(source, table, entry, rule, draft, a, b, diagnostics)
+   subroutine check_interface(source, table, entry, fields, rule, draft, a, b, diagnostics)
       !> The deck
       type(source_type), intent(in) :: source
-      !> INTERFACES
+      !> INTERFACES or GROUPS
       type(table_type), intent(in) :: table
       !> The entry
       integer, intent(in) :: entry
+      !> Fields of the law and of the faces
+      integer, intent(in) :: fields(2)
       !> Rule of the law
       integer, intent(in) :: rule
       !> The mesh
@@ -179,13 +182,13 @@ contains
 
       if (a(1)%element == b(1)%element .or. &
           draft%element_body(a(1)%element) == draft%element_body(b(1)%element)) then
-         call field_error(diagnostics, source, table, entry, field_b, &
+         call field_error(diagnostics, source, table, entry, fields(2), &
                           'both faces belong to body '//to_text(draft%element_body(a(1)%element)), &
                           allowed='faces of two bodies')
          return
       end if
       if (rule == rule_centroid .and. any(a%nodes(3) > 0)) then
-         call field_error(diagnostics, source, table, entry, field_law, &
+         call field_error(diagnostics, source, table, entry, fields(1), &
                           'the rule CENTROID is for joints of four nodes; here they have six', &
                           mend='choose the rule GAUSS or LOBATTO in LAWS')
       end if

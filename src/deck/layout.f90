@@ -20,7 +20,7 @@ module axijoint_deck_layout
    integer, parameter, public :: keyword_length = 12
 
    !> Number of keywords
-   integer, parameter, public :: n_sections = 26
+   integer, parameter, public :: n_sections = 28
    integer, parameter, public :: section_title = 1, section_control = 2, section_nodes = 3, &
       section_lines = 4, section_elements = 5, section_blocks = 6, section_materials = 7, &
       section_laws = 8, section_joints = 9, section_faces = 10, section_chains = 11, &
@@ -28,7 +28,8 @@ module axijoint_deck_layout
       section_tractions = 15, section_resultants = 16, section_ring_loads = 17, &
       section_increments = 18, section_output = 19, section_include = 20, section_end = 21, &
       section_shapes = 22, section_pressures = 23, section_point_loads = 24, section_harmonics = 25, &
-      section_orthotropic = 26
+      section_orthotropic = 26, &
+      section_gmsh = 27, section_groups = 28
 
    !> The keywords
    character(len=keyword_length), parameter :: section_names(n_sections) = &
@@ -36,7 +37,11 @@ module axijoint_deck_layout
       'TITLE', 'CONTROL', 'NODES', 'LINES', 'ELEMENTS', 'BLOCKS', 'MATERIALS', 'LAWS', 'JOINTS', &
       'FACES', 'CHAINS', 'INTERFACES', 'RESTRAINTS', 'FIXEDFACES', 'TRACTIONS', 'RESULTANTS', &
       'RINGLOADS', 'INCREMENTS', 'OUTPUT', 'INCLUDE', 'END', &
-      'SHAPES', 'PRESSURES', 'POINTLOADS', 'HARMONICS', 'ORTHOTROPIC']
+      'SHAPES', 'PRESSURES', 'POINTLOADS', 'HARMONICS', 'ORTHOTROPIC', &
+      'GMSH', 'GROUPS']
+
+   !> Kinds of groups on the cards of GROUPS
+   character(len=5), parameter, public :: group_kinds(3) = [character(len=5) :: 'BODY', 'FACE', 'JOINT']
 
 contains
 
@@ -100,6 +105,8 @@ contains
       case (section_restraints)
          fields = [number('the node', 1), code_field('the code', 6, 10), &
                    last_number('the last node', 11), step(16)]
+      case (section_groups)
+         fields = group_fields()
       case (section_fixed_faces)
          fields = [number('the face', 1), code_field('the code', 6, 10)]
       case default
@@ -157,6 +164,16 @@ contains
          fields = [fields, corner]
       end do
    end function block_fields
+
+   !> Fields of GROUPS
+   pure function group_fields() result(fields)
+      !> The fields
+      type(field_type), allocatable :: fields(:)
+
+      fields = [word_field('the kind of group', 1, 10, group_kinds), &
+                number('the number', 11), number('the material', 16), text_field('the name of the group', 21, 80)]
+      fields(3)%required = .false.
+   end function group_fields
 
    !> Fields of MATERIALS, ORTHOTROPIC and LAWS
    pure function property_fields(section) result(fields)

@@ -13,11 +13,16 @@ module axijoint_deck_reader
    use axijoint_deck_faces, only : number_faces, lay_faces
    use axijoint_deck_generate_blocks, only : draft_blocks
    use axijoint_deck_generate_lines, only : draft_nodes, draft_lines
+   use axijoint_deck_gmsh_faces, only : number_group_faces, lay_group_faces
+   use axijoint_deck_gmsh_groups, only : read_groups
+   use axijoint_deck_gmsh_import, only : gmsh_import_type, read_mesh_file
+   use axijoint_deck_gmsh_joints, only : lay_group_joints
+   use axijoint_deck_gmsh_solids, only : draft_gmsh
    use axijoint_deck_interfaces, only : refer_interfaces, lay_interfaces
    use axijoint_deck_joints, only : draft_joints
    use axijoint_deck_layout, only : section_control, section_nodes, section_lines, section_elements, &
-      section_blocks, section_materials, section_laws, section_joints, section_faces, section_chains, &
-      section_interfaces, section_increments, section_output, section_orthotropic
+      section_blocks, section_groups, section_materials, section_laws, section_joints, section_faces, &
+      section_chains, section_interfaces, section_increments, section_output, section_orthotropic
    use axijoint_deck_loads, only : read_loads
    use axijoint_deck_places, only : group_places, new_point_tree, point_tree_type, same_place
    use axijoint_deck_properties, only : properties_type, read_properties
@@ -46,6 +51,7 @@ contains
       type(sections_type) :: sections
       type(properties_type) :: properties
       type(draft_type) :: draft
+      type(gmsh_import_type) :: import
 
       call read_source(path, source, diagnostics)
       if (source%n_cards == 0) return
@@ -57,9 +63,12 @@ contains
                            tables(section_output), model)
          call read_properties(source, tables(section_materials), tables(section_orthotropic), &
                               tables(section_laws), properties, diagnostics)
-         call make_solids(source, sections, properties, model, draft, diagnostics)
+         call read_mesh_file(source, import, diagnostics)
+         call read_groups(source, tables(section_groups), properties, import, diagnostics)
+         call make_solids(source, sections, properties, model, import, draft, diagnostics)
          call number_faces(source, tables(section_faces), tables(section_chains), draft, diagnostics)
-         call make_joints_and_faces(source, sections, properties, draft, diagnostics)
+         call number_group_faces(source, tables(section_groups), import, draft, diagnostics)
+         call make_joints_and_faces(source, sections, properties, import, draft, diagnostics)
          call read_loads(source, sections, draft, model, diagnostics)
          if (diagnostics%n_errors > 0) return
          call take_model(draft, properties, model)
@@ -68,15 +77,17 @@ contains
    end subroutine read_deck
 
    !> Make nodes and elements, and check their shape
-   subroutine make_solids(source, sections, properties, model, draft, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
+   subroutine make_solids(source, sections, properties, model, import, draft, diagnostics)
+      !> The deck; lines of the mesh file at fault become cards
+      type(source_type), intent(inout) :: source
       !> Its sections
       type(sections_type), intent(in) :: sections
       !> Materials and laws
       type(properties_type), intent(in) :: properties
       !> The job's control data
       type(model_type), intent(in) :: model
+      !> The mesh of the mesh file
+      type(gmsh_import_type), intent(inout) :: import
       !> The mesh
       type(draft_type), intent(out) :: draft
       !> Messages
@@ -87,6 +98,7 @@ contains
          call draft_nodes(source, tables(section_nodes), draft, diagnostics)
          call draft_lines(source, tables(section_lines), draft, diagnostics)
          call draft_elements(source, tables(section_elements), properties, draft, diagnostics)
+         call draft_gmsh(source, tables(section_groups), import, draft, diagnostics)
          call sort_nodes_and_elements(draft)
          call draft_blocks(source, tables(section_blocks), properties, draft, diagnostics)
       end associate
@@ -94,7 +106,7 @@ contains
       call check_elements(model%gauss_linear, model%gauss_quadratic, draft, diagnostics)
       if (draft%n_elements == 0 .and. draft%elements_complete) then
          call add_error(diagnostics, 0, 0, 0, 'the deck has no elements', &
-                        mend='give ELEMENTS with NODES, or BLOCKS')
+                        mend='give ELEMENTS with NODES, or BLOCKS, or a mesh file by GMSH')
       else
          call check_used(draft, diagnostics)
       end if
@@ -102,13 +114,15 @@ contains
 
    !> Make joints and faces. What depends on neighbours is judged only if no card
    !> of the mesh is lost: else every gap would be reported again
-   subroutine make_joints_and_faces(source, sections, properties, draft, diagnostics)
+   subroutine make_joints_and_faces(source, sections, properties, import, draft, diagnostics)
       !> The deck
       type(source_type), intent(in) :: source
       !> Its sections
       type(sections_type), intent(in) :: sections
       !> Materials and laws
       type(properties_type), intent(in) :: properties
+      !> The mesh of the mesh file
+      type(gmsh_import_type), intent(in) :: import
       !> The mesh
       type(draft_type), intent(inout) :: draft
       !> Messages
@@ -143,10 +157,13 @@ contains
          call check_near(draft, group, edges, tree, diagnostics)
          call check_hanging(draft, group, edges, tree, diagnostics)
          call lay_faces(source, tables(section_faces), tables(section_chains), edges, draft, diagnostics)
+         call lay_group_faces(source, tables(section_groups), import, edges, draft, diagnostics)
          call check_joints(source, tables(section_joints), properties%laws, group, edges, draft, &
                            diagnostics)
          call lay_interfaces(source, tables(section_interfaces), reference, properties, group, draft, &
                              diagnostics)
+         call lay_group_joints(source, tables(section_groups), import, properties, group, edges, draft, &
+                               diagnostics)
          call check_joint_edges(edges, draft, diagnostics)
          if (diagnostics%n_errors == 0) call check_touching(draft, group, diagnostics)
          call sort_joints(draft)

@@ -4,7 +4,7 @@ module axijoint_deck_sections
    use axijoint_deck_diagnostics, only : diagnostics_type, add_error, add_warning
    use axijoint_deck_layout, only : n_sections, section_names, section_fields, keyword_fields, &
       cards_per_entry, section_title, section_control, section_include, section_end, section_orthotropic, &
-      card_width
+      section_gmsh, card_width
    use axijoint_deck_source, only : source_type, card_text, card_content, card_position, card_title, &
       card_data, card_keyword, tab
    use axijoint_deck_table, only : table_type, new_table, read_entry, entry_error, field_error, &
@@ -82,7 +82,7 @@ contains
          file = source%cards(card)%file
          if (open_section(file) == unset) open_section(file) = open_section(source%files(file)%parent)
          if (source%cards(card)%kind == card_keyword) then
-            if (source%cards(card)%keyword /= section_include) open_section(file) = card
+            if (all(source%cards(card)%keyword /= [section_include, section_gmsh])) open_section(file) = card
          else if (source%cards(card)%kind == card_data) then
             if (takes_data(source, open_section(file))) then
                owner(card) = open_section(file)
@@ -130,7 +130,7 @@ contains
                      mend='a keyword, written from column 1, opens a section; comments begin with !')
    end subroutine report_homeless
 
-   !> Report a second TITLE or CONTROL
+   !> Report a second TITLE, CONTROL or GMSH
    subroutine check_repeated(source, diagnostics)
       !> The deck
       type(source_type), intent(in) :: source
@@ -143,7 +143,7 @@ contains
       do card = 1, source%n_cards
          if (source%cards(card)%kind /= card_keyword) cycle
          associate (section => source%cards(card)%keyword)
-            if (section /= section_title .and. section /= section_control) cycle
+            if (all(section /= [section_title, section_control, section_gmsh])) cycle
             if (seen(section) > 0) then
                call add_error(diagnostics, card, 1, len_trim(section_names(section)), &
                               trim(section_names(section))//' is there twice, first on '// &
@@ -285,7 +285,7 @@ contains
       do card = 1, source%n_cards
          if (source%cards(card)%kind /= card_keyword) cycle
          associate (section => source%cards(card)%keyword)
-            if (section == 0 .or. section == section_include) cycle
+            if (any(section == [0, section_include, section_gmsh])) cycle
             if (.not. starts_with_letter(source, card)) cycle  ! reported already
             table = new_table(keyword_fields(section), 1)
             call read_entry(table, source, [card], diagnostics)

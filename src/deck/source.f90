@@ -53,6 +53,8 @@ module axijoint_deck_source
       !> False if cards are lacking: a file without END, an include that
       !> could not be read, an unknown section
       logical :: complete = .true.
+      !> Card of the Gmsh mesh, and index of its file; 0 without one
+      integer :: mesh_card = 0, mesh_file = 0
    end type source_type
 
 contains

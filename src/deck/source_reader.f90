@@ -1,11 +1,11 @@
-!> From files to cards: INCLUDE cards are followed, END cards are sought
+!> From files to cards: INCLUDE and GMSH cards are followed, END cards are sought
 module axijoint_deck_source_reader
    use axijoint_base_text, only : upper
    use axijoint_deck_diagnostics, only : diagnostics_type, add_error
    use axijoint_deck_file_bytes, only : read_bytes, line_end, next_line, control_byte
    use axijoint_deck_include_path, only : locate_path, path_fault, nesting_fault, folder
-   use axijoint_deck_layout, only : n_sections, section_names, section_title, section_include, &
-      section_end, nearest_section, keyword_last, keyword_length
+   use axijoint_deck_layout, only : n_sections, section_names, section_title, section_include, section_gmsh, &
+      section_end, group_kinds, nearest_section, keyword_last, keyword_length
    use axijoint_deck_source, only : source_type, add_file, add_card, card_content, &
       card_text, card_title, card_data, card_keyword, tab
    use axijoint_deck_strange_byte, only : report_strange_byte
@@ -138,6 +138,8 @@ contains
             ended = source%cards(card)%keyword == section_end
             if (source%cards(card)%keyword == section_include) then
                call include_file(source, card, depth, diagnostics)
+            else if (source%cards(card)%keyword == section_gmsh .and. source%mesh_card == 0) then
+               call attach_mesh(source, card, diagnostics)
             end if
          end if
       end do
@@ -197,6 +199,7 @@ contains
       keyword = findloc(section_names, upper(word), 1)
       source%cards(card)%kind = card_data
       if (keyword == 0 .and. .not. is_letter(content(1:1))) return
+      if (is_group_card(content, word)) return
       source%cards(card)%kind = card_keyword
       source%cards(card)%keyword = keyword
       if (keyword == 0) then
@@ -208,6 +211,21 @@ contains
                         'the keyword does not begin in column 1', found=word)
       end if
    end subroutine classify
+
+   !> Whether a card with a letter in column 1 is no keyword card but one of GROUPS: a kind of
+   !> group and two values more. A misspelt FACES or JOINTS is followed by its number of entries only
+   pure logical function is_group_card(content, word)
+      !> The card without its comment, and its first word
+      character(len=*), intent(in) :: content, word
+
+      integer :: first
+
+      is_group_card = any(group_kinds == upper(word))
+      if (.not. is_group_card) return
+      first = len(word) + verify(content(len(word) + 1:)//'.', ' ,'//tab)
+      first = first - 1 + scan(content(min(first, len(content)):)//' ', ' ,'//tab)
+      is_group_card = verify(content(min(first, len(content) + 1):), ' ,'//tab) > 0
+   end function is_group_card
 
    !> Place of the first byte that is ASCII and no blank: a byte order mark or a blank that
    !> is not ASCII does not hide a keyword. 0 if there is none
@@ -298,26 +316,88 @@ contains
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
-      character(len=:), allocatable :: content, path, fault
+      character(len=:), allocatable :: path, fault
       integer :: first, last
 
-      content = card_content(source, card)
-      call locate_path(content, first, last, fault)
-      path = content(first:last)
-      if (len(fault) == 0) fault = path_fault(path)
-      if (len(fault) == 0) then
-         if (index(path, './') == 1) path = path(3:)
-         path = folder(source%files(source%cards(card)%file)%path)//path
-         fault = nesting_fault(source, source%cards(card)%file, path, depth)
-      end if
+      call find_path(source, card, path, first, last, fault)
+      if (len(fault) == 0) fault = nesting_fault(source, source%cards(card)%file, path, depth)
       if (len(fault) == 0) then
          call splice_file(source, path, source%cards(card)%file, depth + 1, card, first, last, &
                           diagnostics)
       else
-         source%complete = .false.
-         call add_error(diagnostics, card, first, max(first, last), fault, found=content(first:last), &
-                        allowed='a path from column 11, below the folder of the including file')
+         call report_path(source, card, first, last, fault, diagnostics)
       end if
    end subroutine include_file
+
+   !> Keep the file that a GMSH card names; it has no cards
+   subroutine attach_mesh(source, card, diagnostics)
+      !> The deck
+      type(source_type), intent(inout) :: source
+      !> The card
+      integer, intent(in) :: card
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      character(len=:), allocatable :: path, fault, bytes
+      integer :: first, last
+
+      source%mesh_card = card
+      call find_path(source, card, path, first, last, fault)
+      if (len(fault) > 0) then
+         call report_path(source, card, first, last, fault, diagnostics)
+         return
+      end if
+      call read_bytes(path, bytes, fault)
+      if (len(fault) > 0) then
+         source%complete = .false.
+         call add_error(diagnostics, card, first, last, 'the mesh file '//path//': '//fault)
+         return
+      end if
+      call add_file(source, path, bytes, source%cards(card)%file)
+      source%mesh_file = source%n_files
+   end subroutine attach_mesh
+
+   !> The path on an INCLUDE or a GMSH card, from the folder of its file
+   subroutine find_path(source, card, path, first, last, fault)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> The card
+      integer, intent(in) :: card
+      !> The path
+      character(len=:), allocatable, intent(out) :: path
+      !> Its columns
+      integer, intent(out) :: first, last
+      !> What is wrong with it; empty if nothing is
+      character(len=:), allocatable, intent(out) :: fault
+
+      character(len=:), allocatable :: content
+
+      content = card_content(source, card)
+      call locate_path(content, first, last, fault)
+      path = content(first:last)
+      if (len(fault) == 0) fault = path_fault(trim(section_names(source%cards(card)%keyword)), path)
+      if (len(fault) > 0) return
+      if (index(path, './') == 1) path = path(3:)
+      path = folder(source%files(source%cards(card)%file)%path)//path
+   end subroutine find_path
+
+   !> Report a path that cannot be followed
+   subroutine report_path(source, card, first, last, fault, diagnostics)
+      !> The deck
+      type(source_type), intent(inout) :: source
+      !> The card, and columns of the path
+      integer, intent(in) :: card, first, last
+      !> What is wrong
+      character(len=*), intent(in) :: fault
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      character(len=:), allocatable :: content
+
+      content = card_content(source, card)
+      source%complete = .false.
+      call add_error(diagnostics, card, first, max(first, last), fault, found=content(first:last), &
+                     allowed='a path from column 11, below the folder of the including file')
+   end subroutine report_path
 
 end module axijoint_deck_source_reader

@@ -11,7 +11,7 @@ module axijoint_deck_table
       token_too_large, token_too_small, token_not_finite, token_asterisks
    implicit none
    private
-   public :: table_type, new_table, read_entry, integer_value, entry_error, field_error
+   public :: table_type, new_table, read_entry, integer_value, text_value, entry_error, field_error
 
    !> Entries of a section
    type :: table_type
@@ -255,6 +255,51 @@ contains
       end if
    end subroutine explain_range
 
+   !> Where the value of a field stands
+   subroutine find_slot(source, table, entry, field, card, slot)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> The section
+      type(table_type), intent(in) :: table
+      !> Entry and field
+      integer, intent(in) :: entry, field
+      !> Its card
+      integer, intent(out) :: card
+      !> Its place
+      type(slot_type), intent(out) :: slot
+
+      type(slot_type) :: slots(size(table%fields))
+      type(diagnostics_type) :: told_before
+      integer :: first, last
+
+      associate (card_of => table%fields%card)
+         card = table%cards(card_of(field), entry)
+         first = count(card_of < card_of(field)) + 1
+         last = count(card_of <= card_of(field))
+      end associate
+      call divide_card(source, card, table%fields(first:last), slots(first:last), told_before)
+      slot = slots(field)
+   end subroutine find_slot
+
+   !> The text in a field
+   function text_value(source, table, entry, field) result(text)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> The section
+      type(table_type), intent(in) :: table
+      !> Entry and field
+      integer, intent(in) :: entry, field
+      !> What stands there
+      character(len=:), allocatable :: text
+
+      type(slot_type) :: slot
+      integer :: card
+
+      call find_slot(source, table, entry, field, card, slot)
+      text = card_content(source, card)
+      text = text(slot%from:slot%to)
+   end function text_value
+
    !> Report an error in the value of a field
    subroutine field_error(diagnostics, source, table, entry, field, text, allowed, mend)
       !> Messages
@@ -270,22 +315,12 @@ contains
       !> What is allowed, how to mend it
       character(len=*), intent(in), optional :: allowed, mend
 
-      type(slot_type) :: slots(size(table%fields))
-      type(diagnostics_type) :: told_before
-      character(len=:), allocatable :: content
-      integer :: card, first, last
+      type(slot_type) :: slot
+      integer :: card
 
-      associate (card_of => table%fields%card)
-         card = table%cards(card_of(field), entry)
-         first = count(card_of < card_of(field)) + 1
-         last = count(card_of <= card_of(field))
-      end associate
-      call divide_card(source, card, table%fields(first:last), slots(first:last), told_before)
-      content = card_content(source, card)
-      associate (slot => slots(field))
-         call add_error(diagnostics, card, slot%first, slot%last, text, &
-                        found=content(slot%from:slot%to), allowed=allowed, mend=mend)
-      end associate
+      call find_slot(source, table, entry, field, card, slot)
+      call add_error(diagnostics, card, slot%first, slot%last, text, &
+                     found=text_value(source, table, entry, field), allowed=allowed, mend=mend)
    end subroutine field_error
 
    !> Report an error of an entry as a whole

@@ -13,10 +13,10 @@ module axijoint_gmsh_format_4
    private
    public :: entities_type, read_entities, read_nodes_4, read_elements_4
 
-   !> Sets of groups of the curves and surfaces of the geometry
+   !> Sets of groups of the points, curves, surfaces and volumes of the geometry
    type :: entities_type
-      !> Place of each curve and each surface in `set`, by number
-      type(number_map_type) :: place_of(2)
+      !> Place of each entity in `set` by its number, for each dimension
+      type(number_map_type) :: place_of(0:3)
       !> Sets
       integer, allocatable :: set(:)
    end type entities_type
@@ -50,7 +50,7 @@ contains
             call read_entity(scanner, dimension, mesh, tag, set, fault)
             if (allocated(fault)) return
             total = total + 1
-            if (all(dimension /= [1, 2]) .or. tag == 0) cycle
+            if (tag == 0) cycle
             entities%set = [entities%set, set]
             call insert_number(entities%place_of(dimension), tag, size(entities%set))
          end do
@@ -223,7 +223,6 @@ contains
       integer :: place
 
       set = 0
-      if (dimension == 0) return
       place = find_number(entities%place_of(dimension), tag)
       if (place > 0) set = entities%set(place)
    end function set_of

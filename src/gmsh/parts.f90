@@ -144,7 +144,7 @@ contains
       if (allocated(fault)) return
       if (nodes_of_type(number) > 0) return
       mend = 'set Mesh.ElementOrder to 1 or 2'
-      if (any(number == [4:7, 11:14, 17:19, 29:33])) mend = 'mesh plane surfaces only: gmsh -2'
+      if (any(number == [4, 5, 6, 7, 11, 12, 13, 14, 17, 18, 19, 29, 30, 31])) mend = 'mesh plane surfaces only: gmsh -2'
       fault = token_fault(scanner, 'an element of type '//to_text(number)//' ('//type_name(number) &
                           //') cannot be used', &
                           allowed='triangles of 3 or 6, quadrangles of 4, 8 or 9, lines of 2 or 3 nodes; points', &
