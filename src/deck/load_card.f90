@@ -9,6 +9,8 @@ module axijoint_deck_load_card
    use axijoint_deck_face_geometry, only : moment_of_radius
    use axijoint_deck_faces, only : find_face
    use axijoint_deck_layout, only : section_names
+   use axijoint_deck_load_fields, only : name_last, name_step
+   use axijoint_deck_node_range, only : find_nodes
    use axijoint_deck_sections, only : sections_type
    use axijoint_deck_shapes, only : shapes_type
    use axijoint_deck_source, only : source_type
@@ -18,7 +20,7 @@ module axijoint_deck_load_card
    public :: load_card_type, open_section, next_card
    public :: is_given, integer_of, real_of, reals_of, field_named, section_name
    public :: field_fault, card_fault, is_sound
-   public :: find_loaded_face, find_any_face, find_node
+   public :: find_loaded_face, find_any_face, find_node, find_row, check_body
 
    !> One card of a section, and the deck around it
    type :: load_card_type
@@ -212,5 +214,28 @@ contains
          call field_fault(card, 1, 'node '//to_text(integer_of(card, 1))//' is not defined')
       end if
    end subroutine find_node
+
+   !> Find the nodes first, first + step, ..., last, or report those that do not exist
+   subroutine find_row(card, nodes)
+      !> The card
+      type(load_card_type), intent(in) :: card
+      !> Their indices; none if one is at fault
+      integer, allocatable, intent(out) :: nodes(:)
+
+      call find_nodes(card%source, card%table, card%entry, field_named(card, name_last), &
+                      field_named(card, name_step), card%draft, nodes, card%diagnostics)
+      if (.not. all(card%draft%node_good(nodes))) nodes = [integer ::]
+   end subroutine find_row
+
+   !> Check that the body of the first field, if it is given, has elements
+   subroutine check_body(card)
+      !> The card
+      type(load_card_type), intent(in) :: card
+
+      if (.not. is_given(card, 1) .or. .not. card%draft%elements_complete) return
+      if (any(card%draft%element_body(:card%draft%n_elements) == integer_of(card, 1))) return
+      call field_fault(card, 1, 'there is no body '//to_text(integer_of(card, 1)), &
+                       allowed='the body of an ELEMENTS or BLOCKS card (1 if blank there)')
+   end subroutine check_body
 
 end module axijoint_deck_load_card

@@ -2,16 +2,19 @@
 module axijoint_deck_load_fields
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
-   use axijoint_deck_common_fields, only : number, last_number, step, components, angle, largest_harmonic
+   use axijoint_deck_common_fields, only : number, last_number, step, components, angle, &
+      largest_body, largest_harmonic
    use axijoint_deck_field, only : field_type, integer_field, real_field, word_field, largest_number
    implicit none
    private
    public :: load_fields
-   public :: name_harmonic, name_family, name_shape, shape_kinds, resultant_kinds
+   public :: name_harmonic, name_family, name_shape, name_last, name_step, shape_kinds, resultant_kinds
 
    !> Names by which the fields of the distribution round the circle are found
    character(len=*), parameter :: name_harmonic = 'the harmonic', name_family = 'the family', &
       name_shape = 'the shape'
+   !> Names of the fields of a row of nodes
+   character(len=*), parameter :: name_last = 'the last node', name_step = 'the step'
    !> Families, kinds of shapes and of resultants; their places are the fields' values
    character(len=1), parameter :: families(2) = ['S', 'A']
    character(len=6), parameter :: shape_kinds(3) = [character(len=6) :: 'PATCH', 'COSINE', 'TABLE']
@@ -47,6 +50,30 @@ contains
       case ('POINTLOADS')
          fields = [number('the node', 1), angle('theta', 6), components('F', '', 16)]
          fields(2)%required = .true.
+      case ('GRAVITY')
+         fields = [real_field('g_z', 1, 10, default=0.0_wp), real_field('the lateral g', 11, 20, default=0.0_wp), &
+                   angle('theta0', 21)]
+      case ('ROTATION')
+         fields = [real_field('the angular velocity', 1, 10)]
+      case ('TEMPERATURES')
+         fields = [any_body(1), harmonic(6), real_field('T0', 11, 20, default=0.0_wp), &
+                   real_field('dT/dr', 21, 30, default=0.0_wp), real_field('dT/dz', 31, 40, default=0.0_wp), &
+                   family(41), shape_number(46)]
+      case ('NODETEMPS')
+         fields = [number('the node', 1), last_number(name_last, 6), step(11), harmonic(16), &
+                   real_field('T', 21, 30), family(31), shape_number(36)]
+      case ('MOVEDNODES')
+         fields = [number('the node', 1), harmonic(6), displacements('', 11), family(41), &
+                   last_number(name_last, 46), step(51)]
+      case ('MOVEDFACES')
+         fields = [number('the face', 1), harmonic(6), displacements(' at the first point', 11), &
+                   displacements(' at the last point', 41), family(71)]
+      case ('SPRINGS')
+         fields = [number('the face', 1), spring('k_n', 6), spring('k_s', 16), spring('k_theta', 26)]
+      case ('INSITU')
+         fields = [any_body(1), real_field('z_s', 6, 15), real_field('gamma', 16, 25), &
+                   real_field('K0', 26, 35, from=0.0_wp, symbol='K0'), &
+                   real_field('sigma_z at z_s', 36, 45, default=0.0_wp)]
       case default
          allocate (fields(0))
       end select
@@ -91,5 +118,40 @@ contains
       type(field_type) :: field
       field = last_number(name_shape, first)
    end function shape_number
+
+   !> Fields of displacements u, v, w; a blank one says nothing
+   pure function displacements(place, first) result(fields)
+      !> Where, for the names
+      character(len=*), intent(in) :: place
+      !> First column
+      integer, intent(in) :: first
+      !> The fields
+      type(field_type) :: fields(3)
+
+      character(len=1), parameter :: component(3) = ['u', 'v', 'w']
+      integer :: i
+
+      fields = [(real_field(component(i)//place, first + 10*i - 10, first + 10*i - 1, default=0.0_wp), i=1, 3)]
+   end function displacements
+
+   !> Field of a spring stiffness
+   pure function spring(name, first) result(field)
+      !> Name
+      character(len=*), intent(in) :: name
+      !> First column
+      integer, intent(in) :: first
+      !> The field
+      type(field_type) :: field
+      field = real_field(name, first, first + 9, from=0.0_wp, default=0.0_wp, symbol=name)
+   end function spring
+
+   !> Field of a body; all bodies if blank
+   pure function any_body(first) result(field)
+      !> First column
+      integer, intent(in) :: first
+      !> The field
+      type(field_type) :: field
+      field = integer_field('the body', first, first + 4, 1, largest_body, default=0)
+   end function any_body
 
 end module axijoint_deck_load_fields

@@ -3,20 +3,37 @@ module axijoint_deck_load_lists
    use axijoint_base_kinds, only : wp
    use axijoint_deck_draft, only : edge_type
    use axijoint_deck_load_modes, only : share_type
-   use axijoint_model_load, only : edge_load_type, ring_load_type, truncation_type
+   use axijoint_fe_mode, only : mode_type, same_mode
+   use axijoint_model_load, only : edge_load_type, ring_load_type, body_load_type, &
+      thermal_load_type, prescribed_type, initial_stress_type, edge_support_type, truncation_type
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: load_lists_type, new_load_lists, add_tractions, add_ring_load, take_loads
+   public :: load_lists_type, new_load_lists, take_loads
+   public :: add_tractions, add_ring_load, add_temperatures, add_move
 
    !> Loads; the arrays of `n_` may be longer than these counts
    type :: load_lists_type
+      !> Nodes of the mesh
+      integer :: n_nodes = 0
       !> Tractions on edges
       type(edge_load_type), allocatable :: edge_loads(:)
       integer :: n_edge_loads = 0
       !> Loads on nodal circles
       type(ring_load_type), allocatable :: ring_loads(:)
       integer :: n_ring_loads = 0
+      !> Forces on masses
+      type(body_load_type), allocatable :: body_loads(:)
+      !> Temperatures, one entry for each case, mode and body
+      type(thermal_load_type), allocatable :: thermal_loads(:)
+      !> Displacements that are given, zeros too, and the card of each
+      type(prescribed_type), allocatable :: moves(:)
+      integer, allocatable :: move_card(:)
+      integer :: n_moves = 0
+      !> In-situ stresses
+      type(initial_stress_type), allocatable :: initial_stresses(:)
+      !> Springs to the ground
+      type(edge_support_type), allocatable :: edge_supports(:)
       !> What the harmonics leave of the loads
       type(truncation_type), allocatable :: truncations(:)
    end type load_lists_type
@@ -24,11 +41,16 @@ module axijoint_deck_load_lists
 contains
 
    !> Lists without loads
-   pure function new_load_lists() result(lists)
+   pure function new_load_lists(n_nodes) result(lists)
+      !> Number of nodes of the mesh
+      integer, intent(in) :: n_nodes
       !> The lists
       type(load_lists_type) :: lists
 
-      allocate (lists%edge_loads(64), lists%ring_loads(64), lists%truncations(0))
+      lists%n_nodes = n_nodes
+      allocate (lists%edge_loads(64), lists%ring_loads(64), lists%moves(64), lists%move_card(64))
+      allocate (lists%body_loads(0), lists%thermal_loads(0), lists%initial_stresses(0))
+      allocate (lists%edge_supports(0), lists%truncations(0))
    end function new_load_lists
 
    !> Add tractions on the edges of a face, in each mode its share
@@ -93,15 +115,76 @@ contains
       lists%ring_loads(lists%n_ring_loads) = load
    end subroutine add_ring_load
 
-   !> Move the loads into the model
+   !> Add temperatures to those of the same case, mode and body
+   pure subroutine add_temperatures(lists, case, mode, body, nodes, temperature)
+      !> The lists
+      type(load_lists_type), intent(inout) :: lists
+      !> Load case
+      integer, intent(in) :: case
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> Body; 0 for all
+      integer, intent(in) :: body
+      !> Nodes, and their temperatures
+      integer, intent(in) :: nodes(:)
+      real(wp), intent(in) :: temperature(:)
+
+      type(thermal_load_type) :: load
+      integer :: k
+
+      do k = size(lists%thermal_loads), 1, -1
+         associate (other => lists%thermal_loads(k))
+            if (other%case == case .and. other%body == body .and. same_mode(other%mode, mode)) exit
+         end associate
+      end do
+      if (k == 0) then
+         load = thermal_load_type(mode, case, body)
+         allocate (load%temperature(lists%n_nodes), source=0.0_wp)
+         lists%thermal_loads = [lists%thermal_loads, load]
+         k = size(lists%thermal_loads)
+      end if
+      associate (all_nodes => lists%thermal_loads(k)%temperature)
+         all_nodes(nodes) = all_nodes(nodes) + temperature
+      end associate
+   end subroutine add_temperatures
+
+   !> Add a given displacement
+   pure subroutine add_move(lists, move, card)
+      !> The lists
+      type(load_lists_type), intent(inout) :: lists
+      !> The displacement; may be zero
+      type(prescribed_type), intent(in) :: move
+      !> Its card
+      integer, intent(in) :: card
+
+      type(prescribed_type), allocatable :: larger(:)
+      integer, allocatable :: more_cards(:)
+
+      if (lists%n_moves == size(lists%moves)) then
+         allocate (larger(2*lists%n_moves), more_cards(2*lists%n_moves))
+         larger(:lists%n_moves) = lists%moves
+         more_cards(:lists%n_moves) = lists%move_card
+         call move_alloc(larger, lists%moves)
+         call move_alloc(more_cards, lists%move_card)
+      end if
+      lists%n_moves = lists%n_moves + 1
+      lists%moves(lists%n_moves) = move
+      lists%move_card(lists%n_moves) = card
+   end subroutine add_move
+
+   !> Move the loads into the model; displacements are left to their check
    pure subroutine take_loads(lists, model)
-      !> The lists; empty on return
+      !> The lists
       type(load_lists_type), intent(inout) :: lists
       !> The job
       type(model_type), intent(inout) :: model
 
       model%edge_loads = lists%edge_loads(:lists%n_edge_loads)
       model%ring_loads = lists%ring_loads(:lists%n_ring_loads)
+      call move_alloc(lists%body_loads, model%body_loads)
+      call move_alloc(lists%thermal_loads, model%thermal_loads)
+      call move_alloc(lists%initial_stresses, model%initial_stresses)
+      call move_alloc(lists%edge_supports, model%edge_supports)
       call move_alloc(lists%truncations, model%truncations)
    end subroutine take_loads
 

@@ -7,14 +7,20 @@ module axijoint_deck_loads
    use axijoint_deck_harmonics, only : read_harmonics
    use axijoint_deck_layout, only : section_control, section_harmonics, section_shapes, &
       section_restraints, section_fixed_faces, section_tractions, section_pressures, &
-      section_resultants, section_ring_loads, section_point_loads
+      section_resultants, section_ring_loads, section_point_loads, section_gravity, section_rotation, &
+      section_temperatures, section_node_temps, section_moved_nodes, section_moved_faces, &
+      section_springs, section_in_situ
    use axijoint_deck_load_card, only : load_card_type, open_section, next_card
    use axijoint_deck_load_lists, only : load_lists_type, new_load_lists, take_loads
+   use axijoint_deck_mass_loads, only : read_gravity, read_rotation, read_temperature, &
+      read_node_temperature, read_in_situ
+   use axijoint_deck_moves, only : read_moved_nodes, read_moved_face, take_moves
    use axijoint_deck_node_loads, only : read_ring_load, read_point_load
    use axijoint_deck_restraints, only : fix_nodes, fix_faces
    use axijoint_deck_sections, only : sections_type
    use axijoint_deck_shapes, only : read_shapes
    use axijoint_deck_source, only : source_type
+   use axijoint_deck_supports, only : read_springs
    use axijoint_model_load, only : combination_type
    use axijoint_model_model, only : model_type
    implicit none
@@ -22,8 +28,10 @@ module axijoint_deck_loads
    public :: read_loads
 
    !> Sections of loads
-   integer, parameter :: load_sections(5) = [section_tractions, section_pressures, &
-      section_resultants, section_ring_loads, section_point_loads]
+   integer, parameter :: load_sections(12) = [section_tractions, section_pressures, &
+      section_resultants, section_ring_loads, section_point_loads, section_gravity, section_rotation, &
+      section_temperatures, section_node_temps, section_moved_nodes, section_moved_faces, &
+      section_in_situ]
 
 contains
 
@@ -42,7 +50,7 @@ contains
 
       type(load_card_type) :: card
       type(load_lists_type) :: lists
-      integer :: k, n
+      integer :: k
 
       allocate (model%fixed(3, draft%n_nodes), source=.false.)
       card%source => source
@@ -57,24 +65,34 @@ contains
          call read_shapes(source, tables(section_shapes), card%shapes, diagnostics)
          call fix_nodes(source, tables(section_restraints), draft, model%fixed, diagnostics)
          call fix_faces(source, tables(section_fixed_faces), draft, model%fixed, diagnostics)
-         lists = new_load_lists()
-         n = 0
+         lists = new_load_lists(draft%n_nodes)
          do k = 1, size(load_sections)
-            n = n + tables(load_sections(k))%n
-            call open_section(card, load_sections(k))
-            do while (next_card(card))
-               call read_load(card, lists)
-            end do
+            call read_section(card, load_sections(k), lists)
          end do
+         call read_section(card, section_springs, lists)
+         if (sum(tables(load_sections)%n) == 0) call add_warning(diagnostics, 0, 0, 0, &
+            'the deck has no loads: all results will be zero')
       end associate
-      if (n == 0) call add_warning(diagnostics, 0, 0, 0, &
-                                   'the deck has no loads: all results will be zero')
       model%harmonics = card%harmonics
       model%combinations = [combination_type(1, [1.0_wp])]
-      allocate (model%body_loads(0), model%thermal_loads(0), model%prescribed(0))
-      allocate (model%initial_stresses(0), model%edge_supports(0))
+      call take_moves(source, draft, lists, model, diagnostics)
       call take_loads(lists, model)
    end subroutine read_loads
+
+   !> Read the cards of a section
+   subroutine read_section(card, section, lists)
+      !> The deck around them
+      type(load_card_type), intent(inout) :: card
+      !> The section
+      integer, intent(in) :: section
+      !> The loads
+      type(load_lists_type), intent(inout) :: lists
+
+      call open_section(card, section)
+      do while (next_card(card))
+         call read_load(card, lists)
+      end do
+   end subroutine read_section
 
    !> Read one card of a load
    subroutine read_load(card, lists)
@@ -94,6 +112,22 @@ contains
          call read_ring_load(card, lists)
       case (section_point_loads)
          call read_point_load(card, lists)
+      case (section_gravity)
+         call read_gravity(card, lists)
+      case (section_rotation)
+         call read_rotation(card, lists)
+      case (section_temperatures)
+         call read_temperature(card, lists)
+      case (section_node_temps)
+         call read_node_temperature(card, lists)
+      case (section_moved_nodes)
+         call read_moved_nodes(card, lists)
+      case (section_moved_faces)
+         call read_moved_face(card, lists)
+      case (section_in_situ)
+         call read_in_situ(card, lists)
+      case (section_springs)
+         call read_springs(card, lists)
       end select
    end subroutine read_load
 
