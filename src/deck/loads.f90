@@ -25,7 +25,7 @@ module axijoint_deck_loads
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: read_loads
+   public :: read_loads, check_properties
 
    !> Sections of loads
    integer, parameter :: load_sections(12) = [section_tractions, section_pressures, &
@@ -130,5 +130,48 @@ contains
          call read_springs(card, lists)
       end select
    end subroutine read_load
+
+   !> Warn of loads that act on nothing, as no material has the property that they need
+   subroutine check_properties(sections, model, diagnostics)
+      !> Sections of the deck
+      type(sections_type), intent(in) :: sections
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      logical :: heavy, expands
+      integer :: i
+
+      associate (used => model%materials(model%mesh%element_material))
+         heavy = any(used%density > 0.0_wp)
+         expands = any([(any(abs(used(i)%expansion) > 0.0_wp), i=1, size(used))])
+      end associate
+      call warn([section_gravity, section_rotation], heavy, 'no element has a density')
+      call warn([section_temperatures, section_node_temps], expands, 'no element has a thermal expansion')
+
+   contains
+
+      !> Warn on the first card of some sections
+      subroutine warn(of_sections, has_effect, reason)
+         !> The sections
+         integer, intent(in) :: of_sections(:)
+         !> Whether their loads have an effect
+         logical, intent(in) :: has_effect
+         !> Why they have none
+         character(len=*), intent(in) :: reason
+
+         integer :: k
+
+         if (has_effect) return
+         do k = 1, size(of_sections)
+            associate (table => sections%tables(of_sections(k)))
+               if (table%n > 0) call add_warning(diagnostics, table%cards(1, 1), 0, 0, &
+                  'the load has no effect: '//reason, mend='give it on the MATERIALS card')
+            end associate
+         end do
+      end subroutine warn
+
+   end subroutine check_properties
 
 end module axijoint_deck_loads

@@ -23,7 +23,7 @@ module axijoint_deck_reader
    use axijoint_deck_layout, only : section_control, section_nodes, section_lines, section_elements, &
       section_blocks, section_groups, section_materials, section_laws, section_joints, section_faces, &
       section_chains, section_interfaces, section_increments, section_output, section_orthotropic
-   use axijoint_deck_loads, only : read_loads
+   use axijoint_deck_loads, only : read_loads, check_properties
    use axijoint_deck_places, only : group_places, new_point_tree, point_tree_type, same_place
    use axijoint_deck_properties, only : properties_type, read_properties
    use axijoint_deck_sections, only : sections_type, read_sections
@@ -72,6 +72,7 @@ contains
          call read_loads(source, sections, draft, model, diagnostics)
          if (diagnostics%n_errors > 0) return
          call take_model(draft, properties, model)
+         call check_properties(sections, model, diagnostics)
          call check_planes(source, tables(section_control), model, diagnostics)
       end associate
    end subroutine read_deck
