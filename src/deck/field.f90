@@ -195,6 +195,8 @@ contains
             if (i == count(field%words /= '')) text = trim(text)//' or '
             text = text//trim(field%words(i))
          end do
+      case (kind_text)
+         text = 'a text'
       case default
          text = 'three digits 0 (free) or 1 (fixed) for u, v and w, such as 110'
       end select

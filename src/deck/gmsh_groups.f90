@@ -147,7 +147,7 @@ contains
       if (count_elements(mesh, group) > 0) return
       call field_error(diagnostics, source, table, entry, field_name, 'the '// &
                        group_text(mesh%groups(group))//' has no elements in the mesh file', &
-                       mend='mesh it, and save the mesh again')
+                       mend='mesh it and save the mesh again; with Mesh.SaveAll=1, format 2.2 has no groups')
    end subroutine seek_group
 
    !> Report a group that the mesh does not have
@@ -271,11 +271,16 @@ contains
                   end associate
                end do
                if (n == 0) cycle
-               call entry_error(diagnostics, table, b%entry, 'the groups of two BODY cards overlap', &
-                                found=count_of(n, 'element')//' of '// &
-                                group_text(import%mesh%groups(a%group))//' are in ' &
-                                //group_text(import%mesh%groups(b%group))//', too', &
-                                allowed='each element in the group of one BODY card')
+               if (a%group == b%group) then
+                  call entry_error(diagnostics, table, b%entry, group_text(import%mesh%groups(a%group))// &
+                                   ' is on two BODY cards', allowed='each group on one BODY card')
+               else
+                  call entry_error(diagnostics, table, b%entry, 'the groups of two BODY cards overlap', &
+                                   found=group_text(import%mesh%groups(a%group))//' and '// &
+                                   group_text(import%mesh%groups(b%group))//' share '// &
+                                   count_of(n, 'element'), &
+                                   allowed='each element in the group of one BODY card')
+               end if
             end associate
          end do
       end do

@@ -19,6 +19,8 @@ module axijoint_deck_gmsh_solids
    !> Largest distance from the plane z = 0 of the file, and behind the axis, in extents of the mesh:
    !> only rounding
    real(wp), parameter :: rounding = 1.0e-12_wp
+   !> Numbers of nodes that elements of the model may have
+   integer, parameter :: element_sizes(3) = [4, 8, 9]
 
 contains
 
@@ -46,6 +48,7 @@ contains
          call check_positions(source, import, diagnostics)
          call check_numbers(source, import, use_of, draft, diagnostics)
          call check_shared(table, import, use_of, diagnostics)
+         call check_kinds(source, import, use_of, diagnostics)
       end if
       import%sound = import%sound .and. diagnostics%n_errors == errors_before
       if (import%sound) then
@@ -209,6 +212,29 @@ contains
          end if
       end associate
    end subroutine check_positions
+
+   !> Refuse elements that the solids do not have
+   subroutine check_kinds(source, import, use_of, diagnostics)
+      !> The deck
+      type(source_type), intent(inout) :: source
+      !> The mesh
+      type(gmsh_import_type), intent(in) :: import
+      !> BODY card of each element; 0 for none
+      integer, intent(in) :: use_of(:)
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      integer :: element
+
+      do element = 1, import%mesh%n_elements
+         if (use_of(element) == 0) cycle
+         if (any(nodes_of_type(import%mesh%element_type(element)) == element_sizes)) cycle
+         call mesh_line_error(source, import%mesh%element_line(element), 0, 0, 'element '// &
+                              to_text(import%mesh%element_tag(element))//' is a triangle', &
+                              'quadrilaterals of 4, 8 or 9 nodes', 'set Mesh.RecombineAll=1', diagnostics)
+         return
+      end do
+   end subroutine check_kinds
 
    !> How many further nodes have the same fault
    pure function others(n) result(text)

@@ -255,7 +255,7 @@ contains
       end if
    end subroutine explain_range
 
-   !> Where the value of a field stands
+   !> Where the value of a field stands; a text is pointed at itself, not at its wide field
    subroutine find_slot(source, table, entry, field, card, slot)
       !> The deck
       type(source_type), intent(in) :: source
@@ -279,6 +279,9 @@ contains
       end associate
       call divide_card(source, card, table%fields(first:last), slots(first:last), told_before)
       slot = slots(field)
+      if (table%fields(field)%kind /= kind_text .or. slot%to < slot%from) return
+      slot%first = slot%from
+      slot%last = slot%to
    end subroutine find_slot
 
    !> The text in a field

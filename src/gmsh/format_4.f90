@@ -112,7 +112,7 @@ contains
       call make_node_room(mesh, n)
       do block = 1, n_blocks
          before = mesh%n_nodes
-         call data_line(scanner, 'Nodes', 'nodes', before, n, fault)
+         call data_line(scanner, 'Nodes', 'blocks', block - 1, n_blocks, fault)
          call read_integer(scanner, 'the dimension', 0, 3, dimension, fault)
          call read_integer(scanner, 'the number of the entity', -largest_tag, largest_tag, passed, fault)
          call read_integer(scanner, 'the mark of parameters', 0, 1, parametric, fault)
@@ -176,7 +176,7 @@ contains
       call make_element_room(mesh, n)
       n_read = 0
       do block = 1, n_blocks
-         call data_line(scanner, 'Elements', 'elements', n_read, n, fault)
+         call data_line(scanner, 'Elements', 'blocks', block - 1, n_blocks, fault)
          call read_integer(scanner, 'the dimension', 0, 3, dimension, fault)
          call read_integer(scanner, 'the number of the entity', -largest_tag, largest_tag, entity, fault)
          call read_integer(scanner, 'the type', 1, largest_tag, type, fault)
