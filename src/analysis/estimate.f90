@@ -3,8 +3,9 @@ module axijoint_analysis_estimate
    use axijoint_assembly_equations, only : equations_type, plan_solver, planned_seconds, needed_bytes
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_model_mesh, only : n_nodes, n_elements
-   use axijoint_model_model, only : model_type, gauss_order
+   use axijoint_fe_reference, only : reference_type
+   use axijoint_model_mesh, only : n_nodes
+   use axijoint_model_model, only : model_type, element_references
    use axijoint_model_modes, only : used_modes
    use axijoint_solver_choice, only : orders_type
    implicit none
@@ -76,12 +77,11 @@ contains
       !> The bytes
       integer(i8) :: bytes
 
-      integer :: element
+      type(reference_type) :: references(3:9)
 
+      references = element_references(model)
       bytes = 12*int(n_nodes(model%mesh), i8)  ! displacements, loads twice, reactions
-      do element = 1, n_elements(model%mesh)
-         bytes = bytes + 6*gauss_order(model, model%mesh%element_size(element))**2
-      end do
+      bytes = bytes + 6*sum(int(references(model%mesh%element_size)%n_points, i8))
       bytes = bytes*n_modes*real_bytes
    end function field_bytes
 

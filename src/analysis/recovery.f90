@@ -12,10 +12,12 @@ module axijoint_analysis_recovery
    use axijoint_base_kinds, only : wp
    use axijoint_element_solid, only : solid_point_type, solid_points
    use axijoint_fe_mode, only : mode_type, mode_integral, is_torsion, family_symmetric
+   use axijoint_fe_quadrature, only : max_element_points
+   use axijoint_fe_reference, only : reference_type
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_residual, only : ratio, load_norm
    use axijoint_model_mesh, only : n_elements, n_nodes
-   use axijoint_model_model, only : model_type, gauss_order, on_axis
+   use axijoint_model_model, only : model_type, element_references, on_axis
    implicit none
    private
    public :: recover
@@ -132,23 +134,22 @@ contains
       !> Results that take elements and positions of the points
       type(results_type), intent(inout) :: results
 
-      type(solid_point_type) :: points(9)
+      type(solid_point_type) :: points(max_element_points)
+      type(reference_type) :: references(3:9)
       integer :: element, n, last
 
       associate (mesh => model%mesh)
-         n = 0
-         do element = 1, n_elements(mesh)
-            n = n + gauss_order(model, mesh%element_size(element))**2
-         end do
+         references = element_references(model)
+         n = sum(references(mesh%element_size)%n_points)
          allocate (results%point_element(n), results%point_position(2, n))
          allocate (results%stress(6, n, size(results%modes)))
          last = 0
          do element = 1, n_elements(mesh)
-            n = gauss_order(model, mesh%element_size(element))
-            call solid_points(mesh%coordinates(:, &
-                                          mesh%element_nodes(:mesh%element_size(element), element)), &
-                              n, points(:n**2))
-            do n = 1, n**2
+            associate (reference => references(mesh%element_size(element)))
+               call solid_points(mesh%coordinates(:, mesh%element_nodes(:reference%n_nodes, element)), &
+                                 reference, points(:reference%n_points))
+            end associate
+            do n = 1, references(mesh%element_size(element))%n_points
                last = last + 1
                results%point_element(last) = element
                results%point_position(:, last) = points(n)%position

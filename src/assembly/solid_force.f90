@@ -5,10 +5,12 @@ module axijoint_assembly_solid_force
                                       add_solid_force
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
+   use axijoint_fe_quadrature, only : max_element_points
+   use axijoint_fe_reference, only : reference_type
    use axijoint_model_load, only : body_load_type, initial_stress_type
    use axijoint_model_material, only : elasticity, thermal_strain
    use axijoint_model_mesh, only : n_elements, max_element_nodes
-   use axijoint_model_model, only : model_type, gauss_order
+   use axijoint_model_model, only : model_type, element_references
    implicit none
    private
    public :: initial_state_type, solid_force, add_mass_force
@@ -42,23 +44,25 @@ contains
       !> Stress amplitudes at the Gauss points, shape (6, points)
       real(wp), intent(out), optional :: stress(:, :)
 
-      type(solid_point_type) :: points(9)
+      type(solid_point_type) :: points(max_element_points)
+      type(reference_type) :: references(3:9)
       real(wp) :: d(6, 6), now(6)
       real(wp), dimension(3, max_element_nodes) :: local, element_force
-      integer :: element, n, n_gauss, i, last
+      integer :: element, n, n_points, i, last
 
+      references = element_references(model)
       force = 0.0_wp
       last = 0
       do element = 1, n_elements(model%mesh)
          n = model%mesh%element_size(element)
-         n_gauss = gauss_order(model, n)
+         n_points = references(n)%n_points
          associate (nodes => model%mesh%element_nodes(:n, element), &
                     material => model%materials(model%mesh%element_material(element)))
             d = elasticity(material)
-            call solid_points(model%mesh%coordinates(:, nodes), n_gauss, points(:n_gauss**2))
+            call solid_points(model%mesh%coordinates(:, nodes), references(n), points(:n_points))
             local(:, :n) = displacement(:, nodes)
             element_force = 0.0_wp
-            do i = 1, n_gauss**2
+            do i = 1, n_points
                now = solid_stress(points(i), n, d, mode%harmonic, local)
                if (initial%present) then
                   now = now + factor*initial_stress(model, initial, k, mode, element, points(i), d)
@@ -66,7 +70,7 @@ contains
                call add_solid_force(points(i), n, mode%harmonic, now, element_force)
                if (present(stress)) stress(:, last + i) = now
             end do
-            last = last + n_gauss**2
+            last = last + n_points
             force(:, nodes) = force(:, nodes) + circle_integral(mode%harmonic)*element_force(:, :n)
          end associate
       end do
@@ -119,17 +123,19 @@ contains
       !> Forces on components, shape (3, nodes)
       real(wp), intent(inout) :: force(:, :)
 
-      type(solid_point_type) :: points(9)
+      type(solid_point_type) :: points(max_element_points)
+      type(reference_type) :: references(3:9)
       real(wp) :: acceleration(3), weight
-      integer :: element, n, n_gauss, i, j
+      integer :: element, n, n_points, i, j
 
+      references = element_references(model)
       do element = 1, n_elements(model%mesh)
          n = model%mesh%element_size(element)
-         n_gauss = gauss_order(model, n)
+         n_points = references(n)%n_points
          associate (nodes => model%mesh%element_nodes(:n, element), &
                     density => model%materials(model%mesh%element_material(element))%density)
-            call solid_points(model%mesh%coordinates(:, nodes), n_gauss, points(:n_gauss**2))
-            do i = 1, n_gauss**2
+            call solid_points(model%mesh%coordinates(:, nodes), references(n), points(:n_points))
+            do i = 1, n_points
                acceleration = load%acceleration
                acceleration(1) = acceleration(1) + load%spin_squared*points(i)%position(1)
                weight = factor*circle_integral(load%mode%harmonic)*density*points(i)%weight

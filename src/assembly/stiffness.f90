@@ -9,11 +9,13 @@ module axijoint_assembly_stiffness
                                       stiffness_kernel_type, new_stiffness_kernel
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_fe_mode, only : mode_type
+   use axijoint_fe_quadrature, only : max_element_points
+   use axijoint_fe_reference, only : reference_type
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type, entry_position
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_material, only : elasticity
    use axijoint_model_mesh, only : max_element_nodes, n_nodes
-   use axijoint_model_model, only : model_type, gauss_order, on_axis
+   use axijoint_model_model, only : model_type, element_references, on_axis
    use axijoint_order_coloring, only : color_cliques
    use axijoint_order_graph, only : graph_type
    implicit none
@@ -68,9 +70,11 @@ contains
       type(support_point_type), intent(in) :: support_points(:)
 
       type(stiffness_kernel_type) :: kernels(size(model%materials))
+      type(reference_type) :: references(3:9)
       integer, allocatable :: start(:), member(:), color_start(:), colored(:)
       integer :: color, k
 
+      references = element_references(model)
       do k = 1, size(kernels)
          kernels(k) = new_stiffness_kernel(elasticity(model%materials(k)))
       end do
@@ -79,7 +83,7 @@ contains
       do color = 1, size(color_start) - 1
          !$omp parallel do schedule(static) if (size(colored) > least_elements)
          do k = color_start(color), color_start(color + 1) - 1
-            call add_element(model, kernels, colored(k), classes)
+            call add_element(model, references, kernels, colored(k), classes)
          end do
          !$omp end parallel do
       end do
@@ -92,9 +96,11 @@ contains
    end subroutine assemble_parts
 
    !> Add the parts of one element
-   subroutine add_element(model, kernels, element, classes)
+   subroutine add_element(model, references, kernels, element, classes)
       !> The job
       type(model_type), intent(in) :: model
+      !> Kinds of elements, by number of nodes
+      type(reference_type), intent(in) :: references(3:)
       !> Kernels of the materials
       type(stiffness_kernel_type), intent(in) :: kernels(:)
       !> Element
@@ -102,15 +108,14 @@ contains
       !> The classes in use
       type(stiffness_type), intent(inout) :: classes(:)
 
-      type(solid_point_type) :: points(9)
+      type(solid_point_type) :: points(max_element_points)
       real(wp) :: parts(max_unknowns, max_unknowns, 3)
       integer :: n, n_points, i
 
       n = model%mesh%element_size(element)
-      n_points = gauss_order(model, n)**2
+      n_points = references(n)%n_points
       associate (nodes => model%mesh%element_nodes(:n, element))
-         call solid_points(model%mesh%coordinates(:, nodes), gauss_order(model, n), &
-                           points(:n_points))
+         call solid_points(model%mesh%coordinates(:, nodes), references(n), points(:n_points))
          call solid_stiffness(points(:n_points), n, &
                               kernels(model%mesh%element_material(element)), &
                               parts(:3*n, :3*n, 1), parts(:3*n, :3*n, 2), parts(:3*n, :3*n, 3))

@@ -1,4 +1,4 @@
-!> Blocks of quadrilaterals as the cards give them, checked
+!> Blocks of quadrilaterals or triangles as the cards give them, checked
 module axijoint_deck_blocks
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_text, only : to_text
@@ -89,7 +89,7 @@ contains
       n1 = integer_value(table, field_n1, entry)
       n2 = integer_value(table, field_n2, entry)
       select case (integer_value(table, field_size, entry))
-      case (4)
+      case (3, 4)
          n = (n1 + 1)*(n2 + 1)
       case (8)
          n = (2*n1 + 1)*(2*n2 + 1) - n1*n2
@@ -114,9 +114,9 @@ contains
       integer :: n
 
       corners = 0.0_wp
-      if (all(integer_value(table, field_size, entry) /= [4, 8, 9])) then
+      if (all(integer_value(table, field_size, entry) /= [3, 4, 6, 8, 9])) then
          call field_error(diagnostics, source, table, entry, field_size, &
-                          'there are no such elements', allowed='4, 8 or 9 nodes')
+                          'there are no such elements', allowed='3, 4, 6, 8 or 9 nodes')
       end if
       n = count(table%given(field_corner:, entry))
       if (n == 4 .and. all(table%given(field_corner:field_corner + 3, entry))) then

@@ -4,49 +4,49 @@ module axijoint_deck_check_elements
    use axijoint_base_text, only : to_text
    use axijoint_deck_diagnostics, only : diagnostics_type, add_error
    use axijoint_deck_draft, only : draft_type, place_text
-   use axijoint_fe_quadrature, only : gauss_rule
-   use axijoint_fe_shape, only : shape_quadrilateral
+   use axijoint_fe_quadrature, only : max_element_points
+   use axijoint_fe_reference, only : reference_type
+   use axijoint_fe_shape, only : shape_element, n_corners, natural_positions
    implicit none
    private
    public :: check_elements
 
    !> Least sine of the angle between the lines of the natural coordinates
    real(wp), parameter :: least_sine = 1.0e-6_wp
-   !> Points where the Jacobian is looked at: four corners and up to nine Gauss points
-   integer, parameter :: n_corners = 4, most_points = n_corners + 9
+   !> Points where the Jacobian is looked at: the corners and the integration points
+   integer, parameter :: most_points = 4 + max_element_points
    !> Range of the middle node along its side
    real(wp), parameter :: middle_from = 0.25_wp, middle_to = 0.75_wp
-   !> Place in the model's order of the nodes as they run round the perimeter
-   integer, parameter :: perimeter_linear(4) = [1, 2, 3, 4], perimeter_quadratic(8) = [1, 5, 2, 6, 3, 7, 4, 8]
 
    !> Derivatives of the shape functions where the Jacobian is looked at
    type :: sample_type
-      !> Number of points
+      !> Number of points, the first of which are the corners
       integer :: n = 0
       !> Shape functions, shape (9, points)
       real(wp) :: shape(9, most_points) = 0.0_wp
-      !> Their derivatives, shape (2, 9, points)
+      !> Their derivatives along two lines, shape (2, 9, points): the sides at a
+      !> corner, the natural coordinates elsewhere
       real(wp) :: derivative(2, 9, most_points) = 0.0_wp
    end type sample_type
 
 contains
 
    !> Check all elements whose nodes are known
-   subroutine check_elements(gauss_linear, gauss_quadratic, draft, diagnostics)
-      !> Gauss points per direction of 4-node elements, and of the others
-      integer, intent(in) :: gauss_linear, gauss_quadratic
+   subroutine check_elements(references, draft, diagnostics)
+      !> Kinds of elements with their integration points, by number of nodes
+      type(reference_type), intent(in) :: references(3:)
       !> The mesh; elements at fault are marked
       type(draft_type), intent(inout) :: draft
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
-      type(sample_type) :: samples(4:9)
+      type(sample_type) :: samples(3:9)
       type(diagnostics_type) :: found
       integer :: element, n
 
-      samples(4) = new_sample(4, gauss_linear)
-      samples(8) = new_sample(8, gauss_quadratic)
-      samples(9) = new_sample(9, gauss_quadratic)
+      do n = 3, 9
+         if (references(n)%n_nodes == n) samples(n) = new_sample(references(n))
+      end do
       do element = 1, draft%n_elements
          n = draft%element_size(element)
          if (any(draft%element_nodes(:n, element) == 0)) cycle
@@ -66,8 +66,8 @@ contains
 
    !> Check the shape of an element
    subroutine check_shape(samples, draft, element, n, diagnostics)
-      !> Points where to look, for elements of 4, 8 and 9 nodes
-      type(sample_type), intent(in) :: samples(4:)
+      !> Points where to look, by number of nodes
+      type(sample_type), intent(in) :: samples(3:)
       !> The mesh
       type(draft_type), intent(in) :: draft
       !> The element, and its number of nodes
@@ -78,7 +78,7 @@ contains
       integer :: errors_before
 
       errors_before = diagnostics%n_errors
-      if (n > 4) call check_middles(draft, element, diagnostics)
+      if (n > 4) call check_middles(draft, element, n_corners(n), diagnostics)
       if (diagnostics%n_errors > errors_before) return
       if (n == 9) then
          if (only_centre_is_off(samples, draft%position(:, draft%element_nodes(:9, element)))) then
@@ -89,30 +89,29 @@ contains
       call check_jacobian(samples(n), draft, element, n, diagnostics)
    end subroutine check_shape
 
-   !> Corners and Gauss points of an element with n nodes
-   pure function new_sample(n, gauss) result(sample)
-      !> Nodes of the element
-      integer, intent(in) :: n
-      !> Gauss points per direction
-      integer, intent(in) :: gauss
+   !> Corners and integration points of a kind of element
+   pure function new_sample(reference) result(sample)
+      !> The element in natural coordinates
+      type(reference_type), intent(in) :: reference
       !> The points
       type(sample_type) :: sample
 
-      real(wp), parameter :: corner(2, 4) = reshape([-1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp, &
-                                                      1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp], [2, 4])
-      real(wp) :: x(3), w(3), point(2)
+      real(wp) :: corner(2, reference%n_nodes), sides(2, 2)
       integer :: i
 
-      call gauss_rule(gauss, x, w)
-      sample%n = n_corners + gauss**2
-      do i = 1, sample%n
-         if (i <= n_corners) then
-            point = corner(:, i)
-         else
-            point = [x(mod(i - n_corners - 1, gauss) + 1), x((i - n_corners - 1)/gauss + 1)]
-         end if
-         call shape_quadrilateral(n, point(1), point(2), sample%shape(:n, i), sample%derivative(:, :n, i))
-      end do
+      associate (n => reference%n_nodes, c => n_corners(reference%n_nodes))
+         corner = natural_positions(n)
+         do i = 1, c
+            call shape_element(n, corner(1, i), corner(2, i), sample%shape(:n, i), &
+                               sample%derivative(:, :n, i))
+            sides(1, :) = corner(:, mod(i, c) + 1) - corner(:, i)
+            sides(2, :) = corner(:, mod(i + c - 2, c) + 1) - corner(:, i)
+            sample%derivative(:, :n, i) = matmul(sides, sample%derivative(:, :n, i))
+         end do
+         sample%n = c + reference%n_points
+         sample%shape(:, c + 1:sample%n) = reference%shape(:, :reference%n_points)
+         sample%derivative(:, :, c + 1:sample%n) = reference%derivative(:, :, :reference%n_points)
+      end associate
    end function new_sample
 
    !> Check that the Jacobian is positive
@@ -133,7 +132,9 @@ contains
       sine = sines(sample, x(:, :n))
       if (all(sine > least_sine)) return
       i = minloc(sine, 1)
-      if (any(sine(:n_corners) <= least_sine)) i = minloc(sine(:n_corners), 1)
+      associate (c => n_corners(n))
+         if (any(sine(:c) <= least_sine)) i = minloc(sine(:c), 1)
+      end associate
       call report_jacobian(draft, element, n, sine(:sample%n), i, &
                            matmul(x(:, :n), sample%shape(:n, i)), diagnostics)
    end subroutine check_jacobian
@@ -165,8 +166,8 @@ contains
 
    !> Whether an element of nine nodes would be sound with its centre node left out
    pure logical function only_centre_is_off(samples, x)
-      !> Points where to look, for elements of 4, 8 and 9 nodes
-      type(sample_type), intent(in) :: samples(4:)
+      !> Points where to look, by number of nodes
+      type(sample_type), intent(in) :: samples(3:)
       !> Its nodes
       real(wp), intent(in) :: x(2, 9)
 
@@ -196,8 +197,8 @@ contains
       end associate
    end subroutine report_centre
 
-   !> Whether an element of 8 or 9 nodes has its middle nodes in the middles of its sides if
-   !> the card is read as four corners, then four middle nodes
+   !> Whether an element of 6, 8 or 9 nodes has its middle nodes in the middles of its sides if
+   !> the card is read as all corners, then all middle nodes
    pure logical function corners_come_first(draft, element, n)
       !> The mesh
       type(draft_type), intent(in) :: draft
@@ -208,13 +209,15 @@ contains
       integer :: i
 
       corners_come_first = .false.
-      if (n == 4) return
-      x = draft%position(:, draft%element_nodes(perimeter_quadratic, element))
-      do i = 1, 4
-         side = x(:, mod(i, 4) + 1) - x(:, i)
-         offset = x(:, 4 + i) - (x(:, i) + 0.5_wp*side)
-         if (norm2(offset) > (middle_to - 0.5_wp)*norm2(side)) return
-      end do
+      if (n <= 4) return
+      associate (c => n_corners(n))
+         x(:, :2*c) = draft%position(:, draft%element_nodes(perimeter(n), element))
+         do i = 1, c
+            side = x(:, mod(i, c) + 1) - x(:, i)
+            offset = x(:, c + i) - (x(:, i) + 0.5_wp*side)
+            if (norm2(offset) > (middle_to - 0.5_wp)*norm2(side)) return
+         end do
+      end associate
       corners_come_first = .true.
    end function corners_come_first
 
@@ -229,8 +232,8 @@ contains
 
       integer, allocatable :: on_card(:)
 
-      on_card = draft%node_label(draft%element_nodes(perimeter_quadratic, element))
-      on_card = on_card(perimeter_quadratic)  ! now corners and middles by turns
+      on_card = draft%node_label(draft%element_nodes(perimeter(n), element))
+      on_card = on_card(perimeter(n))  ! now corners and middles by turns
       if (n == 9) on_card = [on_card, draft%node_label(draft%element_nodes(9, element))]
       call add_error(diagnostics, draft%element_card(element), 0, 0, &
                      'element '//to_text(draft%element_label(element))// &
@@ -278,7 +281,7 @@ contains
                         'the nodes of '//name//' run clockwise: its Jacobian is negative', &
                         allowed='nodes counterclockwise in the r-z plane, beginning at a corner', &
                         mend='reverse the order: '//reversed_nodes(draft, element, n))
-      else if (worst <= n_corners) then
+      else if (worst <= n_corners(n)) then
          call add_error(diagnostics, draft%element_card(element), 0, 0, &
                         'the Jacobian of '//name//' is '// &
                         trim(merge('negative', 'zero    ', sine(worst) < -least_sine))// &
@@ -306,19 +309,33 @@ contains
 
       integer, allocatable :: order(:)
 
-      if (n == 4) order = perimeter_linear
-      if (n > 4) order = perimeter_quadratic
+      order = perimeter(n)
       order = [order(1), order(size(order):2:-1)]
       if (n == 9) order = [order, 9]
       text = numbers_text(draft%node_label(draft%element_nodes(order, element)))
    end function reversed_nodes
 
+   !> Place in the model's order of the nodes as they run round the perimeter
+   pure function perimeter(n) result(places)
+      !> Number of nodes of the element
+      integer, intent(in) :: n
+      !> The places, without the centre
+      integer, allocatable :: places(:)
+
+      integer :: i
+
+      associate (c => n_corners(n))
+         if (n <= 4) places = [(i, i=1, c)]
+         if (n > 4) places = [(i, c + i, i=1, c)]
+      end associate
+   end function perimeter
+
    !> Check that middle nodes are in the middle half of their sides
-   subroutine check_middles(draft, element, diagnostics)
+   subroutine check_middles(draft, element, c, diagnostics)
       !> The mesh
       type(draft_type), intent(in) :: draft
-      !> The element
-      integer, intent(in) :: element
+      !> The element, and its number of corners
+      integer, intent(in) :: element, c
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
@@ -326,19 +343,19 @@ contains
       integer :: i
 
       associate (nodes => draft%element_nodes(:, element))
-         do i = 1, 4
-            side = draft%position(:, nodes(mod(i, 4) + 1)) - draft%position(:, nodes(i))
-            middle = draft%position(:, nodes(4 + i)) - draft%position(:, nodes(i))
+         do i = 1, c
+            side = draft%position(:, nodes(mod(i, c) + 1)) - draft%position(:, nodes(i))
+            middle = draft%position(:, nodes(c + i)) - draft%position(:, nodes(i))
             if (.not. norm2(side) > 0.0_wp) cycle
             fraction = dot_product(middle/norm2(side), side/norm2(side))
             if (fraction >= middle_from .and. fraction <= middle_to) cycle
             call add_error(diagnostics, draft%element_card(element), 0, 0, &
-                           'node '//to_text(draft%node_label(nodes(4 + i)))//' of element '// &
+                           'node '//to_text(draft%node_label(nodes(c + i)))//' of element '// &
                            to_text(draft%element_label(element))//' is not near the middle of its side '// &
                            to_text(draft%node_label(nodes(i)))//'-'// &
-                           to_text(draft%node_label(nodes(mod(i, 4) + 1))), &
+                           to_text(draft%node_label(nodes(mod(i, c) + 1))), &
                            found='at '//to_text(fraction)//' of the side, '// &
-                           place_text(draft%position(:, nodes(4 + i))), &
+                           place_text(draft%position(:, nodes(c + i))), &
                            allowed='between 0.25 and 0.75 of the side')
          end do
       end associate

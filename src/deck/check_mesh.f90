@@ -197,7 +197,8 @@ contains
             if (.not. length > 0.0_wp) cycle
             call points_near(tree, a + 0.5_wp*side, 0.499_wp*length, found, n_found)
             do k = 1, n_found
-               if (any(nodes == found(k)) .or. .not. draft%node_good(found(k))) cycle
+               if (any(draft%element_nodes(:, edges%element(i)) == found(k))) cycle  ! its own, misplaced
+               if (.not. draft%node_good(found(k))) cycle
                if (draft%node_body(found(k)) /= draft%node_body(nodes(1))) cycle
                offset = (draft%position(:, found(k)) - a)/length
                if (abs(offset(1)*side(2) - offset(2)*side(1)) > hanging_distance*length) cycle

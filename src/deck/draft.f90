@@ -4,10 +4,11 @@ module axijoint_deck_draft
    use axijoint_base_kinds, only : wp
    use axijoint_base_number_map, only : number_map_type, insert_number
    use axijoint_base_text, only : to_text
+   use axijoint_fe_shape, only : n_corners
    implicit none
    private
    public :: draft_type, edge_type, face_type, add_node, add_element, add_joint, new_draft
-   public :: most_nodes, place_text
+   public :: most_nodes, place_text, corners_known
 
    !> Most nodes, and most elements, of a deck: beyond, a number on a generation
    !> card is taken for a slip
@@ -167,6 +168,21 @@ contains
       draft%joint_nodes(:size(nodes), n) = nodes
       draft%n_joints = n
    end subroutine add_joint
+
+   !> Whether the corners of all elements are known
+   pure logical function corners_known(draft)
+      !> The draft
+      type(draft_type), intent(in) :: draft
+
+      integer :: element
+
+      corners_known = .true.
+      do element = 1, draft%n_elements
+         associate (n => n_corners(draft%element_size(element)))
+            if (any(draft%element_nodes(:n, element) == 0)) corners_known = .false.
+         end associate
+      end do
+   end function corners_known
 
    !> Change the room for nodes
    pure subroutine resize_nodes(draft, room)

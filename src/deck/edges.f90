@@ -4,6 +4,7 @@ module axijoint_deck_edges
    use axijoint_base_text, only : to_text
    use axijoint_deck_diagnostics, only : diagnostics_type, add_error
    use axijoint_deck_draft, only : draft_type, edge_type
+   use axijoint_fe_shape, only : n_corners
    implicit none
    private
    public :: edge_table_type, new_edge_table, check_edges, find_edge, outer_edge, shared
@@ -43,10 +44,10 @@ contains
       do element = 1, draft%n_elements
          associate (nodes => draft%element_nodes(:, element), n => draft%element_size(element))
             if (any(nodes(:n) == 0)) cycle
-            do side = 1, 4
+            do side = 1, n_corners(n)
                table%n = table%n + 1
-               table%nodes(:, table%n) = [nodes(side), nodes(mod(side, 4) + 1), &
-                                          merge(nodes(4 + side), 0, n > 4)]
+               table%nodes(:, table%n) = [nodes(side), nodes(mod(side, n_corners(n)) + 1), 0]
+               if (n > 4) table%nodes(3, table%n) = nodes(n_corners(n) + side)
                table%element(table%n) = element
             end do
          end associate
@@ -133,14 +134,18 @@ contains
       !> The edge
       type(edge_type) :: directed
 
+      real(wp) :: along(2), across(2)
+
       directed%nodes = table%nodes(:, edge)
       if (directed%nodes(1) /= first) directed%nodes(:2) = directed%nodes([2, 1])
       directed%element = table%element(edge)
       ! The side is taken from the element's place, not from its sense: a clockwise
       ! element is an error of its own.
       associate (x => draft%position(:, directed%nodes(:2)), &
-                 corners => draft%position(:, draft%element_nodes(:4, directed%element)))
-         associate (along => x(:, 2) - x(:, 1), across => 0.25_wp*sum(corners, 2) - 0.5_wp*(x(:, 1) + x(:, 2)))
+                 n => n_corners(draft%element_size(directed%element)))
+         associate (corners => draft%position(:, draft%element_nodes(:n, directed%element)))
+            along = x(:, 2) - x(:, 1)
+            across = sum(corners, 2)/n - 0.5_wp*(x(:, 1) + x(:, 2))
             directed%body_on_left = along(1)*across(2) - along(2)*across(1) > 0.0_wp
          end associate
       end associate

@@ -8,15 +8,13 @@ module axijoint_deck_elements
    use axijoint_deck_properties, only : properties_type, find_property
    use axijoint_deck_source, only : source_type, card_position
    use axijoint_deck_table, only : table_type, integer_value, field_error, entry_error
+   use axijoint_fe_shape, only : n_corners
    implicit none
    private
    public :: draft_elements
 
    !> Fields of ELEMENTS
    integer, parameter :: field_label = 1, field_material = 2, field_body = 3, field_node = 4
-   !> Place on the card of the model's nodes: the card goes round the perimeter,
-   !> the model takes corners, mid-sides, centre
-   integer, parameter :: place_on_card(9) = [1, 3, 5, 7, 2, 4, 6, 8, 9]
    !> Largest distance of two middles of one side, in lengths of the side
    real(wp), parameter :: middle_tolerance = 1.0e-6_wp
 
@@ -45,9 +43,9 @@ contains
                             properties%materials_complete, 'material', material, diagnostics)
          n = count_nodes(table, entry)
          if (table%good(entry) .and. n == 0) then
-            call entry_error(diagnostics, table, entry, 'the number of nodes is not 4, 8 or 9', &
+            call entry_error(diagnostics, table, entry, 'the number of nodes is not 3, 4, 6, 8 or 9', &
                              found=to_text(count(table%given(field_node:, entry)))//' nodes', &
-                             allowed='4, 8 or 9 nodes without blanks between them')
+                             allowed='3, 4, 6, 8 or 9 nodes without blanks between them')
          end if
          errors_before = diagnostics%n_errors
          if (table%good(entry)) call check_distinct(source, table, entry, n, diagnostics)
@@ -89,7 +87,7 @@ contains
       end if
    end subroutine check_label
 
-   !> Number of nodes of an element: 4, 8 or 9; 0 if it is another or there are gaps
+   !> Number of nodes of an element: 3, 4, 6, 8 or 9; 0 if it is another or there are gaps
    pure integer function count_nodes(table, entry) result(n)
       !> ELEMENTS
       type(table_type), intent(in) :: table
@@ -97,9 +95,25 @@ contains
       integer, intent(in) :: entry
 
       n = count(table%given(field_node:, entry))
-      if (all(n /= [4, 8, 9])) n = 0
+      if (all(n /= [3, 4, 6, 8, 9])) n = 0
       if (.not. all(table%given(field_node:field_node + n - 1, entry))) n = 0
    end function count_nodes
+
+   !> Place on the card of a node of the model: the card goes round the perimeter,
+   !> the model takes corners, mid-sides, centre
+   pure integer function place_on_card(n, i) result(place)
+      !> Number of nodes of the element
+      integer, intent(in) :: n
+      !> Place in the model's order
+      integer, intent(in) :: i
+
+      place = i
+      if (n <= 4 .or. i == 9) return
+      associate (c => n_corners(n))
+         if (i <= c) place = 2*i - 1
+         if (i > c) place = 2*(i - c)
+      end associate
+   end function place_on_card
 
    !> Report a node that an element has twice
    subroutine check_distinct(source, table, entry, n, diagnostics)
@@ -143,11 +157,11 @@ contains
 
       nodes = 0
       do i = 1, n
-         field = field_node - 1 + merge(i, place_on_card(i), n == 4)
+         field = field_node - 1 + place_on_card(n, i)
          label = integer_value(table, field, entry)
          nodes(i) = find_number(draft%node_of, label)
          if (nodes(i) > 0 .and. nodes(i) <= n_given) cycle
-         if (i > 4) then
+         if (i > n_corners(n)) then
             call make_node(source, table, entry, field, i, draft, nodes, diagnostics)
          else
             nodes(i) = 0
@@ -168,7 +182,7 @@ contains
       type(table_type), intent(in) :: table
       !> The entry, and the node's field
       integer, intent(in) :: entry, field
-      !> Place of the node in the model's order, 5 to 9
+      !> Place of the node in the model's order, behind the corners
       integer, intent(in) :: i
       !> The mesh
       type(draft_type), intent(inout) :: draft
@@ -203,7 +217,7 @@ contains
       type(draft_type), intent(in) :: draft
       !> The nodes of the element; the first i - 1 are known
       integer, intent(in) :: nodes(:)
-      !> Place in the model's order, 5 to 9
+      !> Place in the model's order, behind the corners
       integer, intent(in) :: i
       !> r and z
       real(wp), intent(out) :: middle(2)
@@ -216,8 +230,10 @@ contains
 
       middle = 0.0_wp
       length = 0.0_wp
-      if (i < 9) needed = nodes([i - 4, mod(i - 4, 4) + 1])
-      if (i == 9) needed = nodes([1, 3, 2, 4, 5, 6, 7, 8])
+      associate (c => n_corners(size(nodes)))
+         if (i < 9) needed = nodes([i - c, mod(i - c, c) + 1])
+         if (i == 9) needed = nodes([1, 3, 2, 4, 5, 6, 7, 8])
+      end associate
       good = all(needed > 0)
       if (good) good = all(draft%node_good(needed))
       if (.not. good) return

@@ -1,4 +1,4 @@
-!> Graded blocks of quadrilaterals
+!> Graded blocks of quadrilaterals or triangles
 module axijoint_deck_generate_blocks
    use axijoint_base_kinds, only : wp
    use axijoint_base_sort, only : refine_order
@@ -11,12 +11,17 @@ module axijoint_deck_generate_blocks
    use axijoint_deck_properties, only : properties_type
    use axijoint_deck_source, only : source_type
    use axijoint_deck_table, only : table_type, integer_value
+   use axijoint_fe_shape, only : n_corners
    implicit none
    private
    public :: draft_blocks
 
    !> Places of an element's nodes on the grid of half elements, from its first corner
    integer, parameter :: grid_1(9) = [0, 2, 2, 0, 1, 2, 1, 0, 1], grid_2(9) = [0, 0, 2, 2, 0, 1, 2, 1, 1]
+   !> Places among them of the nodes of the two triangles of a cell, cut from corner 1
+   !> to 3 or from 2 to 4, shape (nodes, triangles, cuts)
+   integer, parameter :: in_cell(6, 2, 2) = reshape([1, 2, 3, 5, 6, 9, 1, 3, 4, 9, 7, 8, &
+                                                     1, 2, 4, 5, 9, 8, 2, 3, 4, 6, 7, 9], [6, 2, 2])
    !> Nodes of blocks before those at one place become one
    type :: candidates_type
       !> Number of them
@@ -89,7 +94,7 @@ contains
       type(candidates_type), intent(inout) :: candidates
 
       integer, allocatable :: node(:, :)
-      integer :: i, j, k, n, n1, n2
+      integer :: i, j, k, n, n1, n2, cell(9)
 
       n = integer_value(table, field_size, block%entry)
       n1 = integer_value(table, field_n1, block%entry)
@@ -97,7 +102,7 @@ contains
       allocate (node(0:2*n1, 0:2*n2), source=0)
       do j = 0, 2*n2
          do i = 0, 2*n1
-            if (n == 4 .and. (mod(i, 2) == 1 .or. mod(j, 2) == 1)) cycle
+            if (n <= 4 .and. (mod(i, 2) == 1 .or. mod(j, 2) == 1)) cycle
             if (n == 8 .and. mod(i, 2) == 1 .and. mod(j, 2) == 1) cycle
             k = candidates%n + 1
             candidates%n = k
@@ -111,13 +116,50 @@ contains
       end do
       do j = 0, n2 - 1
          do i = 0, n1 - 1
-            label = label + 1
-            call add_element(draft, label, table%cards(1, block%entry), block%material, &
-                             integer_value(table, field_body, block%entry), &
-                             [(node(2*i + grid_1(k), 2*j + grid_2(k)), k=1, n)])
+            cell = [(node(2*i + grid_1(k), 2*j + grid_2(k)), k=1, 9)]
+            call add_cell(table, block, n, cell, 1 + mod(i + j, 2), label, draft, candidates)
          end do
       end do
    end subroutine fill_block
+
+   !> Add the quadrilateral or both triangles of a cell
+   pure subroutine add_cell(table, block, n, cell, cut, label, draft, candidates)
+      !> BLOCKS
+      type(table_type), intent(in) :: table
+      !> The block
+      type(block_type), intent(in) :: block
+      !> Nodes of an element
+      integer, intent(in) :: n
+      !> Nodes of the cell, behind the nodes of the draft by their place among the candidates
+      integer, intent(in) :: cell(9)
+      !> How triangles cut it: 1 from corner 1 to 3, 2 from corner 2 to 4
+      integer, intent(in) :: cut
+      !> Number of the last element
+      integer, intent(inout) :: label
+      !> The mesh
+      type(draft_type), intent(inout) :: draft
+      !> Nodes of blocks
+      type(candidates_type), intent(inout) :: candidates
+
+      integer :: i, body
+
+      body = integer_value(table, field_body, block%entry)
+      if (n_corners(n) == 4) then
+         label = label + 1
+         call add_element(draft, label, table%cards(1, block%entry), block%material, body, cell(:n))
+         return
+      end if
+      do i = 1, 2
+         label = label + 1
+         call add_element(draft, label, table%cards(1, block%entry), block%material, body, &
+                          cell(in_cell(:n, i, cut)))
+      end do
+      if (n == 6) then  ! the cut is straight
+         associate (x => candidates%position, k => cell - draft%n_nodes)
+            x(:, k(9)) = between(x(:, k(cut)), x(:, k(cut + 2)), 0.5_wp)
+         end associate
+      end if
+   end subroutine add_cell
 
    !> Fraction of a side at a place of the grid of half elements: elements are
    !> graded, middles halve them

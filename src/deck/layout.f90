@@ -90,7 +90,7 @@ contains
       case (section_lines)
          fields = [number('the first node', 1), number('the last node', 6), step(11), ratio('the ratio', 16)]
       case (section_elements)
-         fields = [number('the element', 1), number('the material', 6), body(11), numbers('node', 9, 4, 16)]
+         fields = [number('the element', 1), number('the material', 6), body(11), numbers('node', 9, 3, 16)]
       case (section_blocks)
          fields = block_fields()
       case (section_materials, section_orthotropic, section_laws)
@@ -130,8 +130,8 @@ contains
       case (section_control)
          fields = [integer_field('the highest harmonic M', 1, 5, 0, largest_harmonic), &
                    integer_field('the number of planes', 6, 10, 2, largest_division, default=0), &
-                   integer_field('the number of Gauss points (4-node)', 11, 15, 2, 3, default=2), &
-                   integer_field('the number of Gauss points (8-, 9-node)', 16, 20, 2, 3, default=3), &
+                   integer_field('the number of Gauss points (linear)', 11, 15, 2, 3, default=2), &
+                   integer_field('the number of Gauss points (quadratic)', 16, 20, 2, 3, default=3), &
                    word_field('the solver', 21, 30, solver_names, 1)]
       case (section_increments)
          fields = [real_field('the load factor', 1, 10), &
@@ -154,7 +154,7 @@ contains
       type(field_type) :: corner
       integer :: i
 
-      fields = [body(1), number('the material', 6), integer_field('the number of nodes per element', 11, 15, 4, 9), &
+      fields = [body(1), number('the material', 6), integer_field('the number of nodes per element', 11, 15, 3, 9), &
                 integer_field('the number of elements along 1-2', 16, 20, 1, largest_division), &
                 integer_field('the number of elements along 2-3', 21, 25, 1, largest_division), &
                 ratio('the ratio along 1-2', 26), ratio('the ratio along 2-3', 36)]

@@ -7,7 +7,7 @@ module axijoint_deck_reader
       check_hanging, check_touching
    use axijoint_deck_control, only : read_control, check_planes
    use axijoint_deck_diagnostics, only : diagnostics_type, add_error
-   use axijoint_deck_draft, only : draft_type, new_draft
+   use axijoint_deck_draft, only : draft_type, new_draft, corners_known
    use axijoint_deck_edges, only : edge_table_type, new_edge_table, check_edges
    use axijoint_deck_elements, only : draft_elements
    use axijoint_deck_faces, only : number_faces, lay_faces
@@ -29,7 +29,7 @@ module axijoint_deck_reader
    use axijoint_deck_sections, only : sections_type, read_sections
    use axijoint_deck_source, only : source_type
    use axijoint_deck_source_reader, only : read_source
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, element_references
    implicit none
    private
    public :: read_deck
@@ -104,7 +104,7 @@ contains
          call draft_blocks(source, tables(section_blocks), properties, draft, diagnostics)
       end associate
       call snap_to_axis(draft, diagnostics)
-      call check_elements(model%gauss_linear, model%gauss_quadratic, draft, diagnostics)
+      call check_elements(element_references(model), draft, diagnostics)
       if (draft%n_elements == 0 .and. draft%elements_complete) then
          call add_error(diagnostics, 0, 0, 0, 'the deck has no elements', &
                         mend='give ELEMENTS with NODES, or BLOCKS, or a mesh file by GMSH')
@@ -140,7 +140,7 @@ contains
          call refer_interfaces(source, tables(section_interfaces), properties, draft, reference, diagnostics)
          sound = draft%nodes_complete .and. draft%elements_complete &
                  .and. all(draft%node_good(:draft%n_nodes)) &
-                 .and. all(draft%element_nodes(:4, :draft%n_elements) > 0)
+                 .and. corners_known(draft)
          if (.not. sound) then
             draft%faces%good = .false.
             return

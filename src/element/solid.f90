@@ -1,15 +1,14 @@
-!> Quadrilateral rings: strain, stiffness and stress of one harmonic
+!> Quadrilateral and triangular rings: strain, stiffness and stress of one harmonic
 module axijoint_element_solid
    use axijoint_base_kinds, only : wp
-   use axijoint_fe_quadrature, only : gauss_rule
-   use axijoint_fe_shape, only : shape_quadrilateral
+   use axijoint_fe_reference, only : reference_type
    implicit none
    private
    public :: solid_point_type, solid_points
    public :: strain_matrices, solid_stiffness, solid_stress, add_solid_force
    public :: stiffness_kernel_type, new_stiffness_kernel
 
-   !> What the integrals over an element need at one Gauss point
+   !> What the integrals over an element need at one integration point
    type :: solid_point_type
       !> r and z
       real(wp) :: position(2) = 0.0_wp
@@ -38,36 +37,36 @@ module axijoint_element_solid
 
 contains
 
-   !> Gauss points of an element
-   pure subroutine solid_points(coordinates, n_gauss, points)
-      !> r and z of the nodes, shape (2, 4 | 8 | 9)
+   !> Integration points of an element
+   pure subroutine solid_points(coordinates, reference, points)
+      !> r and z of the nodes, shape (2, nodes)
       real(wp), intent(in) :: coordinates(:, :)
-      !> Gauss points in each direction
-      integer, intent(in) :: n_gauss
-      !> The points, shape (n_gauss**2)
+      !> The element in natural coordinates
+      type(reference_type), intent(in) :: reference
+      !> The points, shape (reference%n_points)
       type(solid_point_type), intent(out) :: points(:)
 
-      real(wp) :: x(3), w(3), local(2, 9), jacobian(2, 2), determinant
-      integer :: i, j, k, n
+      real(wp) :: jacobian(2, 2), determinant
+      integer :: i, k, n
 
-      n = size(coordinates, 2)
-      call gauss_rule(n_gauss, x, w)
-      k = 0
-      do j = 1, n_gauss
-         do i = 1, n_gauss
-            k = k + 1
-            associate (p => points(k))
-               call shape_quadrilateral(n, x(i), x(j), p%shape(:n), local(:, :n))
-               jacobian = matmul(local(:, :n), transpose(coordinates))
-               determinant = jacobian(1, 1)*jacobian(2, 2) - jacobian(1, 2)*jacobian(2, 1)
-               p%gradient(1, :n) = (jacobian(2, 2)*local(1, :n) &
-                                    - jacobian(1, 2)*local(2, :n))/determinant
-               p%gradient(2, :n) = (jacobian(1, 1)*local(2, :n) &
-                                    - jacobian(2, 1)*local(1, :n))/determinant
-               p%position = matmul(coordinates, p%shape(:n))
-               p%weight = w(i)*w(j)*determinant*p%position(1)
-            end associate
-         end do
+      n = reference%n_nodes
+      do k = 1, reference%n_points
+         associate (p => points(k), local => reference%derivative(:, :, k))
+            jacobian = 0.0_wp
+            p%position = 0.0_wp
+            do i = 1, n
+               p%shape(i) = reference%shape(i, k)
+               p%position = p%position + p%shape(i)*coordinates(:, i)
+               jacobian(:, 1) = jacobian(:, 1) + local(1, i)*coordinates(:, i)
+               jacobian(:, 2) = jacobian(:, 2) + local(2, i)*coordinates(:, i)
+            end do
+            determinant = jacobian(1, 1)*jacobian(2, 2) - jacobian(1, 2)*jacobian(2, 1)
+            do i = 1, n
+               p%gradient(1, i) = (jacobian(2, 2)*local(1, i) - jacobian(2, 1)*local(2, i))/determinant
+               p%gradient(2, i) = (jacobian(1, 1)*local(2, i) - jacobian(1, 2)*local(1, i))/determinant
+            end do
+            p%weight = reference%weight(k)*determinant*p%position(1)
+         end associate
       end do
    end subroutine solid_points
 
@@ -150,7 +149,7 @@ contains
    !> The parts of the stiffness of an element, free of the harmonic:
    !> K_m = c_m (A + m S + m^2 C), c_0 = 2 pi, c_m = pi (Eq. 5)
    pure subroutine solid_stiffness(points, n, kernel, a, s, c)
-      !> Gauss points of the element
+      !> Integration points of the element
       type(solid_point_type), intent(in) :: points(:)
       !> Number of nodes
       integer, intent(in) :: n

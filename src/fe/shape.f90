@@ -1,9 +1,9 @@
-!> Shape functions of quadrilaterals and lines
+!> Shape functions of quadrilaterals, triangles and lines
 module axijoint_fe_shape
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: shape_quadrilateral, shape_line
+   public :: shape_element, shape_line, n_corners, natural_positions
 
    !> Natural coordinates of the nine nodes of a quadrilateral, shape (2, 9):
    !> corners counterclockwise, mid-sides, centre
@@ -11,14 +11,46 @@ module axijoint_fe_shape
       -1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp, &
       0.0_wp, -1.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, -1.0_wp, 0.0_wp, &
       0.0_wp, 0.0_wp], [2, 9])
+   !> The same of the six nodes of a triangle, whose corners are the origin and the
+   !> ends of both axes
+   real(wp), parameter :: triangle_position(2, 6) = reshape([ &
+      0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, &
+      0.5_wp, 0.0_wp, 0.5_wp, 0.5_wp, 0.0_wp, 0.5_wp], [2, 6])
+   !> Derivatives by x and y of the area coordinates 1 - x - y, x, y of a triangle
+   real(wp), parameter :: corner_derivative(2, 3) = reshape([ &
+      -1.0_wp, -1.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 3])
 
 contains
 
-   !> Shape functions of the 4-, 8- or 9-node quadrilateral
-   pure subroutine shape_quadrilateral(n, x, y, shape, derivative)
-      !> Number of nodes: 4, 8 or 9
+   !> Corners of an element: 3 or 4. Its sides run from one to the next, and the
+   !> mid-side nodes follow the corners in the same order
+   elemental integer function n_corners(n)
+      !> Number of nodes: 3, 4, 6, 8 or 9
       integer, intent(in) :: n
-      !> Natural coordinates in [-1, 1]
+
+      n_corners = merge(3, 4, n == 3 .or. n == 6)
+   end function n_corners
+
+   !> Natural coordinates of the nodes of an element
+   pure function natural_positions(n) result(positions)
+      !> Number of nodes: 3, 4, 6, 8 or 9
+      integer, intent(in) :: n
+      !> The coordinates, shape (2, n)
+      real(wp) :: positions(2, n)
+
+      if (n_corners(n) == 3) then
+         positions = triangle_position(:, :n)
+      else
+         positions = node_position(:, :n)
+      end if
+   end function natural_positions
+
+   !> Shape functions of an element; its number of nodes tells its kind
+   pure subroutine shape_element(n, x, y, shape, derivative)
+      !> Number of nodes: 3, 4, 6, 8 or 9
+      integer, intent(in) :: n
+      !> Natural coordinates: in [-1, 1] in a quadrilateral; not negative, of a sum
+      !> not above 1 in a triangle
       real(wp), intent(in) :: x, y
       !> Shape functions, shape (n)
       real(wp), intent(out) :: shape(:)
@@ -26,6 +58,11 @@ contains
       real(wp), intent(out) :: derivative(:, :)
 
       select case (n)
+      case (3)
+         shape(1:3) = [1.0_wp - x - y, x, y]
+         derivative(:, 1:3) = corner_derivative
+      case (6)
+         call quadratic_triangle(x, y, shape, derivative)
       case (4)
          call bilinear(x, y, shape, derivative)
       case (8)
@@ -33,7 +70,30 @@ contains
       case default
          call biquadratic(x, y, shape, derivative)
       end select
-   end subroutine shape_quadrilateral
+   end subroutine shape_element
+
+   !> Quadratic functions of the corners and mid-sides of a triangle
+   pure subroutine quadratic_triangle(x, y, shape, derivative)
+      !> Natural coordinates
+      real(wp), intent(in) :: x, y
+      !> Shape functions
+      real(wp), intent(out) :: shape(:)
+      !> Derivatives by x and y
+      real(wp), intent(out) :: derivative(:, :)
+
+      real(wp) :: area(3)
+      integer :: i, j
+
+      area = [1.0_wp - x - y, x, y]
+      do i = 1, 3
+         j = mod(i, 3) + 1
+         shape(i) = area(i)*(2.0_wp*area(i) - 1.0_wp)
+         derivative(:, i) = (4.0_wp*area(i) - 1.0_wp)*corner_derivative(:, i)
+         shape(3 + i) = 4.0_wp*area(i)*area(j)
+         derivative(:, 3 + i) = 4.0_wp*(area(i)*corner_derivative(:, j) &
+                                        + area(j)*corner_derivative(:, i))
+      end do
+   end subroutine quadratic_triangle
 
    !> Shape functions of the 2- or 3-node line
    pure subroutine shape_line(n, x, shape, derivative)

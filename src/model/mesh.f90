@@ -24,7 +24,7 @@ module axijoint_model_mesh
       integer, allocatable :: element_material(:)
       !> Body that each element belongs to; bodies meet in joints only
       integer, allocatable :: element_body(:)
-      !> Number of nodes of each element: 4, 8 or 9
+      !> Number of nodes of each element: 3 or 6 of a triangle, 4, 8 or 9 of a quadrilateral
       integer, allocatable :: element_size(:)
       !> Nodes of each element, shape (max_element_nodes, elements): corners
       !> counterclockwise in the (r, z) plane, mid-side nodes in the same

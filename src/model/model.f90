@@ -2,6 +2,7 @@
 module axijoint_model_model
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : law_elastic
+   use axijoint_fe_reference, only : reference_type, new_reference
    use axijoint_model_load, only : edge_load_type, ring_load_type, body_load_type, &
       thermal_load_type, prescribed_type, initial_stress_type, edge_support_type, &
       combination_type, increment_type, truncation_type
@@ -9,7 +10,7 @@ module axijoint_model_model
    use axijoint_model_mesh, only : mesh_type
    implicit none
    private
-   public :: model_type, can_yield, gauss_order, on_axis
+   public :: model_type, can_yield, element_references, on_axis
 
    !> A job
    type :: model_type
@@ -51,7 +52,8 @@ module axijoint_model_model
       integer, allocatable :: harmonics(:)
       !> Number of planes theta from 0 to pi on which the joint law is checked
       integer :: n_planes = 0
-      !> Gauss points in each direction of 4-node, and of 8- and 9-node elements
+      !> Order of the integration rules of linear (3- and 4-node) and of quadratic elements:
+      !> 2 or 3 Gauss points in each direction; 3 or 7 points of a triangle
       integer :: gauss_linear = 2, gauss_quadratic = 3
       !> Solver, one of the `solver_` parameters of the solver choice; 0 is auto
       integer :: solver = 0
@@ -76,15 +78,20 @@ contains
       end do
    end function can_yield
 
-   !> Gauss points in each direction of an element
-   pure integer function gauss_order(model, n_element_nodes)
+   !> The kinds of elements with their integration points, by number of nodes:
+   !> the one place that tells how many points an element has, and where
+   pure function element_references(model) result(references)
       !> The job
       type(model_type), intent(in) :: model
-      !> Number of nodes of the element
-      integer, intent(in) :: n_element_nodes
+      !> The elements of 3, 4, 6, 8 and 9 nodes
+      type(reference_type) :: references(3:9)
 
-      gauss_order = merge(model%gauss_linear, model%gauss_quadratic, n_element_nodes == 4)
-   end function gauss_order
+      references(3) = new_reference(3, model%gauss_linear)
+      references(4) = new_reference(4, model%gauss_linear)
+      references(6) = new_reference(6, model%gauss_quadratic)
+      references(8) = new_reference(8, model%gauss_quadratic)
+      references(9) = new_reference(9, model%gauss_quadratic)
+   end function element_references
 
    !> Which nodes lie on the axis of revolution
    pure function on_axis(mesh)

@@ -3,9 +3,10 @@ module axijoint_output_listing_model
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text
    use axijoint_element_joint_law, only : law_elastic
+   use axijoint_fe_reference, only : reference_type
    use axijoint_model_material, only : rule_centroid, rule_gauss, rule_lobatto
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, n_joints
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, element_references
    use axijoint_output_columns, only : columns
    use axijoint_output_headings, only : write_heading, write_lines
    use axijoint_output_text_file, only : text_file_type
@@ -53,8 +54,10 @@ contains
       associate (mesh => model%mesh)
          call write_heading(file, "MODEL")
          call write_fact(file, "nodes", to_text(n_nodes(mesh)))
-         call write_fact(file, "elements (4, 8, 9 nodes)", to_text(n_elements(mesh))//" ("// &
+         call write_fact(file, "elements (3, 4, 6, 8, 9 nodes)", to_text(n_elements(mesh))//" ("// &
+            to_text(count(mesh%element_size == 3))//", "// &
             to_text(count(mesh%element_size == 4))//", "// &
+            to_text(count(mesh%element_size == 6))//", "// &
             to_text(count(mesh%element_size == 8))//", "// &
             to_text(count(mesh%element_size == 9))//")")
          call write_fact(file, "joints (4, 6 nodes)", to_text(n_joints(mesh))//" ("// &
@@ -71,12 +74,24 @@ contains
          call write_fact(file, "harmonics in use", number_list(model%harmonics))
       end if
       call write_fact(file, "planes theta from 0 to pi", to_text(model%n_planes))
-      call write_fact(file, "Gauss points, 4-node", to_text(model%gauss_linear)//" x "// &
-         to_text(model%gauss_linear))
-      call write_fact(file, "Gauss points, 8- and 9-node", to_text(model%gauss_quadratic)//" x "// &
-         to_text(model%gauss_quadratic))
+      call write_fact(file, "points (3, 4, 6, 8, 9 nodes)", point_counts(model))
       call write_fact(file, "restrained nodes", to_text(count(any(model%fixed, dim=1))))
    end subroutine write_model
+
+   !> Integration points of each kind of element
+   pure function point_counts(model) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The numbers
+      character(len=:), allocatable :: text
+
+      type(reference_type) :: references(3:9)
+
+      references = element_references(model)
+      text = to_text(references(3)%n_points)//", "//to_text(references(4)%n_points)//", "// &
+         to_text(references(6)%n_points)//", "//to_text(references(8)%n_points)//", "// &
+         to_text(references(9)%n_points)
+   end function point_counts
 
    !> Materials of the solids
    subroutine write_materials(file, model)

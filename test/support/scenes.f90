@@ -2,6 +2,7 @@
 module axijoint_test_scenes
    use axijoint_base_kinds, only : wp, pi
    use axijoint_element_joint_law, only : joint_law_type, law_elastic
+   use axijoint_fe_shape, only : n_corners
    use axijoint_model_load, only : edge_load_type, ring_load_type, increment_type, combination_type
    use axijoint_model_material, only : solid_material_type, joint_material_type
    use axijoint_model_model, only : model_type
@@ -46,13 +47,13 @@ contains
    end function new_scene
 
    !> Add a grid of elements whose corners are the image of a grid on the unit
-   !> square; the nodes are new, so that blocks are bodies of their own
+   !> square; two triangles fill a cell, cut by turns one way and the other. The nodes are new, so that blocks are bodies of their own
    subroutine add_block(model, n_nodes, n1, n2, place)
       !> The model
       type(model_type), intent(inout) :: model
-      !> Nodes of an element: 4, 8 or 9
+      !> Nodes of an element: 3, 4, 6, 8 or 9
       integer, intent(in) :: n_nodes
-      !> Elements in each direction
+      !> Cells in each direction
       integer, intent(in) :: n1, n2
       !> Image of a point of the unit square: r and z
       interface
@@ -66,18 +67,21 @@ contains
       end interface
 
       integer, parameter :: di(9) = [0, 2, 2, 0, 1, 2, 1, 0, 1], dj(9) = [0, 0, 2, 2, 0, 1, 2, 1, 1]
+      integer, parameter :: halves(6, 2, 0:1) = reshape([1, 2, 3, 5, 6, 9, 1, 3, 4, 9, 7, 8, &
+                                                         1, 2, 4, 5, 9, 8, 2, 3, 4, 6, 7, 9], [6, 2, 2])
       integer, allocatable :: number(:, :), elements(:, :)
       real(wp), allocatable :: coordinates(:, :)
-      integer :: i, j, k, count, first, body
+      integer :: i, j, k, count, first, body, cell(9), n
 
       first = size(model%mesh%node_label)
       allocate (number(0:2*n1, 0:2*n2), source=0)
-      allocate (coordinates(2, (2*n1 + 1)*(2*n2 + 1)), elements(9, n1*n2))
+      allocate (coordinates(2, (2*n1 + 1)*(2*n2 + 1)), elements(9, 2*n1*n2))
       elements = 0
+      n = 0
       count = 0
       do j = 0, 2*n2
          do i = 0, 2*n1
-            if (n_nodes == 4 .and. (mod(i, 2) == 1 .or. mod(j, 2) == 1)) cycle
+            if (n_nodes <= 4 .and. (mod(i, 2) == 1 .or. mod(j, 2) == 1)) cycle
             if (n_nodes == 8 .and. mod(i, 2) == 1 .and. mod(j, 2) == 1) cycle
             count = count + 1
             number(i, j) = first + count
@@ -86,20 +90,27 @@ contains
       end do
       do j = 1, n2
          do i = 1, n1
-            do k = 1, n_nodes
-               elements(k, i + (j - 1)*n1) = number(2*i - 2 + di(k), 2*j - 2 + dj(k))
-            end do
+            cell = [(number(2*i - 2 + di(k), 2*j - 2 + dj(k)), k=1, 9)]
+            if (n_corners(n_nodes) == 4) then
+               n = n + 1
+               elements(:n_nodes, n) = cell(:n_nodes)
+            else
+               do k = 1, 2
+                  n = n + 1
+                  elements(:n_nodes, n) = cell(halves(:n_nodes, k, mod(i + j, 2)))
+               end do
+            end if
          end do
       end do
       associate (mesh => model%mesh)
          body = maxval([0, mesh%element_body]) + 1
          mesh%coordinates = reshape([mesh%coordinates, coordinates(:, :count)], [2, first + count])
          mesh%node_label = [(i, i=1, first + count)]
-         mesh%element_nodes = reshape([mesh%element_nodes, elements], &
-                                      [9, size(mesh%element_label) + n1*n2])
-         mesh%element_material = [mesh%element_material, spread(1, 1, n1*n2)]
-         mesh%element_body = [mesh%element_body, spread(body, 1, n1*n2)]
-         mesh%element_size = [mesh%element_size, spread(n_nodes, 1, n1*n2)]
+         mesh%element_nodes = reshape([mesh%element_nodes, elements(:, :n)], &
+                                      [9, size(mesh%element_label) + n])
+         mesh%element_material = [mesh%element_material, spread(1, 1, n)]
+         mesh%element_body = [mesh%element_body, spread(body, 1, n)]
+         mesh%element_size = [mesh%element_size, spread(n_nodes, 1, n)]
          mesh%element_label = [(i, i=1, size(mesh%element_material))]
       end associate
       model%fixed = reshape([model%fixed, spread(.false., 1, 3*count)], [3, first + count])
@@ -129,10 +140,10 @@ contains
 
       integer :: lower(3), upper(3), element, n, k, i, joint(6)
 
-      n = merge(2, 3, model%mesh%element_size(1) == 4)
+      n = merge(2, 3, model%mesh%element_size(1) <= 4)
       do element = 1, size(model%mesh%element_label)
          if (model%mesh%element_body(element) /= lower_body) cycle
-         do k = 1, 4
+         do k = 1, n_corners(model%mesh%element_size(element))
             lower = edge_of(model, element, k)
             if (.not. along(lower)) cycle
             lower(1:2) = lower([2, 1])  ! eta points out of the lower body: it lies on the right
@@ -187,7 +198,7 @@ contains
       integer :: element, k, i, nodes(3)
 
       do element = 1, size(model%mesh%element_label)
-         do k = 1, 4
+         do k = 1, n_corners(model%mesh%element_size(element))
             nodes = edge_of(model, element, k)
             if (.not. on_segment(model%mesh%coordinates(:, nodes(1)), from, to)) cycle
             if (.not. on_segment(model%mesh%coordinates(:, nodes(2)), from, to)) cycle
@@ -212,9 +223,10 @@ contains
       !> The nodes; no middle node is zero
       integer :: nodes(3)
 
-      associate (list => model%mesh%element_nodes(:, element))
-         nodes = [list(k), list(mod(k, 4) + 1), 0]
-         if (model%mesh%element_size(element) > 4) nodes(3) = list(k + 4)
+      associate (list => model%mesh%element_nodes(:, element), &
+                 c => n_corners(model%mesh%element_size(element)))
+         nodes = [list(k), list(mod(k, c) + 1), 0]
+         if (model%mesh%element_size(element) > 4) nodes(3) = list(k + c)
       end associate
    end function edge_of
 
