@@ -1,6 +1,8 @@
 """Mesh files with one fault each: the message names the file and the line"""
 import os
+import random
 
+from cut_decks import accepted, cut_faults, mutated
 from made_decks import made_faults
 from support import Test, expected, input_deck, read_text, write
 from written_alike import same_results
@@ -115,7 +117,9 @@ $Elements
 $EndElements
 """
 
-CUT_OFF = 'the file is damaged or was cut off: save the mesh again'
+# Mesh files that are changed at random
+SEED, MUTATIONS = 20260111, 600
+
 # Name: text that is replaced, what replaces it, the message expected
 FAULTS_2 = {
     'not a mesh': ('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n', '// footing.geo\n',
@@ -213,8 +217,17 @@ def mesh_faults(program, folder, mesh, old, new, expectation):
     return made_faults(program, folder, DECK, f'mesh.msh:{expectation}', {'mesh.msh': mesh.replace(old, new)})
 
 
+# The same with separate nodes at one place, and the curves of both sides in one group
+SEPARATE = (FORMAT_2.replace('\n7\n1 0.5', '\n9\n1 0.5').replace('$EndNodes', '8 1 0 0\n9 1 1 0\n$EndNodes')
+            .replace('2 3 6 5\n', '8 3 6 9\n7 1 2 4 4 9 8\n').replace('\n6\n1 15', '\n7\n1 15'))
+# One side of the joint with middle nodes, the other without
+MIDDLES = (SEPARATE.replace('\n9\n1 0.5', '\n13\n1 0.5')
+           .replace('$EndNodes', '10 1.5 0 0\n11 2 0.5 0\n12 1.5 1 0\n13 1 0.5 0\n$EndNodes')
+           .replace('6 3 2 2 2 8 3 6 9', '6 16 2 2 2 8 3 6 9 10 11 12 13'))
+
 # Each makes the bytes of a mesh file that says the same
 WAYS = {
+    'separate nodes': SEPARATE,
     'format 4.1': FORMAT_4,
     'CR LF': FORMAT_2.replace('\n', '\r\n'),
     'CR': FORMAT_4.replace('\n', '\r'),
@@ -250,6 +263,52 @@ def several_groups(program, folder):
     return alike(program, folder, mesh)
 
 
+# Eight elements round a hole, its edges in no order; the first runs from 7 to 6
+HOLE = [(7, 6), (10, 11), (6, 10), (11, 7)]
+RING = [(k, k + 1, k + 5, k + 4) for k in (1, 2, 3, 5, 7, 9, 10, 11)]
+# The upper side from the axis on, in two directions and in no order
+UPPER = [(15, 14), (15, 16), (13, 14)]
+
+
+def holed_mesh(lines):
+    """A square of sixteen nodes with a hole, whose curve `face` has some lines"""
+    nodes = [f'{4*j + i + 1} {i} {j} 0' for j in range(4) for i in range(4)]
+    elements = [f'1 2 1 1 {a} {b}' for a, b in lines] + [f'3 2 2 2 {a} {b} {c} {d}' for a, b, c, d in RING]
+    return '\n'.join(['$MeshFormat', '2.2 0 8', '$EndMeshFormat', '$Nodes', '16', *nodes, '$EndNodes',
+                      '$Elements', str(len(elements)), *(f'{k} {e}' for k, e in enumerate(elements, 1)),
+                      '$EndElements', ''])
+
+
+def same_face(program, folder, mesh, group, chain):
+    """Faults unless tractions that vary along a face of GROUPS are those along a face of CHAINS"""
+    bodies = DECK[DECK.index('      BODY'):DECK.index('      FACE')]
+    deck = DECK.replace('    2    1       1.0\n', '2, 1, 1.0, 2.0, , 5.0, 7.0\n')
+    deck = deck.replace('      FACE    2      bottom\n', f' FACE, 2, , {group}\n')
+    if group == '1':
+        deck = deck.replace(bodies, '      BODY    1    1 2\n').replace('     JOINT    1      wall\n', '')
+        deck = deck.replace('      FACE    1      outside\n', '').replace('FIXEDFACES\n    1  111', 'RESTRAINTS\n    4  111')
+    decks = [deck, deck.replace(f' FACE, 2, , {group}\n', '') .replace('END\n', f'CHAINS\n2, {chain}\nEND\n')]
+    for k, text in enumerate(decks):
+        write(folder, f'{k}/mesh.msh', mesh)
+        decks[k] = write(folder, f'{k}/job.dat', text)
+    return same_results(program, decks, folder)
+
+
+def changed_files(program, folder):
+    """Mesh files with random faults: never a crash"""
+    dice = random.Random(SEED)
+    for k in range(MUTATIONS):
+        write(folder, f'{k}/job.dat', DECK)
+        write(folder, f'{k}/mesh.msh', mutated(dice.choice((FORMAT_2, FORMAT_4)).encode(), dice))
+    return accepted(program, folder, [f'{k}/job.dat' for k in range(MUTATIONS)])[1]
+
+
+def cut_file(program, folder, mesh):
+    """A mesh file cut off at every byte"""
+    write(folder, 'job.dat', DECK)
+    return cut_faults(program, folder, mesh.encode(), 'mesh.msh', len(mesh) - 1)
+
+
 def example(program, folder):
     """The example of the manual and of `inputs` is the same text, and can be solved"""
     manual = read_text(os.path.join(os.path.dirname(__file__), '..', '..', 'doc', 'deck.md'))
@@ -263,6 +322,17 @@ def example(program, folder):
     return faults + ran.ended_with(0) + expected('messages', '', ran.err)
 
 
+# Name: mesh file, group of the face, chain of the same nodes
+FACES = {
+    'along a curve': (FORMAT_2, 'bottom', '1, 2'),
+    'along a curve, 4.1': (FORMAT_4, 'bottom', '1, 2'),
+    'against a curve': (FORMAT_2.replace('2 1 2 3 3 1 2', '2 1 2 3 3 2 1'), 'bottom', '2, 1'),
+    'against a curve, 4.1': (FORMAT_4.replace('0 1 3 2 1 -2', '0 1 -3 2 1 -2'), 'bottom', '2, 1'),
+    'of lines in no order': (holed_mesh(UPPER), '1', '16, 15, 14, 13'),
+    'round a hole': (holed_mesh(HOLE), '1', '7, 6, 10, 11, 7'),
+}
+
+
 def tests(program):
     """One test a mesh file"""
 
@@ -272,4 +342,10 @@ def tests(program):
     return ([test(f'2.2: {name}', mesh_faults, FORMAT_2, *case) for name, case in FAULTS_2.items()]
             + [test(f'4.1: {name}', mesh_faults, FORMAT_4, *case) for name, case in FAULTS_4.items()]
             + [test(f'alike: {name}', alike, mesh) for name, mesh in WAYS.items()]
-            + [test('several groups', several_groups), test('example', example)])
+            + [test(f'face {name}', same_face, *case) for name, case in FACES.items()]
+            + [test('cut off, 2.2', cut_file, FORMAT_2), test('cut off, 4.1', cut_file, FORMAT_4),
+               test('changed at random', changed_files),
+               Test('mesh file: middle nodes on one side of a joint', lambda folder: made_faults(
+                   program, folder, DECK, '15:22-25: error: the elements on both sides of the curve at '
+                   'r = 1, z = 0 have different middle nodes', {'mesh.msh': MIDDLES})),
+               test('several groups', several_groups), test('example', example)])
