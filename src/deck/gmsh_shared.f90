@@ -6,6 +6,7 @@ module axijoint_deck_gmsh_shared
    use axijoint_deck_draft, only : place_text
    use axijoint_deck_gmsh_import, only : gmsh_import_type, use_joint
    use axijoint_deck_table, only : table_type, entry_error
+   use axijoint_fe_shape, only : n_corners
    use axijoint_gmsh_mesh, only : nodes_of_type, dimension_of_type
    implicit none
    private
@@ -89,7 +90,7 @@ contains
                if (dimension_of_type(mesh%element_type(element)) == 1) then
                   if (joint_set(mesh%element_set(element))) call add(nodes(1:2), 0)
                else if (use_of(element) > 0) then
-                  n = merge(3, 4, any(nodes_of_type(mesh%element_type(element)) == [3, 6]))
+                  n = n_corners(nodes_of_type(mesh%element_type(element)))
                   do side = 1, n
                      call add([nodes(side), nodes(mod(side, n) + 1)], use_of(element))
                   end do

@@ -11,6 +11,7 @@ module axijoint_deck_gmsh_solids
    use axijoint_deck_places, only : extent_of
    use axijoint_deck_source, only : source_type
    use axijoint_deck_table, only : table_type
+   use axijoint_fe_shape, only : n_corners
    use axijoint_gmsh_mesh, only : nodes_of_type, dimension_of_type, group_text
    implicit none
    private
@@ -19,8 +20,6 @@ module axijoint_deck_gmsh_solids
    !> Largest distance from the plane z = 0 of the file, and behind the axis, in extents of the mesh:
    !> only rounding
    real(wp), parameter :: rounding = 1.0e-12_wp
-   !> Numbers of nodes that elements of the model may have
-   integer, parameter :: element_sizes(3) = [4, 8, 9]
 
 contains
 
@@ -48,7 +47,6 @@ contains
          call check_positions(source, import, diagnostics)
          call check_numbers(source, import, use_of, draft, diagnostics)
          call check_shared(table, import, use_of, diagnostics)
-         call check_kinds(source, import, use_of, diagnostics)
       end if
       import%sound = import%sound .and. diagnostics%n_errors == errors_before
       if (import%sound) then
@@ -213,29 +211,6 @@ contains
       end associate
    end subroutine check_positions
 
-   !> Refuse elements that the solids do not have
-   subroutine check_kinds(source, import, use_of, diagnostics)
-      !> The deck
-      type(source_type), intent(inout) :: source
-      !> The mesh
-      type(gmsh_import_type), intent(in) :: import
-      !> BODY card of each element; 0 for none
-      integer, intent(in) :: use_of(:)
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
-
-      integer :: element
-
-      do element = 1, import%mesh%n_elements
-         if (use_of(element) == 0) cycle
-         if (any(nodes_of_type(import%mesh%element_type(element)) == element_sizes)) cycle
-         call mesh_line_error(source, import%mesh%element_line(element), 0, 0, 'element '// &
-                              to_text(import%mesh%element_tag(element))//' is a triangle', &
-                              'quadrilaterals of 4, 8 or 9 nodes', 'set Mesh.RecombineAll=1', diagnostics)
-         return
-      end do
-   end subroutine check_kinds
-
    !> How many further nodes have the same fault
    pure function others(n) result(text)
       !> Nodes with the fault
@@ -362,7 +337,7 @@ contains
       real(wp) :: area
       integer :: i, n
 
-      n = merge(3, 4, any(size(nodes) == [3, 6]))
+      n = n_corners(size(nodes))
       area = 0.0_wp
       do i = 1, n
          associate (a => position(:, nodes(i)), b => position(:, nodes(mod(i, n) + 1)), &
@@ -382,7 +357,7 @@ contains
 
       integer, parameter :: triangle(6) = [1, 3, 2, 6, 5, 4], quadrilateral(9) = [1, 4, 3, 2, 8, 7, 6, 5, 9]
 
-      if (any(n == [3, 6])) then
+      if (n_corners(n) == 3) then
          order = triangle(:n)
       else
          order = quadrilateral(:n)
