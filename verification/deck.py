@@ -5,6 +5,10 @@ from mesh import edge_functions
 from solution import FAMILY_LETTER, SYMMETRIC
 
 
+# Whether the outward normal lies to the right (+1) or to the left of a side of a structured mesh
+OUTWARD = {"inner": -1, "outer": 1, "bottom": 1, "top": -1}
+
+
 def field(value, digits=17):
     """A number or word as a field of a card; None is a blank field"""
     if value is None:
@@ -96,10 +100,9 @@ class Deck:
                               FAMILY_LETTER[solution.family]))
         self.add("MOVEDNODES", cards)
 
-    def load_side(self, mesh, side, solution, outward):
-        """The exact traction on a side as ring loads, the work-equivalent nodal forces; `outward` is
-        +1 if the outward normal lies to the right of the side, -1 if to the left"""
-        forces = nodal_forces(mesh, mesh.sides[side], solution, outward)
+    def load_side(self, mesh, side, solution):
+        """The exact traction on a side as ring loads, the work-equivalent nodal forces"""
+        forces = nodal_forces(mesh, mesh.sides[side], solution, OUTWARD[side])
         cards = []
         for i in np.unique(mesh.sides[side]):
             r = mesh.coordinates[i, 0]

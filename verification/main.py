@@ -78,7 +78,7 @@ def main():
         print(f"verify: no such case: {', '.join(sorted(unknown))}; --list shows all", file=sys.stderr)
         return 2
     misplaced = report.misplaced(MANUAL.read_text(encoding="utf-8"), names)
-    if misplaced:
+    if misplaced and not args.check:
         print(f"verify: {MANUAL.name} does not have one place each for: {', '.join(misplaced)}",
               file=sys.stderr)
         return 2

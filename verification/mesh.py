@@ -95,6 +95,19 @@ def rectangle(r0, r1, z0, z1):
     return lambda s, t: (r0 + (r1 - r0)*s, z0 + (z1 - z0)*t)
 
 
+def polar(inner, outer):
+    """Place of a quarter of a hollow sphere: s along its radius, t from the plane z = 0 to the axis"""
+    def place(s, t):
+        size, angle = inner + (outer - inner)*s, np.pi/2*t
+        return size*np.where(t == 1.0, 0.0, np.cos(angle)), size*np.sin(angle)
+    return place
+
+
+def conical(slope, z0, z1):
+    """Place of a truncated cone with its apex at the origin"""
+    return lambda s, t: (s*slope*(z0 + (z1 - z0)*t), z0 + (z1 - z0)*t)
+
+
 def graded(place, ratio):
     """The same with cells along s in geometric progression: last to first as `ratio`"""
     if ratio == 1.0:

@@ -16,7 +16,8 @@ module axijoint_deck_check_mesh
    real(wp), parameter :: axis_tolerance = 1.0e-12_wp
    !> Least distance of two nodes of a body, in lengths of their shortest edge
    real(wp), parameter :: least_distance = 1.0e-3_wp
-   !> A node that hangs on an edge is nearer to it than this, in lengths of the edge
+   !> A node that hangs on an edge is nearer to it than this, in lengths of the shortest
+   !> edge of its elements
    real(wp), parameter :: hanging_distance = 1.0e-3_wp
    !> Room for neighbours of a point
    integer, parameter :: most_near = 64
@@ -148,7 +149,8 @@ contains
       end do
    end subroutine check_near
 
-   !> Length of the shortest edge at each node; huge where there is none
+   !> Length of the shortest edge of the elements at each node, those across from it
+   !> included (thin elements are no error); huge where there is none
    pure subroutine shortest_edges(draft, edges, shortest)
       !> The mesh
       type(draft_type), intent(in) :: draft
@@ -157,15 +159,20 @@ contains
       !> Lengths, shape (nodes)
       real(wp), allocatable, intent(out) :: shortest(:)
 
-      real(wp) :: length
+      real(wp), allocatable :: shortest_of(:)
       integer :: i, k
 
       allocate (shortest(draft%n_nodes), source=huge(1.0_wp))
+      allocate (shortest_of(draft%n_elements), source=huge(1.0_wp))
+      do i = 1, edges%n
+         associate (nodes => edges%nodes(:, i), least => shortest_of(edges%element(i)))
+            least = min(least, norm2(draft%position(:, nodes(2)) - draft%position(:, nodes(1))))
+         end associate
+      end do
       do i = 1, edges%n
          associate (nodes => edges%nodes(:, i))
-            length = norm2(draft%position(:, nodes(2)) - draft%position(:, nodes(1)))
             do k = 1, count(nodes > 0)
-               shortest(nodes(k)) = min(shortest(nodes(k)), length)
+               shortest(nodes(k)) = min(shortest(nodes(k)), shortest_of(edges%element(i)))
             end do
          end associate
       end do
@@ -185,9 +192,11 @@ contains
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
+      real(wp), allocatable :: shortest(:)
       real(wp) :: a(2), side(2), offset(2), length
       integer :: i, k, n_found, found(most_near)
 
+      call shortest_edges(draft, edges, shortest)
       do i = 1, edges%n
          associate (nodes => edges%nodes(:, i))
             if (edges%twin(i) /= 0 .or. .not. all(draft%node_good(nodes(:2)))) cycle
@@ -201,7 +210,7 @@ contains
                if (.not. draft%node_good(found(k))) cycle
                if (draft%node_body(found(k)) /= draft%node_body(nodes(1))) cycle
                offset = (draft%position(:, found(k)) - a)/length
-               if (abs(offset(1)*side(2) - offset(2)*side(1)) > hanging_distance*length) cycle
+               if (abs(offset(1)*side(2) - offset(2)*side(1)) > hanging_distance*shortest(nodes(1))) cycle
                if (nodes(3) > 0) then
                   if (group(nodes(3)) == group(found(k))) cycle  ! reported as coincident
                end if

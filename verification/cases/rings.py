@@ -1,13 +1,18 @@
 """Plane-strain rings"""
+import numpy as np
+
 from convergence import Case
 from deck import Deck
 from material import Isotropic, Orthotropic
-from mesh import ALL_TYPES, graded, rectangle, structured
-from solution import ANTISYMMETRIC, SYMMETRIC
+from mesh import graded, rectangle, structured
+from solution import ANTISYMMETRIC, FAMILY_LETTER, SYMMETRIC
 from solutions.plane_strain import joined_rings, ring_solution
+from solutions.torsion import sheared_ring
 
 STEEL = Isotropic(2.1e5, 0.3)
-WOOD = Orthotropic((1.0e3, 8.0e2, 1.2e4), (0.3, 0.03, 0.04), (300.0, 700.0, 900.0))
+HOT = Isotropic(2.1e5, 0.3, 7.85e-9, 1.2e-5)
+WOOD = Orthotropic((1.0e3, 8.0e2, 1.2e4), (0.3, 0.03, 0.04), (300.0, 700.0, 900.0),
+                   expansion=(3.0e-5, 4.0e-6, 2.0e-5))
 INNER, OUTER = 1.0, 2.0
 # Cells along r, by degree of the elements
 SLICES = {1: (16, 32, 64), 2: (8, 16, 32)}
@@ -122,5 +127,82 @@ def two_rings(m):
     return Case(f"joined_rings_{m}", [[s] for s in solutions], build, sizes=dict(SLICES))
 
 
+def free_ring(name, title, m, material, radii=(INNER, OUTER), family=SYMMETRIC, cards=(),
+              held=False, **loads):
+    """Ring under a load of its volume; free, or held at its outer surface"""
+    conditions = held_outside(radii) if held else free_surfaces(radii=radii)
+    if m == 1 and not held:
+        raise ValueError("a ring of harmonic 1 must be held")
+    solution = ring_solution(title, material, m, radii, conditions, family, **loads)
+
+    def build(kind, n):
+        deck, mesh = plane_strain_deck(kind, n, [solution], title, radii)
+        for keyword, values in cards:
+            deck.add(keyword, values)
+        if held:
+            deck.fix(mesh, mesh.nodes_of("outer"), "101")
+        return deck
+
+    return Case(name, [[solution]], build, sizes=dict(SLICES))
+
+
+def rotating():
+    """Rotation at 100 per time"""
+    return free_ring("rotating_cylinder", "rotating cylinder", 0, HOT, spin=1.0e4,
+                     cards=[("ROTATION", [(100.0,)])])
+
+
+def heated(name, m, family, material, held=False):
+    """Temperature 50 + 20 r times cos or sin m theta"""
+    letter = FAMILY_LETTER[family]
+    return free_ring(name, f"temperature of harmonic {m}", m, material, family=family, held=held,
+                     temperatures=[(50.0, 0), (20.0, 1)],
+                     cards=[("TEMPERATURES", [(None, m, 50.0, 20.0, None, letter)])])
+
+
+def lateral_ring():
+    """Gravity along theta = 0 on a ring held outside"""
+    return free_ring("lateral_gravity_ring", "ring under lateral gravity", 1, HOT, held=True,
+                     lateral=1.0e4, cards=[("GRAVITY", [(None, 1.0e4)])])
+
+
+def orthotropic(name, m, family):
+    """Cylindrical orthotropy under sigma_r = -cos or -sin m theta outside"""
+    solution = ring_solution(f"orthotropic ring, m = {m}", WOOD, m, (INNER, OUTER),
+                             free_surfaces(-1.0), family)
+
+    def build(kind, n):
+        deck, mesh = plane_strain_deck(kind, n, [solution], solution.name, (INNER, OUTER))
+        deck.traction(mesh, "outer", solution.mode, (-1.0, 0.0, 0.0))
+        return deck
+
+    return Case(name, [[solution]], build, sizes=dict(SLICES))
+
+
+def twisted():
+    """Shear tau_rtheta = -1 on the inner surface, in the mode of torsion; held outside"""
+    solution = sheared_ring(STEEL, INNER, OUTER, 1.0)
+
+    def build(kind, n):
+        deck = Deck(solution.name, kind, 0)
+        deck.material(STEEL)
+        mesh = ring_mesh(kind, n, (INNER, OUTER), 1.0)
+        deck.mesh(mesh)
+        deck.fix(mesh, mesh.nodes_of("outer"), "001")
+        # Outward normal -r
+        deck.traction(mesh, "inner", solution.mode,
+                      (0.0, 0.0, -float(solution.stress(np.float64(INNER), 0.0)[4])))
+        return deck
+
+    return Case("ring_in_torsion", [[solution]], build, sizes=dict(SLICES))
+
+
 CASES = [lame(), *[loaded_ring(f"ring_{m}", m) for m in (0, 1, 2, 3, 5, 8)],
-         *[high_harmonic(m) for m in (32, 64, 128)], kirsch(), *[two_rings(m) for m in (0, 2, 5)]]
+         *[high_harmonic(m) for m in (32, 64, 128)], kirsch(), *[two_rings(m) for m in (0, 2, 5)],
+         twisted(), rotating(), lateral_ring(), heated("thermal_0", 0, SYMMETRIC, HOT),
+         heated("thermal_1", 1, SYMMETRIC, HOT, held=True),
+         heated("thermal_2_antisymmetric", 2, ANTISYMMETRIC, HOT),
+         orthotropic("orthotropic_tube", 0, SYMMETRIC),
+         orthotropic("orthotropic_ring_2", 2, SYMMETRIC),
+         orthotropic("orthotropic_ring_3_antisymmetric", 3, ANTISYMMETRIC),
+         heated("orthotropic_thermal_2", 2, SYMMETRIC, WOOD)]
