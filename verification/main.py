@@ -99,7 +99,7 @@ def main():
                if block.startswith("|"))
     print(f"{len(wanted)} cases, {rows} rows, {time.monotonic() - started:.0f} s; "
           f"{len(misses)} bars missed")
-    print(*misses, sep="\n")
+    print(*(words.splitlines()[0] for words in misses), sep="\n")
     return 1 if misses else 0
 
 

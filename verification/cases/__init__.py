@@ -3,5 +3,5 @@
 
 def all_cases():
     """All cases, in the order of the manual"""
-    from cases import hard, rings, shapes, solids
-    return [*solids.CASES, *rings.CASES, *hard.CASES, *shapes.CASES]
+    from cases import gmsh, hard, rings, shapes, solids
+    return [*solids.CASES, *rings.CASES, *hard.CASES, *shapes.CASES, *gmsh.CASES]
