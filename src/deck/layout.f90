@@ -20,7 +20,7 @@ module axijoint_deck_layout
    integer, parameter, public :: keyword_length = 12
 
    !> Number of keywords
-   integer, parameter, public :: n_sections = 36
+   integer, parameter, public :: n_sections = 38
    integer, parameter, public :: section_title = 1, section_control = 2, section_nodes = 3, &
       section_lines = 4, section_elements = 5, section_blocks = 6, section_materials = 7, &
       section_laws = 8, section_joints = 9, section_faces = 10, section_chains = 11, &
@@ -31,7 +31,8 @@ module axijoint_deck_layout
       section_orthotropic = 26, &
       section_gmsh = 27, section_groups = 28, section_gravity = 29, section_rotation = 30, &
       section_temperatures = 31, section_node_temps = 32, section_moved_nodes = 33, &
-      section_moved_faces = 34, section_springs = 35, section_in_situ = 36
+      section_moved_faces = 34, section_springs = 35, section_in_situ = 36, &
+      section_case = 37, section_combine = 38
 
    !> The keywords
    character(len=keyword_length), parameter :: section_names(n_sections) = &
@@ -41,7 +42,7 @@ module axijoint_deck_layout
       'RINGLOADS', 'INCREMENTS', 'OUTPUT', 'INCLUDE', 'END', &
       'SHAPES', 'PRESSURES', 'POINTLOADS', 'HARMONICS', 'ORTHOTROPIC', &
       'GMSH', 'GROUPS', 'GRAVITY', 'ROTATION', 'TEMPERATURES', 'NODETEMPS', 'MOVEDNODES', &
-      'MOVEDFACES', 'SPRINGS', 'INSITU']
+      'MOVEDFACES', 'SPRINGS', 'INSITU', 'CASE', 'COMBINE']
 
    !> Kinds of groups on the cards of GROUPS
    character(len=5), parameter, public :: group_kinds(3) = [character(len=5) :: 'BODY', 'FACE', 'JOINT']

@@ -4,6 +4,7 @@ module axijoint_deck_load_card
    use axijoint_base_kinds, only : wp
    use axijoint_base_number_map, only : find_number
    use axijoint_base_text, only : to_text
+   use axijoint_deck_cases, only : cases_type, case_of_card
    use axijoint_deck_diagnostics, only : diagnostics_type
    use axijoint_deck_draft, only : draft_type
    use axijoint_deck_face_geometry, only : moment_of_radius
@@ -44,7 +45,8 @@ module axijoint_deck_load_card
       integer :: highest = -1
       !> Harmonics in use; all up to M unless HARMONICS gives others
       integer, allocatable :: harmonics(:)
-      !> Load case of the card (index)
+      !> Load cases, and that of the card (index)
+      type(cases_type) :: cases
       integer :: case = 1
    end type load_card_type
 
@@ -70,6 +72,7 @@ contains
       card%entry = card%entry + 1
       card%errors_before = card%diagnostics%n_errors
       there_is_one = card%entry <= card%table%n
+      if (there_is_one) card%case = case_of_card(card%cases, card%table%cards(1, card%entry))
    end function next_card
 
    !> Keyword of the card's section

@@ -4,7 +4,7 @@ module axijoint_deck_load_fields
    use axijoint_base_text, only : to_text
    use axijoint_deck_common_fields, only : number, last_number, step, components, angle, &
       largest_body, largest_harmonic
-   use axijoint_deck_field, only : field_type, integer_field, real_field, word_field, largest_number
+   use axijoint_deck_field, only : field_type, integer_field, real_field, word_field, text_field
    implicit none
    private
    public :: load_fields
@@ -34,6 +34,11 @@ contains
       case ('HARMONICS')
          fields = [integer_field('the first harmonic', 1, 5, 0, largest_harmonic), &
                    integer_field('the last harmonic', 6, 10, 0, largest_harmonic, default=0), step(11)]
+      case ('CASE')
+         fields = [number('the load case', 1), text_field('the name of the load case', 6, 80)]
+         fields(2)%required = .false.
+      case ('COMBINE')
+         fields = combination_fields()
       case ('SHAPES')
          fields = shape_fields()
       case ('TRACTIONS')
@@ -91,6 +96,20 @@ contains
                  i=1, 6)]
       fields(3)%required = .true.
    end function shape_fields
+
+   !> Fields of COMBINE: pairs of load case and factor
+   pure function combination_fields() result(fields)
+      !> The fields
+      type(field_type), allocatable :: fields(:)
+
+      integer :: i
+
+      fields = [number('the combination', 1)]
+      do i = 1, 5
+         fields = [fields, last_number('load case '//to_text(i), 15*i - 9), &
+                   real_field('factor '//to_text(i), 15*i - 4, 15*i + 5, default=0.0_wp)]
+      end do
+   end function combination_fields
 
    !> Field of a harmonic, blank if a shape is given
    pure function harmonic(first) result(field)

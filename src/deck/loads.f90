@@ -1,6 +1,8 @@
 !> Restraints and loads
 module axijoint_deck_loads
    use axijoint_base_kinds, only : wp
+   use axijoint_deck_cases, only : cases_type, read_cases, case_of_card, warn_of_empty_cases, &
+      read_combinations
    use axijoint_deck_diagnostics, only : diagnostics_type, add_warning
    use axijoint_deck_draft, only : draft_type
    use axijoint_deck_face_loads, only : read_traction, read_pressure, read_resultant
@@ -9,7 +11,7 @@ module axijoint_deck_loads
       section_restraints, section_fixed_faces, section_tractions, section_pressures, &
       section_resultants, section_ring_loads, section_point_loads, section_gravity, section_rotation, &
       section_temperatures, section_node_temps, section_moved_nodes, section_moved_faces, &
-      section_springs, section_in_situ
+      section_springs, section_in_situ, section_case, section_combine
    use axijoint_deck_load_card, only : load_card_type, open_section, next_card
    use axijoint_deck_load_lists, only : load_lists_type, new_load_lists, take_loads
    use axijoint_deck_mass_loads, only : read_gravity, read_rotation, read_temperature, &
@@ -21,7 +23,7 @@ module axijoint_deck_loads
    use axijoint_deck_shapes, only : read_shapes
    use axijoint_deck_source, only : source_type
    use axijoint_deck_supports, only : read_springs
-   use axijoint_model_load, only : combination_type
+   use axijoint_deck_table, only : table_type
    use axijoint_model_model, only : model_type
    implicit none
    private
@@ -65,19 +67,61 @@ contains
          call read_shapes(source, tables(section_shapes), card%shapes, diagnostics)
          call fix_nodes(source, tables(section_restraints), draft, model%fixed, diagnostics)
          call fix_faces(source, tables(section_fixed_faces), draft, model%fixed, diagnostics)
+         call read_cases(source, tables(section_case), first_load(tables(load_sections)), card%cases, &
+                         diagnostics)
          lists = new_load_lists(draft%n_nodes)
          do k = 1, size(load_sections)
             call read_section(card, load_sections(k), lists)
          end do
          call read_section(card, section_springs, lists)
-         if (sum(tables(load_sections)%n) == 0) call add_warning(diagnostics, 0, 0, 0, &
-            'the deck has no loads: all results will be zero')
+         call read_combinations(source, tables(section_combine), card%cases, model%combinations, diagnostics)
+         call check_loaded(tables(load_sections), tables(section_case), card%cases, diagnostics)
       end associate
       model%harmonics = card%harmonics
-      model%combinations = [combination_type(1, [1.0_wp])]
+      model%load_cases = card%cases%cases
       call take_moves(source, draft, lists, model, diagnostics)
       call take_loads(lists, model)
    end subroutine read_loads
+
+   !> First card of any load; a large number if there is none
+   pure integer function first_load(tables)
+      !> Sections of loads
+      type(table_type), intent(in) :: tables(:)
+
+      integer :: k
+
+      first_load = huge(first_load)
+      do k = 1, size(tables)
+         first_load = min(first_load, minval(tables(k)%cards(1, :tables(k)%n)))
+      end do
+   end function first_load
+
+   !> Warn of a deck and of load cases without loads
+   subroutine check_loaded(tables, case_table, cases, diagnostics)
+      !> Sections of loads
+      type(table_type), intent(in) :: tables(:)
+      !> CASE
+      type(table_type), intent(in) :: case_table
+      !> Load cases
+      type(cases_type), intent(in) :: cases
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      logical, allocatable :: loaded(:)
+      integer :: k, entry
+
+      if (sum(tables%n) == 0) then
+         call add_warning(diagnostics, 0, 0, 0, 'the deck has no loads: all results will be zero')
+         return
+      end if
+      allocate (loaded(size(cases%cases)), source=.false.)
+      do k = 1, size(tables)
+         do entry = 1, tables(k)%n
+            loaded(case_of_card(cases, tables(k)%cards(1, entry))) = .true.
+         end do
+      end do
+      call warn_of_empty_cases(cases, case_table, loaded, diagnostics)
+   end subroutine check_loaded
 
    !> Read the cards of a section
    subroutine read_section(card, section, lists)

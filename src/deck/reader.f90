@@ -5,6 +5,7 @@ module axijoint_deck_reader
    use axijoint_deck_check_joints, only : check_joints, check_joint_edges
    use axijoint_deck_check_mesh, only : snap_to_axis, check_used, check_coincident, check_near, &
       check_hanging, check_touching
+   use axijoint_deck_check_overlap, only : check_overlap
    use axijoint_deck_control, only : read_control, check_planes
    use axijoint_deck_diagnostics, only : diagnostics_type, add_error
    use axijoint_deck_draft, only : draft_type, new_draft, corners_known
@@ -133,7 +134,7 @@ contains
       type(point_tree_type) :: tree
       integer, allocatable :: group(:), reference(:, :)
       integer :: errors_before
-      logical :: sound
+      logical :: sound, tiles
 
       associate (tables => sections%tables)
          call draft_joints(source, tables(section_joints), properties, draft, diagnostics)
@@ -157,6 +158,7 @@ contains
          call check_coincident(draft, group, diagnostics)
          call check_near(draft, group, edges, tree, diagnostics)
          call check_hanging(draft, group, edges, tree, diagnostics)
+         tiles = diagnostics%n_errors == errors_before
          call lay_faces(source, tables(section_faces), tables(section_chains), edges, draft, diagnostics)
          call lay_group_faces(source, tables(section_groups), import, edges, draft, diagnostics)
          call check_joints(source, tables(section_joints), properties%laws, group, edges, draft, &
@@ -166,6 +168,7 @@ contains
          call lay_group_joints(source, tables(section_groups), import, properties, group, edges, draft, &
                                diagnostics)
          call check_joint_edges(edges, draft, diagnostics)
+         if (tiles) call check_overlap(draft, edges, diagnostics)
          if (diagnostics%n_errors == 0) call check_touching(draft, group, diagnostics)
          call sort_joints(draft)
       end associate

@@ -5,7 +5,8 @@ module axijoint_model_load
    implicit none
    private
    public :: edge_load_type, ring_load_type, body_load_type, thermal_load_type, prescribed_type, &
-      initial_stress_type, edge_support_type, combination_type, increment_type, truncation_type
+      initial_stress_type, edge_support_type, load_case_type, combination_type, increment_type, &
+      truncation_type
    public :: family_symmetric, family_antisymmetric
 
    !> Traction on one edge of a solid element
@@ -89,6 +90,14 @@ module axijoint_model_load
       !> and along theta [stress/length]
       real(wp) :: stiffness(3) = 0.0_wp
    end type edge_support_type
+
+   !> Loads that act together
+   type :: load_case_type
+      !> The user's number
+      integer :: label = 1
+      !> The user's name for it; may be empty
+      character(len=:), allocatable :: name
+   end type load_case_type
 
    !> Load cases added with factors; each combination is solved and reported
    type :: combination_type

@@ -5,7 +5,7 @@ module axijoint_model_model
    use axijoint_fe_reference, only : reference_type, new_reference
    use axijoint_model_load, only : edge_load_type, ring_load_type, body_load_type, &
       thermal_load_type, prescribed_type, initial_stress_type, edge_support_type, &
-      combination_type, increment_type, truncation_type
+      load_case_type, combination_type, increment_type, truncation_type
    use axijoint_model_material, only : solid_material_type, joint_material_type
    use axijoint_model_mesh, only : mesh_type
    implicit none
@@ -39,6 +39,8 @@ module axijoint_model_model
       type(initial_stress_type), allocatable :: initial_stresses(:)
       !> Springs to the ground
       type(edge_support_type), allocatable :: edge_supports(:)
+      !> Load cases, at least one
+      type(load_case_type), allocatable :: load_cases(:)
       !> Combinations of the load cases, at least one
       type(combination_type), allocatable :: combinations(:)
       !> What the harmonics leave of the loads, one entry a load that is given

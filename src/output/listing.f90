@@ -8,7 +8,8 @@ module axijoint_output_listing
    use axijoint_output_echo, only : write_echo
    use axijoint_output_headings, only : write_lines, rule, mark_not_converged
    use axijoint_output_listing_mesh, only : write_nodes, write_elements, write_joints
-   use axijoint_output_listing_loads, only : write_loads, write_truncations, write_supports
+   use axijoint_output_listing_loads, only : write_loads, write_truncations, write_supports, &
+      write_combinations
    use axijoint_output_listing_model, only : write_warnings, write_model, write_materials, &
       write_joint_materials, write_increments
    use axijoint_output_listing_solution, only : write_equations, write_convergence, &
@@ -54,6 +55,7 @@ contains
       call write_supports(file, model)
       call write_loads(file, model)
       call write_truncations(file, model)
+      call write_combinations(file, model)
       call write_increments(file, model)
 
       call write_equations(file, results)

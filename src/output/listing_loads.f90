@@ -1,23 +1,25 @@
 !> Tables of the listing that show loads, supports that yield, and what the harmonics
 !> leave of loads
 module axijoint_output_listing_loads
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_text, only : to_text
    use axijoint_fe_mode, only : mode_type, family_symmetric
    use axijoint_model_model, only : model_type
    use axijoint_output_columns, only : columns
-   use axijoint_output_headings, only : write_heading
+   use axijoint_output_headings, only : write_heading, write_lines
    use axijoint_output_text_file, only : text_file_type
    implicit none
    private
-   public :: write_loads, write_truncations, write_supports
+   public :: write_loads, write_truncations, write_supports, write_combinations
 
    !> Harmonic, family, load case, and number of a node or body
-   character(len=*), parameter :: format_load = '(i10, 1x, a1, i6, i10)'
+   character(len=*), parameter :: format_load = '(i10, 1x, a1, 2i10)'
    !> Numbers of nodes
    character(len=*), parameter :: format_nodes = '(2i10)'
    !> Columns of coordinates and of other reals
    integer, parameter :: narrow = 14, wide = 15
    !> Heading of the columns that `label` writes
-   character(len=*), parameter :: label_heading = "  harmonic    case"
+   character(len=*), parameter :: label_heading = "  harmonic        case"
 
 contains
 
@@ -45,12 +47,12 @@ contains
    pure function label(mode, case, number)
       !> The mode
       type(mode_type), intent(in) :: mode
-      !> Load case
+      !> Number of the load case
       integer, intent(in) :: case
       !> Number of a node or body
       integer, intent(in) :: number
       !> The text
-      character(len=28) :: label
+      character(len=32) :: label
 
       write (label, format_load) mode%harmonic, merge("S", "A", mode%family == family_symmetric), &
          case, number
@@ -71,7 +73,7 @@ contains
       do i = 1, size(model%edge_loads)
          associate (load => model%edge_loads(i))
             do k = 1, count(load%nodes > 0)
-               call file%put(label(load%mode, load%case, model%mesh%node_label(load%nodes(k)))// &
+               call file%put(label(load%mode, model%load_cases(load%case)%label, model%mesh%node_label(load%nodes(k)))// &
                   columns(model%mesh%coordinates(:, load%nodes(k)), narrow)// &
                   columns(load%traction(:, k), wide))
             end do
@@ -94,7 +96,7 @@ contains
          "            F_w")
       do i = 1, size(model%ring_loads)
          associate (load => model%ring_loads(i))
-            call file%put(label(load%mode, load%case, model%mesh%node_label(load%node))// &
+            call file%put(label(load%mode, model%load_cases(load%case)%label, model%mesh%node_label(load%node))// &
                columns(model%mesh%coordinates(:, load%node), narrow)//columns(load%force, wide))
          end associate
       end do
@@ -107,7 +109,7 @@ contains
       !> The job
       type(model_type), intent(in) :: model
 
-      character(len=28) :: start
+      character(len=32) :: start
       integer :: i
 
       call file%put("  accelerations: the forces are density times these")
@@ -115,8 +117,8 @@ contains
          "   a_r per radius")
       do i = 1, size(model%body_loads)
          associate (load => model%body_loads(i))
-            start = label(load%mode, load%case, 0)
-            call file%put(start(:18)//repeat(" ", 10)//columns([load%acceleration, load%spin_squared], wide))
+            start = label(load%mode, model%load_cases(load%case)%label, 0)
+            call file%put(start(:22)//repeat(" ", 10)//columns([load%acceleration, load%spin_squared], wide))
          end associate
       end do
    end subroutine write_body_loads
@@ -134,7 +136,7 @@ contains
       call file%put(label_heading//"      body       smallest        largest")
       do i = 1, size(model%thermal_loads)
          associate (load => model%thermal_loads(i))
-            call file%put(label(load%mode, load%case, load%body)// &
+            call file%put(label(load%mode, model%load_cases(load%case)%label, load%body)// &
                columns([minval(load%temperature), maxval(load%temperature)], wide))
          end associate
       end do
@@ -154,7 +156,7 @@ contains
       call file%put(label_heading//"      node             r             z   component      amplitude")
       do i = 1, size(model%prescribed)
          associate (load => model%prescribed(i))
-            call file%put(label(load%mode, load%case, model%mesh%node_label(load%node))// &
+            call file%put(label(load%mode, model%load_cases(load%case)%label, model%mesh%node_label(load%node))// &
                columns(model%mesh%coordinates(:, load%node), narrow)//repeat(" ", 11)// &
                component(load%component)//columns([load%value], wide))
          end associate
@@ -174,8 +176,8 @@ contains
       call file%put(label_heading//"      body        sigma_r        sigma_z    sigma_theta         tau_rz")
       do i = 1, size(model%initial_stresses)
          associate (load => model%initial_stresses(i))
-            call file%put(label(mode_type(), load%case, load%body)//columns(load%stress, wide))
-            call file%put(repeat(" ", 28)//columns(load%gradient, wide))
+            call file%put(label(mode_type(), model%load_cases(load%case)%label, load%body)//columns(load%stress, wide))
+            call file%put(repeat(" ", 32)//columns(load%gradient, wide))
          end associate
       end do
    end subroutine write_initial_stresses
@@ -219,5 +221,37 @@ contains
          call file%put(columns([model%truncations(i)%left_out], wide)//"  "//model%truncations(i)%name)
       end do
    end subroutine write_truncations
+
+   !> Load cases and their combinations; nothing if there is one case without a name
+   subroutine write_combinations(file, model)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+
+      character(len=:), allocatable :: sum_text
+      integer :: i, k
+
+      if (size(model%load_cases) == 1 .and. size(model%combinations) == 1 &
+          .and. len(model%load_cases(1)%name) == 0) return
+      call write_heading(file, "LOAD CASES AND COMBINATIONS")
+      do i = 1, size(model%load_cases)
+         associate (load_case => model%load_cases(i))
+            call file%put("  case "//to_text(load_case%label)//"   "//load_case%name)
+         end associate
+      end do
+      do k = 1, size(model%combinations)
+         associate (combination => model%combinations(k))
+            sum_text = ""
+            do i = 1, size(combination%factor)
+               if (.not. abs(combination%factor(i)) > 0.0_wp) cycle
+               if (len(sum_text) > 0) sum_text = sum_text//" + "
+               sum_text = sum_text//to_text(combination%factor(i))//" case "// &
+                  to_text(model%load_cases(i)%label)
+            end do
+            call write_lines(file, "  combination "//to_text(combination%label)//" = ", sum_text)
+         end associate
+      end do
+   end subroutine write_combinations
 
 end module axijoint_output_listing_loads

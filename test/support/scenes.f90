@@ -3,7 +3,8 @@ module axijoint_test_scenes
    use axijoint_base_kinds, only : wp, pi
    use axijoint_element_joint_law, only : joint_law_type, law_elastic
    use axijoint_fe_shape, only : n_corners
-   use axijoint_model_load, only : edge_load_type, ring_load_type, increment_type, combination_type
+   use axijoint_model_load, only : edge_load_type, ring_load_type, increment_type, combination_type, &
+      load_case_type
    use axijoint_model_material, only : solid_material_type, joint_material_type
    use axijoint_model_model, only : model_type
    implicit none
@@ -36,6 +37,7 @@ contains
       allocate (model%edge_loads(0), model%ring_loads(0), model%fixed(3, 0))
       allocate (model%body_loads(0), model%thermal_loads(0), model%prescribed(0))
       allocate (model%initial_stresses(0), model%edge_supports(0), model%truncations(0))
+      model%load_cases = [load_case_type(label=1, name='')]
       model%combinations = [combination_type(label=1, factor=[1.0_wp])]
       model%harmonics = [(m, m=0, max_harmonic)]
       associate (mesh => model%mesh)

@@ -1,0 +1,98 @@
+"""Load cases add up, and a load turned about the axis turns its results"""
+import json
+import os
+
+import listing
+from support import Test, expected, read_text, write
+
+RING = """TITLE
+Ring under two load cases
+CONTROL
+6
+MATERIALS
+1, 1.0, 0.3, 2.0, 1E-3
+BLOCKS
+1, 1, 8, 3, 3
+1, 0, 2, 1
+FACES
+1, 1, 1, 0, 2, 0
+2, 1, 1, 1, 2, 1
+3, 1, 2, 0, 2, 1
+SPRINGS
+1, 5.0, 3.0, 3.0
+SHAPES
+1, PATCH, {patch}
+OUTPUT
+{output}
+"""
+LOADS = """CASE
+4, A patch of pressure
+PRESSURES
+3, , 0.3, , , 1
+CASE
+2, Turned and warmed
+GRAVITY
+-1.0, 0.5, {turned}
+RESULTANTS
+2, TORQUE, 0.7
+2, MOMENT, 0.4, {turned}
+"""
+# Digits of the listing
+LISTED = 2e-7
+
+
+def run(program, folder, name, deck):
+    """Run a deck, and the tables of each of its listings by file name"""
+    ran = program.run('run', write(folder, f'{name}.dat', deck), '-o', folder)
+    if ran.code != 0:
+        raise AssertionError(f'exit code {ran.code}\n{ran.err}')
+    return {file: listing.tables(read_text(os.path.join(folder, file)))
+            for file in os.listdir(folder) if file.startswith(name) and file.endswith('.lis')}
+
+
+def difference(wanted, found):
+    """Largest difference of displacements, over the largest displacement"""
+    size = max(abs(value) for row in wanted for value in row)
+    return max(abs(a - b) for one, two in zip(wanted, found) for a, b in zip(one, two)) / size
+
+
+def components(rows):
+    return [(row['u'], row['v'], row['w']) for row in rows]
+
+
+def combinations_add_up(program, folder):
+    """Each combination has its files, and is the sum of its load cases"""
+    deck = RING.format(patch='-20, 50', output='0, 70') + LOADS.format(turned=30)
+    alone = run(program, folder, 'alone', deck + 'END\n')
+    faults = expected('files', ['alone.2.lis', 'alone.4.lis'], sorted(alone))
+    together = run(program, folder, 'sum', deck + 'COMBINE\n7, 4, 2.0, 2, -3.0\n8, 2, 0.5\nEND\n')
+    faults += expected('files', ['sum.7.lis', 'sum.8.lis'], sorted(together))
+    for theta in ('theta = 0', 'theta = 70'):
+        first, second = (components(alone[f'alone.{k}.lis'][theta]) for k in (4, 2))
+        wanted = [[2*a - 3*b for a, b in zip(*rows)] for rows in zip(first, second)]
+        error = difference(wanted, components(together['sum.7.lis'][theta]))
+        if not error <= LISTED:
+            faults.append(f'{theta}: the combination differs from the sum by {error:.1E}')
+    summary = json.loads(read_text(os.path.join(folder, 'sum.8.json')))
+    return faults + expected('combination', 8, summary['combination'])
+
+
+def turned_load(program, folder):
+    """Shape and directions turned by 50 degrees: at angles turned by as much nothing changes"""
+    one = LOADS.format(turned=0) + 'COMBINE\n1, 4, 1.0, 2, 1.0\nEND\n'
+    two = LOADS.format(turned=50) + 'COMBINE\n1, 4, 1.0, 2, 1.0\nEND\n'
+    here = run(program, folder, 'here', RING.format(patch='-20, 30', output='0, 90, 200') + one)
+    there = run(program, folder, 'there', RING.format(patch='30, 80', output='50, 140, 250') + two)
+    faults = []
+    for angle in (0, 90, 200):
+        error = difference(components(here['here.lis'][f'theta = {angle}']),
+                           components(there['there.lis'][f'theta = {angle + 50}']))
+        if not error <= LISTED:
+            faults.append(f'theta = {angle}: the turned results differ by {error:.1E}')
+    return faults
+
+
+def tests(program):
+    """The tests of this module"""
+    return [Test('load cases: combinations', lambda folder: combinations_add_up(program, folder)),
+            Test('load cases: turned load', lambda folder: turned_load(program, folder))]
