@@ -148,7 +148,8 @@ contains
          allocate (found(2, 0))
          do i = 1, size(a)
             do k = 1, size(b)
-               if (find_edge(edges, a(i), b(k)) > 0) found = reshape([found, a(i), b(k)], [2, size(found, 2) + 1])
+               if (find_edge(edges, a(i), b(k)) == 0) cycle
+               found = reshape([found, a(i), b(k)], [2, size(found, 2) + 1])
             end do
          end do
          if (size(found, 2) == 1) then

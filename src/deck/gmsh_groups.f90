@@ -49,7 +49,8 @@ contains
       end do
       if (.not. import%given) return
       if (import%sound .and. .not. any(nint(table%values(field_kind, :table%n)) == use_body)) then
-         call add_error(diagnostics, source%mesh_card, 0, 0, 'no BODY of GROUPS takes elements from the mesh file', &
+         call add_error(diagnostics, source%mesh_card, 0, 0, &
+                        'no BODY of GROUPS takes elements from the mesh file', &
                         found=group_list(import%mesh, 2), &
                         mend='below GROUPS, name the physical surfaces that are bodies')
       end if

@@ -221,7 +221,8 @@ contains
       case (0)
          text = 'no body has an edge along the curve at '//place
       case (1)
-         text = 'only body '//to_text(draft%element_body(sides(1)%element))//' has an edge along the curve at '//place
+         text = 'only body '//to_text(draft%element_body(sides(1)%element))// &
+                ' has an edge along the curve at '//place
          mend = 'mesh both bodies with the same nodes along the curve'
       case (2)
          text = 'the elements on both sides of the curve at '//place//' belong to body '// &

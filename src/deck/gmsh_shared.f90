@@ -54,7 +54,8 @@ contains
       end do
       do k = 1, size(pairs, 2)
          associate (a => import%uses(pairs(1, k)), b => import%uses(pairs(2, k)))
-            call entry_error(diagnostics, table, b%entry, 'bodies '//to_text(min(a%number, b%number))//' and '// &
+            call entry_error(diagnostics, table, b%entry, &
+                             'bodies '//to_text(min(a%number, b%number))//' and '// &
                              to_text(max(a%number, b%number))//' share '//count_of(pairs(3, k), 'edge')// &
                              ' of the mesh file where no joint lies', &
                              found='one at '//place_text(import%mesh%position(:2, pairs(4, k))), &

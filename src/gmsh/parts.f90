@@ -144,10 +144,13 @@ contains
       if (allocated(fault)) return
       if (nodes_of_type(number) > 0) return
       mend = 'set Mesh.ElementOrder to 1 or 2'
-      if (any(number == [4, 5, 6, 7, 11, 12, 13, 14, 17, 18, 19, 29, 30, 31])) mend = 'mesh plane surfaces only: gmsh -2'
+      if (any(number == [4, 5, 6, 7, 11, 12, 13, 14, 17, 18, 19, 29, 30, 31])) then
+         mend = 'mesh plane surfaces only: gmsh -2'
+      end if
       fault = token_fault(scanner, 'an element of type '//to_text(number)//' ('//type_name(number) &
                           //') cannot be used', &
-                          allowed='triangles of 3 or 6, quadrangles of 4, 8 or 9, lines of 2 or 3 nodes; points', &
+                          allowed='triangles of 3 or 6, quadrangles of 4, 8 or 9, lines of 2 or 3 nodes; ' &
+                          //'points', &
                           mend=mend)
    end subroutine check_type
 

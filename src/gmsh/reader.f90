@@ -102,7 +102,8 @@ contains
       end if
       call read_integer(scanner, 'the mark of binary files', 0, 1, binary, fault)
       if (.not. allocated(fault) .and. binary == 1) then
-         fault = token_fault(scanner, 'the mesh file is binary', allowed='0: ASCII', mend='save it with Mesh.Binary=0')
+         fault = token_fault(scanner, 'the mesh file is binary', allowed='0: ASCII', &
+                             mend='save it with Mesh.Binary=0')
       end if
       call read_integer(scanner, 'the size of a real', 1, 16, size_of_real, fault)
       call end_section(scanner, 'MeshFormat', fault)

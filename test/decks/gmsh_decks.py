@@ -236,6 +236,7 @@ WAYS = {
     'no final newline': FORMAT_2.rstrip('\n'),
     'further sections': '$Comments\n$Nodes\n$EndComments\n' + FORMAT_2 + '$NodeData\n1\n"u"\n$EndNodeData\n',
     'numbers of groups': FORMAT_2.replace(' "outside"', ' ""').replace('"wall"', '"the wall"'),
+    'rounding of zeros': FORMAT_2.replace('3 2 0 0', '3 2 0 -1e-13').replace('6 2 1 0', '6 2 1 2e-13'),
     'elements of no group': FORMAT_2.replace('\n6\n1 15', '\n7\n7 1 2 0 9 4 5\n1 15'),
     'a clockwise element': FORMAT_4.replace('6 2 3 6 5', '6 2 5 6 3'),
     'all forms of reals': FORMAT_2.replace(' 0.5 ', ' +5.0E-01 ').replace(' 2 0 0', ' 20.0000000000000000000e-1 -0 0.')
