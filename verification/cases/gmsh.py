@@ -15,7 +15,7 @@ CURVES = {1: ("end of the pile", (0.0, -0.5), (0.5, -0.5)),
           3: ("head", (0.0, 1.0), (0.5, 1.0)),
           4: ("top", (0.0, 2.0), (2.0, 2.0))}
 # Gmsh's numbers of element types, by nodes; of lines, by nodes
-SOLID_TYPES, LINE_TYPES = {4: 3, 8: 16, 9: 10}, {2: 1, 3: 8}
+SOLID_TYPES, LINE_TYPES = {3: 2, 6: 9, 4: 3, 8: 16, 9: 10}, {2: 1, 3: 8}
 GROUPS = """GMSH      {name}
 GROUPS
 BODY          1    1 pile
@@ -28,7 +28,7 @@ JOINT         2      head
 
 
 def generated_deck(nodes):
-    """The deck of inputs, with elements of 4, 8 or 9 nodes"""
+    """The deck of inputs, with elements of 3, 4, 6, 8 or 9 nodes"""
     lines = INPUT.read_text(encoding="utf-8").splitlines()
     start = lines.index("BLOCKS")
     for i in range(start, lines.index("FACES")):
@@ -61,9 +61,10 @@ def file_mesh(results):
     for body, nodes in zip(results.element_body, results.element_nodes):
         used = node[nodes[nodes > 0] - 1]
         surfaces[body].append(used + 1)
-        for k in range(4):
-            a, b = used[k], used[(k + 1) % 4]
-            lines[frozenset((a, b))] = [a, b] + ([used[4 + k]] if len(used) > 4 else [])
+        sides = 3 if len(used) in (3, 6) else 4
+        for k in range(sides):
+            a, b = used[k], used[(k + 1) % sides]
+            lines[frozenset((a, b))] = [a, b] + ([used[sides + k]] if len(used) > 4 else [])
     curves = {tag: [np.array(edge) + 1 for edge in lines.values()
                     if all(on_line(places[i], start, end) for i in edge[:2])]
               for tag, (_, start, end) in CURVES.items()}
@@ -150,7 +151,7 @@ class GmshMesh:
     def run(self, program):
         """Rows: element types and formats"""
         rows, misses = [], []
-        for nodes in (4, 8, 9):
+        for nodes in SOLID_TYPES:
             text = generated_deck(nodes)
             results = program.run(f"{self.name}_{nodes}", text)
             mesh = file_mesh(results)
