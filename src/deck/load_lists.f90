@@ -2,10 +2,10 @@
 module axijoint_deck_load_lists
    use axijoint_base_kinds, only : wp
    use axijoint_deck_draft, only : edge_type
-   use axijoint_deck_load_modes, only : share_type
+   use axijoint_deck_load_modes, only : share_type, truncation_list_type
    use axijoint_fe_mode, only : mode_type, same_mode
    use axijoint_model_load, only : edge_load_type, ring_load_type, body_load_type, &
-      thermal_load_type, prescribed_type, initial_stress_type, edge_support_type, truncation_type
+      thermal_load_type, prescribed_type, initial_stress_type, edge_support_type
    use axijoint_model_model, only : model_type
    implicit none
    private
@@ -35,7 +35,7 @@ module axijoint_deck_load_lists
       !> Springs to the ground
       type(edge_support_type), allocatable :: edge_supports(:)
       !> What the harmonics leave of the loads
-      type(truncation_type), allocatable :: truncations(:)
+      type(truncation_list_type) :: truncations
    end type load_lists_type
 
 contains
@@ -50,7 +50,7 @@ contains
       lists%n_nodes = n_nodes
       allocate (lists%edge_loads(64), lists%ring_loads(64), lists%moves(64), lists%move_card(64))
       allocate (lists%body_loads(0), lists%thermal_loads(0), lists%initial_stresses(0))
-      allocate (lists%edge_supports(0), lists%truncations(0))
+      allocate (lists%edge_supports(0))
    end function new_load_lists
 
    !> Add tractions on the edges of a face, in each mode its share
@@ -129,7 +129,6 @@ contains
       integer, intent(in) :: nodes(:)
       real(wp), intent(in) :: temperature(:)
 
-      type(thermal_load_type) :: load
       integer :: k
 
       do k = size(lists%thermal_loads), 1, -1
@@ -138,15 +137,42 @@ contains
          end associate
       end do
       if (k == 0) then
-         load = thermal_load_type(mode, case, body)
-         allocate (load%temperature(lists%n_nodes), source=0.0_wp)
-         lists%thermal_loads = [lists%thermal_loads, load]
+         call add_temperature_field(lists, case, mode, body)
          k = size(lists%thermal_loads)
       end if
       associate (all_nodes => lists%thermal_loads(k)%temperature)
          all_nodes(nodes) = all_nodes(nodes) + temperature
       end associate
    end subroutine add_temperatures
+
+   !> Add a temperature of zero. The others are moved, not copied: each has a value a node
+   pure subroutine add_temperature_field(lists, case, mode, body)
+      !> The lists
+      type(load_lists_type), intent(inout) :: lists
+      !> Load case
+      integer, intent(in) :: case
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> Body; 0 for all
+      integer, intent(in) :: body
+
+      type(thermal_load_type), allocatable :: larger(:)
+      integer :: k, n
+
+      n = size(lists%thermal_loads)
+      allocate (larger(n + 1))
+      do k = 1, n
+         larger(k)%mode = lists%thermal_loads(k)%mode
+         larger(k)%case = lists%thermal_loads(k)%case
+         larger(k)%body = lists%thermal_loads(k)%body
+         call move_alloc(lists%thermal_loads(k)%temperature, larger(k)%temperature)
+      end do
+      larger(n + 1)%mode = mode
+      larger(n + 1)%case = case
+      larger(n + 1)%body = body
+      allocate (larger(n + 1)%temperature(lists%n_nodes), source=0.0_wp)
+      call move_alloc(larger, lists%thermal_loads)
+   end subroutine add_temperature_field
 
    !> Add a given displacement
    pure subroutine add_move(lists, move, card)
@@ -185,7 +211,8 @@ contains
       call move_alloc(lists%thermal_loads, model%thermal_loads)
       call move_alloc(lists%initial_stresses, model%initial_stresses)
       call move_alloc(lists%edge_supports, model%edge_supports)
-      call move_alloc(lists%truncations, model%truncations)
+      allocate (model%truncations(lists%truncations%n))
+      if (lists%truncations%n > 0) model%truncations = lists%truncations%entries(:lists%truncations%n)
    end subroutine take_loads
 
 end module axijoint_deck_load_lists

@@ -16,6 +16,7 @@ module axijoint_deck_load_modes
    implicit none
    private
    public :: share_type, read_shares, directed_shares, check_components, check_torsion, needs_harmonic
+   public :: truncation_list_type, add_truncation
 
    !> What a mode takes of a load: its amplitudes are these factors times the load
    type :: share_type
@@ -24,6 +25,14 @@ module axijoint_deck_load_modes
       !> Factors of the r, z and theta components. A scalar goes with r and z
       real(wp) :: factor(3) = 1.0_wp
    end type share_type
+
+   !> What the harmonics leave of the loads
+   type :: truncation_list_type
+      !> Number of entries
+      integer :: n = 0
+      !> The entries, at least n
+      type(truncation_type), allocatable :: entries(:)
+   end type truncation_list_type
 
    !> A Fourier coefficient below this part of the root mean square is rounding: the
    !> family or harmonic that has no other is not excited
@@ -38,7 +47,7 @@ contains
       !> What each mode takes
       type(share_type), allocatable, intent(out) :: shares(:)
       !> What the harmonics leave of the loads; grows by a shape's
-      type(truncation_type), allocatable, intent(inout) :: truncations(:)
+      type(truncation_list_type), intent(inout) :: truncations
 
       integer :: harmonic, family, shape, k
 
@@ -179,21 +188,47 @@ contains
       !> The shape
       type(circle_function_type), intent(in) :: f
       !> What is left; grows by one
-      type(truncation_type), allocatable, intent(inout) :: truncations(:)
+      type(truncation_list_type), intent(inout) :: truncations
 
-      type(truncation_type) :: truncation
+      character(len=:), allocatable :: name
+      real(wp) :: left_out
 
-      truncation%name = section_name(card)
-      if (is_given(card, 1)) truncation%name = truncation%name//', '//trim(card%table%fields(1)%name(5:))// &
-                                               ' '//to_text(integer_of(card, 1))
-      truncation%name = truncation%name//', shape '//to_text(integer_of(card, field))
-      truncation%left_out = share_left_out(f, card%harmonics)
-      truncations = [truncations, truncation]
-      if (truncation%left_out < 1.0_wp) return
+      name = section_name(card)
+      if (is_given(card, 1)) name = name//', '//trim(card%table%fields(1)%name(5:))//' '// &
+                                    to_text(integer_of(card, 1))
+      name = name//', shape '//to_text(integer_of(card, field))
+      left_out = share_left_out(f, card%harmonics)
+      call add_truncation(truncations, name, left_out)
+      if (left_out < 1.0_wp) return
       call add_warning(card%diagnostics, card%table%cards(1, card%entry), 0, 0, &
                        'the harmonics in use have no part of the load', &
                        mend='raise M on the CONTROL card, or add harmonics to HARMONICS')
    end subroutine note_truncation
+
+   !> Add what the harmonics leave of a load
+   pure subroutine add_truncation(truncations, name, left_out)
+      !> The list
+      type(truncation_list_type), intent(inout) :: truncations
+      !> The load in words
+      character(len=*), intent(in) :: name
+      !> Root mean square of what is left out, over that of the load
+      real(wp), intent(in) :: left_out
+
+      type(truncation_type), allocatable :: larger(:)
+      integer :: k
+
+      if (.not. allocated(truncations%entries)) allocate (truncations%entries(16))
+      if (truncations%n == size(truncations%entries)) then
+         allocate (larger(2*truncations%n))
+         do k = 1, truncations%n
+            call move_alloc(truncations%entries(k)%name, larger(k)%name)
+            larger(k)%left_out = truncations%entries(k)%left_out
+         end do
+         call move_alloc(larger, truncations%entries)
+      end if
+      truncations%n = truncations%n + 1
+      truncations%entries(truncations%n) = truncation_type(name, left_out)
+   end subroutine add_truncation
 
    !> Shares of a load in harmonic 1 along the direction theta0: the symmetric load turned
    !> by theta0

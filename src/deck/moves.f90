@@ -10,10 +10,10 @@ module axijoint_deck_moves
       field_named, field_fault, is_sound, find_any_face, find_row
    use axijoint_deck_load_fields, only : name_harmonic, name_family
    use axijoint_deck_load_lists, only : load_lists_type, add_move
-   use axijoint_deck_load_modes, only : share_type, read_shares, check_components
+   use axijoint_deck_load_modes, only : share_type, truncation_list_type, read_shares, check_components
    use axijoint_deck_source, only : source_type, card_position
    use axijoint_fe_mode, only : mode_type, same_mode, is_torsion, mode_name
-   use axijoint_model_load, only : prescribed_type, truncation_type
+   use axijoint_model_load, only : prescribed_type
    use axijoint_model_model, only : model_type
    implicit none
    private
@@ -103,10 +103,9 @@ contains
       type(load_card_type), intent(in) :: card
 
       type(share_type), allocatable :: shares(:)
-      type(truncation_type), allocatable :: truncations(:)
+      type(truncation_list_type) :: none
 
-      allocate (truncations(0))
-      call read_shares(card, shares, truncations)
+      call read_shares(card, shares, none)
    end subroutine check_mode
 
    !> Note the displacements of a node. At the pole r = 0, harmonic 0 has v only and 1 has
@@ -199,7 +198,6 @@ contains
       integer :: i, k
 
       associate (moves => lists%moves(:lists%n_moves))
-         allocate (kept(lists%n_moves))
          kept = abs(moves%value) > 0.0_wp
          call check_restraints(draft, lists, model%fixed, diagnostics)
          order = order_of(moves)

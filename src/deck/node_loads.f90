@@ -6,10 +6,10 @@ module axijoint_deck_node_loads
       field_fault, card_fault, is_sound, find_node, field_named
    use axijoint_deck_load_fields, only : name_harmonic, name_shape
    use axijoint_deck_load_lists, only : load_lists_type, add_ring_load
-   use axijoint_deck_load_modes, only : share_type, read_shares, directed_shares, check_components
+   use axijoint_deck_load_modes, only : share_type, read_shares, check_components, add_truncation
    use axijoint_fe_fourier, only : cosine_of_degrees, sine_of_degrees
    use axijoint_fe_mode, only : mode_type, mode_integral, family_symmetric, family_antisymmetric
-   use axijoint_model_load, only : ring_load_type, truncation_type
+   use axijoint_model_load, only : ring_load_type
    implicit none
    private
    public :: read_ring_load, read_point_load
@@ -89,7 +89,7 @@ contains
       type(load_lists_type), intent(inout) :: lists
 
       type(ring_load_type), allocatable :: loads(:)
-      type(truncation_type) :: truncation
+      real(wp) :: left_out
       integer :: node, k
 
       if (.not. any([(is_given(card, point_first + k), k=0, 2)]) .and. card%table%good(card%entry)) then
@@ -99,16 +99,16 @@ contains
       call find_node(card, node)
       if (node == 0 .or. .not. is_sound(card)) return
       associate (angle => real_of(card, point_angle), force => reals_of(card, point_first))
-         truncation%name = 'POINTLOADS, node '//to_text(integer_of(card, 1))//', theta = '//to_text(angle)
          if (card%draft%position(1, node) > 0.0_wp) then
             loads = circle_loads(card%harmonics, angle, force)
-            truncation%left_out = 1.0_wp  ! no series of finite length has a part of a concentrated force
+            left_out = 1.0_wp  ! no series of finite length has a part of a concentrated force
          else
             loads = axis_loads(angle, force)
-            truncation%left_out = share_of_axis(loads, card%harmonics)
+            left_out = share_of_axis(loads, card%harmonics)
          end if
       end associate
-      lists%truncations = [lists%truncations, truncation]
+      call add_truncation(lists%truncations, 'POINTLOADS, node '//to_text(integer_of(card, 1))// &
+                          ', theta = '//to_text(real_of(card, point_angle)), left_out)
       do k = 1, size(loads)
          if (.not. any(card%harmonics == loads(k)%mode%harmonic)) cycle
          if (.not. any(abs(loads(k)%force) > 0.0_wp)) cycle
