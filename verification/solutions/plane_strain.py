@@ -25,7 +25,7 @@ COMPONENTS = {"u": ("displacement", 0), "w": ("displacement", 2),
 
 @dataclasses.dataclass
 class Monomial:
-    """(U, W) (r/s)^k ln(r/s)^q"""
+    """(U, W) (r/s)^k ln(r/s)^q, q = 0 or 1"""
     amplitude: np.ndarray
     power: float
     log: int
@@ -34,13 +34,13 @@ class Monomial:
     def value(self, r):
         """U and W times the function, shape (2, points)"""
         x = r/self.radius
-        return np.multiply.outer(self.amplitude, x**self.power*np.log(x)**self.log)
+        log = np.log(x) if self.log else 1.0
+        return np.multiply.outer(self.amplitude, x**self.power*log)
 
     def slope(self, r):
         """Derivative by r"""
         x = r/self.radius
-        q = self.log
-        by_r = self.power*np.log(x)**q + (q*np.log(x)**(q - 1) if q else 0.0)
+        by_r = self.power*np.log(x) + 1.0 if self.log else self.power
         return np.multiply.outer(self.amplitude, x**(self.power - 1)*by_r)/self.radius
 
 
