@@ -12,8 +12,9 @@ module axijoint_deck_check_overlap
    private
    public :: check_overlap
 
-   !> Natural coordinates of the points of an outer edge
-   real(wp), parameter :: sample_place(5) = [-0.8_wp, -0.4_wp, 0.0_wp, 0.4_wp, 0.8_wp]
+   !> Natural coordinates of the points of an outer edge: ends of pieces of a curved side, so that
+   !> two bodies with the same nodes along a curve do not seem to overlap
+   real(wp), parameter :: sample_place(5) = [-0.75_wp, -0.5_wp, 0.0_wp, 0.5_wp, 0.75_wp]
    !> A point is inside an element if it is farther from its sides than this part of area over
    !> perimeter, a quarter of the side of a square: bodies that touch along curves overlap a little
    real(wp), parameter :: depth_limit = 0.04_wp
