@@ -2,7 +2,7 @@
 module axijoint_assembly_solid_force
    use axijoint_base_kinds, only : wp
    use axijoint_element_solid, only : solid_point_type, solid_points, solid_stress, &
-                                      add_solid_force
+                                      add_solid_force, dilatation_type, new_dilatation
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
    use axijoint_fe_quadrature, only : max_element_points
@@ -46,7 +46,8 @@ contains
 
       type(solid_point_type) :: points(max_element_points)
       type(reference_type) :: references(3:9)
-      real(wp) :: d(6, 6), now(6)
+      type(dilatation_type) :: dilatation
+      real(wp) :: d(6, 6), now(6), in_situ(6)
       real(wp), dimension(3, max_element_nodes) :: local, element_force
       integer :: element, n, n_points, i, last
 
@@ -60,14 +61,21 @@ contains
                     material => model%materials(model%mesh%element_material(element)))
             d = elasticity(material)
             call solid_points(model%mesh%coordinates(:, nodes), references(n), points(:n_points))
+            call new_dilatation(points(:n_points), references(n), dilatation)
             local(:, :n) = displacement(:, nodes)
             element_force = 0.0_wp
             do i = 1, n_points
-               now = solid_stress(points(i), n, d, mode%harmonic, local)
+               now = solid_stress(points(i), n, d, mode%harmonic, local, dilatation)
                if (initial%present) then
-                  now = now + factor*initial_stress(model, initial, k, mode, element, points(i), d)
+                  now = now + factor*thermal_stress(model, initial, k, element, points(i), &
+                                                    dilatation, d)
                end if
-               call add_solid_force(points(i), n, mode%harmonic, now, element_force)
+               call add_solid_force(points(i), n, mode%harmonic, now, element_force, dilatation)
+               if (initial%present) then  ! equilibrium in situ knows of no means
+                  in_situ = factor*in_situ_stress(model, initial, mode, element, points(i))
+                  call add_solid_force(points(i), n, mode%harmonic, in_situ, element_force)
+                  now = now + in_situ
+               end if
                if (present(stress)) stress(:, last + i) = now
             end do
             last = last + n_points
@@ -76,34 +84,56 @@ contains
       end do
    end subroutine solid_force
 
-   !> Stress at a point that nothing strains: in-situ stress less D alpha T
-   pure function initial_stress(model, initial, k, mode, element, point, d) result(stress)
+   !> Stress at a point that temperature gives without strain: - D alpha T
+   pure function thermal_stress(model, initial, k, element, point, dilatation, d) result(stress)
       !> The job
       type(model_type), intent(in) :: model
-      !> Temperatures and in-situ stresses
+      !> Temperatures
       type(initial_state_type), intent(in) :: initial
-      !> The mode, and its place
-      integer, intent(in) :: k
-      type(mode_type), intent(in) :: mode
-      !> The element, and the point
-      integer, intent(in) :: element
+      !> Place of the mode, and the element
+      integer, intent(in) :: k, element
+      !> The point
       type(solid_point_type), intent(in) :: point
+      !> Means over the element
+      type(dilatation_type), intent(in) :: dilatation
       !> Elasticity matrix
       real(wp), intent(in) :: d(6, 6)
       !> Amplitudes of r, z, theta, rz, r-theta, z-theta
       real(wp) :: stress(6)
 
-      real(wp) :: expansion(6)
-      integer :: i, n
+      real(wp) :: shape(max_element_nodes)
+      integer :: n
 
       stress = 0.0_wp
+      if (.not. allocated(initial%temperature)) return
       n = model%mesh%element_size(element)
-      if (allocated(initial%temperature)) then
-         expansion = thermal_strain(model%materials(model%mesh%element_material(element)))
-         associate (nodes => model%mesh%element_nodes(:n, element))
-            stress = -dot_product(point%shape(:n), initial%temperature(nodes, k))*matmul(d, expansion)
-         end associate
-      end if
+      shape = point%shape
+      if (dilatation%averaged) shape = dilatation%shape
+      associate (nodes => model%mesh%element_nodes(:n, element), &
+                 material => model%materials(model%mesh%element_material(element)))
+         stress = -dot_product(shape(:n), initial%temperature(nodes, k)) &
+            *matmul(d, thermal_strain(material))
+      end associate
+   end function thermal_stress
+
+   !> In-situ stress at a point
+   pure function in_situ_stress(model, initial, mode, element, point) result(stress)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> In-situ stresses
+      type(initial_state_type), intent(in) :: initial
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> The element
+      integer, intent(in) :: element
+      !> The point
+      type(solid_point_type), intent(in) :: point
+      !> Amplitudes of r, z, theta, rz, r-theta, z-theta
+      real(wp) :: stress(6)
+
+      integer :: i
+
+      stress = 0.0_wp
       if (.not. same_mode(mode, mode_type(0, family_symmetric))) return
       do i = 1, size(initial%in_situ)
          associate (state => initial%in_situ(i))
@@ -111,7 +141,7 @@ contains
             stress(:4) = stress(:4) + state%stress + point%position(2)*state%gradient
          end associate
       end do
-   end function initial_stress
+   end function in_situ_stress
 
    !> Add the nodal forces of an acceleration of all masses
    subroutine add_mass_force(model, load, factor, force)

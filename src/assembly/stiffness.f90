@@ -6,7 +6,7 @@ module axijoint_assembly_stiffness
    use axijoint_base_kinds, only : wp, i8
    use axijoint_element_joint, only : joint_stiffness
    use axijoint_element_solid, only : solid_point_type, solid_points, solid_stiffness, &
-                                      stiffness_kernel_type, new_stiffness_kernel
+                                      stiffness_kernel_type, new_stiffness_kernel, dilatation_type, new_dilatation
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_fe_mode, only : mode_type
    use axijoint_fe_quadrature, only : max_element_points
@@ -109,6 +109,7 @@ contains
       type(stiffness_type), intent(inout) :: classes(:)
 
       type(solid_point_type) :: points(max_element_points)
+      type(dilatation_type) :: dilatation
       real(wp) :: parts(max_unknowns, max_unknowns, 3)
       integer :: n, n_points, i
 
@@ -116,9 +117,11 @@ contains
       n_points = references(n)%n_points
       associate (nodes => model%mesh%element_nodes(:n, element))
          call solid_points(model%mesh%coordinates(:, nodes), references(n), points(:n_points))
+         call new_dilatation(points(:n_points), references(n), dilatation)
          call solid_stiffness(points(:n_points), n, &
                               kernels(model%mesh%element_material(element)), &
-                              parts(:3*n, :3*n, 1), parts(:3*n, :3*n, 2), parts(:3*n, :3*n, 3))
+                              parts(:3*n, :3*n, 1), parts(:3*n, :3*n, 2), parts(:3*n, :3*n, 3), &
+                              dilatation)
          do i = 1, size(classes)
             call scatter(classes(i), nodes, parts, 3)
          end do

@@ -133,7 +133,9 @@ contains
                    integer_field('the number of planes', 6, 10, 2, largest_division, default=0), &
                    integer_field('the number of Gauss points (linear)', 11, 15, 2, 3, default=2), &
                    integer_field('the number of Gauss points (quadratic)', 16, 20, 2, 3, default=3), &
-                   word_field('the solver', 21, 30, solver_names, 1)]
+                   word_field('the solver', 21, 30, solver_names, 1), &
+                   word_field('the formulation of 4-node elements', 31, 40, &
+                              [character(len=5) :: 'PLAIN', 'BBAR'], 1)]
       case (section_increments)
          fields = [real_field('the load factor', 1, 10), &
                    real_field('the tolerance', 11, 20, above=0.0_wp, below=1.0_wp, default=1.0e-6_wp, &

@@ -27,6 +27,7 @@ module axijoint_deck_reader
       section_chains, section_interfaces, section_increments, section_output, section_orthotropic
    use axijoint_deck_loads, only : read_loads, check_properties
    use axijoint_deck_places, only : group_places, new_point_tree, point_tree_type, same_place
+   use axijoint_deck_locking, only : warn_of_locking
    use axijoint_deck_properties, only : properties_type, read_properties
    use axijoint_deck_sections, only : sections_type, read_sections
    use axijoint_deck_source, only : source_type
@@ -75,6 +76,7 @@ contains
          if (diagnostics%n_errors > 0) return
          call take_model(draft, properties, model)
          call check_properties(sections, model, diagnostics)
+         call warn_of_locking(sections, model, diagnostics)
          call check_planes(source, tables(section_control), model, diagnostics)
       end associate
    end subroutine read_deck

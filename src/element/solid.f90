@@ -6,7 +6,7 @@ module axijoint_element_solid
    private
    public :: solid_point_type, solid_points
    public :: strain_matrices, solid_stiffness, solid_stress, add_solid_force
-   public :: stiffness_kernel_type, new_stiffness_kernel
+   public :: stiffness_kernel_type, new_stiffness_kernel, dilatation_type, new_dilatation
 
    !> What the integrals over an element need at one integration point
    type :: solid_point_type
@@ -19,6 +19,19 @@ module axijoint_element_solid
       !> Their derivatives by r and z
       real(wp) :: gradient(2, 9) = 0.0_wp
    end type solid_point_type
+
+   !> Means over an element, with the weights r dA, for elements that take the
+   !> volumetric strain as its mean: B-bar (Hughes, Int. J. Numer. Meth. Eng. 15, 1980).
+   !> What is linear in the harmonic stays so, as the mean of B0 + m B1 is the sum
+   !> of the means
+   type :: dilatation_type
+      !> Whether the element does so
+      logical :: averaged = .false.
+      !> Means of dN/dr, dN/dz, N/r of each node
+      real(wp) :: gradient(3, 9) = 0.0_wp
+      !> Mean shape functions: a mean strain goes with the mean temperature
+      real(wp) :: shape(9) = 0.0_wp
+   end type dilatation_type
 
    !> Elasticity between displacement gradients: the strain of a node's
    !> displacement (u, v, w) is the sum over k of g_k (E_k + m F_k) (u, v, w),
@@ -33,6 +46,8 @@ module axijoint_element_solid
       real(wp) :: s(9, 9) = 0.0_wp
       !> F^T D F for the pair (3, 3): the part quadratic in m
       real(wp) :: c(9) = 0.0_wp
+      !> Elasticity matrix D
+      real(wp) :: d(6, 6) = 0.0_wp
    end type stiffness_kernel_type
 
 contains
@@ -69,6 +84,32 @@ contains
          end associate
       end do
    end subroutine solid_points
+
+   !> Means over an element
+   pure subroutine new_dilatation(points, reference, dilatation)
+      !> Integration points of the element
+      type(solid_point_type), intent(in) :: points(:)
+      !> The element in natural coordinates
+      type(reference_type), intent(in) :: reference
+      !> The means; none if the element does not take them
+      type(dilatation_type), intent(inout) :: dilatation
+
+      real(wp) :: share
+      integer :: k
+
+      dilatation%averaged = reference%mean_dilatation
+      if (.not. dilatation%averaged) return
+      dilatation%gradient = 0.0_wp
+      dilatation%shape = 0.0_wp
+      do k = 1, size(points)
+         associate (p => points(k))
+            share = p%weight/sum(points%weight)
+            dilatation%gradient(1:2, :) = dilatation%gradient(1:2, :) + share*p%gradient
+            dilatation%gradient(3, :) = dilatation%gradient(3, :) + share*p%shape/p%position(1)
+            dilatation%shape = dilatation%shape + share*p%shape
+         end associate
+      end do
+   end subroutine new_dilatation
 
    !> The strain matrix is linear in the harmonic: B_m = B0 + m B1 (Eq. 4)
    pure subroutine strain_matrices(point, n, b0, b1)
@@ -131,6 +172,7 @@ contains
          end do
       end do
       kernel%c = block_of(f(:, :, 3), f(:, :, 3))
+      kernel%d = d
 
    contains
 
@@ -148,7 +190,7 @@ contains
 
    !> The parts of the stiffness of an element, free of the harmonic:
    !> K_m = c_m (A + m S + m^2 C), c_0 = 2 pi, c_m = pi (Eq. 5)
-   pure subroutine solid_stiffness(points, n, kernel, a, s, c)
+   pure subroutine solid_stiffness(points, n, kernel, a, s, c, dilatation)
       !> Integration points of the element
       type(solid_point_type), intent(in) :: points(:)
       !> Number of nodes
@@ -157,11 +199,19 @@ contains
       type(stiffness_kernel_type), intent(in) :: kernel
       !> The parts, shape (3n, 3n)
       real(wp), intent(out) :: a(:, :), s(:, :), c(:, :)
+      !> Means over the element, if it takes the volumetric strain as its mean
+      type(dilatation_type), intent(in), optional :: dilatation
 
       real(wp), dimension(3, n, size(points)) :: gradient, weighted
       real(wp) :: moment(9), block_a(9), block_s(9)
       integer :: i, j, k, q, l
 
+      if (present(dilatation)) then
+         if (dilatation%averaged) then
+            call averaged_stiffness(points, n, kernel, dilatation, a, s, c)
+            return
+         end if
+      end if
       do k = 1, size(points)
          associate (p => points(k))
             gradient(1:2, :, k) = p%gradient(:, :n)
@@ -190,6 +240,63 @@ contains
       end do
    end subroutine solid_stiffness
 
+   !> The same parts of an element that takes the volumetric strain as its mean
+   pure subroutine averaged_stiffness(points, n, kernel, dilatation, a, s, c)
+      !> Integration points of the element
+      type(solid_point_type), intent(in) :: points(:)
+      !> Number of nodes
+      integer, intent(in) :: n
+      !> Kernel of its material
+      type(stiffness_kernel_type), intent(in) :: kernel
+      !> Means over the element
+      type(dilatation_type), intent(in) :: dilatation
+      !> The parts, shape (3n, 3n)
+      real(wp), intent(out) :: a(:, :), s(:, :), c(:, :)
+
+      real(wp), dimension(6, 3*n) :: b0, b1, weighted
+      integer :: k
+
+      a = 0.0_wp
+      s = 0.0_wp
+      c = 0.0_wp
+      do k = 1, size(points)
+         call strain_matrices(points(k), n, b0, b1)
+         call average_volume(dilatation, n, b0, b1)
+         weighted = points(k)%weight*matmul(kernel%d, b0)
+         a = a + matmul(transpose(b0), weighted)
+         s = s + matmul(transpose(b1), weighted)
+         weighted = points(k)%weight*matmul(kernel%d, b1)
+         c = c + matmul(transpose(b1), weighted)
+      end do
+      s = s + transpose(s)
+   end subroutine averaged_stiffness
+
+   !> Replace the volumetric part of strain matrices by its mean
+   pure subroutine average_volume(dilatation, n, b0, b1)
+      !> Means over the element
+      type(dilatation_type), intent(in) :: dilatation
+      !> Number of nodes
+      integer, intent(in) :: n
+      !> The strain matrices, shape (6, 3n)
+      real(wp), intent(inout) :: b0(:, :), b1(:, :)
+
+      real(wp), dimension(3*n) :: change0, change1
+      integer :: i
+
+      change0 = -sum(b0(1:3, :), 1)
+      change1 = -sum(b1(1:3, :), 1)
+      do i = 1, n
+         associate (mean => dilatation%gradient(:, i))
+            change0(3*i - 2:3*i - 1) = change0(3*i - 2:3*i - 1) + [mean(1) + mean(3), mean(2)]
+            change1(3*i) = change1(3*i) + mean(3)
+         end associate
+      end do
+      do i = 1, 3
+         b0(i, :) = b0(i, :) + change0/3.0_wp
+         b1(i, :) = b1(i, :) + change1/3.0_wp
+      end do
+   end subroutine average_volume
+
    !> Put the block of two nodes, and its transpose, into a symmetric matrix
    pure subroutine put_block(components, i, j, matrix)
       !> The block by columns
@@ -209,7 +316,7 @@ contains
 
    !> Stress amplitudes of one harmonic at a point: d B_m u, with the sums of
    !> B_m u (Eq. 4) written out
-   pure function solid_stress(point, n, d, harmonic, displacement) result(stress)
+   pure function solid_stress(point, n, d, harmonic, displacement, dilatation) result(stress)
       !> Where
       type(solid_point_type), intent(in) :: point
       !> Number of nodes
@@ -220,10 +327,13 @@ contains
       integer, intent(in) :: harmonic
       !> Amplitudes u, v, w of the nodes, shape (3, n)
       real(wp), intent(in) :: displacement(:, :)
+      !> Means over the element, if it takes the volumetric strain as its mean
+      type(dilatation_type), intent(in), optional :: dilatation
       !> Amplitudes of r, z, theta, rz, r-theta, z-theta
       real(wp) :: stress(6)
 
       real(wp), dimension(3) :: along_r, along_z, over_r
+      real(wp) :: strain(6)
       integer :: i
 
       along_r = 0.0_wp
@@ -235,15 +345,41 @@ contains
          over_r = over_r + point%shape(i)*displacement(:, i)
       end do
       over_r = over_r/point%position(1)
-      stress = matmul(d, [along_r(1), along_z(2), over_r(1) + harmonic*over_r(3), &
-                          along_z(1) + along_r(2), &
-                          along_r(3) - over_r(3) - harmonic*over_r(1), &
-                          along_z(3) - harmonic*over_r(2)])
+      strain = [along_r(1), along_z(2), over_r(1) + harmonic*over_r(3), &
+                along_z(1) + along_r(2), &
+                along_r(3) - over_r(3) - harmonic*over_r(1), &
+                along_z(3) - harmonic*over_r(2)]
+      if (present(dilatation)) then
+         if (dilatation%averaged) then
+            strain(1:3) = strain(1:3) + (mean_volume(dilatation, n, harmonic, displacement) &
+                                         - sum(strain(1:3)))/3.0_wp
+         end if
+      end if
+      stress = matmul(d, strain)
    end function solid_stress
+
+   !> Mean volumetric strain of one harmonic in an element
+   pure real(wp) function mean_volume(dilatation, n, harmonic, displacement)
+      !> Means over the element
+      type(dilatation_type), intent(in) :: dilatation
+      !> Number of nodes, and harmonic m
+      integer, intent(in) :: n, harmonic
+      !> Amplitudes u, v, w of the nodes, shape (3, n)
+      real(wp), intent(in) :: displacement(:, :)
+
+      integer :: i
+
+      mean_volume = 0.0_wp
+      do i = 1, n
+         associate (mean => dilatation%gradient(:, i), u => displacement(:, i))
+            mean_volume = mean_volume + mean(1)*u(1) + mean(2)*u(2) + mean(3)*(u(1) + harmonic*u(3))
+         end associate
+      end do
+   end function mean_volume
 
    !> Add the nodal forces that balance a stress of one harmonic at a point,
    !> but for the factor c_m: weight B_m^T stress, written out
-   pure subroutine add_solid_force(point, n, harmonic, stress, force)
+   pure subroutine add_solid_force(point, n, harmonic, stress, force, dilatation)
       !> Where
       type(solid_point_type), intent(in) :: point
       !> Number of nodes
@@ -254,14 +390,31 @@ contains
       real(wp), intent(in) :: stress(6)
       !> Generalized nodal forces on u, v, w, shape (3, n)
       real(wp), intent(inout) :: force(:, :)
+      !> Means over the element, if it takes the volumetric strain as its mean
+      type(dilatation_type), intent(in), optional :: dilatation
 
       real(wp), dimension(3) :: along_r, along_z, over_r
+      real(wp) :: deviator(6), pressure
       integer :: i
 
-      along_r = point%weight*stress([1, 4, 5])
-      along_z = point%weight*stress([4, 2, 6])
+      deviator = stress
+      if (present(dilatation)) then
+         if (dilatation%averaged) then  ! the mean stress works on the mean volumetric strain
+            pressure = sum(stress(1:3))/3.0_wp
+            deviator(1:3) = deviator(1:3) - pressure
+            do i = 1, n
+               associate (mean => dilatation%gradient(:, i))
+                  force(:, i) = force(:, i) + point%weight*pressure &
+                     *[mean(1) + mean(3), mean(2), harmonic*mean(3)]
+               end associate
+            end do
+         end if
+      end if
+      along_r = point%weight*deviator([1, 4, 5])
+      along_z = point%weight*deviator([4, 2, 6])
       over_r = point%weight/point%position(1) &
-         *[stress(3) - harmonic*stress(5), -harmonic*stress(6), harmonic*stress(3) - stress(5)]
+         *[deviator(3) - harmonic*deviator(5), -harmonic*deviator(6), &
+           harmonic*deviator(3) - deviator(5)]
       do i = 1, n
          force(:, i) = force(:, i) + point%gradient(1, i)*along_r + point%gradient(2, i)*along_z &
             + point%shape(i)*over_r

@@ -13,6 +13,8 @@ module axijoint_fe_reference
       integer :: n_nodes = 0
       !> Number of integration points
       integer :: n_points = 0
+      !> Whether the volumetric strain is taken as its mean over the element (B-bar)
+      logical :: mean_dilatation = .false.
       !> Natural coordinates of the points, the first n_points of which are in use
       real(wp) :: position(2, max_element_points) = 0.0_wp
       !> Their weights

@@ -57,6 +57,8 @@ module axijoint_model_model
       !> Order of the integration rules of linear (3- and 4-node) and of quadratic elements:
       !> 2 or 3 Gauss points in each direction; 3 or 7 points of a triangle
       integer :: gauss_linear = 2, gauss_quadratic = 3
+      !> Whether 4-node elements take the volumetric strain as its mean (B-bar)
+      logical :: mean_dilatation = .false.
       !> Solver, one of the `solver_` parameters of the solver choice; 0 is auto
       integer :: solver = 0
       !> Angles at which totals are listed [radian]
@@ -90,6 +92,7 @@ contains
 
       references(3) = new_reference(3, model%gauss_linear)
       references(4) = new_reference(4, model%gauss_linear)
+      references(4)%mean_dilatation = model%mean_dilatation
       references(6) = new_reference(6, model%gauss_quadratic)
       references(8) = new_reference(8, model%gauss_quadratic)
       references(9) = new_reference(9, model%gauss_quadratic)

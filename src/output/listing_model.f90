@@ -75,6 +75,7 @@ contains
       end if
       call write_fact(file, "planes theta from 0 to pi", to_text(model%n_planes))
       call write_fact(file, "points (3, 4, 6, 8, 9 nodes)", point_counts(model))
+      if (model%mean_dilatation) call write_fact(file, "4-node elements", "mean volumetric strain (B-bar)")
       call write_fact(file, "restrained nodes", to_text(count(any(model%fixed, dim=1))))
    end subroutine write_model
 
