@@ -6,7 +6,7 @@ from deck import Deck
 from material import Isotropic, Orthotropic
 from mesh import graded, rectangle, structured
 from solution import ANTISYMMETRIC, FAMILY_LETTER, SYMMETRIC
-from solutions.plane_strain import joined_rings, ring_solution
+from solutions.plane_strain import Ring, joined_rings, ring_solution, solve_rings
 from solutions.torsion import sheared_ring
 
 STEEL = Isotropic(2.1e5, 0.3)
@@ -179,6 +179,40 @@ def orthotropic(name, m, family):
     return Case(name, [[solution]], build, sizes=dict(SLICES))
 
 
+def supported():
+    """Ring under -cos 2 theta inside, on springs outside: sigma_r = -k_n u, tau = -k_theta w"""
+    normal, tangent = 3.0e4, 1.0e4
+    ring = Ring(STEEL, 2, INNER, OUTER)
+    solve_rings([([(ring, "sigma_r", INNER, 1.0)], -1.0), ([(ring, "tau", INNER, 1.0)], 0.0),
+                 ([(ring, "sigma_r", OUTER, 1.0), (ring, "u", OUTER, normal)], 0.0),
+                 ([(ring, "tau", OUTER, 1.0), (ring, "w", OUTER, tangent)], 0.0)], [ring])
+    solution = ring.solution("ring on springs", SYMMETRIC,
+                             [("sigma_r", INNER, -1.0), ("tau", INNER, 0.0)])
+
+    def build(kind, n):
+        deck, mesh = plane_strain_deck(kind, n, [solution], solution.name, (INNER, OUTER))
+        # Outward normal -r
+        deck.traction(mesh, "inner", solution.mode, (1.0, 0.0, 0.0))
+        deck.add("SPRINGS", [(deck.face(mesh, mesh.sides["outer"]), normal, 0.0, tangent)])
+        return deck
+
+    return Case("springs", [[solution]], build, sizes=dict(SLICES))
+
+
+def heated_nodes():
+    """Temperature 30 r^2 sin 3 theta given at the nodes"""
+    solution = ring_solution("temperature at nodes", HOT, 3, (INNER, OUTER), free_surfaces(),
+                             ANTISYMMETRIC, temperatures=[(30.0, 2)])
+
+    def build(kind, n):
+        deck, mesh = plane_strain_deck(kind, n, [solution], solution.name, (INNER, OUTER))
+        deck.add("NODETEMPS", [(deck.node(mesh, i), None, None, 3, 30.0*r**2, "A")
+                               for i, r in enumerate(mesh.coordinates[:, 0])])
+        return deck
+
+    return Case("node_temperatures", [[solution]], build, sizes=dict(SLICES))
+
+
 def twisted():
     """Shear tau_rtheta = -1 on the inner surface, in the mode of torsion; held outside"""
     solution = sheared_ring(STEEL, INNER, OUTER, 1.0)
@@ -201,7 +235,7 @@ CASES = [lame(), *[loaded_ring(f"ring_{m}", m) for m in (0, 1, 2, 3, 5, 8)],
          *[high_harmonic(m) for m in (32, 64, 128)], kirsch(), *[two_rings(m) for m in (0, 2, 5)],
          twisted(), rotating(), lateral_ring(), heated("thermal_0", 0, SYMMETRIC, HOT),
          heated("thermal_1", 1, SYMMETRIC, HOT, held=True),
-         heated("thermal_2_antisymmetric", 2, ANTISYMMETRIC, HOT),
+         heated("thermal_2_antisymmetric", 2, ANTISYMMETRIC, HOT), heated_nodes(), supported(),
          orthotropic("orthotropic_tube", 0, SYMMETRIC),
          orthotropic("orthotropic_ring_2", 2, SYMMETRIC),
          orthotropic("orthotropic_ring_3_antisymmetric", 3, ANTISYMMETRIC),

@@ -195,6 +195,23 @@ def shaft():
                 reduced_exact=False, sizes=dict(SOLIDS))
 
 
+def turned_shaft():
+    """Round shaft: its top turned by MOVEDFACES, linear along the face"""
+    twist, length = 1.0e-3, 2.0
+    solution = torsion.shaft(STEEL, twist)
+
+    def build(kind, n):
+        mesh = structured(kind, n//2, n, SHAFT)
+        deck = start("Shaft turned at its top", kind, STEEL, mesh, [solution])
+        deck.fix(mesh, mesh.nodes_of("bottom"), "111")
+        top = deck.face(mesh, mesh.sides["top"])
+        deck.add("MOVEDFACES", [(top, 0, None, None, 0.0, None, None, -twist*length, "A")])
+        return deck
+
+    return Case("turned_shaft", [[solution]], build, contains=lambda kind: kind.nodes != 3,
+                sizes=dict(SOLIDS))
+
+
 def cone():
     """Truncated cone, its mantle free"""
     solution = torsion.cone(STEEL)
@@ -243,4 +260,4 @@ CASES = [rigid("rigid_symmetric", SYMMETRIC), rigid("rigid_antisymmetric", ANTIS
          lateral_gravity(), gradient("gradient_symmetric", SYMMETRIC),
          gradient("gradient_antisymmetric", ANTISYMMETRIC),
          boussinesq("field_3_symmetric", SYMMETRIC), boussinesq("field_3_antisymmetric", ANTISYMMETRIC),
-         shaft(), cone(), sphere(), cavity()]
+         shaft(), turned_shaft(), cone(), sphere(), cavity()]

@@ -1,0 +1,55 @@
+"""One case of scripts/verify, and its check of solutions; only where NumPy and h5py are installed"""
+import os
+import subprocess
+
+from support import HERE, Test
+
+FOLDER = os.path.join(HERE, '..', '..', 'verification')
+PYTHON = '/usr/bin/python3'
+# A solution with one stress off by a millionth must be refused
+WRONG_SOLUTION = '''
+import dataclasses, sys
+sys.path.insert(0, sys.argv[1])
+import residual
+from material import Isotropic
+from solutions.polynomials import flexure
+right = flexure(Isotropic(2.1e5, 0.3))
+residual.check(right)
+for component in range(6):
+    def stress(r, z):
+        found = right.stress(r, z)
+        found[component] = found[component]*(1 + 1e-6) + 1e-6*r*z
+        return found
+    try:
+        residual.check(dataclasses.replace(right, stress=stress))
+    except residual.ResidualError:
+        continue
+    sys.exit(f"a wrong stress {component} passed")
+'''
+
+
+def tests(program):
+    """A case, and the check of its solution"""
+    probe = subprocess.run([PYTHON, '-c', 'import numpy, h5py'], capture_output=True, check=False)
+    if probe.returncode:
+        return []
+    return [Test('verification/shaft', lambda folder: case_faults(program, folder)),
+            Test('verification/wrong solution', wrong_solution_faults)]
+
+
+def case_faults(program, folder):
+    """Faults of one case"""
+    return faults_of([os.path.join(FOLDER, 'main.py'), '--program', program.path, '--check',
+                      '-o', folder, 'shaft'])
+
+
+def wrong_solution_faults(folder):
+    """Faults of the check of solutions"""
+    del folder
+    return faults_of(['-c', WRONG_SOLUTION, FOLDER])
+
+
+def faults_of(arguments):
+    """Faults of a run of Python"""
+    done = subprocess.run([PYTHON, '-B', *arguments], capture_output=True, text=True, check=False)
+    return [f'exit code {done.returncode}\n{done.stdout}{done.stderr}'] if done.returncode else []
