@@ -5,7 +5,7 @@
 !>
 !> Usage: solvers NODES [--harmonics M] [--limit SECONDS] [--solvers NAMES] [--dump FILE]
 program solvers
-   use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
+   use, intrinsic :: iso_fortran_env, only : output_unit
    use omp_lib, only : omp_set_num_threads, omp_get_num_procs
    use axijoint_assembly_equations, only : equations_type, plan_equations, assemble_equations, &
                                            factorize_equations, needed_bytes
@@ -13,6 +13,8 @@ program solvers
    use axijoint_assembly_stiffness, only : stiffness_type, new_stiffness, assemble_parts, &
                                            harmonic_matrix
    use axijoint_assembly_support, only : support_point_type
+   use axijoint_bench_measure, only : product_rate, median, seconds, stop_on, fail
+   use axijoint_bench_square, only : square
    use axijoint_base_error, only : error_type
    use axijoint_fe_mode, only : mode_type
    use axijoint_base_kinds, only : wp, i8
@@ -21,8 +23,6 @@ program solvers
    use axijoint_linalg_lapack, only : use_one_blas_thread
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type, multiply, infinity_norm
    use axijoint_model_joint_points, only : model_joint_point_type
-   use axijoint_model_load, only : edge_load_type, ring_load_type, increment_type
-   use axijoint_model_material, only : solid_material_type, joint_material_type
    use axijoint_model_model, only : model_type
    use axijoint_order_graph, only : graph_type
    use axijoint_solver_choice, only : solver_band, solver_sparse, solver_names, new_solver, &
@@ -36,19 +36,6 @@ program solvers
    real(wp), parameter :: least_seconds = 0.3_wp
    !> Share of the limit after which a measurement is not repeated
    real(wp), parameter :: patience = 0.25_wp
-   !> Unknowns of the products that the machine's rate is measured with
-   integer, parameter :: product_size = 2000
-
-   interface
-      !> Matrix product
-      subroutine dgemm(transa, transb, m, n, k, alpha, a, lda, b, ldb, beta, c, ldc)
-         import :: wp
-         character, intent(in) :: transa, transb
-         integer, intent(in) :: m, n, k, lda, ldb, ldc
-         real(wp), intent(in) :: alpha, a(lda, *), b(ldb, *), beta
-         real(wp), intent(inout) :: c(ldc, *)
-      end subroutine dgemm
-   end interface
 
    !> What the command line asks for
    type :: config_type
@@ -83,7 +70,7 @@ program solvers
    call read_arguments(config)
    call use_one_blas_thread()
    rate = product_rate()
-   model = square(config%n_side)
+   model = square(config%n_side, config%n_harmonics)
    call print_header()
    do kind = solver_band, solver_sparse
       if (index(config%solvers, trim(lower(solver_names(kind)))) == 0) cycle
@@ -320,51 +307,6 @@ contains
       record%share = (processor_end - processor)/record%factorization
    end subroutine measure_threads
 
-   !> Square of 9-node elements, r = 1..2, z = 0..1, its bottom held
-   function square(n_side) result(model)
-      !> Nodes along a side, odd
-      integer, intent(in) :: n_side
-      !> The model
-      type(model_type) :: model
-
-      integer, parameter :: di(9) = [0, 2, 2, 0, 1, 2, 1, 0, 1], dj(9) = [0, 0, 2, 2, 0, 1, 2, 1, 1]
-      integer :: i, j, k, n_nodes, n_elements
-
-      n_nodes = n_side**2
-      n_elements = ((n_side - 1)/2)**2
-      model%title = 'square'
-      model%materials = [solid_material_type(label=1, young=1.0_wp, poisson=0.3_wp)]
-      model%max_harmonic = config%n_harmonics
-      allocate (model%joint_materials(0), model%edge_loads(0), model%ring_loads(0))
-      model%increments = [increment_type()]
-      model%output_angles = [real(wp) ::]
-      associate (mesh => model%mesh)
-         mesh%node_label = [(i, i=1, n_nodes)]
-         mesh%element_label = [(i, i=1, n_elements)]
-         mesh%element_material = spread(1, 1, n_elements)
-         mesh%element_body = spread(1, 1, n_elements)
-         mesh%element_size = spread(9, 1, n_elements)
-         allocate (mesh%joint_label(0), mesh%joint_material(0), mesh%joint_size(0))
-         allocate (mesh%joint_nodes(6, 0), mesh%coordinates(2, n_nodes))
-         allocate (mesh%element_nodes(9, n_elements))
-         do j = 0, n_side - 1
-            do i = 0, n_side - 1
-               mesh%coordinates(:, 1 + i + j*n_side) = [1.0_wp, 0.0_wp] &
-                  + real([i, j], wp)/(n_side - 1)
-            end do
-         end do
-         k = 0
-         do j = 0, n_side - 3, 2
-            do i = 0, n_side - 3, 2
-               k = k + 1
-               mesh%element_nodes(:, k) = 1 + i + di + (j + dj)*n_side
-            end do
-         end do
-         allocate (model%fixed(3, n_nodes))
-         model%fixed = spread(mesh%coordinates(2, :) <= 0.0_wp, 1, 3)
-      end associate
-   end function square
-
    !> Write a matrix for other solvers: order and entries (8 bytes), starts of
    !> the rows (8 bytes), columns (4 bytes) and values of the lower triangle by
    !> rows, counted from one
@@ -383,28 +325,6 @@ contains
          matrix%column, matrix%value
       close (unit)
    end subroutine dump_matrix
-
-   !> Operations a second of a large matrix product: the machine's rate
-   function product_rate() result(rate)
-      !> The rate, the median of five
-      real(wp) :: rate
-
-      real(wp), allocatable :: a(:, :), b(:, :), c(:, :)
-      real(wp) :: times(5), start
-      integer :: k
-
-      allocate (a(product_size, product_size), b(product_size, product_size))
-      allocate (c(product_size, product_size), source=0.0_wp)
-      call random_number(a)
-      call random_number(b)
-      do k = 0, size(times)  ! the first is not counted
-         start = seconds()
-         call dgemm('N', 'N', product_size, product_size, product_size, 1.0_wp, a, product_size, &
-                    b, product_size, 0.0_wp, c, product_size)
-         if (k > 0) times(k) = seconds() - start
-      end do
-      rate = 2.0_wp*real(product_size, wp)**3/median(times)
-   end function product_rate
 
    !> Names of the columns
    subroutine print_header()
@@ -447,49 +367,5 @@ contains
       text = ''
       if (value >= 0.0_wp) text = to_text(value)
    end function cell
-
-   !> Median
-   pure function median(values)
-      !> The values
-      real(wp), intent(in) :: values(:)
-      !> Their median
-      real(wp) :: median
-
-      integer :: k, less
-
-      median = values(1)
-      do k = 1, size(values)  ! short lists: the value with half of the others below it
-         less = count(values < values(k)) + count(.not. abs(values(:k - 1) - values(k)) > 0.0_wp)
-         if (less == (size(values) - 1)/2) median = values(k)
-      end do
-   end function median
-
-   !> Wall clock [second]
-   function seconds()
-      !> The reading
-      real(wp) :: seconds
-
-      integer(i8) :: count, rate
-
-      call system_clock(count, rate)
-      seconds = real(count, wp)/real(rate, wp)
-   end function seconds
-
-   !> End with the message of an error
-   subroutine stop_on(error)
-      !> The error, if any
-      type(error_type), allocatable, intent(in) :: error
-
-      if (allocated(error)) call fail(error%message)
-   end subroutine stop_on
-
-   !> End with a message
-   subroutine fail(message)
-      !> The message
-      character(len=*), intent(in) :: message
-
-      write (error_unit, '(2a)') 'solvers: ', message
-      error stop 2, quiet=.true.
-   end subroutine fail
 
 end program solvers

@@ -1,0 +1,117 @@
+!> What the flexibility of a line of nodes costs: two neighbouring lines of nodes
+!> over half the height of a square mesh of 9-node elements, as many unknowns as a
+!> joint there has. One call measures one mesh and writes one line of
+!> comma-separated values a solver.
+!>
+!> Usage: flexibility NODES
+program flexibility
+   use, intrinsic :: iso_fortran_env, only : output_unit
+   use omp_lib, only : omp_set_num_threads
+   use axijoint_assembly_pattern, only : node_graph
+   use axijoint_assembly_stiffness, only : stiffness_type, new_stiffness, assemble_parts, &
+                                           harmonic_matrix
+   use axijoint_assembly_support, only : support_point_type
+   use axijoint_base_error, only : error_type
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_text, only : to_text, lower
+   use axijoint_bench_measure, only : product_rate, seconds, stop_on, fail
+   use axijoint_bench_square, only : square
+   use axijoint_fe_mode, only : mode_type
+   use axijoint_linalg_lapack, only : use_one_blas_thread
+   use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
+   use axijoint_model_joint_points, only : model_joint_point_type
+   use axijoint_model_model, only : model_type
+   use axijoint_order_graph, only : graph_type
+   use axijoint_solver_choice, only : solver_band, solver_sparse, solver_names, new_solver, &
+                                      orders_type, new_orders, order_for, expected_seconds
+   use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type
+   implicit none
+
+   !> The harmonic that is measured
+   integer, parameter :: harmonic = 2
+   !> Longer factorizations are left out [second]
+   real(wp), parameter :: limit = 30.0_wp
+   !> Rows of the figures: the order without regard to the set, or with it last
+   logical, parameter :: set_last(2) = [.false., .true.]
+
+   type(model_type) :: model
+   logical, allocatable :: wanted(:)
+   character(len=32) :: word
+   integer :: n_side, kind, stat, k
+   real(wp) :: rate
+
+   call get_command_argument(1, word)
+   read (word, *, iostat=stat) n_side
+   if (stat /= 0) call fail('the argument is the number of nodes along a side')
+   call use_one_blas_thread()
+   call omp_set_num_threads(1)
+   rate = product_rate()
+   model = square(n_side, harmonic)
+   associate (middle => n_side/2)
+      wanted = [(any(mod(k - 1, n_side) == [middle, middle + 1]) .and. (k - 1)/n_side >= middle, &
+                 k=1, n_side**2)]
+   end associate
+   write (output_unit, '(a)') 'nodes_per_side,unknowns,set,solver,set_last,factor_entries,'// &
+      'factorization_s,inverse_s,operations'
+   do kind = solver_band, solver_sparse
+      do k = 1, size(set_last)
+         if (set_last(k) .and. kind /= solver_sparse) cycle
+         call measure(kind, set_last(k))
+      end do
+   end do
+
+contains
+
+   !> Factorization and flexibility with one solver
+   subroutine measure(kind, last)
+      !> One of the `solver_` parameters
+      integer, intent(in) :: kind
+      !> Whether the set is ordered last
+      logical, intent(in) :: last
+
+      type(graph_type) :: graph
+      type(stiffness_type) :: stiffness(1)
+      type(symmetric_matrix_type) :: matrix
+      class(solver_type), allocatable :: solver
+      class(factor_type), allocatable :: factor
+      type(pivot_report_type) :: pivots
+      type(error_type), allocatable :: error
+      type(orders_type) :: orders
+      integer, allocatable :: set(:)
+      real(wp), allocatable :: inverse(:, :)
+      real(wp) :: start, factorization, inversion
+
+      graph = node_graph(model%mesh)
+      if (last) then
+         call new_orders(orders, graph, wanted, error)
+      else
+         call new_orders(orders, graph, error=error)
+      end if
+      call stop_on(error)
+      call new_stiffness(stiffness(1), model, mode_type(harmonic), graph, order_for(orders, kind))
+      call new_solver(solver, kind)
+      call solver%analyse(stiffness(1)%pattern, error)
+      call stop_on(error)
+      if (expected_seconds(solver, kind, rate) > limit) return
+      call assemble_parts(stiffness, model, [model_joint_point_type ::], [support_point_type ::])
+      call harmonic_matrix(stiffness(1), harmonic, matrix)
+      associate (equation => stiffness(1)%dofs%equation)
+         set = pack(equation, spread(wanted, 1, 3) .and. equation > 0)
+      end associate
+      call solver%factorize(matrix, factor, pivots, error)  ! the first wakes the libraries
+      deallocate (factor)
+      start = seconds()
+      call solver%factorize(matrix, factor, pivots, error)
+      call stop_on(error)
+      factorization = seconds() - start
+      start = seconds()
+      call factor%inverse_block(set, inverse, error)
+      call stop_on(error)
+      inversion = seconds() - start
+      write (output_unit, '(a)') to_text(n_side)//','//to_text(matrix%n)//','//to_text(size(set))// &
+         ','//trim(lower(solver_names(kind)))//','//merge('yes', 'no ', last)//','// &
+         to_text(real(solver%factor_entries, wp))//','//to_text(factorization)//','// &
+         to_text(inversion)//','//to_text(solver%operations)
+   end subroutine measure
+
+end program flexibility
