@@ -7,9 +7,9 @@
 program flexibility
    use, intrinsic :: iso_fortran_env, only : output_unit
    use omp_lib, only : omp_set_num_threads
+   use axijoint_assembly_harmonic, only : harmonic_values
    use axijoint_assembly_pattern, only : node_graph
-   use axijoint_assembly_stiffness, only : stiffness_type, new_stiffness, assemble_parts, &
-                                           harmonic_matrix
+   use axijoint_assembly_stiffness, only : stiffness_type, new_stiffness, assemble_parts
    use axijoint_assembly_support, only : support_point_type
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
@@ -94,14 +94,16 @@ contains
       call stop_on(error)
       if (expected_seconds(solver, kind, rate) > limit) return
       call assemble_parts(stiffness, model, [model_joint_point_type ::], [support_point_type ::])
-      call harmonic_matrix(stiffness(1), harmonic, matrix)
+      matrix = stiffness(1)%pattern
+      allocate (matrix%value(size(matrix%column)))
+      call harmonic_values(stiffness(1), harmonic, matrix%value)
       associate (equation => stiffness(1)%dofs%equation)
          set = pack(equation, spread(wanted, 1, 3) .and. equation > 0)
       end associate
-      call solver%factorize(matrix, factor, pivots, error)  ! the first wakes the libraries
+      call solver%factorize(matrix, matrix%value, factor, pivots, error)  ! the first wakes the libraries
       deallocate (factor)
       start = seconds()
-      call solver%factorize(matrix, factor, pivots, error)
+      call solver%factorize(matrix, matrix%value, factor, pivots, error)
       call stop_on(error)
       factorization = seconds() - start
       start = seconds()

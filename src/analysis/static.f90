@@ -283,7 +283,7 @@ contains
                call refine_mode(equations, k, force, displacement)
                associate (report => results%solves(k), system => equations%systems(s))
                   report%mode = equations%modes(k)
-                  report%n_equations = system%matrix%n
+                  report%n_equations = equations%classes(system%class)%dofs%n_equations
                   report%factor_entries = equations%plans(system%class)%solver%factor_entries
                   report%condition = condition
                   report%smallest_pivot = system%pivots%smallest

@@ -1,8 +1,10 @@
 !> The equations of all harmonics: matrices, factors, solution
 module axijoint_assembly_equations
+   use omp_lib, only : omp_get_max_threads
    use axijoint_assembly_dofs, only : gather, expand, kinematic_class, component_name
+   use axijoint_assembly_harmonic, only : harmonic_values, harmonic_product
    use axijoint_assembly_stiffness, only : stiffness_type, new_stiffness, assemble_parts, &
-                                           harmonic_matrix
+                                           n_parts
    use axijoint_assembly_support, only : support_point_type
    use axijoint_base_error, only : error_type, fatal_error, exit_singular
    use axijoint_base_kinds, only : wp, i8
@@ -10,7 +12,7 @@ module axijoint_assembly_equations
    use axijoint_base_text, only : to_text
    use axijoint_fe_mode, only : mode_type
    use axijoint_linalg_lapack, only : use_one_blas_thread, norm_step
-   use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type, multiply, infinity_norm
+   use axijoint_linalg_symmetric_matrix, only : infinity_norm
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type, on_axis
    use axijoint_order_graph, only : bandwidth
@@ -27,6 +29,8 @@ module axijoint_assembly_equations
    integer, parameter :: widest_band = 400
    !> With fewer equations in all, threads cost more than they save
    integer, parameter :: least_equations = 10000
+   !> Bytes of a value
+   integer(i8), parameter :: value_bytes = storage_size(1.0_wp)/8
    !> Rate of matrix products that solvers are chosen by [operations/second]
    real(wp), parameter :: nominal_rate = 5.0e10_wp
 
@@ -39,8 +43,9 @@ module axijoint_assembly_equations
       integer :: class = 0
       !> Places of the modes that are solved with it
       integer, allocatable :: modes(:)
-      !> The matrix, its factor and pivots
-      type(symmetric_matrix_type) :: matrix
+      !> Largest sum of absolute values in a row of K_m
+      real(wp) :: norm = 0.0_wp
+      !> Factor and pivots
       class(factor_type), allocatable :: factor
       type(pivot_report_type) :: pivots
    end type system_type
@@ -61,8 +66,7 @@ module axijoint_assembly_equations
       type(system_type), allocatable :: systems(:)
       !> Solver, one of the `solver_` parameters, never auto
       integer :: solver = 0
-      !> Unknowns and sparsity of the classes; parts are dropped once the
-      !> matrices stand
+      !> Unknowns, sparsity and stiffness of the classes
       type(stiffness_type), allocatable :: classes(:)
       !> Plans of the solver, one a class
       type(plan_slot_type), allocatable :: plans(:)
@@ -195,7 +199,7 @@ contains
       end do
    end function planned_seconds
 
-   !> Assemble the matrices of all harmonics
+   !> Assemble the stiffness of all classes
    subroutine assemble_equations(equations, model, joint_points, support_points, error)
       !> The equations, planned
       type(equations_type), intent(inout) :: equations
@@ -207,46 +211,59 @@ contains
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: k
-
       call require_memory(needed_bytes(equations), 'the factors of '// &
                           to_text(size(equations%systems))//' harmonics', error)
       if (allocated(error)) return
       call assemble_parts(equations%classes, model, joint_points, support_points)
-      !$omp parallel do schedule(dynamic) if (worth_threads(equations))
-      do k = 1, size(equations%systems)
-         associate (system => equations%systems(k))
-            call harmonic_matrix(equations%classes(system%class), system%harmonic, system%matrix)
-         end associate
-      end do
-      !$omp end parallel do
-      do k = 1, size(equations%classes)
-         deallocate (equations%classes(k)%parts)
-      end do
    end subroutine assemble_equations
 
-   !> Bytes of all matrices and factors
-   pure function needed_bytes(equations) result(bytes)
+   !> Bytes of the stiffness of all classes and of all factors
+    function needed_bytes(equations) result(bytes)
       !> The equations, analysed
       type(equations_type), intent(in) :: equations
       !> Bytes
       integer(i8) :: bytes
 
-      !> Bytes of an entry of a matrix: a real and its column
-      integer(i8), parameter :: entry_bytes = (storage_size(1.0_wp) + storage_size(1))/8
+      integer(i8) :: values
       integer :: k
 
       bytes = 0
-      do k = 1, size(equations%systems)
-         associate (class => equations%systems(k)%class)
-            bytes = bytes + equations%plans(class)%solver%factor_bytes &
-               + entry_bytes*size(equations%classes(class)%pattern%column, kind=i8)
+      values = 0
+      do k = 1, size(equations%classes)
+         associate (class => equations%classes(k))
+            bytes = bytes + class_bytes(class) + equations%plans(k)%solver%plan_bytes
+            values = max(values, value_bytes*size(class%pattern%column, kind=i8))
          end associate
       end do
-      ! the parts A, S, C live before the factors and are no larger
+      do k = 1, size(equations%systems)
+         bytes = bytes + equations%plans(equations%systems(k)%class)%solver%factor_bytes
+      end do
+      bytes = bytes + 2*values*threads_in_use(equations)  ! K_m, and again in the solver's order
    end function needed_bytes
 
-   !> Factor the matrices of all harmonics, one harmonic a thread
+   !> Bytes of the stiffness of a class
+   pure integer(i8) function class_bytes(stiffness)
+      !> The stiffness
+      type(stiffness_type), intent(in) :: stiffness
+
+      integer(i8), parameter :: column_bytes = storage_size(1)/8
+
+      class_bytes = (column_bytes + value_bytes*n_parts(stiffness)) &
+         *size(stiffness%pattern%column, kind=i8)
+   end function class_bytes
+
+   !> Harmonics that are worked on at once
+   integer function threads_in_use(equations)
+      !> The equations, planned
+      type(equations_type), intent(in) :: equations
+
+      threads_in_use = 1
+      if (worth_threads(equations)) then
+         threads_in_use = min(omp_get_max_threads(), size(equations%systems))
+      end if
+   end function threads_in_use
+
+   !> Form and factor the matrices of all harmonics, one harmonic a thread
    subroutine factorize_equations(equations, model, error)
       !> The equations
       type(equations_type), intent(inout) :: equations
@@ -256,15 +273,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(error_type), allocatable :: failure
+      real(wp), allocatable :: value(:)  ! a thread's, for one harmonic after the other
       integer :: k, failed
 
       call use_one_blas_thread()
       failed = huge(1)  ! the lowest harmonic that fails is the one reported, with any threads
-      !$omp parallel do schedule(dynamic) private(failure) if (worth_threads(equations))
+      !$omp parallel do schedule(dynamic) private(failure, value) if (worth_threads(equations))
       do k = 1, size(equations%systems)
-         call equations%plans(equations%systems(k)%class)%solver%factorize( &
-            equations%systems(k)%matrix, equations%systems(k)%factor, equations%systems(k)%pivots, &
-            failure)
+         call factorize_system(equations, equations%systems(k), value, failure)
          if (.not. allocated(failure) .and. equations%systems(k)%pivots%equation > 0) then
             call fatal_error(failure, exit_singular, &
                              pivot_message(equations, k, equations%systems(k)%pivots%equation, model))
@@ -279,6 +295,29 @@ contains
       end do
       !$omp end parallel do
    end subroutine factorize_equations
+
+   !> Form and factor the matrix of one system
+   subroutine factorize_system(equations, system, value, error)
+      !> The equations, assembled
+      type(equations_type), intent(in) :: equations
+      !> The system
+      type(system_type), intent(inout) :: system
+      !> Values of a matrix: memory to be used again
+      real(wp), allocatable, intent(inout) :: value(:)
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      associate (class => equations%classes(system%class))
+         if (allocated(value)) then
+            if (size(value) /= size(class%pattern%column)) deallocate (value)
+         end if
+         if (.not. allocated(value)) allocate (value(size(class%pattern%column)))
+         call harmonic_values(class, system%harmonic, value)
+         system%norm = infinity_norm(class%pattern, value)
+         call equations%plans(system%class)%solver%factorize(class%pattern, value, system%factor, &
+                                                             system%pivots, error)
+      end associate
+   end subroutine factorize_system
 
    !> A pivot that is not positive, in words
    function pivot_message(equations, k, equation, model) result(message)
@@ -361,7 +400,7 @@ contains
       real(wp) :: inverse_norm
       integer :: kase, save(3)
 
-      associate (n => equations%systems(k)%matrix%n)
+      associate (n => equations%classes(equations%systems(k)%class)%pattern%n)
          allocate (v(n), x(n, 1), signs(n))
       end associate
       condition = 0.0_wp
@@ -377,7 +416,7 @@ contains
          if (kase == 0) exit
          call equations%systems(k)%factor%solve(x)  ! symmetric: the transpose is the same
       end do
-      condition = inverse_norm*infinity_norm(equations%systems(k)%matrix)
+      condition = inverse_norm*equations%systems(k)%norm
    end function condition_estimate
 
    !> Forces on the equations of one mode, from forces on components
@@ -405,7 +444,10 @@ contains
       !> Forces, shape (n_equations)
       real(wp), allocatable :: force(:)
 
-      force = multiply(equations%systems(equations%system(k))%matrix, on_unknowns(equations, k, displacement))
+      associate (system => equations%systems(equations%system(k)))
+         force = harmonic_product(equations%classes(system%class), system%harmonic, &
+                                  on_unknowns(equations, k, displacement))
+      end associate
    end function elastic_force
 
    !> Values of the unknowns from displacement components
@@ -450,7 +492,7 @@ contains
       real(wp) :: scale
 
       b = on_equations(equations, k, force)
-      scale = infinity_norm(equations%systems(equations%system(k))%matrix)*maxval(abs(displacement)) &
+      scale = equations%systems(equations%system(k))%norm*maxval(abs(displacement)) &
          + maxval([0.0_wp, abs(b)])
       ratio = 0.0_wp
       if (scale > 0.0_wp) then

@@ -71,19 +71,27 @@ contains
    end function entry_position
 
    !> Largest sum of absolute values in a row of the whole matrix
-   pure function infinity_norm(matrix) result(norm)
-      !> The matrix
-      type(symmetric_matrix_type), intent(in) :: matrix
+   pure function infinity_norm(pattern, value) result(norm)
+      !> The pattern
+      type(symmetric_matrix_type), intent(in) :: pattern
+      !> Values of the entries
+      real(wp), intent(in) :: value(:)
       !> The norm
       real(wp) :: norm
 
-      type(symmetric_matrix_type) :: absolute
-      real(wp), allocatable :: ones(:)
+      real(wp), allocatable :: row_sum(:)
+      integer(i8) :: k
+      integer :: i
 
-      absolute = matrix
-      absolute%value = abs(matrix%value)
-      allocate (ones(matrix%n), source=1.0_wp)
-      norm = maxval([0.0_wp, multiply(absolute, ones)])
+      allocate (row_sum(pattern%n), source=0.0_wp)
+      do i = 1, pattern%n
+         do k = pattern%row_start(i), pattern%row_start(i + 1) - 2
+            row_sum(i) = row_sum(i) + abs(value(k))
+            row_sum(pattern%column(k)) = row_sum(pattern%column(k)) + abs(value(k))
+         end do
+         row_sum(i) = row_sum(i) + abs(value(pattern%row_start(i + 1) - 1))
+      end do
+      norm = maxval([0.0_wp, row_sum])
    end function infinity_norm
 
 end module axijoint_linalg_symmetric_matrix

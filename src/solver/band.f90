@@ -53,11 +53,13 @@ contains
    end subroutine analyse
 
    !> Copy the matrix into a band and factor it
-   subroutine factorize(self, matrix, factor, pivots, error)
+   subroutine factorize(self, pattern, value, factor, pivots, error)
       !> The plan
       class(band_solver_type), intent(in) :: self
-      !> The matrix
-      type(symmetric_matrix_type), intent(in) :: matrix
+      !> The pattern analysed
+      type(symmetric_matrix_type), intent(in) :: pattern
+      !> Values of the matrix
+      real(wp), intent(in), contiguous :: value(:)
       !> Its factor
       class(factor_type), allocatable, intent(out) :: factor
       !> Pivots
@@ -80,8 +82,8 @@ contains
       end if
       new%band = 0.0_wp
       do i = 1, self%n
-         do k = matrix%row_start(i), matrix%row_start(i + 1) - 1
-            new%band(1 + i - matrix%column(k), matrix%column(k)) = matrix%value(k)
+         do k = pattern%row_start(i), pattern%row_start(i + 1) - 1
+            new%band(1 + i - pattern%column(k), pattern%column(k)) = value(k)
          end do
       end do
       diagonal = new%band(1, :)

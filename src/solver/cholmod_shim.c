@@ -12,6 +12,10 @@ typedef struct {
    cholmod_common common;
    cholmod_factor *factor; /* symbolic for a plan, numeric for a factor */
    int64_t n;
+   /* Of a plan: the lower triangle by columns in the order of the factor, and where the value of
+      each entry is found. So a factorization gathers its values and has nothing to transpose. */
+   int64_t *start, *row;
+   int32_t *from;
 } handle_type;
 
 static void choose(cholmod_common *common) {
@@ -39,20 +43,16 @@ static int forbid_threads(void) {
    return levels;
 }
 
-/* A matrix of our arrays, counted from zero; its indices are the caller's to free */
-static cholmod_sparse view(int64_t n, const int64_t *start, const int32_t *column,
-                           const double *value, int64_t *p, int64_t *i) {
+/* A view of a triangle by columns */
+static cholmod_sparse view(int64_t n, int64_t *start, int64_t *row, double *value, int stype) {
    cholmod_sparse a;
-   int64_t k, entries = start[n] - 1;
-   for (k = 0; k <= n; k++) p[k] = start[k] - 1;
-   for (k = 0; k < entries; k++) i[k] = (int64_t)column[k] - 1;
    memset(&a, 0, sizeof a);
    a.nrow = a.ncol = (size_t)n;
-   a.nzmax = (size_t)entries;
-   a.p = p;
-   a.i = i;
-   a.x = (void *)value;
-   a.stype = 1; /* upper triangle */
+   a.nzmax = (size_t)start[n];
+   a.p = start;
+   a.i = row;
+   a.x = value;
+   a.stype = stype;
    a.itype = CHOLMOD_LONG;
    a.xtype = value ? CHOLMOD_REAL : CHOLMOD_PATTERN;
    a.dtype = CHOLMOD_DOUBLE;
@@ -66,80 +66,138 @@ void axijoint_cholmod_free(void *pointer) {
    if (!handle) return;
    cholmod_l_free_factor(&handle->factor, &handle->common);
    cholmod_l_finish(&handle->common);
+   free(handle->start);
+   free(handle->row);
+   free(handle->from);
    free(handle);
+}
+
+/* Symbolic factor of the pattern */
+static void analyse(handle_type *plan, const int64_t *start, const int32_t *column) {
+   int64_t k, n = plan->n, entries = start[n] - 1;
+   cholmod_sparse a;
+   for (k = 0; k <= n; k++) plan->start[k] = start[k] - 1;
+   for (k = 0; k < entries; k++) plan->row[k] = (int64_t)column[k] - 1;
+   a = view(n, plan->start, plan->row, NULL, 1); /* the lower triangle by rows is upper by columns */
+   plan->factor = cholmod_l_analyze(&a, &plan->common);
+}
+
+/* Arrange the pattern in the order of the factor; 1 if there is no memory. A column takes its
+   entries by ascending rows: those of the row of the matrix that becomes the first row come
+   first. */
+static int arrange(handle_type *plan, const int64_t *start, const int32_t *column) {
+   const int64_t *order = plan->factor->Perm;
+   int64_t n = plan->n, entries = start[n] - 1, i, k;
+   int64_t *place = malloc(sizeof *place * (size_t)(n + 1)), *end = malloc(sizeof *end * (size_t)(n + 2));
+   int64_t *upper_start = malloc(sizeof *upper_start * (size_t)(n + 1));
+   int64_t *upper = malloc(sizeof *upper * (size_t)(entries + 1));
+   int32_t *upper_from = malloc(sizeof *upper_from * (size_t)(entries + 1));
+   int ok = place && end && upper_start && upper && upper_from;
+   if (ok) {
+      for (k = 0; k < n; k++) place[order[k]] = k;
+      /* all entries by their larger place: columns of the upper triangle, not sorted */
+      memset(end, 0, sizeof *end * (size_t)(n + 2));
+      for (i = 0; i < n; i++)
+         for (k = start[i] - 1; k < start[i + 1] - 1; k++) {
+            int64_t a = place[i], b = place[column[k] - 1];
+            end[(a > b ? a : b) + 1]++;
+         }
+      for (k = 0; k < n; k++) end[k + 1] += end[k];
+      memcpy(upper_start, end, sizeof *end * (size_t)(n + 1));
+      for (i = 0; i < n; i++)
+         for (k = start[i] - 1; k < start[i + 1] - 1; k++) {
+            int64_t a = place[i], b = place[column[k] - 1], to = end[a > b ? a : b]++;
+            upper[to] = a > b ? b : a;
+            upper_from[to] = (int32_t)k;
+         }
+      /* transposed, its rows ascend */
+      memset(plan->start, 0, sizeof *plan->start * (size_t)(n + 1));
+      for (k = 0; k < entries; k++) plan->start[upper[k] + 1]++;
+      for (k = 0; k < n; k++) plan->start[k + 1] += plan->start[k];
+      memcpy(end, plan->start, sizeof *end * (size_t)(n + 1));
+      for (i = 0; i < n; i++)
+         for (k = upper_start[i]; k < upper_start[i + 1]; k++) {
+            int64_t to = end[upper[k]]++;
+            plan->row[to] = i;
+            plan->from[to] = upper_from[k];
+         }
+   }
+   free(place);
+   free(end);
+   free(upper_start);
+   free(upper);
+   free(upper_from);
+   return !ok;
 }
 
 /* Plan for a pattern: null if there is no memory. Gives the entries of the factor, the
    operations of a factorization and the bytes of a factor. */
 void *axijoint_cholmod_analyse(int64_t n, const int64_t *start, const int32_t *column,
                                double *entries, double *operations, int64_t *bytes) {
-   handle_type *plan = malloc(sizeof *plan);
-   int64_t *p = malloc(sizeof *p * (size_t)(n + 1));
-   int64_t *i = malloc(sizeof *i * (size_t)(start[n] > 1 ? start[n] - 1 : 1));
-   cholmod_sparse a;
-   if (!plan || !p || !i) {
-      free(plan);
-      plan = NULL;
-   } else {
-      choose(&plan->common);
-      plan->n = n;
-      a = view(n, start, column, NULL, p, i);
-      plan->factor = cholmod_l_analyze(&a, &plan->common);
-      *entries = plan->common.lnz;
-      *operations = plan->common.fl;
-      if (!plan->factor) {
-         axijoint_cholmod_free(plan);
-         plan = NULL;
-      } else {
-         *bytes = (int64_t)sizeof(double) * (int64_t)plan->factor->xsize
-                  + (int64_t)sizeof(int64_t) * ((int64_t)plan->factor->ssize + 3 * n);
-      }
+   handle_type *plan = calloc(1, sizeof *plan);
+   size_t size = (size_t)start[n];
+   if (!plan) return NULL;
+   choose(&plan->common);
+   plan->n = n;
+   plan->start = malloc(sizeof *plan->start * (size_t)(n + 1));
+   plan->row = malloc(sizeof *plan->row * size);
+   plan->from = malloc(sizeof *plan->from * size);
+   if (plan->start && plan->row && plan->from) analyse(plan, start, column);
+   *entries = plan->common.lnz;
+   *operations = plan->common.fl;
+   if (!plan->factor || arrange(plan, start, column)) {
+      axijoint_cholmod_free(plan);
+      return NULL;
    }
-   free(p);
-   free(i);
+   *bytes = (int64_t)sizeof(double) * (int64_t)plan->factor->xsize
+            + (int64_t)sizeof(int64_t) * ((int64_t)plan->factor->ssize + 3 * n);
    return plan;
 }
 
-/* Factor of a matrix of the pattern: null if there is no memory. `failed` is zero or the
-   equation, counted from one, whose pivot is not positive; `diagonal` takes the diagonal of the
-   factor in the order of the equations. */
-void *axijoint_cholmod_factorize(const void *pointer, const int64_t *start, const int32_t *column,
-                                 const double *value, double *diagonal, int64_t *failed) {
-   const handle_type *plan = pointer;
-   int64_t n = plan->n;
-   handle_type *handle = malloc(sizeof *handle);
-   int64_t *p = malloc(sizeof *p * (size_t)(n + 1));
-   int64_t *i = malloc(sizeof *i * (size_t)(start[n] > 1 ? start[n] - 1 : 1));
-   *failed = 0;
-   if (!handle || !p || !i) {
-      free(handle);
-      handle = NULL;
-   } else {
-      cholmod_sparse a = view(n, start, column, value, p, i);
-      int ok, levels = forbid_threads();
-      choose(&handle->common);
-      handle->n = n;
-      handle->factor = cholmod_l_copy_factor(plan->factor, &handle->common);
-      ok = handle->factor && cholmod_l_factorize(&a, handle->factor, &handle->common);
+/* Numeric factor in the order of the plan; 0 if there is no memory */
+static int factorize(const handle_type *plan, const double *value, handle_type *handle) {
+   int64_t k, entries = plan->start[plan->n];
+   double shift[2] = {0.0, 0.0};
+   double *x = malloc(sizeof *x * (size_t)(entries + 1));
+   int ok, levels;
+   choose(&handle->common);
+   handle->n = plan->n;
+   handle->factor = cholmod_l_copy_factor(plan->factor, &handle->common);
+   ok = x && handle->factor;
+   if (ok) {
+      cholmod_sparse a = view(plan->n, plan->start, plan->row, x, -1);
+      for (k = 0; k < entries; k++) x[k] = value[plan->from[k]];
+      levels = forbid_threads();
+      ok = cholmod_l_super_numeric(&a, NULL, shift, handle->factor, &handle->common);
       omp_set_max_active_levels(levels);
-      if (!ok || handle->common.status == CHOLMOD_OUT_OF_MEMORY) {
-         axijoint_cholmod_free(handle);
-         handle = NULL;
-      } else {
-         cholmod_factor *l = handle->factor;
-         const int64_t *order = l->Perm, *super = l->super, *pi = l->pi, *px = l->px;
-         const double *x = l->x;
-         int64_t s, k;
-         if (handle->common.status == CHOLMOD_NOT_POSDEF) *failed = order[l->minor] + 1;
-         for (s = 0; s < (int64_t)l->nsuper && *failed == 0; s++)
-            for (k = super[s]; k < super[s + 1]; k++) {
-               int64_t c = k - super[s], rows = pi[s + 1] - pi[s];
-               diagonal[order[k]] = x[px[s] + c * rows + c];
-            }
-      }
    }
-   free(p);
-   free(i);
+   free(x);
+   return ok && handle->common.status != CHOLMOD_OUT_OF_MEMORY;
+}
+
+/* Factor of a matrix of the pattern, given by its values: null if there is no memory. `failed` is
+   zero or the equation, counted from one, whose pivot is not positive; `diagonal` takes the
+   diagonal of the factor in the order of the equations. */
+void *axijoint_cholmod_factorize(const void *pointer, const double *value, double *diagonal,
+                                 int64_t *failed) {
+   const handle_type *plan = pointer;
+   handle_type *handle = calloc(1, sizeof *handle);
+   *failed = 0;
+   if (!handle) return NULL;
+   if (!factorize(plan, value, handle)) {
+      axijoint_cholmod_free(handle);
+      return NULL;
+   }
+   const cholmod_factor *l = handle->factor;
+   const int64_t *order = l->Perm, *super = l->super, *pi = l->pi, *px = l->px;
+   const double *x = l->x;
+   int64_t s, k;
+   if (handle->common.status == CHOLMOD_NOT_POSDEF) *failed = order[l->minor] + 1;
+   for (s = 0; s < (int64_t)l->nsuper && *failed == 0; s++)
+      for (k = super[s]; k < super[s + 1]; k++) {
+         int64_t c = k - super[s], rows = pi[s + 1] - pi[s];
+         diagonal[order[k]] = x[px[s] + c * rows + c];
+      }
    return handle;
 }
 

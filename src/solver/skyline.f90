@@ -64,11 +64,13 @@ contains
 
    !> Copy the matrix into the skyline and factor it row by row:
    !> l_ij = (a_ij - sum_k l_ik l_jk)/l_jj
-   subroutine factorize(self, matrix, factor, pivots, error)
+   subroutine factorize(self, pattern, value, factor, pivots, error)
       !> The plan
       class(skyline_solver_type), intent(in) :: self
-      !> The matrix
-      type(symmetric_matrix_type), intent(in) :: matrix
+      !> The pattern analysed
+      type(symmetric_matrix_type), intent(in) :: pattern
+      !> Values of the matrix
+      real(wp), intent(in), contiguous :: value(:)
       !> Its factor
       class(factor_type), allocatable, intent(out) :: factor
       !> Pivots
@@ -92,8 +94,8 @@ contains
       new%diagonal = self%diagonal
       new%entry = 0.0_wp
       do i = 1, self%n
-         do k = matrix%row_start(i), matrix%row_start(i + 1) - 1
-            new%entry(self%diagonal(i) - i + matrix%column(k)) = matrix%value(k)
+         do k = pattern%row_start(i), pattern%row_start(i + 1) - 1
+            new%entry(self%diagonal(i) - i + pattern%column(k)) = value(k)
          end do
       end do
       do i = 1, self%n
@@ -101,7 +103,7 @@ contains
          if (pivots%equation > 0) exit
       end do
       if (pivots%equation == 0) then
-         call judge_pivots(matrix%value(matrix%row_start(2:) - 1), new%entry(new%diagonal), pivots)
+         call judge_pivots(value(pattern%row_start(2:) - 1), new%entry(new%diagonal), pivots)
       end if
       call move_alloc(new, factor)
    end subroutine factorize

@@ -52,12 +52,10 @@ module axijoint_solver_sparse
          type(c_ptr) :: handle
       end function cholmod_analyse
       !> Factor of a matrix
-      function cholmod_factorize(plan, start, column, value, diagonal, failed) result(handle) &
+      function cholmod_factorize(plan, value, diagonal, failed) result(handle) &
          bind(c, name='axijoint_cholmod_factorize')
          import :: c_ptr, c_int32_t, c_int64_t, c_double
          type(c_ptr), value :: plan
-         integer(c_int64_t), intent(in) :: start(*)
-         integer(c_int32_t), intent(in) :: column(*)
          real(c_double), intent(in) :: value(*)
          real(c_double), intent(out) :: diagonal(*)
          integer(c_int64_t), intent(out) :: failed
@@ -114,11 +112,13 @@ contains
    end subroutine analyse
 
    !> Factor a matrix
-   subroutine factorize(self, matrix, factor, pivots, error)
+   subroutine factorize(self, pattern, value, factor, pivots, error)
       !> The plan
       class(sparse_solver_type), intent(in) :: self
-      !> The matrix
-      type(symmetric_matrix_type), intent(in) :: matrix
+      !> The pattern analysed
+      type(symmetric_matrix_type), intent(in) :: pattern
+      !> Values of the matrix
+      real(wp), intent(in), contiguous :: value(:)
       !> Its factor
       class(factor_type), allocatable, intent(out) :: factor
       !> Pivots
@@ -132,11 +132,10 @@ contains
 
       allocate (new)
       new%n = self%n
-      new%handle = cholmod_factorize(self%handle, matrix%row_start, matrix%column, matrix%value, &
-                                     root, failed)
+      new%handle = cholmod_factorize(self%handle, value, root, failed)
       pivots%equation = int(failed)
       if (c_associated(new%handle)) then
-         if (failed == 0) call judge_pivots(matrix%value(matrix%row_start(2:) - 1), root, pivots)
+         if (failed == 0) call judge_pivots(value(pattern%row_start(2:) - 1), root, pivots)
          call move_alloc(new, factor)
       else
          call fatal_error(error, exit_memory, 'out of memory: a sparse factor needs '// &

@@ -28,6 +28,8 @@ module axijoint_solver_type
    type, abstract :: solver_type
       !> Order of the matrices
       integer :: n = 0
+      !> Bytes of the plan itself, for as long as it lives
+      integer(i8) :: plan_bytes = 0
       !> Bytes that one factor takes
       integer(i8) :: factor_bytes = 0
       !> Entries of one factor, zeros stored among them left out
@@ -67,12 +69,14 @@ module axijoint_solver_type
       end subroutine analyse_interface
 
       !> Factor a matrix
-      subroutine factorize_interface(self, matrix, factor, pivots, error)
-         import :: solver_type, symmetric_matrix_type, factor_type, pivot_report_type, error_type
+      subroutine factorize_interface(self, pattern, value, factor, pivots, error)
+         import :: solver_type, symmetric_matrix_type, factor_type, pivot_report_type, error_type, wp
          !> The plan
          class(solver_type), intent(in) :: self
-         !> Matrix of the pattern analysed
-         type(symmetric_matrix_type), intent(in) :: matrix
+         !> The pattern analysed; its own values are not read
+         type(symmetric_matrix_type), intent(in) :: pattern
+         !> Values of the matrix at the entries of the pattern
+         real(wp), intent(in), contiguous :: value(:)
          !> Its factor; of use only if no pivot failed
          class(factor_type), allocatable, intent(out) :: factor
          !> Pivots; a failed one is for the caller to put into words
