@@ -33,7 +33,7 @@ ELEMENT_TYPES = {kind.name: kind for kind in (
     ElementType("4-node", 4, 1), ElementType("4-node B-bar", 4, 1, bbar=True),
     ElementType("8-node", 8, 2), ElementType("8-node reduced", 8, 2, gauss_points=2),
     ElementType("9-node", 9, 2), ElementType("3-node", 3, 1), ElementType("6-node", 6, 2))}
-ALL_TYPES = tuple(kind for kind in ELEMENT_TYPES.values() if not kind.bbar)
+ALL_TYPES = tuple(ELEMENT_TYPES.values())
 
 # Places (a, b) of the nodes of a cell on its grid: of 2 x 2 lines, or of 3 x 3 with middles
 CORNERS = ((0, 0), (1, 0), (1, 1), (0, 1))

@@ -27,8 +27,9 @@ class Incompressible:
     """Ring under cos 2 theta on one mesh an element type, with nu towards 1/2"""
     name: str = "incompressible"
     # Cells along r and z: such that each element is within 1 % at nu = 0.3
-    meshes = {"4-node": 16, "8-node": 4, "8-node reduced": 4, "9-node": 4}
-    judged = ("8-node reduced",)
+    meshes = {"4-node": 16, "4-node B-bar": 16, "8-node": 4, "8-node reduced": 4, "9-node": 4,
+              "3-node": 16, "6-node": 4}
+    judged = ("4-node B-bar", "8-node reduced")
 
     @property
     def solutions(self):

@@ -7,7 +7,7 @@ import numpy as np
 import report
 from cases.rings import INNER, OUTER, STEEL, plane_strain_deck
 from deck import Deck
-from mesh import ELEMENT_TYPES, rectangle, structured
+from mesh import ALL_TYPES, ELEMENT_TYPES, rectangle, structured
 from solution import ANTISYMMETRIC, SYMMETRIC
 from solutions.plane_strain import Ring, ring_solution, solve_rings
 
@@ -167,8 +167,9 @@ class TurnedLoad:
     def run(self, program):
         """Rows: element types"""
         rows, misses = [], []
-        for name in ("4-node", "8-node", "9-node"):
-            worst = self._difference(program, ELEMENT_TYPES[name])
+        for kind in ALL_TYPES:
+            name = kind.name
+            worst = self._difference(program, kind)
             rows.append([name, *map(report.rounding, worst)])
             if not max(worst) <= self.allowed:
                 misses.append(f"{self.name}, {name}: {max(worst):.1e}, allowed {self.allowed:.0e}")
