@@ -5,7 +5,8 @@ module axijoint_analysis_results
    use axijoint_joints_field, only : iteration_type
    implicit none
    private
-   public :: results_type, iteration_type, mode_solve_type, ordering_type, remark_type
+   public :: results_type, iteration_type, mode_solve_type, ordering_type, remark_type, &
+             nodal_stress_type
    public :: axial, lateral, moment, torque, lateral_90, moment_90, n_resultants
 
    !> Index of a resultant: force along z
@@ -56,6 +57,20 @@ module axijoint_analysis_results
       character(len=:), allocatable :: text
    end type remark_type
 
+   !> Stresses smoothed to the nodes. A node has a value for each material that it
+   !> touches: stresses jump from one to the other. Joints have nodes of their own
+   !> on both sides
+   type :: nodal_stress_type
+      !> Node and material (indices) of each value, ascending
+      integer, allocatable :: node(:), material(:)
+      !> Value of each node of each element, shape (max_element_nodes, elements);
+      !> zeros beyond
+      integer, allocatable :: value_of(:, :)
+      !> Amplitudes in the order of the stresses at the Gauss points, shape
+      !> (6, values, modes)
+      real(wp), allocatable :: amplitude(:, :, :)
+   end type nodal_stress_type
+
    !> Results of a run. Amplitudes belong to a mode: u, v ~ cos(m theta),
    !> w ~ sin(m theta) in the symmetric family, ~ sin and -cos in the other.
    type :: results_type
@@ -83,6 +98,8 @@ module axijoint_analysis_results
       !> Stress amplitudes at solid Gauss points, shape (6, points, modes), in
       !> the order r, z, theta, rz (they go with u, v); r-theta, z-theta (with w)
       real(wp), allocatable :: stress(:, :, :)
+      !> The same smoothed to the nodes
+      type(nodal_stress_type) :: nodal
       !> Angles of the planes of the joint results [radian]
       real(wp), allocatable :: plane_angles(:)
       !> Joint (index) of each joint point, ascending

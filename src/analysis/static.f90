@@ -1,5 +1,6 @@
 !> Static analysis of a structure under its loads, told in order
 module axijoint_analysis_static
+   use axijoint_analysis_nodal_stress, only : smooth_stress
    use axijoint_analysis_recovery, only : recover
    use axijoint_analysis_results, only : results_type, remark_type
    use axijoint_analysis_structure, only : structure_type, build_structure
@@ -81,6 +82,7 @@ contains
       call timer%push(phase_recover)
       call report_load_factors(model, results, factor, largest_factor)
       call recover(model, structure, loading, factor, largest_factor, field, results)
+      call smooth_stress(model, results)
       call report_solves(structure, factor*loading%right, field, results)
       results%converged = results%converged .and. results%residual_ratio <= results%tolerance
       results%remarks = remarks_on(model, field, results)

@@ -195,6 +195,12 @@ contains
       call file%write("/stress/position", results%point_position, "r and z; (2, point) [length]")
       call file%write("/stress/amplitude", results%stress, "Amplitudes r, z, theta, rz, "// &
          "r-theta, z-theta; (6, point, mode) [stress]")
+      call file%write("/stress/nodal_node", results%nodal%node, &
+         "Node (index); (value). A node on a boundary of materials has several values")
+      call file%write("/stress/nodal_material", results%nodal%material, &
+         "Index into /materials; (value)")
+      call file%write("/stress/nodal", results%nodal%amplitude, "Amplitudes smoothed to the "// &
+         "nodes, averaged within each material; (6, value, mode) [stress]")
    end subroutine write_stress
 
    !> Joints on the planes

@@ -4,7 +4,7 @@ module axijoint_test_rings
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: ring_type, new_ring, ring_displacement, ring_stress, ring_unbalance
+   public :: ring_type, new_ring, ring_displacement, ring_stress, ring_all_stresses, ring_unbalance
    public :: solve_joined_rings, solve_dense
 
    interface
@@ -183,6 +183,25 @@ contains
 
       stress = matmul(stress_terms(ring, r), ring%factor)
    end function ring_stress
+
+   !> Amplitudes of all six stresses r, z, theta, rz, r-theta, z-theta
+   pure function ring_all_stresses(ring, r) result(stress)
+      !> The ring
+      type(ring_type), intent(in) :: ring
+      !> Radius
+      real(wp), intent(in) :: r
+      !> The stresses
+      real(wp) :: stress(6)
+
+      integer :: k
+
+      stress = 0.0_wp
+      do k = 1, size(ring%exponent)
+         stress([1, 3, 5]) = stress([1, 3, 5]) + ring%factor(k)*r**(ring%exponent(k) - 1) &
+                             *power_stress(ring, ring%exponent(k), ring%shape(:, k))
+      end do
+      stress(2) = 0.5_wp*ring%lame/(ring%lame + ring%shear)*(stress(1) + stress(3))
+   end function ring_all_stresses
 
    !> Two rings a < r < c and c < r < b joined at c by springs, free at a, with
    !> sigma_r = p (for m = 1 also tau = p, so that no net force acts) at b.

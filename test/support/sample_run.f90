@@ -71,6 +71,10 @@ contains
       results%point_element = [(1, k=1, n_points)]
       results%point_position = reshape(numbers(2*n_points, 0.1_wp), [2, n_points])
       results%stress = reshape(numbers(6*n_points*2, 7.0_wp), [6, n_points, 2])
+      results%nodal%node = [(k, k=1, n_nodes)]
+      results%nodal%material = [(1, k=1, n_nodes)]
+      results%nodal%value_of = reshape([1, 2, 3, 4, 0, 0, 0, 0, 0], [9, 1])
+      results%nodal%amplitude = reshape(numbers(6*n_nodes*2, 11.0_wp), [6, n_nodes, 2])
       results%plane_angles = [0.0_wp, 0.5_wp*pi, pi]
       results%joint_point_joint = [1, 1]
       results%joint_point_position = reshape(numbers(2*n_joint_points, 0.3_wp), &
