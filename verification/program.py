@@ -39,11 +39,8 @@ class Results:
 
 def by_mode(file, array):
     """(harmonic, family) -> amplitudes of that mode, shape (nodes or points, components)"""
-    if "modes" in file:
-        modes = zip(file["modes/harmonic"][()], file["modes/family"][()])
-        return {(int(m), int(f)): array[i] for i, (m, f) in enumerate(modes)}
-    return {(int(m), f + 1): array[f, i] for i, m in enumerate(file["harmonics"][()])
-            for f in range(2)}
+    modes = zip(file["modes/harmonic"][()], file["modes/family"][()])
+    return {(int(m), int(f)): array[i] for i, (m, f) in enumerate(modes)}
 
 
 class Program:

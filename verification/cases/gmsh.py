@@ -137,8 +137,7 @@ def ordered(results):
         fields.append({mode: array[order] for mode, array in values.items()})
     joints = np.lexsort(np.round(results.joints["position"].T, 7))
     # The normal stress: the sense of xi depends on the order of the nodes
-    planes = results.joints["stress"]
-    fields.append({"sigma": np.moveaxis(planes, planes.shape.index(len(joints)), 0)[joints][..., 1]})
+    fields.append({"sigma": results.joints["stress"][:, joints, 1]})
     return fields
 
 
@@ -159,7 +158,8 @@ class GmshMesh:
                 stem = f"{self.name}_{nodes}_format_{number[0]}"
                 (program.directory/f"{stem}.msh").write_text(write(mesh))
                 found = program.run(stem, gmsh_deck(text, f"{stem}.msh"))
-                worst = [max(np.abs(a[k] - b[k]).max() for k in a)/max(np.abs(v).max() for v in a.values())
+                worst = [max(np.abs(a[k] - b[k]).max() for k in a)
+                         /max(np.abs(values).max() for values in a.values())
                          for a, b in zip(ordered(results), ordered(found))]
                 rows.append([f"{nodes}-node", number, *map(report.rounding, worst)])
                 if not max(worst) <= ALLOWED:

@@ -70,11 +70,11 @@ def disc_place(radii):
     return place
 
 
-# Meshes of n cells and more: words, inner radius, radii of the limits of the cells
-DISC_MESHES = (("nodes at r = 0", 0.0, lambda n: np.linspace(0.0, 1.0, n + 1)),
-               ("first nodes at r = 1e-6", TINY,
+# Meshes of n cells and more: words, radii of the limits of the cells
+DISC_MESHES = (("nodes at r = 0", lambda n: np.linspace(0.0, 1.0, n + 1)),
+               ("first nodes at r = 1e-6",
                 lambda n: np.maximum(np.linspace(0.0, 1.0, n + 1), TINY)),
-               ("nodes at 0 and 1e-6, graded", 0.0,
+               ("nodes at 0 and 1e-6, graded",
                 lambda n: np.concatenate([[0.0], np.geomspace(TINY, 1.0, 3*n + 1)])))
 
 
@@ -116,7 +116,7 @@ class NearAxis:
     def run(self, program):
         """Rows: meshes and element types; columns: harmonics"""
         rows, misses = [], []
-        for words, _, radii in DISC_MESHES:
+        for words, radii in DISC_MESHES:
             for kind in ALL_TYPES:
                 row = [words, kind.name]
                 for solution in self.solutions:

@@ -168,11 +168,10 @@ class TurnedLoad:
         """Rows: element types"""
         rows, misses = [], []
         for kind in ALL_TYPES:
-            name = kind.name
             worst = self._difference(program, kind)
-            rows.append([name, *map(report.rounding, worst)])
+            rows.append([kind.name, *map(report.rounding, worst)])
             if not max(worst) <= self.allowed:
-                misses.append(f"{self.name}, {name}: {max(worst):.1e}, allowed {self.allowed:.0e}")
+                misses.append(f"{self.name}, {kind.name}: {max(worst):.1e}, allowed {self.allowed:.0e}")
         return [report.table(["element", "displacements", "stresses"], rows)], misses
 
 

@@ -60,7 +60,8 @@ def held_all_round(name, solutions, make_mesh, contains, material, **more):
 
 def rigid(name, family):
     """Rigid motions: no strain; the stress scale is that of strains of 1"""
-    return held_all_round(name, polynomials.rigid_motions(STEEL, family), irregular, every, STEEL, stress_scale=STEEL.young)
+    return held_all_round(name, polynomials.rigid_motions(STEEL, family), irregular, every, STEEL,
+                          stress_scale=STEEL.young)
 
 
 def patch(name, family):
