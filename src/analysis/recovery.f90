@@ -2,6 +2,7 @@
 module axijoint_analysis_recovery
    use axijoint_analysis_results, only : results_type, axial, lateral, moment, torque, &
                                          lateral_90, moment_90, n_resultants
+   use axijoint_analysis_rigid, only : rigid_resultants
    use axijoint_analysis_structure, only : structure_type
    use axijoint_assembly_equations, only : on_equations, worth_threads
    use axijoint_assembly_force, only : joint_force, joint_jump, elastic_joint_stress
@@ -64,8 +65,8 @@ contains
             reaction = merge(internal - force, 0.0_wp, held(model, mode))
             internal = internal - spring_force(k)
             reaction = reaction - spring_force(k)
-            resultant(:, k) = rigid_resultants(model, mode, loading%external(:, :, k))
-            reacted(:, k) = rigid_resultants(model, mode, reaction)
+            resultant(:, k) = rigid_resultants(model%mesh%coordinates, mode, loading%external(:, :, k))
+            reacted(:, k) = rigid_resultants(model%mesh%coordinates, mode, reaction)
             unbalance(:, :, k) = part_resultants(model, mode, part, force - internal + reaction)
             ! displacements and temperatures load without external forces
             scale(k) = largest_factor*(sum(abs(loading%external(:, :, k))) &
@@ -188,34 +189,6 @@ contains
       end if
    end function held
 
-   !> Resultants of nodal forces of one mode: their work on unit rigid motions
-   pure function rigid_resultants(model, mode, force) result(resultant)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The mode
-      type(mode_type), intent(in) :: mode
-      !> Generalized forces on components, shape (3, nodes)
-      real(wp), intent(in) :: force(:, :)
-      !> The resultants
-      real(wp) :: resultant(n_resultants)
-
-      logical :: symmetric
-
-      resultant = 0.0_wp
-      symmetric = mode%family == family_symmetric
-      associate (r => model%mesh%coordinates(1, :), z => model%mesh%coordinates(2, :))
-         if (is_torsion(mode)) then  ! w = -r turns by one about z
-            resultant(torque) = -sum(r*force(3, :))
-         else if (mode%harmonic == 0) then
-            resultant(axial) = sum(force(2, :))
-         else if (mode%harmonic == 1) then
-            resultant(merge(lateral, lateral_90, symmetric)) = sum(force(1, :) - force(3, :))
-            resultant(merge(moment, moment_90, symmetric)) = &
-               sum(r*force(2, :) - z*(force(1, :) - force(3, :)))
-         end if
-      end associate
-   end function rigid_resultants
-
    !> Resultants of nodal forces of one mode on each part
    pure function part_resultants(model, mode, part, force) result(resultant)
       !> The job
@@ -234,7 +207,7 @@ contains
       resultant = 0.0_wp
       if (mode%harmonic > 1) return  ! no resultants
       do k = 1, size(resultant, 2)
-         resultant(:, k) = rigid_resultants(model, mode, &
+         resultant(:, k) = rigid_resultants(model%mesh%coordinates, mode, &
                                             merge(force, 0.0_wp, spread(part == k, 1, 3)))
       end do
    end function part_resultants

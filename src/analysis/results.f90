@@ -120,6 +120,9 @@ module axijoint_analysis_results
       real(wp) :: tolerance = 0.0_wp
       !> Resultants of the applied loads and of the reactions
       real(wp) :: applied(n_resultants) = 0.0_wp, reacted(n_resultants) = 0.0_wp
+      !> Resultants of the stresses on the cuts of the deck, shape (n_resultants, cuts): of
+      !> the part above a cut on the part below, moments about r = 0 at the cut
+      real(wp), allocatable :: cut_resultants(:, :)
       !> A node of each part of the mesh that solid elements hold together
       integer, allocatable :: part_node(:)
       !> Resultants of the forces on each part that nothing balances, shape (n_resultants, parts)

@@ -1,5 +1,6 @@
 !> Static analysis of a structure under its loads, told in order
 module axijoint_analysis_static
+   use axijoint_analysis_cuts, only : cut_resultants
    use axijoint_analysis_nodal_stress, only : smooth_stress
    use axijoint_analysis_recovery, only : recover
    use axijoint_analysis_results, only : results_type, remark_type
@@ -84,6 +85,7 @@ contains
       call report_load_factors(model, results, factor, largest_factor)
       call recover(model, structure, loading, factor, largest_factor, field, results)
       call smooth_stress(model, results)
+      call cut_resultants(model, structure, loading, combination, factor, field, results)
       call report_solves(structure, factor*loading%right, field, results)
       results%converged = results%converged .and. results%residual_ratio <= results%tolerance
       results%remarks = remarks_on(model, field, results)

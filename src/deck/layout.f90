@@ -4,7 +4,7 @@ module axijoint_deck_layout
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : nearest_word, to_text
    use axijoint_deck_common_fields, only : number, numbers, last_number, body, step, length, ratio, &
-      largest_body, largest_division, largest_harmonic
+      angle, largest_body, largest_division, largest_harmonic
    use axijoint_deck_field, only : field_type, integer_field, real_field, word_field, code_field, &
       text_field, largest_number
    use axijoint_deck_load_fields, only : load_fields
@@ -20,7 +20,7 @@ module axijoint_deck_layout
    integer, parameter, public :: keyword_length = 12
 
    !> Number of keywords
-   integer, parameter, public :: n_sections = 38
+   integer, parameter, public :: n_sections = 40
    integer, parameter, public :: section_title = 1, section_control = 2, section_nodes = 3, &
       section_lines = 4, section_elements = 5, section_blocks = 6, section_materials = 7, &
       section_laws = 8, section_joints = 9, section_faces = 10, section_chains = 11, &
@@ -32,7 +32,8 @@ module axijoint_deck_layout
       section_gmsh = 27, section_groups = 28, section_gravity = 29, section_rotation = 30, &
       section_temperatures = 31, section_node_temps = 32, section_moved_nodes = 33, &
       section_moved_faces = 34, section_springs = 35, section_in_situ = 36, &
-      section_case = 37, section_combine = 38
+      section_case = 37, section_combine = 38, &
+      section_sections = 39, section_cuts = 40
 
    !> The keywords
    character(len=keyword_length), parameter :: section_names(n_sections) = &
@@ -42,7 +43,7 @@ module axijoint_deck_layout
       'RINGLOADS', 'INCREMENTS', 'OUTPUT', 'INCLUDE', 'END', &
       'SHAPES', 'PRESSURES', 'POINTLOADS', 'HARMONICS', 'ORTHOTROPIC', &
       'GMSH', 'GROUPS', 'GRAVITY', 'ROTATION', 'TEMPERATURES', 'NODETEMPS', 'MOVEDNODES', &
-      'MOVEDFACES', 'SPRINGS', 'INSITU', 'CASE', 'COMBINE']
+      'MOVEDFACES', 'SPRINGS', 'INSITU', 'CASE', 'COMBINE', 'SECTIONS', 'CUTS']
 
    !> Kinds of groups on the cards of GROUPS
    character(len=5), parameter, public :: group_kinds(3) = [character(len=5) :: 'BODY', 'FACE', 'JOINT']
@@ -111,6 +112,8 @@ contains
                    last_number('the last node', 11), step(16)]
       case (section_groups)
          fields = group_fields()
+      case (section_sections, section_cuts)
+         fields = request_fields(section)
       case (section_fixed_faces)
          fields = [number('the face', 1), code_field('the code', 6, 10)]
       case default
@@ -170,6 +173,26 @@ contains
          fields = [fields, corner]
       end do
    end function block_fields
+
+   !> Fields of SECTIONS and CUTS
+   pure function request_fields(section) result(fields)
+      !> The section
+      integer, intent(in) :: section
+      !> The fields
+      type(field_type), allocatable :: fields(:)
+
+      integer :: i
+
+      if (section == section_sections) then
+         fields = [number('the section', 1), length('r of the first point', 6, 0.0_wp), &
+                   length('z of the first point', 16), length('r of the last point', 26, 0.0_wp), &
+                   length('z of the last point', 36), &
+                   integer_field('the number of points', 46, 50, 2, largest_division, default=11), &
+                   (angle('angle '//to_text(i), 41 + 10*i), i=1, 3)]
+      else
+         fields = [number('the cut', 1), length('z', 6), body(16)]
+      end if
+   end function request_fields
 
    !> Fields of GROUPS
    pure function group_fields() result(fields)

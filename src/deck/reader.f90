@@ -24,11 +24,13 @@ module axijoint_deck_reader
    use axijoint_deck_joints, only : draft_joints
    use axijoint_deck_layout, only : section_control, section_nodes, section_lines, section_elements, &
       section_blocks, section_groups, section_materials, section_laws, section_joints, section_faces, &
-      section_chains, section_interfaces, section_increments, section_output, section_orthotropic
+      section_chains, section_interfaces, section_increments, section_output, section_orthotropic, &
+      section_sections, section_cuts
    use axijoint_deck_loads, only : read_loads, check_properties
    use axijoint_deck_places, only : group_places, new_point_tree, point_tree_type, same_place
    use axijoint_deck_locking, only : warn_of_locking
    use axijoint_deck_properties, only : properties_type, read_properties
+   use axijoint_deck_requests, only : read_lines, read_cuts, place_lines, place_cuts
    use axijoint_deck_sections, only : sections_type, read_sections
    use axijoint_deck_source, only : source_type
    use axijoint_deck_source_reader, only : read_source
@@ -73,6 +75,7 @@ contains
          call number_group_faces(source, tables(section_groups), import, draft, diagnostics)
          call make_joints_and_faces(source, sections, properties, import, draft, diagnostics)
          call read_loads(source, sections, draft, model, diagnostics)
+         call read_requests(source, sections, draft, model, diagnostics)
          if (diagnostics%n_errors > 0) return
          call take_model(draft, properties, model)
          call check_properties(sections, model, diagnostics)
@@ -180,7 +183,32 @@ contains
       end associate
    end subroutine make_joints_and_faces
 
-   !> Move the finished mesh into the model
+   !> Read where results are wanted. Places are looked for if all elements are sound
+   subroutine read_requests(source, sections, draft, model, diagnostics)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> Its sections
+      type(sections_type), intent(in) :: sections
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> The job
+      type(model_type), intent(inout) :: model
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      associate (lines => sections%tables(section_sections), cuts => sections%tables(section_cuts))
+         call read_lines(source, lines, model%output_angles, model%lines, diagnostics)
+         call read_cuts(source, cuts, model%cuts, diagnostics)
+         if (lines%n + cuts%n == 0) return
+         if (draft%n_elements == 0 .or. .not. (draft%nodes_complete .and. draft%elements_complete &
+             .and. all(draft%element_good(:draft%n_elements)))) return
+         call take_mesh(draft, model)
+         call place_lines(lines, model%mesh, model%lines, diagnostics)
+         call place_cuts(source, cuts, model%mesh, model%cuts, diagnostics)
+      end associate
+   end subroutine read_requests
+
+   !> Move the finished mesh, materials and laws into the model
    subroutine take_model(draft, properties, model)
       !> The mesh
       type(draft_type), intent(in) :: draft
@@ -191,6 +219,16 @@ contains
 
       model%materials = properties%materials
       model%joint_materials = properties%laws
+      call take_mesh(draft, model)
+   end subroutine take_model
+
+   !> Move the finished mesh into the model
+   subroutine take_mesh(draft, model)
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> The job
+      type(model_type), intent(inout) :: model
+
       associate (n => draft%n_nodes, m => draft%n_elements, k => draft%n_joints)
          model%mesh%coordinates = draft%position(:, :n)
          model%mesh%node_label = draft%node_label(:n)
@@ -204,6 +242,6 @@ contains
          model%mesh%joint_size = draft%joint_size(:k)
          model%mesh%joint_nodes = draft%joint_nodes(:, :k)
       end associate
-   end subroutine take_model
+   end subroutine take_mesh
 
 end module axijoint_deck_reader

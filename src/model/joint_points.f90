@@ -7,7 +7,7 @@ module axijoint_model_joint_points
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: model_joint_point_type, new_joint_points
+   public :: model_joint_point_type, new_joint_points, joint_rule
 
    !> A joint point in its model
    type, extends(joint_point_type) :: model_joint_point_type

@@ -8,6 +8,7 @@ module axijoint_model_model
       load_case_type, combination_type, increment_type, truncation_type
    use axijoint_model_material, only : solid_material_type, joint_material_type
    use axijoint_model_mesh, only : mesh_type
+   use axijoint_model_request, only : line_type, cut_type
    implicit none
    private
    public :: model_type, can_yield, element_references, on_axis
@@ -63,6 +64,10 @@ module axijoint_model_model
       integer :: solver = 0
       !> Angles at which totals are listed [radian]
       real(wp), allocatable :: output_angles(:)
+      !> Lines along which results are listed
+      type(line_type), allocatable :: lines(:)
+      !> Cuts whose resultants are listed
+      type(cut_type), allocatable :: cuts(:)
    end type model_type
 
 contains

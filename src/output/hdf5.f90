@@ -7,6 +7,7 @@ module axijoint_output_hdf5
    use axijoint_model_model, only : model_type
    use axijoint_output_echo, only : deck_text
    use axijoint_output_hdf5_file, only : hdf5_file_type
+   use axijoint_output_hdf5_sections, only : write_section_groups, write_cut_group
    use axijoint_output_run, only : run_type, status_name
    implicit none
    private
@@ -46,6 +47,8 @@ contains
       call write_solution(file, results)
       call write_stress(file, results)
       call write_joints(file, results)
+      call write_section_groups(file, model, results)
+      call write_cut_group(file, model, results)
       call write_convergence(file, model, results)
    end subroutine write_results
 

@@ -12,10 +12,12 @@ module axijoint_output_listing
       write_combinations
    use axijoint_output_listing_model, only : write_warnings, write_model, write_materials, &
       write_joint_materials, write_increments
+   use axijoint_output_listing_sections, only : write_sections, write_cuts
    use axijoint_output_listing_solution, only : write_equations, write_convergence, &
       write_displacements, write_total_displacements, write_reactions, write_equilibrium, &
       write_times, convergence_text
-   use axijoint_output_listing_stress, only : write_stresses, write_joint_results
+   use axijoint_output_listing_stress, only : write_stresses, write_nodal_stresses, &
+      write_joint_results
    use axijoint_output_run, only : run_type
    use axijoint_output_text_file, only : text_file_type
    use axijoint_base_text, only : to_text
@@ -63,7 +65,10 @@ contains
       call write_displacements(file, model, results)
       call write_total_displacements(file, model, results)
       call write_stresses(file, model, results)
+      call write_nodal_stresses(file, model, results)
       call write_joint_results(file, model, results)
+      call write_sections(file, model, results)
+      call write_cuts(file, model, results)
       call write_reactions(file, model, results)
       call write_equilibrium(file, model, results)
       call write_times(file, timer)

@@ -11,10 +11,12 @@ module axijoint_output_listing_stress
    use axijoint_output_totals, only : circle_type, new_circle, total_stress
    implicit none
    private
-   public :: write_stresses, write_joint_results, state_name
+   public :: write_stresses, write_nodal_stresses, write_joint_results, state_name
 
    !> Element or joint, and its point
    character(len=*), parameter :: format_point = '(i10, i3)'
+   !> Node and material
+   character(len=*), parameter :: format_node = '(i10, i6)'
    !> Angle in degrees
    character(len=*), parameter :: format_angle = '(f8.3)'
    !> Columns of coordinates, joint results, solid stresses
@@ -52,6 +54,37 @@ contains
          end do
       end do
    end subroutine write_stresses
+
+   !> Stresses smoothed to the nodes, sums of all harmonics at the angles of the
+   !> deck; a line for each material that a node touches
+   subroutine write_nodal_stresses(file, model, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+
+      type(circle_type) :: circle
+      character(len=16) :: label
+      integer :: i, k
+
+      do i = 1, size(model%output_angles)
+         circle = new_circle(results%modes, model%output_angles(i))
+         call write_result_heading(file, "TOTAL STRESSES AT NODES, theta = "// &
+            to_text(circle%angle/degree)//" degrees", results%converged)
+         call file%put("      node  mat.           r           z       sigma_r       sigma_z"// &
+            "   sigma_theta        tau_rz    tau_rtheta    tau_ztheta")
+         do k = 1, size(results%nodal%node)
+            associate (node => results%nodal%node(k))
+               write (label, format_node) model%mesh%node_label(node), &
+                  model%materials(results%nodal%material(k))%label
+               call file%put(label//columns(model%mesh%coordinates(:, node), narrow)// &
+                  columns(total_stress(results%nodal%amplitude(:, k, :), circle), wide))
+            end associate
+         end do
+      end do
+   end subroutine write_nodal_stresses
 
    !> Stresses, relative displacements and states of the joints on the planes
    subroutine write_joint_results(file, model, results)

@@ -100,7 +100,7 @@ def whole_faults(folder, name, summary, text):
 def label_faults(converged, text, summary, results):
     """Faults unless header, tables of results, last line, summary and HDF5 file say that the
     results are not converged, or unless none does"""
-    headings = re.findall(r'^(?:DISPLACEMENT|TOTAL|JOINT STRESSES|REACTIONS|EQUILIBRIUM|END OF).*|'
+    headings = re.findall(r'^(?:DISPLACEMENT|TOTAL|STRESSES|RESULTANTS|JOINT STRESSES|REACTIONS|EQUILIBRIUM|END OF).*|'
                           r'^status .*', text, re.MULTILINE)
     faults = [f'the line {line!r} is wrongly labelled' for line in headings
               if (LABEL in line) == converged]

@@ -7,6 +7,12 @@ COLUMNS = {
                  'tau_rtheta', 'tau_ztheta'),
     'joints': ('joint', 'point', 'r', 'z', 'theta', 'tau_xi', 'sigma', 'tau_theta', 'd_xi',
                'd_eta', 'd_theta', 'state'),
+    'node stresses': ('node', 'material', 'r', 'z', 'sigma_r', 'sigma_z', 'sigma_theta', 'tau_rz',
+                      'tau_rtheta', 'tau_ztheta'),
+    'points': ('point', 'r', 'z', 'body', 'material', 'u', 'v', 'w'),
+    'point stresses': ('point', 'r', 'z', 'body', 'material', 'sigma_r', 'sigma_z', 'sigma_theta',
+                       'tau_rz', 'tau_rtheta', 'tau_ztheta'),
+    'cuts': ('cut', 'z', 'body', 'axial', 'shear', 'shear_90', 'moment', 'moment_90', 'torque'),
     'equilibrium': ('applied', 'reacted', 'sum'),
 }
 HEADINGS = (
@@ -16,7 +22,12 @@ HEADINGS = (
     (re.compile(r'TOTAL DISPLACEMENTS, theta = (\S+) degrees'), 'theta = {}', 'displacements'),
     (re.compile(r'TOTAL STRESSES AT GAUSS POINTS, theta = (\S+) degrees'), 'stresses, theta = {}',
      'stresses'),
+    (re.compile(r'TOTAL STRESSES AT NODES, theta = (\S+) degrees'), 'nodal stresses, theta = {}',
+     'node stresses'),
     (re.compile(r'JOINT STRESSES(), RELATIVE DISPLACEMENTS'), 'joints', 'joints'),
+    (re.compile(r'DISPLACEMENTS ON SECTION (.*) degrees'), 'section {}', 'points'),
+    (re.compile(r'STRESSES ON SECTION (.*) degrees'), 'stresses, section {}', 'point stresses'),
+    (re.compile(r'RESULTANTS ON CUTS()'), 'cuts', 'cuts'),
     (re.compile(r'EQUILIBRIUM()'), 'equilibrium', 'equilibrium'),
 )
 RESULTANTS = {'axial force': 'axial', 'lateral force (along theta = 0)': 'lateral',
@@ -55,7 +66,7 @@ def row(kind, line):
         return None
     values = dict(zip(COLUMNS[kind], fields))
     try:
-        values = {key: field if key == 'state' else float(field) for key, field in values.items()}
+        values = {key: field if key in ('state', 'body') else float(field) for key, field in values.items()}
     except ValueError:
         return None
     values['name'] = name

@@ -1,0 +1,198 @@
+!> Where results are wanted: SECTIONS and CUTS
+module axijoint_deck_requests
+   use axijoint_base_kinds, only : wp, degree
+   use axijoint_base_text, only : to_text
+   use axijoint_deck_diagnostics, only : diagnostics_type, add_warning
+   use axijoint_deck_draft, only : place_text
+   use axijoint_deck_places, only : same_place
+   use axijoint_deck_source, only : source_type, card_position
+   use axijoint_deck_table, only : table_type, integer_value, field_error, entry_error
+   use axijoint_model_locate, only : locate_points, line_position
+   use axijoint_model_mesh, only : mesh_type
+   use axijoint_model_request, only : line_type, cut_type
+   implicit none
+   private
+   public :: read_lines, read_cuts, place_lines, place_cuts
+
+   !> Fields of SECTIONS: number, r and z of both ends, number of points, angles
+   integer, parameter :: field_label = 1, field_ends = 2, field_points = 6, field_angles = 7
+   !> Further fields of CUTS
+   integer, parameter :: field_z = 2, field_body = 3
+
+contains
+
+   !> Read SECTIONS as far as their cards tell
+   subroutine read_lines(source, table, default_angles, lines, diagnostics)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> SECTIONS
+      type(table_type), intent(in) :: table
+      !> Angles of sections without angles [radian]
+      real(wp), intent(in) :: default_angles(:)
+      !> One line an entry
+      type(line_type), allocatable, intent(out) :: lines(:)
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      integer :: entry
+
+      allocate (lines(table%n))
+      do entry = 1, table%n
+         call check_label(source, table, entry, 'section', diagnostics)
+         associate (line => lines(entry), values => table%values(:, entry), given => table%given(:, entry))
+            line%label = integer_value(table, field_label, entry)
+            line%first = values(field_ends:field_ends + 1)
+            line%last = values(field_ends + 2:field_ends + 3)
+            line%n_points = integer_value(table, field_points, entry)
+            line%angles = degree*pack(values(field_angles:), given(field_angles:))
+            if (size(line%angles) == 0) line%angles = default_angles
+            if (.not. table%good(entry)) cycle
+            if (norm2(line%last - line%first) <= same_place*maxval(abs([line%first, line%last]))) then
+               call entry_error(diagnostics, table, entry, 'the section has no length', &
+                                found=place_text(line%first)//' at both ends', &
+                                mend='give two different points')
+            end if
+         end associate
+      end do
+   end subroutine read_lines
+
+   !> Read CUTS as far as their cards tell
+   subroutine read_cuts(source, table, cuts, diagnostics)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> CUTS
+      type(table_type), intent(in) :: table
+      !> One cut an entry
+      type(cut_type), allocatable, intent(out) :: cuts(:)
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      integer :: entry
+
+      allocate (cuts(table%n))
+      do entry = 1, table%n
+         call check_label(source, table, entry, 'cut', diagnostics)
+         cuts(entry)%label = integer_value(table, field_label, entry)
+         cuts(entry)%z = table%values(field_z, entry)
+         if (table%given(field_body, entry)) cuts(entry)%body = integer_value(table, field_body, entry)
+      end do
+   end subroutine read_cuts
+
+   !> Report a number that an earlier card has
+   subroutine check_label(source, table, entry, noun, diagnostics)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> The section
+      type(table_type), intent(in) :: table
+      !> The entry
+      integer, intent(in) :: entry
+      !> What it is
+      character(len=*), intent(in) :: noun
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      integer :: label, known
+
+      if (.not. table%given(field_label, entry)) return
+      label = integer_value(table, field_label, entry)
+      known = findloc(nint(table%values(field_label, :entry - 1)), label, 1)
+      if (known == 0) return
+      call field_error(diagnostics, source, table, entry, field_label, &
+                       noun//' '//to_text(label)//' is given twice, first on '// &
+                       card_position(source, table%cards(1, known), table%cards(1, entry)), &
+                       allowed='a number of its own for each '//noun)
+   end subroutine check_label
+
+   !> Find the elements of the points of all lines; tell of points outside
+   subroutine place_lines(table, mesh, lines, diagnostics)
+      !> SECTIONS
+      type(table_type), intent(in) :: table
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The lines
+      type(line_type), intent(inout) :: lines(:)
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      integer :: entry, outside, missing, number
+
+      do entry = 1, size(lines)
+         if (.not. table%good(entry)) cycle
+         associate (line => lines(entry))
+            call locate_points(mesh, line)
+            outside = 0
+            missing = 0
+            do number = 1, line%n_points
+               if (any(line%points%number == number)) cycle
+               outside = outside + 1
+               if (missing == 0) missing = number
+            end do
+            if (outside == line%n_points) then
+               call entry_error(diagnostics, table, entry, &
+                                'no point of section '//to_text(line%label)//' lies in the mesh', &
+                                allowed='points in elements: r from '//range_text(mesh, 1)// &
+                                   ', z from '//range_text(mesh, 2))
+            else if (outside > 0) then
+               call add_warning(diagnostics, table%cards(1, entry), 0, 0, to_text(outside)//' of the '// &
+                                to_text(line%n_points)//' points of section '//to_text(line%label)// &
+                                trim(merge(' lies', ' lie ', outside == 1))//' outside the mesh: no results there', &
+                                found='the first at '//place_text(line_position(line, missing)))
+            end if
+         end associate
+      end do
+   end subroutine place_lines
+
+   !> Check that cuts pass through their bodies
+   subroutine place_cuts(source, table, mesh, cuts, diagnostics)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> CUTS
+      type(table_type), intent(in) :: table
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The cuts
+      type(cut_type), intent(in) :: cuts(:)
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      real(wp) :: low, high
+      integer :: entry, element
+
+      do entry = 1, size(cuts)
+         if (.not. table%good(entry)) cycle
+         associate (cut => cuts(entry))
+            if (cut%body > 0 .and. .not. any(mesh%element_body == cut%body)) then
+               call field_error(diagnostics, source, table, entry, field_body, &
+                                'body '//to_text(cut%body)//' has no elements')
+               cycle
+            end if
+            low = huge(low)
+            high = -huge(high)
+            do element = 1, size(mesh%element_body)
+               if (cut%body > 0 .and. mesh%element_body(element) /= cut%body) cycle
+               associate (z => mesh%coordinates(2, mesh%element_nodes(:mesh%element_size(element), element)))
+                  low = min(low, minval(z))
+                  high = max(high, maxval(z))
+               end associate
+            end do
+            if (cut%z >= low .and. cut%z <= high) cycle
+            call field_error(diagnostics, source, table, entry, field_z, 'the cut misses '// &
+                             trim(merge('the body  ', 'all bodies', cut%body > 0)), &
+                             allowed='z from '//to_text(low)//' to '//to_text(high))
+         end associate
+      end do
+   end subroutine place_cuts
+
+   !> Smallest and largest coordinate of the mesh
+   pure function range_text(mesh, axis) result(text)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> 1 for r, 2 for z
+      integer, intent(in) :: axis
+      !> Such as "0 to 2"
+      character(len=:), allocatable :: text
+
+      text = to_text(minval(mesh%coordinates(axis, :)))//' to '//to_text(maxval(mesh%coordinates(axis, :)))
+   end function range_text
+
+end module axijoint_deck_requests

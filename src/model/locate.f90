@@ -1,0 +1,172 @@
+!> Which elements the points of a line lie in
+module axijoint_model_locate
+   use axijoint_base_kinds, only : wp
+   use axijoint_fe_inverse_map, only : find_natural
+   use axijoint_fe_shape, only : n_corners
+   use axijoint_model_mesh, only : mesh_type, n_elements
+   use axijoint_model_request, only : line_type, line_point_type
+   implicit none
+   private
+   public :: locate_points, line_position
+
+   !> Share of an element's extent by which its box is widened: for rounding, and
+   !> for curved sides, which may leave the box of their nodes
+   real(wp), parameter :: straight_margin = 1.0e-5_wp, curved_margin = 0.25_wp
+
+contains
+
+   !> r and z of a point of a line
+   pure function line_position(line, number) result(position)
+      !> The line
+      type(line_type), intent(in) :: line
+      !> The point, from 1
+      integer, intent(in) :: number
+      !> r and z
+      real(wp) :: position(2)
+
+      position = (real(line%n_points - number, wp)*line%first + real(number - 1, wp)*line%last) &
+                 /real(line%n_points - 1, wp)
+   end function line_position
+
+   !> Fill the points of a line that lie in elements
+   subroutine locate_points(mesh, line)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The line
+      type(line_type), intent(inout) :: line
+
+      type(line_point_type), allocatable :: hits(:)
+      type(line_point_type) :: hit
+      integer, allocatable :: first(:), next(:)
+      integer :: element, number, from, to, count
+      logical :: inside
+
+      allocate (hits(2*line%n_points), next(2*line%n_points))
+      allocate (first(line%n_points), source=0)
+      count = 0
+      do element = 1, n_elements(mesh)
+         call points_near(mesh, element, line, from, to)
+         do number = from, to
+            hit%number = number
+            hit%position = line_position(line, number)
+            hit%element = element
+            associate (nodes => mesh%element_nodes(:mesh%element_size(element), element))
+               call find_natural(mesh%coordinates(:, nodes), hit%position, hit%natural, inside)
+            end associate
+            if (inside) call keep(hit)
+         end do
+      end do
+      call sort_hits(mesh, hits, first, next, count, line%points)
+
+   contains
+
+      !> Keep a point unless it is known in the same body and material
+      subroutine keep(hit)
+         !> The point
+         type(line_point_type), intent(in) :: hit
+
+         integer :: k
+
+         k = first(hit%number)
+         do while (k > 0)
+            if (same_solid(mesh, hits(k)%element, hit%element)) return
+            k = next(k)
+         end do
+         if (count == size(hits)) then
+            hits = [hits, hits]
+            next = [next, next]
+         end if
+         count = count + 1
+         hits(count) = hit
+         next(count) = first(hit%number)
+         first(hit%number) = count
+      end subroutine keep
+
+   end subroutine locate_points
+
+   !> Points of a line in the box around an element
+   pure subroutine points_near(mesh, element, line, from, to)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The element
+      integer, intent(in) :: element
+      !> The line
+      type(line_type), intent(in) :: line
+      !> First and last; none if the last is less than the first
+      integer, intent(out) :: from, to
+
+      real(wp) :: low(2), high(2), t(2), span(2)
+      integer :: axis, n
+
+      n = mesh%element_size(element)
+      associate (x => mesh%coordinates(:, mesh%element_nodes(:n, element)))
+         low = minval(x, 2)
+         high = maxval(x, 2)
+      end associate
+      span = maxval(high - low)*merge(straight_margin, curved_margin, n == n_corners(n))
+      low = low - span
+      high = high + span
+      t = [0.0_wp, 1.0_wp]
+      from = 1
+      to = 0
+      do axis = 1, 2
+         associate (start => line%first(axis), run => line%last(axis) - line%first(axis))
+            if (abs(run) > 0.0_wp) then
+               span = ([low(axis), high(axis)] - start)/run
+               t = [max(t(1), minval(span)), min(t(2), maxval(span))]
+            else if (start < low(axis) .or. start > high(axis)) then
+               return
+            end if
+         end associate
+      end do
+      if (t(1) > t(2)) return
+      from = ceiling(t(1)*(line%n_points - 1)) + 1
+      to = floor(t(2)*(line%n_points - 1)) + 1
+   end subroutine points_near
+
+   !> Whether two elements are of the same body and material
+   pure logical function same_solid(mesh, a, b)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The elements
+      integer, intent(in) :: a, b
+
+      same_solid = mesh%element_body(a) == mesh%element_body(b) &
+         .and. mesh%element_material(a) == mesh%element_material(b)
+   end function same_solid
+
+   !> The points one after another. Where solids meet, the one that the line comes
+   !> from stands first
+   pure subroutine sort_hits(mesh, hits, first, next, count, points)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The points in any order, the first of each number, and the next ones of it
+      type(line_point_type), intent(in) :: hits(:)
+      integer, intent(in) :: first(:), next(:)
+      !> Number of them
+      integer, intent(in) :: count
+      !> The points
+      type(line_point_type), allocatable, intent(out) :: points(:)
+
+      integer :: number, begin, last, k
+
+      allocate (points(count))
+      last = 0
+      do number = 1, size(first)
+         begin = last + 1
+         k = first(number)
+         do while (k > 0)
+            last = last + 1
+            points(last) = hits(k)
+            k = next(k)
+         end do
+         if (begin == 1) cycle
+         do k = begin + 1, last
+            if (same_solid(mesh, points(k)%element, points(begin - 1)%element)) then
+               points([begin, k]) = points([k, begin])
+            end if
+         end do
+      end do
+   end subroutine sort_hits
+
+end module axijoint_model_locate
