@@ -177,11 +177,12 @@ def print_shares(rows, side):
     mine = [r for r in rows if r["nodes_per_side"] == str(side) and r["solver"] == "sparse"]
     one = next((r for r in mine if r["harmonics"] == "1"), None)
     many = {r["threads"]: r for r in mine if r["harmonics"] != "1"}
-    if one:
-        parts, matrix = number(one, "assembly_parts_s"), number(one, "assembly_matrix_s")
-        factor = number(one, "factorization_s")
-        print(f"Assembly at {one['unknowns']} unknowns: parts {parts:.3f} s and {matrix:.3f} s a "
-              f"harmonic; for 8 harmonics {(parts + 8 * matrix) / factor:.2f} of one factorization")
+    for threads, row in many.items():
+        parts, matrix = number(row, "assembly_parts_s"), number(row, "assembly_matrix_s")
+        share = (parts + matrix) / number(one, "factorization_s") if one else math.nan
+        print(f"Assembly of {row['harmonics']} harmonics at {row['unknowns']} unknowns on {threads} "
+              f"thread(s): integration {parts:.3f} s, matrices {matrix:.3f} s; "
+              f"{share:.2f} of one factorization")
     if {"1", "2"} <= many.keys():
         ratio = number(many["1"], "factorization_s") / number(many["2"], "factorization_s")
         print(f"{many['2']['harmonics']} harmonics on 2 threads: {ratio:.2f} times as fast as on 1 "

@@ -8,6 +8,7 @@ module axijoint_assembly_equations
    use axijoint_assembly_support, only : support_point_type
    use axijoint_base_error, only : error_type, fatal_error, exit_singular
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_large_pages, only : use_large_pages
    use axijoint_base_memory, only : require_memory
    use axijoint_base_text, only : to_text
    use axijoint_fe_mode, only : mode_type
@@ -311,7 +312,10 @@ contains
          if (allocated(value)) then
             if (size(value) /= size(class%pattern%column)) deallocate (value)
          end if
-         if (.not. allocated(value)) allocate (value(size(class%pattern%column)))
+         if (.not. allocated(value)) then
+            allocate (value(size(class%pattern%column)))
+            call use_large_pages(value)
+         end if
          call harmonic_values(class, system%harmonic, value)
          system%norm = infinity_norm(class%pattern, value)
          call equations%plans(system%class)%solver%factorize(class%pattern, value, system%factor, &

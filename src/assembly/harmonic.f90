@@ -18,42 +18,75 @@ contains
       !> The values, shape (entries)
       real(wp), intent(inout), contiguous :: value(:)
 
+      real(wp), allocatable :: first(:, :)
+      real(wp) :: second
+      integer(i8) :: from, to
       integer :: i
 
+      call harmonic_factors(stiffness, harmonic, first, second)
       do i = 1, stiffness%pattern%n
-         associate (from => stiffness%pattern%row_start(i), to => stiffness%pattern%row_start(i + 1) - 1)
-            call row_values(stiffness, harmonic, i, value(from:to))
-         end associate
+         from = stiffness%pattern%row_start(i)
+         to = stiffness%pattern%row_start(i + 1) - 1
+         call row_values(stiffness, i, first, second, value(from:to))
       end do
    end subroutine harmonic_values
 
-   !> Values of one row
-   pure subroutine row_values(stiffness, harmonic, row, value)
+   !> Factors of the two numbers of an entry. S stands where w meets u or v. Of most
+   !> rows the columns are u, v, w of one node after the other, so the factors of
+   !> the first number are laid out for a row of them.
+   pure subroutine harmonic_factors(stiffness, harmonic, first, second)
       !> Stiffness of the class
       type(stiffness_type), intent(in) :: stiffness
       !> Harmonic m of that class
       integer, intent(in) :: harmonic
+      !> Factors of the first number in a row of u or v, and in one of w, shape
+      !> (longest row, 0:1); at least for the columns u, v, w
+      real(wp), allocatable, intent(out) :: first(:, :)
+      !> Factor of the second number
+      real(wp), intent(out) :: second
+
+      integer :: n
+
+      associate (start => stiffness%pattern%row_start)
+         n = max(3, int(maxval([0_i8, start(2:) - start(:stiffness%pattern%n)])))
+      end associate
+      allocate (first(n, 0:1), source=circle_integral(harmonic))
+      second = circle_integral(harmonic)*real(harmonic, wp)**2
+      if (stiffness%harmonic /= any_harmonic) return
+      first(3::3, 0) = circle_integral(harmonic)*harmonic
+      first(1::3, 1) = circle_integral(harmonic)*harmonic
+      first(2::3, 1) = circle_integral(harmonic)*harmonic
+   end subroutine harmonic_factors
+
+   !> Values of one row
+   pure subroutine row_values(stiffness, row, first, second, value)
+      !> Stiffness of the class
+      type(stiffness_type), intent(in) :: stiffness
       !> The row
       integer, intent(in) :: row
-      !> Its values
+      !> Factors of the numbers of an entry
+      real(wp), intent(in), contiguous :: first(:, 0:)
+      real(wp), intent(in) :: second
+      !> Values of the row
       real(wp), intent(inout), contiguous :: value(:)
 
-      real(wp) :: first(0:1), second
       integer(i8) :: start
-      integer :: k
+      integer :: k, w
 
       start = stiffness%pattern%row_start(row) - 1
+      w = stiffness%is_w(row)
       if (stiffness%harmonic /= any_harmonic) then
-         value = circle_integral(harmonic)*stiffness%parts(1, start + 1:start + size(value))
-         return
+         value = first(1, 0)*stiffness%parts(1, start + 1:start + size(value))
+      else if (stiffness%regular(row)) then
+         do k = 1, size(value)
+            value(k) = first(k, w)*stiffness%parts(1, start + k) + second*stiffness%parts(2, start + k)
+         end do
+      else
+         do k = 1, size(value)
+            value(k) = first(1 + 2*stiffness%is_w(stiffness%pattern%column(start + k)), w) &
+               *stiffness%parts(1, start + k) + second*stiffness%parts(2, start + k)
+         end do
       end if
-      first = circle_integral(harmonic)  ! but m S where w meets u or v
-      first(1 - stiffness%is_w(row)) = circle_integral(harmonic)*harmonic
-      second = circle_integral(harmonic)*real(harmonic, wp)**2
-      do k = 1, size(value)
-         value(k) = first(stiffness%is_w(stiffness%pattern%column(start + k))) &
-            *stiffness%parts(1, start + k) + second*stiffness%parts(2, start + k)
-      end do
    end subroutine row_values
 
    !> K_m x
@@ -67,16 +100,17 @@ contains
       !> y, shape (n)
       real(wp), allocatable :: y(:)
 
-      real(wp), allocatable :: value(:)
-      real(wp) :: row_sum
+      real(wp), allocatable :: value(:), first(:, :)
+      real(wp) :: row_sum, second
       integer :: i, j, k, n
 
+      call harmonic_factors(stiffness, harmonic, first, second)
+      allocate (value(size(first, 1)))
       associate (pattern => stiffness%pattern)
          allocate (y(pattern%n), source=0.0_wp)
-         allocate (value(maxval([0_i8, pattern%row_start(2:) - pattern%row_start(:pattern%n)])))
          do i = 1, pattern%n
             n = int(pattern%row_start(i + 1) - pattern%row_start(i))
-            call row_values(stiffness, harmonic, i, value(:n))
+            call row_values(stiffness, i, first, second, value(:n))
             row_sum = value(n)*x(i)
             do k = 1, n - 1
                j = pattern%column(pattern%row_start(i) + k - 1)

@@ -5,15 +5,17 @@ module axijoint_assembly_stiffness
    use axijoint_assembly_pattern, only : new_pattern
    use axijoint_assembly_support, only : support_point_type, support_stiffness
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_large_pages, only : use_large_pages
    use axijoint_base_sort, only : refine_order
+   use axijoint_element_blocks, only : n_blocks, pack_blocks
    use axijoint_element_joint, only : joint_stiffness
-   use axijoint_element_solid, only : solid_point_type, solid_points, solid_stiffness, &
+   use axijoint_element_solid, only : solid_point_type, solid_points, solid_blocks, &
                                       stiffness_kernel_type, new_stiffness_kernel, &
                                       dilatation_type, new_dilatation
    use axijoint_fe_mode, only : mode_type
    use axijoint_fe_quadrature, only : max_element_points
    use axijoint_fe_reference, only : reference_type
-   use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type, entry_position
+   use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_material, only : elasticity
    use axijoint_model_mesh, only : mesh_type, max_element_nodes, n_nodes, n_elements
@@ -25,8 +27,9 @@ module axijoint_assembly_stiffness
 
    !> Fewer elements are not worth waking the threads for
    integer, parameter :: least_elements = 1000
-   !> Unknowns of the largest element
+   !> Unknowns of the largest element, and its blocks of two nodes
    integer, parameter :: max_unknowns = 3*max_element_nodes
+   integer, parameter :: max_blocks = max_element_nodes*(max_element_nodes + 1)/2
    !> A class of more than one harmonic
    integer, parameter :: any_harmonic = -1
 
@@ -45,8 +48,13 @@ module axijoint_assembly_stiffness
       real(wp), allocatable :: parts(:, :)
       !> 1 for the equations of w, 0 for those of u and v
       integer, allocatable :: is_w(:)
+      !> Whether the columns of a row are u, v, w of one node after the other
+      logical, allocatable :: regular(:)
       !> Place of each node in the order
       integer, allocatable :: place(:)
+      !> Nodes nothing has been added to: their rows are cleared when they are first
+      !> needed, and are at hand then
+      logical, allocatable :: fresh(:)
    end type stiffness_type
 
 contains
@@ -80,7 +88,42 @@ contains
       associate (w => stiffness%dofs%equation(3, :))
          stiffness%is_w(pack(w, w > 0)) = 1
       end associate
+      stiffness%regular = regular_rows(stiffness%dofs, stiffness%pattern)
    end subroutine new_stiffness
+
+   !> Whether the columns of each row are u, v, w of one node after the other
+   pure function regular_rows(dofs, pattern) result(regular)
+      !> The unknowns
+      type(dofs_type), intent(in) :: dofs
+      !> The pattern
+      type(symmetric_matrix_type), intent(in) :: pattern
+      !> The answer for each row
+      logical, allocatable :: regular(:)
+
+      integer, allocatable :: component(:)  ! of each equation; zero if its node is not whole
+      integer(i8) :: k, start
+      integer :: node, i
+
+      allocate (component(pattern%n), source=0)
+      do node = 1, size(dofs%equation, 2)
+         if (is_whole(dofs%equation(:, node))) component(dofs%equation(:, node)) = [1, 2, 3]
+      end do
+      allocate (regular(pattern%n), source=.true.)
+      do i = 1, pattern%n
+         start = pattern%row_start(i)
+         do k = start, pattern%row_start(i + 1) - 1
+            if (component(pattern%column(k)) /= 1 + mod(k - start, 3_i8)) regular(i) = .false.
+         end do
+      end do
+   end function regular_rows
+
+   !> Whether a node has three equations of its own
+   pure logical function is_whole(equation)
+      !> Equations of its components
+      integer, intent(in) :: equation(3)
+
+      is_whole = all(equation > 0) .and. equation(3) - equation(1) == 2
+   end function is_whole
 
    !> Numbers stored for each entry
    pure integer function n_parts(stiffness)
@@ -117,6 +160,8 @@ contains
       do k = 1, size(classes)
          associate (class => classes(k))
             allocate (class%parts(n_parts(class), size(class%pattern%column)))
+            call use_large_pages(class%parts)
+            allocate (class%fresh(size(class%place)), source=.true.)
          end associate
       end do
       n = n_nodes(model%mesh)
@@ -132,6 +177,9 @@ contains
       end do
       do k = 1, size(support_points)
          call add_support_point(support_points(k), classes)
+      end do
+      do k = 1, size(classes)
+         deallocate (classes(k)%fresh)
       end do
    end subroutine assemble_parts
 
@@ -186,37 +234,35 @@ contains
       !> First and last place of the range
       integer, intent(in) :: from, to
 
-      integer :: k
+      integer :: k, node
 
-      do k = 1, size(classes)
-         call clear_rows(classes(k), from, to)
-      end do
       do k = 1, size(elements)
          if (lowest(elements(k)) > to .or. highest(elements(k)) < from) cycle
          call add_element(model, references, kernels, elements(k), classes, from, to)
       end do
+      do k = 1, size(classes)
+         do node = 1, size(classes(k)%place)  ! that no element has
+            if (classes(k)%place(node) < from .or. classes(k)%place(node) > to) cycle
+            if (classes(k)%fresh(node)) call clear_node(classes(k), node)
+         end do
+      end do
    end subroutine assemble_range
 
-   !> Zeros in the rows of a range of nodes
-   pure subroutine clear_rows(stiffness, from, to)
+   !> Zeros in the rows of a node
+   pure subroutine clear_node(stiffness, node)
       !> The stiffness
       type(stiffness_type), intent(inout) :: stiffness
-      !> First and last place of the range
-      integer, intent(in) :: from, to
+      !> The node
+      integer, intent(in) :: node
 
-      integer :: row, k
+      integer :: first
 
-      associate (dofs => stiffness%dofs, pattern => stiffness%pattern)
-         do k = 1, size(stiffness%place)
-            if (stiffness%place(k) < from .or. stiffness%place(k) > to) cycle
-            row = first_equation(dofs%equation(:, k))
-            if (row == 0) cycle
-            associate (last => maxval(dofs%equation(:, k)))
-               stiffness%parts(:, pattern%row_start(row):pattern%row_start(last + 1) - 1) = 0.0_wp
-            end associate
-         end do
+      stiffness%fresh(node) = .false.
+      associate (equation => stiffness%dofs%equation(:, node), start => stiffness%pattern%row_start)
+         first = first_equation(equation)
+         if (first > 0) stiffness%parts(:, start(first):start(maxval(equation) + 1) - 1) = 0.0_wp
       end associate
-   end subroutine clear_rows
+   end subroutine clear_node
 
    !> Add the parts of one element
    subroutine add_element(model, references, kernels, element, classes, from, to)
@@ -235,7 +281,7 @@ contains
 
       type(solid_point_type) :: points(max_element_points)
       type(dilatation_type) :: dilatation
-      real(wp) :: parts(max_unknowns, max_unknowns, 3)
+      real(wp) :: blocks(2, 3, 3, max_blocks)
       integer :: n, n_points, i
 
       n = model%mesh%element_size(element)
@@ -243,12 +289,10 @@ contains
       associate (nodes => model%mesh%element_nodes(:n, element))
          call solid_points(model%mesh%coordinates(:, nodes), references(n), points(:n_points))
          call new_dilatation(points(:n_points), references(n), dilatation)
-         call solid_stiffness(points(:n_points), n, &
-                              kernels(model%mesh%element_material(element)), &
-                              parts(:3*n, :3*n, 1), parts(:3*n, :3*n, 2), parts(:3*n, :3*n, 3), &
-                              dilatation)
+         call solid_blocks(points(:n_points), n, kernels(model%mesh%element_material(element)), &
+                           blocks(:, :, :, :n_blocks(n)), dilatation)
          do i = 1, size(classes)
-            call scatter(classes(i), nodes, parts, from, to)
+            call scatter(classes(i), nodes, blocks, from, to)
          end do
       end associate
    end subroutine add_element
@@ -262,15 +306,16 @@ contains
       !> The classes in use
       type(stiffness_type), intent(inout) :: classes(:)
 
-      real(wp) :: parts(max_unknowns, max_unknowns, 1)
+      real(wp) :: parts(max_unknowns, max_unknowns), blocks(2, 3, 3, max_blocks)
       integer :: n, i
 
       n = 2*point%n_pairs
       call joint_stiffness(point%joint_point_type, &
                            model%joint_materials(point%material)%law%stiffness, &
-                           parts(:3*n, :3*n, 1))
+                           parts(:3*n, :3*n))
+      call pack_blocks(n, parts, blocks=blocks)
       do i = 1, size(classes)
-         call scatter(classes(i), point%nodes(:n), parts)
+         call scatter(classes(i), point%nodes(:n), blocks, 1, huge(1))
       end do
    end subroutine add_joint_point
 
@@ -281,139 +326,186 @@ contains
       !> The classes in use
       type(stiffness_type), intent(inout) :: classes(:)
 
-      real(wp) :: parts(max_unknowns, max_unknowns, 1)
+      real(wp) :: parts(max_unknowns, max_unknowns), blocks(2, 3, 3, max_blocks)
       integer :: n, i
 
       n = point%n_pairs
-      call support_stiffness(point, parts(:3*n, :3*n, 1))
+      call support_stiffness(point, parts(:3*n, :3*n))
+      call pack_blocks(n, parts, blocks=blocks)
       do i = 1, size(classes)
-         call scatter(classes(i), point%nodes(:n), parts)
+         call scatter(classes(i), point%nodes(:n), blocks, 1, huge(1))
       end do
    end subroutine add_support_point
 
-   !> Add the parts of an element matrix. The equations of a node follow each
-   !> other, and the rows of a node have the same columns up to the node itself:
-   !> one search finds the place of the block of two nodes.
-   pure subroutine scatter(stiffness, nodes, parts, from, to)
+   !> Add the blocks of an element. The equations of a node follow each other, and
+   !> the rows of a node have the same columns up to the node itself: one search
+   !> finds the place of a block.
+   pure subroutine scatter(stiffness, nodes, blocks, from, to)
       !> The stiffness
       type(stiffness_type), intent(inout) :: stiffness
       !> Nodes of the element, shape (n)
       integer, intent(in) :: nodes(:)
-      !> A, or A, S and C, for u1, v1, w1, u2, ..., the first 3n rows and columns
-      real(wp), intent(in) :: parts(:, :, :)
-      !> First and last place of the nodes whose rows are added to; else all
-      integer, intent(in), optional :: from, to
+      !> Its blocks
+      real(wp), intent(in) :: blocks(2, 3, 3, max_blocks)
+      !> First and last place of the nodes whose rows are added to
+      integer, intent(in) :: from, to
 
-      real(wp) :: block(2, 3, 3)  ! part, component of b, component of a
-      logical :: whole(size(nodes))
-      integer :: first(size(nodes)), a, b, i
-      integer(i8) :: offset, k
+      logical :: whole(size(nodes)), mine(size(nodes))
+      integer :: first(size(nodes)), i, j, p
 
-      associate (dofs => stiffness%dofs, pattern => stiffness%pattern)
-         do a = 1, size(nodes)
-            first(a) = first_equation(dofs%equation(:, nodes(a)))
-            whole(a) = first(a) > 0 .and. all(dofs%equation(:, nodes(a)) == first(a) + [0, 1, 2])
-         end do
-         do a = 1, size(nodes)
-            if (first(a) == 0) cycle
-            if (present(from)) then
-               if (stiffness%place(nodes(a)) < from .or. stiffness%place(nodes(a)) > to) cycle
+      do i = 1, size(nodes)
+         associate (equation => stiffness%dofs%equation(:, nodes(i)))
+            first(i) = first_equation(equation)
+            whole(i) = is_whole(equation)
+         end associate
+         mine(i) = first(i) > 0 .and. stiffness%place(nodes(i)) >= from &
+            .and. stiffness%place(nodes(i)) <= to
+         if (mine(i) .and. stiffness%fresh(nodes(i))) call clear_node(stiffness, nodes(i))
+      end do
+      p = 0
+      do j = 1, size(nodes)
+         do i = j, size(nodes)
+            p = p + 1
+            if (first(i) == 0 .or. first(j) == 0) cycle
+            if (first(i) >= first(j)) then
+               if (mine(i)) call add_block(stiffness, nodes(i), nodes(j), first(i), first(j), &
+                                           whole(i) .and. whole(j), blocks(:, :, :, p))
+            else
+               if (mine(j)) call add_block(stiffness, nodes(j), nodes(i), first(j), first(i), &
+                                           whole(i) .and. whole(j), transposed(blocks(:, :, :, p)))
             end if
-            do b = 1, size(nodes)
-               if (first(b) == 0 .or. first(b) > first(a)) cycle  ! none, or the upper triangle
-               offset = entry_position(pattern, first(a), first(b)) &
-                  - pattern%row_start(first(a))
-               call reduce_block(stiffness%harmonic, parts(3*a - 2:3*a, 3*b - 2:3*b, :), block)
-               if (whole(a) .and. whole(b)) then
-                  do i = 1, 3
-                     k = pattern%row_start(first(a) + i - 1) + offset
-                     call add_row(merge(i, 3, a == b), block(:, :, i), stiffness%parts(:, k:))
-                  end do
-               else
-                  call add_block(stiffness, dofs%equation(:, nodes(a)), dofs%equation(:, nodes(b)), &
-                                 offset - first(b), dofs%factor(:, nodes(a)), &
-                                 dofs%factor(:, nodes(b)), block)
-               end if
-            end do
          end do
-      end associate
+      end do
    end subroutine scatter
 
-   !> The numbers to store for the block of two nodes
-   pure subroutine reduce_block(harmonic, parts, block)
-      !> The only harmonic of the class, or `any_harmonic`
-      integer, intent(in) :: harmonic
-      !> A, or A, S and C
-      real(wp), intent(in) :: parts(:, :, :)
-      !> What is stored: part, column, row
-      real(wp), intent(out) :: block(2, 3, 3)
+   !> A block with its nodes exchanged
+   pure function transposed(block)
+      !> The block
+      real(wp), intent(in) :: block(2, 3, 3)
+      !> The other
+      real(wp) :: transposed(2, 3, 3)
 
-      real(wp) :: m
+      integer :: i
 
-      block(1, :, :) = transpose(parts(:, :, 1))
-      block(2, :, :) = 0.0_wp
-      if (size(parts, 3) == 1) return
-      if (harmonic == any_harmonic) then
-         block(2, :, :) = transpose(parts(:, :, 3))
-         block(:, 3, 1:2) = 0.0_wp
-         block(:, 1:2, 3) = 0.0_wp
-         block(1, 3, 1:2) = parts(1:2, 3, 2)
-         block(1, 1:2, 3) = parts(3, 1:2, 2)
+      do i = 1, 3
+         transposed(:, i, :) = block(:, :, i)
+      end do
+   end function transposed
+
+   !> Add the block of two nodes
+   pure subroutine add_block(stiffness, row_node, column_node, row, column, whole, block)
+      !> The stiffness
+      type(stiffness_type), intent(inout) :: stiffness
+      !> The nodes, and their first equations, row >= column
+      integer, intent(in) :: row_node, column_node, row, column
+      !> Whether both have all three equations
+      logical, intent(in) :: whole
+      !> The block
+      real(wp), intent(in) :: block(2, 3, 3)
+
+      real(wp) :: reduced(2, 3, 3)
+      integer(i8) :: offset, k
+      integer :: i
+
+      offset = block_offset(stiffness%pattern%column(stiffness%pattern%row_start(row): &
+                                                     stiffness%pattern%row_start(row + 1) - 1), &
+                            column, merge(3, 1, stiffness%regular(row)))
+      if (whole .and. stiffness%harmonic == any_harmonic) then
+         do i = 1, 3
+            k = stiffness%pattern%row_start(row + i - 1) + offset
+            call add_row(merge(i, 3, row == column), block(1, 1, i), stiffness%parts(1, k))
+         end do
       else
-         m = real(harmonic, wp)
-         block(1, :, :) = block(1, :, :) + m*transpose(parts(:, :, 2) + m*parts(:, :, 3))
+         reduced = block
+         if (stiffness%harmonic /= any_harmonic) call evaluate(real(stiffness%harmonic, wp), reduced)
+         call add_part_block(stiffness, row_node, column_node, offset - column, reduced)
       end if
-   end subroutine reduce_block
+   end subroutine add_block
 
    !> Add the first entries of a row of a block
    pure subroutine add_row(n, row, parts)
-      !> How many
+      !> How many: 1 to 3
       integer, intent(in) :: n
       !> The row
-      real(wp), intent(in) :: row(2, 3)
-      !> Where the row begins, shape (1 | 2, any)
-      real(wp), intent(inout), contiguous :: parts(:, :)
+      real(wp), intent(in) :: row(6)
+      !> Where the row begins
+      real(wp), intent(inout) :: parts(*)
 
-      integer :: j
+      integer :: k
 
-      if (size(parts, 1) == 1) then
-         do j = 1, n
-            parts(1, j) = parts(1, j) + row(1, j)
+      if (n == 3) then  ! most often: a fixed number is added at once
+         do k = 1, 6
+            parts(k) = parts(k) + row(k)
          end do
       else
-         do j = 1, n
-            parts(1, j) = parts(1, j) + row(1, j)
-            parts(2, j) = parts(2, j) + row(2, j)
+         do k = 1, 2*n
+            parts(k) = parts(k) + row(k)
          end do
       end if
    end subroutine add_row
 
-   !> Add a block of two nodes one of which lacks equations or has tied ones
-   pure subroutine add_block(stiffness, rows, columns, offset, row_factor, column_factor, block)
+   !> Entries of a row before a block, by bisection
+   pure integer function block_offset(columns, column, stride)
+      !> Columns of the row
+      integer, intent(in), contiguous :: columns(:)
+      !> First column of the block
+      integer, intent(in) :: column
+      !> Columns of a block where all have as many
+      integer, intent(in) :: stride
+
+      integer :: low, length, half
+
+      low = 0
+      length = size(columns)/stride + merge(0, 1, mod(size(columns), stride) == 0)
+      do while (length > 1)
+         half = length/2
+         if (columns(1 + stride*(low + half)) <= column) low = low + half
+         length = length - half
+      end do
+      block_offset = stride*low
+   end function block_offset
+
+   !> A + m S + m^2 C of a block
+   pure subroutine evaluate(m, block)
+      !> The harmonic
+      real(wp), intent(in) :: m
+      !> The block; the sum is its first number
+      real(wp), intent(inout) :: block(2, 3, 3)
+
+      block(1, 3, 1:2) = m*block(1, 3, 1:2)
+      block(1, 1:2, 3) = m*block(1, 1:2, 3)
+      block(1, :, :) = block(1, :, :) + m**2*block(2, :, :)
+   end subroutine evaluate
+
+   !> Add the block of two nodes one of which may lack equations or have tied ones
+   pure subroutine add_part_block(stiffness, row_node, column_node, offset, block)
       !> The stiffness
       type(stiffness_type), intent(inout) :: stiffness
-      !> Equations of the two nodes; zero where there is none
-      integer, intent(in) :: rows(3), columns(3)
+      !> The nodes
+      integer, intent(in) :: row_node, column_node
       !> Position of an entry in its row, without its column
       integer(i8), intent(in) :: offset
-      !> Factors of the components
-      real(wp), intent(in) :: row_factor(3), column_factor(3)
-      !> The block: part, column, row
+      !> The block
       real(wp), intent(in) :: block(2, 3, 3)
 
       integer(i8) :: k
       integer :: i, j
 
-      do i = 1, 3
-         do j = 1, 3
-            if (columns(j) == 0 .or. rows(i) < columns(j)) cycle
-            k = stiffness%pattern%row_start(rows(i)) + offset + columns(j)
-            associate (entry => stiffness%parts(:, k))
-               entry = entry + row_factor(i)*column_factor(j)*block(:size(entry), j, i)
-            end associate
+      associate (rows => stiffness%dofs%equation(:, row_node), &
+                 columns => stiffness%dofs%equation(:, column_node), &
+                 row_factor => stiffness%dofs%factor(:, row_node), &
+                 column_factor => stiffness%dofs%factor(:, column_node))
+         do i = 1, 3
+            do j = 1, 3
+               if (columns(j) == 0 .or. rows(i) < columns(j)) cycle
+               k = stiffness%pattern%row_start(rows(i)) + offset + columns(j)
+               associate (entry => stiffness%parts(:, k))
+                  entry = entry + row_factor(i)*column_factor(j)*block(:size(entry), j, i)
+               end associate
+            end do
          end do
-      end do
-   end subroutine add_block
+      end associate
+   end subroutine add_part_block
 
    !> First equation of a node; zero if it has none
    pure integer function first_equation(equation)

@@ -1,11 +1,13 @@
 !> Quadrilateral and triangular rings: strain, stiffness and stress of one harmonic
 module axijoint_element_solid
    use axijoint_base_kinds, only : wp
+   use axijoint_element_blocks, only : n_blocks, pack_blocks, unpack_block
    use axijoint_fe_reference, only : reference_type
+   use axijoint_linalg_lapack, only : dgemm
    implicit none
    private
    public :: solid_point_type, solid_points
-   public :: strain_matrices, solid_stiffness, solid_stress, add_solid_force
+   public :: strain_matrices, solid_stiffness, solid_blocks, solid_stress, add_solid_force
    public :: stiffness_kernel_type, new_stiffness_kernel, dilatation_type, new_dilatation
 
    !> What the integrals over an element need at one integration point
@@ -40,12 +42,11 @@ module axijoint_element_solid
    !> E_k^T D E_l times the integral of g_k g_l
    type :: stiffness_kernel_type
       private
-      !> E_k^T D E_l as nine components for each of the nine pairs (k, l)
-      real(wp) :: a(9, 9) = 0.0_wp
-      !> E_k^T D F + ... likewise: the part linear in m
-      real(wp) :: s(9, 9) = 0.0_wp
-      !> F^T D F for the pair (3, 3): the part quadratic in m
-      real(wp) :: c(9) = 0.0_wp
+      !> What is free of m, E_k^T D E_l, and linear in m, E_k^T D F + ..., for each of
+      !> the nine pairs (k, l). Each of the nine components, by rows, is of one kind
+      real(wp) :: first(9, 9) = 0.0_wp
+      !> What is quadratic in m, F^T D F, for the pair (3, 3)
+      real(wp) :: second(9) = 0.0_wp
       !> Elasticity matrix D
       real(wp) :: d(6, 6) = 0.0_wp
    end type stiffness_kernel_type
@@ -167,11 +168,11 @@ contains
       do l = 1, 3
          do k = 1, 3
             q = k + 3*(l - 1)
-            kernel%a(:, q) = block_of(e(:, :, k), e(:, :, l))
-            kernel%s(:, q) = block_of(e(:, :, k), f(:, :, l)) + block_of(f(:, :, k), e(:, :, l))
+            kernel%first(:, q) = block_of(e(:, :, k), e(:, :, l)) &
+               + block_of(e(:, :, k), f(:, :, l)) + block_of(f(:, :, k), e(:, :, l))
          end do
       end do
-      kernel%c = block_of(f(:, :, 3), f(:, :, 3))
+      kernel%second = block_of(f(:, :, 3), f(:, :, 3))
       kernel%d = d
 
    contains
@@ -180,17 +181,17 @@ contains
       pure function block_of(x, y) result(components)
          !> Strains of three displacements
          real(wp), intent(in) :: x(6, 3), y(6, 3)
-         !> The components, by columns
+         !> The components, by rows
          real(wp) :: components(9)
 
-         components = reshape(matmul(transpose(x), matmul(d, y)), [9])
+         components = reshape(matmul(transpose(y), matmul(transpose(d), x)), [9])
       end function block_of
 
    end function new_stiffness_kernel
 
    !> The parts of the stiffness of an element, free of the harmonic:
    !> K_m = c_m (A + m S + m^2 C), c_0 = 2 pi, c_m = pi (Eq. 5)
-   pure subroutine solid_stiffness(points, n, kernel, a, s, c, dilatation)
+   subroutine solid_stiffness(points, n, kernel, a, s, c, dilatation)
       !> Integration points of the element
       type(solid_point_type), intent(in) :: points(:)
       !> Number of nodes
@@ -202,9 +203,8 @@ contains
       !> Means over the element, if it takes the volumetric strain as its mean
       type(dilatation_type), intent(in), optional :: dilatation
 
-      real(wp), dimension(3, n, size(points)) :: gradient, weighted
-      real(wp) :: moment(9), block_a(9), block_s(9)
-      integer :: i, j, k, q, l
+      real(wp), allocatable :: blocks(:, :, :, :)
+      integer :: i, j, p
 
       if (present(dilatation)) then
          if (dilatation%averaged) then
@@ -212,33 +212,81 @@ contains
             return
          end if
       end if
-      do k = 1, size(points)
-         associate (p => points(k))
-            gradient(1:2, :, k) = p%gradient(:, :n)
-            gradient(3, :, k) = p%shape(:n)/p%position(1)
-            weighted(:, :, k) = p%weight*gradient(:, :, k)
-         end associate
-      end do
+      allocate (blocks(2, 3, 3, n_blocks(n)))
+      call gradient_blocks(points, n, kernel, blocks)
+      p = 0
       do j = 1, n
          do i = j, n
-            moment = 0.0_wp
-            do k = 1, size(points)
-               do l = 1, 3
-                  moment(3*l - 2:3*l) = moment(3*l - 2:3*l) + gradient(:, i, k)*weighted(l, j, k)
-               end do
-            end do
-            block_a = 0.0_wp
-            block_s = 0.0_wp
-            do q = 1, 9
-               block_a = block_a + kernel%a(:, q)*moment(q)
-               block_s = block_s + kernel%s(:, q)*moment(q)
-            end do
-            call put_block(block_a, i, j, a)
-            call put_block(block_s, i, j, s)
-            call put_block(kernel%c*moment(9), i, j, c)
+            p = p + 1
+            call unpack_block(blocks(:, :, :, p), i, j, a, s, c)
          end do
       end do
    end subroutine solid_stiffness
+
+   !> The same in blocks of two nodes
+   subroutine solid_blocks(points, n, kernel, blocks, dilatation)
+      !> Integration points of the element
+      type(solid_point_type), intent(in) :: points(:)
+      !> Number of nodes
+      integer, intent(in) :: n
+      !> Kernel of its material
+      type(stiffness_kernel_type), intent(in) :: kernel
+      !> The blocks, shape (2, 3, 3, blocks)
+      real(wp), intent(out), contiguous :: blocks(:, :, :, :)
+      !> Means over the element, if it takes the volumetric strain as its mean
+      type(dilatation_type), intent(in) :: dilatation
+
+      real(wp), allocatable :: parts(:, :, :)
+
+      if (dilatation%averaged) then
+         allocate (parts(3*n, 3*n, 3))
+         call averaged_stiffness(points, n, kernel, dilatation, parts(:, :, 1), parts(:, :, 2), &
+                                 parts(:, :, 3))
+         call pack_blocks(n, parts(:, :, 1), parts(:, :, 2), parts(:, :, 3), blocks)
+      else
+         call gradient_blocks(points, n, kernel, blocks)
+      end if
+   end subroutine solid_blocks
+
+   !> Blocks from the integrals of the products of gradients
+   subroutine gradient_blocks(points, n, kernel, blocks)
+      !> Integration points of the element
+      type(solid_point_type), intent(in) :: points(:)
+      !> Number of nodes
+      integer, intent(in) :: n
+      !> Kernel of its material
+      type(stiffness_kernel_type), intent(in) :: kernel
+      !> The blocks, shape (2, 9, blocks)
+      real(wp), intent(out) :: blocks(2, 9, n_blocks(n))
+
+      real(wp) :: gradient(3*n, size(points)), weighted(3*n, size(points)), integral(3*n, 3*n)
+      real(wp), dimension(9, n_blocks(n)) :: moment, first
+      integer :: i, j, k, p
+
+      do k = 1, size(points)
+         do i = 1, n
+            gradient(3*i - 2:3*i - 1, k) = points(k)%gradient(:, i)
+            gradient(3*i, k) = points(k)%shape(i)/points(k)%position(1)
+         end do
+         weighted(:, k) = points(k)%weight*gradient(:, k)
+      end do
+      call dgemm('N', 'T', 3*n, 3*n, size(points), 1.0_wp, gradient, 3*n, weighted, 3*n, 0.0_wp, &
+                 integral, 3*n)
+      p = 0
+      do j = 1, n
+         do i = j, n
+            p = p + 1
+            moment(1:3, p) = integral(3*i - 2:3*i, 3*j - 2)
+            moment(4:6, p) = integral(3*i - 2:3*i, 3*j - 1)
+            moment(7:9, p) = integral(3*i - 2:3*i, 3*j)
+         end do
+      end do
+      call dgemm('N', 'N', 9, size(moment, 2), 9, 1.0_wp, kernel%first, 9, moment, 9, 0.0_wp, first, 9)
+      do p = 1, size(moment, 2)
+         blocks(1, :, p) = first(:, p)
+         blocks(2, :, p) = kernel%second*moment(9, p)
+      end do
+   end subroutine gradient_blocks
 
    !> The same parts of an element that takes the volumetric strain as its mean
    pure subroutine averaged_stiffness(points, n, kernel, dilatation, a, s, c)
@@ -296,23 +344,6 @@ contains
          b1(i, :) = b1(i, :) + change1/3.0_wp
       end do
    end subroutine average_volume
-
-   !> Put the block of two nodes, and its transpose, into a symmetric matrix
-   pure subroutine put_block(components, i, j, matrix)
-      !> The block by columns
-      real(wp), intent(in) :: components(9)
-      !> Numbers of the nodes within the element
-      integer, intent(in) :: i, j
-      !> The matrix
-      real(wp), intent(inout) :: matrix(:, :)
-
-      integer :: l
-
-      do l = 1, 3
-         matrix(3*i - 2:3*i, 3*j - 3 + l) = components(3*l - 2:3*l)
-         matrix(3*j - 3 + l, 3*i - 2:3*i) = components(3*l - 2:3*l)
-      end do
-   end subroutine put_block
 
    !> Stress amplitudes of one harmonic at a point: d B_m u, with the sums of
    !> B_m u (Eq. 4) written out
