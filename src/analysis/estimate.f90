@@ -82,6 +82,7 @@ contains
       references = element_references(model)
       bytes = 12*int(n_nodes(model%mesh), i8)  ! displacements, loads twice, reactions
       bytes = bytes + 6*sum(int(references(model%mesh%element_size)%n_points, i8))
+      bytes = bytes + 6*int(n_nodes(model%mesh), i8)  ! stresses smoothed to them
       bytes = bytes*n_modes*real_bytes
    end function field_bytes
 

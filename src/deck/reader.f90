@@ -25,12 +25,13 @@ module axijoint_deck_reader
    use axijoint_deck_layout, only : section_control, section_nodes, section_lines, section_elements, &
       section_blocks, section_groups, section_materials, section_laws, section_joints, section_faces, &
       section_chains, section_interfaces, section_increments, section_output, section_orthotropic, &
-      section_sections, section_cuts
+      section_sections, section_cuts, section_fixed_faces, section_moved_faces, section_springs
    use axijoint_deck_loads, only : read_loads, check_properties
    use axijoint_deck_places, only : group_places, new_point_tree, point_tree_type, same_place
    use axijoint_deck_locking, only : warn_of_locking
    use axijoint_deck_properties, only : properties_type, read_properties
-   use axijoint_deck_requests, only : read_lines, read_cuts, place_lines, place_cuts
+   use axijoint_deck_requests, only : read_lines, read_cuts, place_lines, place_cuts, &
+      gather_supported_faces
    use axijoint_deck_sections, only : sections_type, read_sections
    use axijoint_deck_source, only : source_type
    use axijoint_deck_source_reader, only : read_source
@@ -199,6 +200,8 @@ contains
       associate (lines => sections%tables(section_sections), cuts => sections%tables(section_cuts))
          call read_lines(source, lines, model%output_angles, model%lines, diagnostics)
          call read_cuts(source, cuts, model%cuts, diagnostics)
+         model%supported_faces = gather_supported_faces(draft, &
+            sections%tables([section_fixed_faces, section_moved_faces, section_springs]))
          if (lines%n + cuts%n == 0) return
          if (draft%n_elements == 0 .or. .not. (draft%nodes_complete .and. draft%elements_complete &
              .and. all(draft%element_good(:draft%n_elements)))) return

@@ -1,18 +1,19 @@
-!> Where results are wanted: SECTIONS and CUTS
+!> Where results are wanted: SECTIONS, CUTS, and faces that are held
 module axijoint_deck_requests
    use axijoint_base_kinds, only : wp, degree
+   use axijoint_base_number_map, only : find_number
    use axijoint_base_text, only : to_text
    use axijoint_deck_diagnostics, only : diagnostics_type, add_warning
-   use axijoint_deck_draft, only : place_text
+   use axijoint_deck_draft, only : draft_type, place_text
    use axijoint_deck_places, only : same_place
    use axijoint_deck_source, only : source_type, card_position
    use axijoint_deck_table, only : table_type, integer_value, field_error, entry_error
    use axijoint_model_locate, only : locate_points, line_position
    use axijoint_model_mesh, only : mesh_type
-   use axijoint_model_request, only : line_type, cut_type
+   use axijoint_model_request, only : line_type, cut_type, supported_face_type
    implicit none
    private
-   public :: read_lines, read_cuts, place_lines, place_cuts
+   public :: read_lines, read_cuts, place_lines, place_cuts, gather_supported_faces
 
    !> Fields of SECTIONS: number, r and z of both ends, number of points, angles
    integer, parameter :: field_label = 1, field_ends = 2, field_points = 6, field_angles = 7
@@ -182,6 +183,40 @@ contains
          end associate
       end do
    end subroutine place_cuts
+
+   !> Faces that cards of some sections hold, each once, with the nodes that no face
+   !> before it has
+   pure function gather_supported_faces(draft, tables) result(faces)
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> Sections whose first field is a face
+      type(table_type), intent(in) :: tables(:)
+      !> The faces
+      type(supported_face_type), allocatable :: faces(:)
+
+      logical, allocatable :: known(:), new(:)
+      integer :: k, entry, face, i
+
+      allocate (faces(0))
+      allocate (known(draft%n_nodes), new(draft%n_nodes), source=.false.)
+      do k = 1, size(tables)
+         do entry = 1, tables(k)%n
+            if (.not. tables(k)%good(entry)) cycle
+            face = find_number(draft%face_of, integer_value(tables(k), field_label, entry))
+            if (face == 0) cycle
+            if (.not. draft%faces(face)%good .or. any(faces%label == draft%faces(face)%label)) cycle
+            faces = [faces, supported_face_type(draft%faces(face)%label, [integer ::])]
+            new = .false.
+            do i = 1, size(draft%faces(face)%edges)
+               associate (nodes => draft%faces(face)%edges(i)%nodes)
+                  new(nodes(:count(nodes > 0))) = .true.
+               end associate
+            end do
+            faces(size(faces))%nodes = pack([(i, i=1, size(new))], new .and. .not. known)
+            known = known .or. new
+         end do
+      end do
+   end function gather_supported_faces
 
    !> Smallest and largest coordinate of the mesh
    pure function range_text(mesh, axis) result(text)

@@ -8,7 +8,7 @@ module axijoint_model_model
       load_case_type, combination_type, increment_type, truncation_type
    use axijoint_model_material, only : solid_material_type, joint_material_type
    use axijoint_model_mesh, only : mesh_type
-   use axijoint_model_request, only : line_type, cut_type
+   use axijoint_model_request, only : line_type, cut_type, supported_face_type
    implicit none
    private
    public :: model_type, can_yield, element_references, on_axis
@@ -68,6 +68,8 @@ module axijoint_model_model
       type(line_type), allocatable :: lines(:)
       !> Cuts whose resultants are listed
       type(cut_type), allocatable :: cuts(:)
+      !> Faces whose reactions are listed
+      type(supported_face_type), allocatable :: supported_faces(:)
    end type model_type
 
 contains

@@ -1,9 +1,9 @@
-!> Where a deck asks for results: along lines, and on cuts z = const
+!> Where a deck asks for results: along lines, on cuts z = const, on supported faces
 module axijoint_model_request
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: line_type, line_point_type, cut_type
+   public :: line_type, line_point_type, cut_type, supported_face_type
 
    !> A point of a line in an element
    type :: line_point_type
@@ -40,5 +40,13 @@ module axijoint_model_request
       !> Body that is cut; 0 for all
       integer :: body = 0
    end type cut_type
+
+   !> A face that restraints, given displacements or springs hold
+   type :: supported_face_type
+      !> The user's number
+      integer :: label = 0
+      !> Its nodes, without those of faces before it
+      integer, allocatable :: nodes(:)
+   end type supported_face_type
 
 end module axijoint_model_request

@@ -6,6 +6,7 @@ module axijoint_output_hdf5
    use axijoint_deck_source, only : source_type
    use axijoint_model_model, only : model_type
    use axijoint_output_echo, only : deck_text
+   use axijoint_output_face_reactions, only : write_support_group
    use axijoint_output_hdf5_file, only : hdf5_file_type
    use axijoint_output_hdf5_sections, only : write_section_groups, write_cut_group
    use axijoint_output_run, only : run_type, status_name
@@ -49,6 +50,7 @@ contains
       call write_joints(file, results)
       call write_section_groups(file, model, results)
       call write_cut_group(file, model, results)
+      call write_support_group(file, model, results)
       call write_convergence(file, model, results)
    end subroutine write_results
 

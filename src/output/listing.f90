@@ -6,6 +6,7 @@ module axijoint_output_listing
    use axijoint_deck_source, only : source_type
    use axijoint_model_model, only : model_type
    use axijoint_output_echo, only : write_echo
+   use axijoint_output_face_reactions, only : write_face_reactions
    use axijoint_output_headings, only : write_lines, rule, mark_not_converged
    use axijoint_output_listing_mesh, only : write_nodes, write_elements, write_joints
    use axijoint_output_listing_loads, only : write_loads, write_truncations, write_supports, &
@@ -70,6 +71,7 @@ contains
       call write_sections(file, model, results)
       call write_cuts(file, model, results)
       call write_reactions(file, model, results)
+      call write_face_reactions(file, model, results)
       call write_equilibrium(file, model, results)
       call write_times(file, timer)
       call write_end(file, results)

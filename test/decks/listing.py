@@ -13,6 +13,7 @@ COLUMNS = {
     'point stresses': ('point', 'r', 'z', 'body', 'material', 'sigma_r', 'sigma_z', 'sigma_theta',
                        'tau_rz', 'tau_rtheta', 'tau_ztheta'),
     'cuts': ('cut', 'z', 'body', 'axial', 'shear', 'shear_90', 'moment', 'moment_90', 'torque'),
+    'faces': ('face', 'axial', 'force', 'force_90', 'moment', 'moment_90', 'torque'),
     'equilibrium': ('applied', 'reacted', 'sum'),
 }
 HEADINGS = (
@@ -28,6 +29,7 @@ HEADINGS = (
     (re.compile(r'DISPLACEMENTS ON SECTION (.*) degrees'), 'section {}', 'points'),
     (re.compile(r'STRESSES ON SECTION (.*) degrees'), 'stresses, section {}', 'point stresses'),
     (re.compile(r'RESULTANTS ON CUTS()'), 'cuts', 'cuts'),
+    (re.compile(r'REACTIONS OF SUPPORTED FACES()'), 'faces', 'faces'),
     (re.compile(r'EQUILIBRIUM()'), 'equilibrium', 'equilibrium'),
 )
 RESULTANTS = {'axial force': 'axial', 'lateral force (along theta = 0)': 'lateral',

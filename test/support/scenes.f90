@@ -37,7 +37,7 @@ contains
       allocate (model%edge_loads(0), model%ring_loads(0), model%fixed(3, 0))
       allocate (model%body_loads(0), model%thermal_loads(0), model%prescribed(0))
       allocate (model%initial_stresses(0), model%edge_supports(0), model%truncations(0))
-      allocate (model%lines(0), model%cuts(0))
+      allocate (model%lines(0), model%cuts(0), model%supported_faces(0))
       model%load_cases = [load_case_type(label=1, name='')]
       model%combinations = [combination_type(label=1, factor=[1.0_wp])]
       model%harmonics = [(m, m=0, max_harmonic)]
