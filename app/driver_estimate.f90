@@ -11,7 +11,7 @@ module axijoint_driver_estimate
    use axijoint_deck_source, only : source_type
    use axijoint_driver_run, only : print_error
    use axijoint_linalg_lapack, only : product_rate
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, yielding_nodes
    use axijoint_solver_choice, only : solver_band, solver_sparse, solver_names, orders_type, &
                                       new_orders
    implicit none
@@ -69,7 +69,7 @@ contains
       type(orders_type) :: orders
       integer :: kind
 
-      call new_orders(orders, node_graph(model%mesh), error=error)
+      call new_orders(orders, node_graph(model%mesh), yielding_nodes(model), error)
       if (allocated(error)) return
       do kind = solver_band, solver_sparse
          call estimate_job(model, orders, kind, rate, estimate, error)

@@ -4,7 +4,7 @@ module axijoint_driver_run
    use axijoint_analysis_results, only : results_type, remark_type
    use axijoint_analysis_static, only : analyse_combination
    use axijoint_analysis_structure, only : structure_type, build_structure
-   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_not_converged
+   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_not_converged, exit_singular
    use axijoint_base_progress, only : progress_type, show_progress, clear_progress
    use axijoint_base_system, only : error_output_is_terminal
    use axijoint_base_text, only : to_text
@@ -69,9 +69,9 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(source_type) :: source
-      type(model_type) :: model
+      type(model_type), target :: model
       type(diagnostics_type) :: diagnostics
-      type(structure_type) :: structure
+      type(structure_type), target :: structure
       type(timer_type) :: timer
       type(progress_type) :: progress
       integer :: k, code
@@ -113,9 +113,9 @@ contains
       !> Directory for results and other options
       type(command_type), intent(in) :: command
       !> The job
-      type(model_type), intent(in) :: model
+      type(model_type), intent(in), target :: model
       !> Its structure, factored
-      type(structure_type), intent(in) :: structure
+      type(structure_type), intent(inout), target :: structure
       !> Place of the combination
       integer, intent(in) :: k
       !> Cards of the deck
@@ -139,6 +139,7 @@ contains
       call clear_progress(progress)
       if (size(model%combinations) > 1) results%combination = model%combinations(k)%label
       exit_code = merge(exit_ok, exit_not_converged, results%converged)
+      if (allocated(results%mechanism)) exit_code = exit_singular
       call timer%push(phase_write)
       call write_output(command%directory, name, source, all_warnings(warnings, results%remarks), &
                         model, results, timer, exit_code, error)

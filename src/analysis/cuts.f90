@@ -5,12 +5,10 @@ module axijoint_analysis_cuts
    use axijoint_analysis_results, only : results_type, n_resultants
    use axijoint_analysis_rigid, only : rigid_resultants
    use axijoint_analysis_structure, only : structure_type
-   use axijoint_assembly_force, only : joint_jump, elastic_joint_stress
    use axijoint_assembly_loading, only : loading_type
    use axijoint_assembly_solid_force, only : solid_force
    use axijoint_base_kinds, only : wp
-   use axijoint_joints_field, only : joint_field_type
-   use axijoint_model_load, only : combination_type
+   use axijoint_joints_field, only : joint_field_type, stress_amplitude
    use axijoint_model_mesh, only : n_elements, n_nodes
    use axijoint_model_model, only : model_type
    use axijoint_model_request, only : cut_type
@@ -29,17 +27,13 @@ contains
    !> the nodal loads above. Where a load is spread over an element that the cut passes
    !> through, what nodal forces count too much or too little of it is taken off.
    !> So the cut balances the loads above it, wherever it is.
-   subroutine cut_resultants(model, structure, loading, combination, factor, field, results)
+   subroutine cut_resultants(model, structure, loading, field, results)
       !> The job
       type(model_type), intent(in) :: model
       !> Joints and springs
       type(structure_type), intent(in) :: structure
-      !> Loads for a factor of one
+      !> Loads at the end
       type(loading_type), intent(in) :: loading
-      !> Their combination
-      type(combination_type), intent(in) :: combination
-      !> Load factor at the end
-      real(wp), intent(in) :: factor
       !> State of the joints
       type(joint_field_type), intent(in) :: field
       !> Results; displacements are there already
@@ -59,10 +53,9 @@ contains
       do k = 1, size(results%modes)
          if (results%modes(k)%harmonic > 1) cycle  ! no resultants
          associate (mode => results%modes(k), displacement => results%displacement(:, :, k), &
-                    case_factor => factor*combination%factor)
-            call solid_force(model, loading%initial, factor, k, mode, displacement, force)
-            stress = elastic_joint_stress(model, structure%joint_points, &
-               joint_jump(structure%joint_points, displacement)) - field%excess(:, :, k)
+                    case_factor => loading%case_factor)
+            call solid_force(model, loading%initial, k, mode, displacement, force)
+            stress = stress_amplitude(model, structure%joint_points, mode, displacement, field, k)
             do c = 1, size(planes)
                associate (plane => planes(c), total => results%cut_resultants(:, c))
                   total = total + rigid_resultants(plane%position, mode, &

@@ -5,17 +5,17 @@ module axijoint_analysis_recovery
    use axijoint_analysis_rigid, only : rigid_resultants
    use axijoint_analysis_structure, only : structure_type
    use axijoint_assembly_equations, only : on_equations, worth_threads
-   use axijoint_assembly_force, only : joint_force, joint_jump, elastic_joint_stress
+   use axijoint_assembly_force, only : joint_force
    use axijoint_assembly_loading, only : loading_type
    use axijoint_assembly_mechanism, only : solid_parts
    use axijoint_assembly_solid_force, only : solid_force
    use axijoint_assembly_support, only : add_support_force
    use axijoint_base_kinds, only : wp
    use axijoint_element_solid, only : solid_point_type, solid_points
-   use axijoint_fe_mode, only : mode_type, mode_integral, is_torsion, family_symmetric
+   use axijoint_fe_mode, only : mode_type, same_mode, mode_integral, is_torsion, family_symmetric
    use axijoint_fe_quadrature, only : max_element_points
    use axijoint_fe_reference, only : reference_type
-   use axijoint_joints_field, only : joint_field_type
+   use axijoint_joints_field, only : joint_field_type, stress_amplitude
    use axijoint_joints_residual, only : ratio, load_norm
    use axijoint_model_mesh, only : n_elements, n_nodes
    use axijoint_model_model, only : model_type, element_references, on_axis
@@ -28,23 +28,21 @@ contains
    !> Fill stresses, reactions, the residual ratio and the equilibrium error.
    !> All forces come from the stresses, point by point, not from the assembled
    !> matrices, so that the ratio judges the whole path from mesh to solution.
-   subroutine recover(model, structure, loading, factor, largest_factor, field, results)
+   subroutine recover(model, structure, loading, peak, field, results)
       !> The job
       type(model_type), intent(in) :: model
       !> Joints, springs, equations
       type(structure_type), intent(in) :: structure
-      !> Loads for a factor of one
-      type(loading_type), intent(in) :: loading
-      !> Load factor at the end, and the largest of the run: errors are measured
-      !> by the largest load, which does not vanish with unloading
-      real(wp), intent(in) :: factor, largest_factor
+      !> Loads at the end, and the largest of the run: errors are measured by the
+      !> largest, which do not vanish with unloading
+      type(loading_type), intent(in) :: loading, peak
       !> State of the joints
       type(joint_field_type), intent(in) :: field
       !> Results; displacements are there already
       type(results_type), intent(inout) :: results
 
       real(wp), dimension(size(results%modes)) :: unbalanced, scale
-      real(wp), dimension(n_resultants, size(results%modes)) :: resultant, reacted
+      real(wp), dimension(n_resultants, size(results%modes)) :: applied, resultant, reacted
       real(wp), allocatable :: unbalance(:, :, :)
       real(wp), allocatable :: internal(:, :), force(:, :)  ! threads have small stacks
       integer, allocatable :: part(:)
@@ -58,29 +56,30 @@ contains
       !$omp if (worth_threads(structure%equations))
       do k = 1, size(results%modes)
          associate (mode => results%modes(k), reaction => results%reaction(:, :, k))
-            force = factor*loading%external(:, :, k)
+            force = loading%external(:, :, k)
             internal = internal_force(k)
             unbalanced(k) = sum(on_equations(structure%equations, k, force - internal)**2) &
                /mode_integral(mode)
             reaction = merge(internal - force, 0.0_wp, held(model, mode))
             internal = internal - spring_force(k)
             reaction = reaction - spring_force(k)
-            resultant(:, k) = rigid_resultants(model%mesh%coordinates, mode, loading%external(:, :, k))
+            applied(:, k) = rigid_resultants(model%mesh%coordinates, mode, force)
+            resultant(:, k) = rigid_resultants(model%mesh%coordinates, mode, peak%external(:, :, k))
             reacted(:, k) = rigid_resultants(model%mesh%coordinates, mode, reaction)
             unbalance(:, :, k) = part_resultants(model, mode, part, force - internal + reaction)
             ! displacements and temperatures load without external forces
-            scale(k) = largest_factor*(sum(abs(loading%external(:, :, k))) &
-                                       + sum(abs(loading%right(:, :, k) - loading%external(:, :, k))))
+            scale(k) = sum(abs(peak%external(:, :, k))) &
+               + sum(abs(peak%right(:, :, k) - peak%external(:, :, k)))
          end associate
       end do
       !$omp end parallel do
-      results%applied = factor*sum(resultant, 2)
+      results%applied = sum(applied, 2)
       results%reacted = sum(reacted, 2)
       results%part_unbalance = sum(unbalance, 3)
       results%part_node = [(findloc(part, k, 1), k=1, maxval(part))]
       results%residual_ratio = ratio(sqrt(sum(unbalanced)), &
-                                     largest_factor*load_norm(structure%equations, loading))
-      associate (largest => largest_factor*sum(resultant, 2), &
+                                     load_norm(structure%equations, peak))
+      associate (largest => sum(resultant, 2), &
                  whole => reshape(results%applied + results%reacted, [n_resultants, 1]))
          results%equilibrium_error = imbalance(model, largest, sum(scale), whole)
          results%part_error = imbalance(model, largest, sum(scale), results%part_unbalance)
@@ -96,10 +95,11 @@ contains
          real(wp), allocatable :: internal(:, :)
 
          allocate (internal, mold=results%displacement(:, :, k))
-         call solid_force(model, loading%initial, factor, k, results%modes(k), &
+         call solid_force(model, loading%initial, k, results%modes(k), &
                           results%displacement(:, :, k), internal, results%stress(:, :, k))
          internal = internal + spring_force(k) + joint_force(structure%joint_points, &
-            results%modes(k)%harmonic, admitted(k), size(internal, 2))
+            results%modes(k)%harmonic, stress_amplitude(model, structure%joint_points, &
+            results%modes(k), results%displacement(:, :, k), field, k), size(internal, 2))
       end function internal_force
 
       !> Nodal forces that hold the springs in one mode
@@ -113,18 +113,6 @@ contains
          call add_support_force(structure%support_points, results%modes(k)%harmonic, &
                                 results%displacement(:, :, k), force)
       end function spring_force
-
-      !> Joint stress amplitudes k d - e of one mode
-      function admitted(k) result(stress)
-         !> Place of the mode
-         integer, intent(in) :: k
-         !> The amplitudes, shape (3, joint points)
-         real(wp), allocatable :: stress(:, :)
-
-         stress = elastic_joint_stress(model, structure%joint_points, &
-            joint_jump(structure%joint_points, results%displacement(:, :, k))) &
-            - field%excess(:, :, k)
-      end function admitted
 
    end subroutine recover
 

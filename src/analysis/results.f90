@@ -76,6 +76,8 @@ module axijoint_analysis_results
    type :: results_type
       !> Whether every increment reached its tolerance
       logical :: converged = .false.
+      !> The mechanism that ended the job, in words; allocated if there was one
+      character(len=:), allocatable :: mechanism
       !> Number of the load combination; 0 if there is one only
       integer :: combination = 0
       !> Modes that were solved, ascending

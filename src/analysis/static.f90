@@ -7,19 +7,20 @@ module axijoint_analysis_static
    use axijoint_analysis_structure, only : structure_type, build_structure
    use axijoint_assembly_equations, only : equations_type, solve_mode, refine_mode, &
                                            backward_error, condition_estimate, worth_threads
-   use axijoint_assembly_force, only : joint_force, joint_jump
+   use axijoint_assembly_force, only : joint_force, joint_jump, elastic_joint_stress
    use axijoint_assembly_loading, only : loading_type, new_loading
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : progress_type
    use axijoint_base_text, only : to_text
-   use axijoint_base_timer, only : timer_type, phase_assemble, phase_joints, phase_recover
-   use axijoint_joints_field, only : joint_field_type, new_joint_field, elastic_stress, n_across_gaps
-   use axijoint_joints_planes, only : planes_type, new_planes, new_view, synthesize
-   use axijoint_joints_transfer, only : transfer_loop
+   use axijoint_base_timer, only : timer_type, phase_joints, phase_recover
+   use axijoint_fe_mode, only : is_torsion, mode_name
+   use axijoint_joints_field, only : joint_field_type, new_joint_field, set_initial_stress, n_across_gaps
+   use axijoint_joints_increments, only : history_type, run_increments, final_factors
+   use axijoint_joints_planes, only : planes_type, new_view, synthesize
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type
-   use axijoint_model_model, only : model_type, can_yield
+   use axijoint_model_model, only : model_type, method_transfer
    implicit none
    private
    public :: analyse_model, analyse_combination
@@ -35,7 +36,7 @@ contains
    !> Solve a job of one combination of load cases
    subroutine analyse_model(model, results, timer, progress, error)
       !> The job; its first combination is solved
-      type(model_type), intent(in) :: model
+      type(model_type), intent(in), target :: model
       !> What was found
       type(results_type), intent(out) :: results
       !> Times of the phases
@@ -45,7 +46,7 @@ contains
       !> Singular stiffness, or out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      type(structure_type) :: structure
+      type(structure_type), target :: structure
 
       call build_structure(model, structure, timer, progress, error)
       if (allocated(error)) return
@@ -55,9 +56,9 @@ contains
    !> Solve one combination of load cases: displacements and joints, recovery
    subroutine analyse_combination(model, structure, combination, results, timer, progress)
       !> The job
-      type(model_type), intent(in) :: model
+      type(model_type), intent(in), target :: model
       !> The structure, factored
-      type(structure_type), intent(in) :: structure
+      type(structure_type), intent(inout), target :: structure
       !> The combination
       type(combination_type), intent(in) :: combination
       !> What was found
@@ -67,53 +68,46 @@ contains
       !> Where to show progress
       type(progress_type), intent(inout) :: progress
 
-      type(loading_type) :: loading
       type(joint_field_type) :: field
-      real(wp) :: factor, largest_factor
+      type(history_type) :: history
 
       results%modes = structure%modes
       results%orderings = structure%orderings
-      call timer%push(phase_assemble)
-      call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
-                       combination, loading)
-      call timer%pop()
       call timer%push(phase_joints)
-      call solve(model, structure, loading, field, results, progress)
+      if (size(structure%yielding) > 0) then
+         call solve_joints(model, structure, combination, history, field, results, progress)
+      else
+         call solve_linear(model, structure, combination, history, field, results)
+      end if
+      call take_joint_results(structure%joint_points, field, results)
       call timer%pop()
 
       call timer%push(phase_recover)
-      call report_load_factors(model, results, factor, largest_factor)
-      call recover(model, structure, loading, factor, largest_factor, field, results)
+      call recover(model, structure, history%loading, history%peak, field, results)
       call smooth_stress(model, results)
-      call cut_resultants(model, structure, loading, combination, factor, field, results)
-      call report_solves(structure, factor*loading%right, field, results)
-      results%converged = results%converged .and. results%residual_ratio <= results%tolerance
-      results%remarks = remarks_on(model, field, results)
+      call cut_resultants(model, structure, history%loading, field, results)
+      call report_solves(structure, history%loading%right, field, results)
+      results%converged = results%converged .and. results%residual_ratio <= results%tolerance + rounding(results)
+      results%remarks = remarks_on(model, history, field, results)
       call timer%pop()
    end subroutine analyse_combination
 
-   !> Load factor that the run ended with, and the largest on its way
-   pure subroutine report_load_factors(model, results, factor, largest)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Results with their convergence path
+   !> What rounding may add to the residual ratio of a job with iterations, whose
+   !> tolerance may lie below it; a linear job must do better
+   pure real(wp) function rounding(results)
+      !> Results, with the condition of their equations
       type(results_type), intent(in) :: results
-      !> The factors
-      real(wp), intent(out) :: factor, largest
 
-      if (size(results%path) > 0) then
-         factor = results%path(size(results%path))%load_factor
-         largest = maxval(abs(results%path%load_factor))
-      else
-         factor = sum(model%increments%factor)
-         largest = abs(factor)
-      end if
-   end subroutine report_load_factors
+      rounding = 0.0_wp
+      if (size(results%path) > 0) rounding = 10.0_wp*epsilon(1.0_wp)*maxval(results%solves%condition)
+   end function rounding
 
    !> What the user should know about the results
-   function remarks_on(model, field, results) result(remarks)
+   function remarks_on(model, history, field, results) result(remarks)
       !> The job
       type(model_type), intent(in) :: model
+      !> How the increments ended
+      type(history_type), intent(in) :: history
       !> State of the joints
       type(joint_field_type), intent(in) :: field
       !> The results
@@ -133,9 +127,20 @@ contains
          end if
          return
       end if
-      call n_across_gaps(field, n, widest)
-      if (n > 0) call add('pressure across an open gap at '//to_text(n)//' joint points on planes '// &
-                          '(widest '//to_text(widest)//'): stress accumulated, as in the paper')
+      if (allocated(results%mechanism)) then
+         call add(results%mechanism)
+      else if (.not. results%converged) then
+         call add('the last equilibrium was at the load factor '//to_text(history%reached))
+      end if
+      if (history%verdict%stalled) then
+         call add(to_text(count(history%verdict%restless))//' joint points on planes change their '// &
+                  'state for ever: a bond that breaks for good always has a solution')
+      end if
+      if (model%method == method_transfer) then
+         call n_across_gaps(field, n, widest)
+         if (n > 0) call add('pressure across an open gap at '//to_text(n)//' joint points on planes '// &
+                             '(widest '//to_text(widest)//'): stress accumulated, as in the paper')
+      end if
       if (results%tolerance > coarse_tolerance) then
          call add('a tolerance of '//to_text(results%tolerance)// &
                   ' leaves joint stresses several per cent wrong (default 1E-6)')
@@ -144,7 +149,7 @@ contains
          call add('forces of '//to_text(results%part_error)//' of the load are not balanced on '// &
                   'some part: see EQUILIBRIUM')
       end if
-      if (model%max_harmonic + 1 == model%n_planes) then
+      if (maxval(results%modes%harmonic) + 1 == model%n_planes) then
          call add('w of the highest harmonic vanishes on all planes: nothing of it is '// &
                   'transferred (M + 2 planes avoid that)')
       end if
@@ -161,100 +166,196 @@ contains
 
    end function remarks_on
 
-   !> Displacements and joint state: at once if no joint can yield, else by the
-   !> paper's loop
-   subroutine solve(model, structure, loading, field, results, progress)
+   !> Joints that yield: the increments on the condensed structure, then the
+   !> displacements of the whole
+   subroutine solve_joints(model, structure, combination, history, field, results, progress)
       !> The job
-      type(model_type), intent(in) :: model
-      !> The structure, factored
-      type(structure_type), intent(in) :: structure
-      !> Loads for a factor of one
-      type(loading_type), intent(in) :: loading
-      !> State of the joints
+      type(model_type), intent(in), target :: model
+      !> The structure, factored and condensed
+      type(structure_type), intent(inout), target :: structure
+      !> Factors of the load cases
+      type(combination_type), intent(in) :: combination
+      !> How the increments ended
+      type(history_type), intent(out) :: history
+      !> State of all joints
       type(joint_field_type), intent(out) :: field
-      !> Results that take displacements, joint results and convergence path
+      !> Results that take displacements and convergence
       type(results_type), intent(inout) :: results
       !> Where to show progress
       type(progress_type), intent(inout) :: progress
 
-      type(planes_type) :: planes
-      integer :: k
+      type(joint_field_type) :: yielding
 
-      allocate (results%displacement, mold=loading%right)
-      associate (points => structure%joint_points)
-         if (can_yield(model)) then
-            results%tolerance = model%increments(size(model%increments))%tolerance
-            planes = new_planes(model%n_planes, structure%modes)
-            call transfer_loop(model, points, structure%equations, planes, loading, &
-                               results%displacement, field, results%path, results%converged, progress)
-         else
-            planes = new_view(model%output_angles, structure%modes)
-            allocate (results%path(0))
-            call solve_linear(structure%equations, sum(model%increments%factor), loading, &
-                              results%displacement)
-            results%converged = .true.  ! if the residual says so, too
-            results%tolerance = linear_tolerance
-            call elastic_field(model, points, planes, results%displacement, field)
-         end if
-         results%joint_point_joint = points%joint
-         allocate (results%joint_point_position(2, size(points)))
-         do k = 1, size(points)
-            results%joint_point_position(:, k) = points(k)%position
-         end do
+      structure%scene%model => model
+      structure%scene%equations => structure%equations
+      call run_increments(structure%scene, structure%joint_points, structure%support_points, &
+                          combination, yielding, history, progress)
+      results%converged = history%verdict%converged
+      results%path = history%path
+      results%tolerance = model%increments(size(model%increments))%tolerance
+      allocate (results%displacement, mold=history%loading%right)
+      if (allocated(history%runaway)) then
+         call solve_displacements(structure%equations, history%loading, structure%scene%points, &
+                                  history%runaway, results%displacement)
+         results%mechanism = mechanism_text(model, history%reached, results)
+      end if
+      call solve_displacements(structure%equations, history%loading, structure%scene%points, &
+                               yielding%excess, results%displacement)
+      results%plane_angles = structure%scene%planes%angle
+      call elastic_field(model, structure, structure%scene%planes, history, results%displacement, field)
+      associate (yield => structure%yielding)
+         field%jump(:, yield, :) = yielding%jump
+         field%stress(:, yield, :) = yielding%stress
+         field%state(yield, :) = yielding%state
+         field%excess(:, yield, :) = yielding%excess + yielding%pending
       end associate
-      results%plane_angles = planes%angle
-      results%joint_jump = field%jump
-      results%joint_stress = field%stress
-      results%joint_state = field%state
-   end subroutine solve
+   end subroutine solve_joints
 
-   !> Displacements of a linear job, a step of refinement in them
-   subroutine solve_linear(equations, factor, loading, displacement)
+   !> A mechanism in words: where and how the structure moves most
+   function mechanism_text(model, reached, results) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Load factor of the last equilibrium
+      real(wp), intent(in) :: reached
+      !> Results with the displacements that ran away
+      type(results_type), intent(in) :: results
+      !> The sentence
+      character(len=:), allocatable :: text
+
+      character(len=*), parameter :: along(3) = [character(len=13) :: 'along r', 'along z', 'along theta']
+      integer :: place(3)
+
+      place = maxloc(abs(results%displacement))
+      associate (mode => results%modes(place(3)), node => place(2))
+         text = 'no equilibrium beyond the load factor '//to_text(reached)//': the part with node '// &
+            to_text(model%mesh%node_label(node))
+         if (is_torsion(mode)) then
+            text = text//' turns about z'
+         else if (mode%harmonic == 0 .and. place(1) == 2) then
+            text = text//' moves along z'
+         else if (mode%harmonic == 1) then
+            text = text//merge(' tilts or lifts ', ' slides or tilts', place(1) == 2)
+         else
+            text = text//' gives way '//trim(along(place(1)))
+         end if
+         text = trim(text)//' (harmonic '//mode_name(mode)//'); results are those there'
+      end associate
+   end function mechanism_text
+
+   !> Joints that stay elastic: one solution
+   subroutine solve_linear(model, structure, combination, history, field, results)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, factored
+      type(structure_type), intent(in) :: structure
+      !> Factors of the load cases
+      type(combination_type), intent(in) :: combination
+      !> Takes the loads
+      type(history_type), intent(out) :: history
+      !> State of all joints
+      type(joint_field_type), intent(out) :: field
+      !> Results that take displacements and convergence
+      type(results_type), intent(inout) :: results
+
+      type(planes_type) :: planes
+      real(wp), allocatable :: none(:, :, :)
+
+      call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
+                       combination_type(combination%label, final_factors(model, combination)), &
+                       history%loading)
+      history%peak = history%loading
+      allocate (results%displacement, mold=history%loading%right)
+      allocate (results%path(0), none(3, 0, size(structure%modes)))
+      call solve_displacements(structure%equations, history%loading, structure%joint_points(:0), &
+                               none, results%displacement)
+      results%converged = .true.  ! if the residual says so, too
+      results%tolerance = linear_tolerance
+      planes = new_view(model%output_angles, structure%modes)
+      results%plane_angles = planes%angle
+      call elastic_field(model, structure, planes, history, results%displacement, field)
+   end subroutine solve_linear
+
+   !> Displacements under loads and excess joint stress, a step of refinement in them
+   subroutine solve_displacements(equations, loading, points, excess, displacement)
       !> Equations of all modes, factored
       type(equations_type), intent(in) :: equations
-      !> Load factor, and loads for a factor of one
-      real(wp), intent(in) :: factor
+      !> The loads
       type(loading_type), intent(in) :: loading
+      !> Joint points with excess stress, and its amplitudes, shape (3, points, modes)
+      type(model_joint_point_type), intent(in) :: points(:)
+      real(wp), intent(in) :: excess(:, :, :)
       !> Displacement amplitudes, shape (3, nodes, modes)
       real(wp), intent(out) :: displacement(:, :, :)
 
+      real(wp), allocatable :: force(:, :)  ! threads have small stacks
       integer :: s, i, k
 
-      !$omp parallel do schedule(dynamic) private(i, k) if (worth_threads(equations))
+      !$omp parallel do schedule(dynamic) private(i, k, force) if (worth_threads(equations))
       do s = 1, size(equations%systems)
          do i = 1, size(equations%systems(s)%modes)
             k = equations%systems(s)%modes(i)
-            call solve_mode(equations, k, factor*loading%right(:, :, k), displacement(:, :, k))
-            call refine_mode(equations, k, factor*loading%right(:, :, k), displacement(:, :, k))
+            force = loading%right(:, :, k) + joint_force(points, equations%modes(k)%harmonic, &
+                                                         excess(:, :, k), size(displacement, 2))
+            call solve_mode(equations, k, force, displacement(:, :, k))
+            call refine_mode(equations, k, force, displacement(:, :, k))
          end do
       end do
       !$omp end parallel do
-      if (allocated(loading%held)) displacement = displacement + factor*loading%held
-   end subroutine solve_linear
+      if (allocated(loading%held)) displacement = displacement + loading%held
+   end subroutine solve_displacements
 
-   !> Joints of a linear job
-   subroutine elastic_field(model, points, planes, displacement, field)
+   !> State of all joints, as if none yielded
+   subroutine elastic_field(model, structure, planes, history, displacement, field)
       !> The job
       type(model_type), intent(in) :: model
-      !> Points of all joints
-      type(model_joint_point_type), intent(in) :: points(:)
-      !> Planes to look at
+      !> The structure, for its joint points
+      type(structure_type), intent(in) :: structure
+      !> Planes
       type(planes_type), intent(in) :: planes
+      !> The loads, for the in-situ stress
+      type(history_type), intent(in) :: history
       !> Displacement amplitudes, shape (3, nodes, modes)
       real(wp), intent(in) :: displacement(:, :, :)
       !> State of the joints
       type(joint_field_type), intent(out) :: field
 
-      real(wp) :: jump(3, size(points), size(displacement, 3))
+      real(wp), allocatable :: jump(:, :, :)
+      integer :: j, k
+
+      associate (points => structure%joint_points)
+         field = new_joint_field(size(points), size(planes%angle), size(displacement, 3))
+         call set_initial_stress(model, points, history%loading%case_factor, field)
+         allocate (jump(3, size(points), size(displacement, 3)))
+         do k = 1, size(displacement, 3)
+            jump(:, :, k) = joint_jump(points, displacement(:, :, k))
+         end do
+         field%jump = synthesize(planes, jump)
+         do j = 1, size(planes%angle)
+            field%stress(:, :, j) = elastic_joint_stress(model, points, field%jump(:, :, j)) + field%initial
+         end do
+      end associate
+   end subroutine elastic_field
+
+   !> Joint points and their state into the results
+   subroutine take_joint_results(points, field, results)
+      !> Points of all joints
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Their state
+      type(joint_field_type), intent(in) :: field
+      !> The results
+      type(results_type), intent(inout) :: results
+
       integer :: k
 
-      field = new_joint_field(size(points), size(planes%angle), size(displacement, 3))
-      do k = 1, size(displacement, 3)
-         jump(:, :, k) = joint_jump(points, displacement(:, :, k))
+      results%joint_point_joint = points%joint
+      allocate (results%joint_point_position(2, size(points)))
+      do k = 1, size(points)
+         results%joint_point_position(:, k) = points(k)%position
       end do
-      field%jump = synthesize(planes, jump)
-      field%stress = elastic_stress(model, points, field%jump)
-   end subroutine elastic_field
+      results%joint_jump = field%jump
+      results%joint_stress = field%stress
+      results%joint_state = field%state
+   end subroutine take_joint_results
 
    !> How well the equations of each mode are solved: the backward error of one
    !> more solution, for the forces that act at the end

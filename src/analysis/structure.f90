@@ -11,10 +11,13 @@ module axijoint_analysis_structure
    use axijoint_base_memory, only : require_memory
    use axijoint_base_progress, only : progress_type, show_progress
    use axijoint_base_text, only : to_text
-   use axijoint_base_timer, only : timer_type, phase_assemble, phase_factor
+   use axijoint_base_timer, only : timer_type, phase_assemble, phase_factor, phase_joints
    use axijoint_fe_mode, only : mode_type
+   use axijoint_joints_balance, only : scene_type
+   use axijoint_joints_planes, only : new_planes
+   use axijoint_joints_response, only : new_response
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, can_yield_at, yielding_nodes
    use axijoint_model_modes, only : used_modes
    use axijoint_order_graph, only : bandwidth, profile
    use axijoint_solver_choice, only : orders_type, new_orders
@@ -31,6 +34,10 @@ module axijoint_analysis_structure
       type(support_point_type), allocatable :: support_points(:)
       !> Equations of all modes, factored
       type(equations_type), allocatable :: equations
+      !> Joints that can yield, condensed; empty if none can
+      type(scene_type) :: scene
+      !> Their places among all joint points
+      integer, allocatable :: yielding(:)
       !> Orders of the nodes side by side
       type(ordering_type), allocatable :: orderings(:)
    end type structure_type
@@ -50,6 +57,8 @@ contains
       !> Singular stiffness, or out of memory
       type(error_type), allocatable, intent(out) :: error
 
+      integer :: k
+
       call timer%push(phase_assemble)
       call assemble(model, structure, progress, error)
       call timer%pop()
@@ -57,6 +66,18 @@ contains
       call timer%push(phase_factor)
       call show_progress(progress, 'factoring '//to_text(size(structure%equations%systems))//' harmonics')
       call factorize_equations(structure%equations, model, error)
+      call timer%pop()
+      if (allocated(error)) return
+      call timer%push(phase_joints)
+      associate (points => structure%joint_points)
+         structure%yielding = pack([(k, k=1, size(points))], can_yield_at(model, points%material))
+         structure%scene%points = points(structure%yielding)
+      end associate
+      if (size(structure%yielding) > 0) then
+         call show_progress(progress, 'condensing to '//to_text(size(structure%yielding))//' joint points')
+         structure%scene%planes = new_planes(model%n_planes, structure%modes)
+         call new_response(structure%equations, structure%scene%points, structure%scene%response, error)
+      end if
       call timer%pop()
    end subroutine build_structure
 
@@ -82,7 +103,7 @@ contains
                            structure%modes, error)
       if (allocated(error)) return
       call show_progress(progress, 'assembling '//to_text(size(structure%modes))//' modes')
-      call new_orders(orders, node_graph(model%mesh), error=error)
+      call new_orders(orders, node_graph(model%mesh), yielding_nodes(model), error)
       if (allocated(error)) return
       structure%orderings = compare_orders(orders)
       call plan_equations(structure%equations, model, structure%modes, orders, error)

@@ -4,17 +4,19 @@ module axijoint_assembly_loading
    use axijoint_assembly_solid_force, only : initial_state_type, solid_force, add_mass_force
    use axijoint_assembly_support, only : support_point_type, add_support_force
    use axijoint_base_kinds, only : wp
-   use axijoint_fe_mode, only : mode_type, same_mode
+   use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type
    use axijoint_model_mesh, only : n_nodes
    use axijoint_model_model, only : model_type, on_axis
    implicit none
    private
-   public :: loading_type, new_loading
+   public :: loading_type, new_loading, in_situ_joint_stress
 
-   !> Loads for a load factor of one
+   !> Loads
    type :: loading_type
+      !> Factor of each load case
+      real(wp), allocatable :: case_factor(:)
       !> External forces on components, shape (3, nodes, modes)
       real(wp), allocatable :: external(:, :, :)
       !> Displacements of components that are held, same shape; not allocated
@@ -52,6 +54,7 @@ contains
          allocate (still(3, n), source=0.0_wp)
          allocate (internal(3, n))
       end associate
+      loading%case_factor = combination%factor
       do k = 1, size(modes)
          call add_external(model, modes(k), combination%factor, loading%external(:, :, k))
       end do
@@ -66,8 +69,11 @@ contains
       if (.not. allocated(loading%held) .and. .not. loading%initial%present) return
       do k = 1, size(modes)
          if (allocated(loading%held)) still = loading%held(:, :, k)
-         call solid_force(model, loading%initial, 1.0_wp, k, modes(k), still, internal)
+         call solid_force(model, loading%initial, k, modes(k), still, internal)
          stress = elastic_joint_stress(model, joint_points, joint_jump(joint_points, still))
+         if (same_mode(modes(k), mode_type(0, family_symmetric))) then
+            stress = stress + in_situ_joint_stress(model, joint_points, combination%factor)
+         end if
          internal = internal + joint_force(joint_points, modes(k)%harmonic, stress, size(still, 2))
          call add_support_force(supports, modes(k)%harmonic, still, internal)
          loading%right(:, :, k) = loading%right(:, :, k) - internal
@@ -150,6 +156,65 @@ contains
       end associate
    end function prescribed_displacement
 
+   !> In-situ stress of the bodies on the planes of their joints, of the mean of
+   !> both sides where both have one
+   pure function in_situ_joint_stress(model, points, factor) result(stress)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Joint points
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Factors of the load cases
+      real(wp), intent(in) :: factor(:)
+      !> tau_xi, sigma, tau_theta, shape (3, points)
+      real(wp) :: stress(3, size(points))
+
+      integer, allocatable :: body(:)
+      real(wp) :: sum_of(4), now(4)
+      integer :: k, i, side, n_sides
+      logical :: has
+
+      stress = 0.0_wp
+      if (size(model%initial_stresses) == 0) return
+      body = body_of_nodes(model)
+      do k = 1, size(points)
+         n_sides = 0
+         sum_of = 0.0_wp
+         do side = 1, 3, 2  ! nodes 1 and 3 lie on opposite sides
+            now = 0.0_wp
+            has = .false.
+            do i = 1, size(model%initial_stresses)
+               associate (state => model%initial_stresses(i))
+                  if (state%body /= 0 .and. state%body /= body(points(k)%nodes(side))) cycle
+                  has = .true.
+                  now = now + factor(state%case)*(state%stress + points(k)%position(2)*state%gradient)
+               end associate
+            end do
+            if (has) n_sides = n_sides + 1
+            sum_of = sum_of + now
+         end do
+         if (n_sides == 0) cycle
+         associate (s => sum_of/n_sides, c => points(k)%cosine, d => points(k)%sine)
+            stress(1, k) = c*d*(s(2) - s(1)) + (c**2 - d**2)*s(4)
+            stress(2, k) = d**2*s(1) + c**2*s(2) - 2.0_wp*c*d*s(4)
+         end associate
+      end do
+   end function in_situ_joint_stress
+
+   !> Body of each node; bodies share none
+   pure function body_of_nodes(model) result(body)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The bodies, shape (nodes)
+      integer :: body(size(model%mesh%node_label))
+
+      integer :: k
+
+      body = 0
+      do k = 1, size(model%mesh%element_body)
+         body(model%mesh%element_nodes(:model%mesh%element_size(k), k)) = model%mesh%element_body(k)
+      end do
+   end function body_of_nodes
+
    !> Temperatures and in-situ stresses of a combination
    subroutine new_initial_state(model, modes, factor, state)
       !> The job
@@ -171,10 +236,7 @@ contains
       end do
       state%present = size(state%in_situ) > 0 .or. size(model%thermal_loads) > 0
       if (size(model%thermal_loads) == 0) return
-      allocate (body(n_nodes(model%mesh)), source=0)
-      do k = 1, size(model%mesh%element_body)  ! the bodies share no nodes
-         body(model%mesh%element_nodes(:model%mesh%element_size(k), k)) = model%mesh%element_body(k)
-      end do
+      body = body_of_nodes(model)
       allocate (state%temperature(size(body), size(modes)), source=0.0_wp)
       do j = 1, size(modes)
          do k = 1, size(model%thermal_loads)

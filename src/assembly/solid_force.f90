@@ -28,12 +28,11 @@ module axijoint_assembly_solid_force
 contains
 
    !> Nodal forces that balance the stresses of one mode, and the stresses
-   subroutine solid_force(model, initial, factor, k, mode, displacement, force, stress)
+   subroutine solid_force(model, initial, k, mode, displacement, force, stress)
       !> The job
       type(model_type), intent(in) :: model
-      !> Stress without strain, and the load factor on it
+      !> Stress without strain
       type(initial_state_type), intent(in) :: initial
-      real(wp), intent(in) :: factor
       !> The mode, and its place
       integer, intent(in) :: k
       type(mode_type), intent(in) :: mode
@@ -67,12 +66,12 @@ contains
             do i = 1, n_points
                now = solid_stress(points(i), n, d, mode%harmonic, local, dilatation)
                if (initial%present) then
-                  now = now + factor*thermal_stress(model, initial, k, element, points(i), &
+                  now = now + thermal_stress(model, initial, k, element, points(i), &
                                                     dilatation, d)
                end if
                call add_solid_force(points(i), n, mode%harmonic, now, element_force, dilatation)
                if (initial%present) then  ! equilibrium in situ knows of no means
-                  in_situ = factor*in_situ_stress(model, initial, mode, element, points(i))
+                  in_situ = in_situ_stress(model, initial, mode, element, points(i))
                   call add_solid_force(points(i), n, mode%harmonic, in_situ, element_force)
                   now = now + in_situ
                end if

@@ -6,10 +6,11 @@ module axijoint_deck_cases
    use axijoint_deck_diagnostics, only : diagnostics_type, add_warning
    use axijoint_deck_source, only : source_type, card_position
    use axijoint_deck_table, only : table_type, integer_value, text_value, field_error, entry_error
-   use axijoint_model_load, only : load_case_type, combination_type
+   use axijoint_model_load, only : load_case_type, combination_type, increment_type
    implicit none
    private
-   public :: cases_type, read_cases, case_of_card, warn_of_empty_cases, read_combinations
+   public :: cases_type, read_cases, case_of_card, warn_of_empty_cases, read_combinations, &
+      refer_increments
 
    !> Fields of CASE; first pair of COMBINE
    integer, parameter :: field_label = 1, field_name = 2, field_pair = 2
@@ -208,5 +209,31 @@ contains
          end if
       end do
    end subroutine read_pairs
+
+   !> Find the load cases that INCREMENTS refer to
+   subroutine refer_increments(source, table, cases, increments, diagnostics)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> INCREMENTS
+      type(table_type), intent(in) :: table
+      !> Load cases
+      type(cases_type), intent(in) :: cases
+      !> The increments
+      type(increment_type), intent(inout) :: increments(:)
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      integer, parameter :: field_case = 4
+      integer :: entry
+
+      do entry = 1, table%n
+         if (.not. table%given(field_case, entry)) cycle
+         increments(entry)%case = find_number(cases%index_of, integer_value(table, field_case, entry))
+         if (increments(entry)%case > 0 .or. .not. cases%complete) cycle
+         call field_error(diagnostics, source, table, entry, field_case, &
+                          'load case '//to_text(integer_value(table, field_case, entry))//' is not defined', &
+                          allowed='a case of a CASE card; 1 for loads above the first CASE; blank for all')
+      end do
+   end subroutine refer_increments
 
 end module axijoint_deck_cases

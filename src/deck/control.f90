@@ -13,7 +13,7 @@ module axijoint_deck_control
 
    !> Fields of CONTROL
    integer, parameter :: field_harmonic = 1, field_planes = 2, field_linear = 3, field_quadratic = 4, &
-      field_solver = 5, field_formulation = 6
+      field_solver = 5, field_formulation = 6, field_method = 7
    !> Place of BBAR among the words of the formulation
    integer, parameter :: word_mean_dilatation = 2
    !> Angles of the listing unless OUTPUT gives others [degree]
@@ -39,6 +39,7 @@ contains
          model%gauss_quadratic = integer_value(control, field_quadratic, 1)
          model%solver = integer_value(control, field_solver, 1) - 1  ! words count from one
          model%mean_dilatation = integer_value(control, field_formulation, 1) == word_mean_dilatation
+         model%method = integer_value(control, field_method, 1)
       end if
       if (model%n_planes == 0) model%n_planes = max(2, 4*model%max_harmonic + 1)
       model%increments = [(increment_type(increments%values(1, entry), increments%values(2, entry), &

@@ -8,6 +8,7 @@ module axijoint_deck_layout
    use axijoint_deck_field, only : field_type, integer_field, real_field, word_field, code_field, &
       text_field, largest_number
    use axijoint_deck_load_fields, only : load_fields
+   use axijoint_model_model, only : method_names
    use axijoint_solver_choice, only : solver_names
    implicit none
    private
@@ -20,7 +21,7 @@ module axijoint_deck_layout
    integer, parameter, public :: keyword_length = 12
 
    !> Number of keywords
-   integer, parameter, public :: n_sections = 40
+   integer, parameter, public :: n_sections = 41
    integer, parameter, public :: section_title = 1, section_control = 2, section_nodes = 3, &
       section_lines = 4, section_elements = 5, section_blocks = 6, section_materials = 7, &
       section_laws = 8, section_joints = 9, section_faces = 10, section_chains = 11, &
@@ -33,7 +34,7 @@ module axijoint_deck_layout
       section_temperatures = 31, section_node_temps = 32, section_moved_nodes = 33, &
       section_moved_faces = 34, section_springs = 35, section_in_situ = 36, &
       section_case = 37, section_combine = 38, &
-      section_sections = 39, section_cuts = 40
+      section_sections = 39, section_cuts = 40, section_law_details = 41
 
    !> The keywords
    character(len=keyword_length), parameter :: section_names(n_sections) = &
@@ -43,7 +44,8 @@ module axijoint_deck_layout
       'RINGLOADS', 'INCREMENTS', 'OUTPUT', 'INCLUDE', 'END', &
       'SHAPES', 'PRESSURES', 'POINTLOADS', 'HARMONICS', 'ORTHOTROPIC', &
       'GMSH', 'GROUPS', 'GRAVITY', 'ROTATION', 'TEMPERATURES', 'NODETEMPS', 'MOVEDNODES', &
-      'MOVEDFACES', 'SPRINGS', 'INSITU', 'CASE', 'COMBINE', 'SECTIONS', 'CUTS']
+      'MOVEDFACES', 'SPRINGS', 'INSITU', 'CASE', 'COMBINE', 'SECTIONS', 'CUTS', &
+      'LAWDETAILS']
 
    !> Kinds of groups on the cards of GROUPS
    character(len=5), parameter, public :: group_kinds(3) = [character(len=5) :: 'BODY', 'FACE', 'JOINT']
@@ -95,7 +97,7 @@ contains
          fields = [number('the element', 1), number('the material', 6), body(11), numbers('node', 9, 3, 16)]
       case (section_blocks)
          fields = block_fields()
-      case (section_materials, section_orthotropic, section_laws)
+      case (section_materials, section_orthotropic, section_laws, section_law_details)
          fields = property_fields(section)
       case (section_joints)
          fields = [number('the joint', 1), number('the law', 6), numbers('node', 6, 4, 11)]
@@ -138,12 +140,14 @@ contains
                    integer_field('the number of Gauss points (quadratic)', 16, 20, 2, 3, default=3), &
                    word_field('the solver', 21, 30, solver_names, 1), &
                    word_field('the formulation of 4-node elements', 31, 40, &
-                              [character(len=5) :: 'PLAIN', 'BBAR'], 1)]
+                              [character(len=5) :: 'PLAIN', 'BBAR'], 1), &
+                   word_field('the method', 41, 50, method_names, 1)]
       case (section_increments)
          fields = [real_field('the load factor', 1, 10), &
                    real_field('the tolerance', 11, 20, above=0.0_wp, below=1.0_wp, default=1.0e-6_wp, &
                               symbol='tolerance'), &
-                   integer_field('the most iterations', 21, 25, 1, largest_number, default=500)]
+                   integer_field('the most iterations', 21, 25, 1, largest_number, default=500), &
+                   integer_field('the load case', 26, 30, 1, largest_number, default=0)]
       case default
          fields = [(real_field('angle '//to_text(i), 10*i - 9, 10*i, from=-360.0_wp, to=360.0_wp, &
                                default=0.0_wp, symbol='theta'), i=1, 8)]
@@ -218,6 +222,8 @@ contains
                    real_field('the expansion', 36, 45, default=0.0_wp)]
       else if (section == section_orthotropic) then
          fields = orthotropic_fields()
+      else if (section == section_law_details) then
+         fields = law_detail_fields()
       else
          fields = [number('the law', 1), real_field('k_xi', 6, 15, from=0.0_wp, symbol='k_xi'), &
                    real_field('k_eta', 16, 25, above=0.0_wp, symbol='k_eta'), &
@@ -229,6 +235,23 @@ contains
                    word_field('the rule', 66, 75, [character(len=8) :: 'CENTROID', 'GAUSS', 'LOBATTO'], 2)]
       end if
    end function property_fields
+
+   !> Fields of LAWDETAILS
+   pure function law_detail_fields() result(fields)
+      !> The fields
+      type(field_type), allocatable :: fields(:)
+
+      fields = [number('the law', 1), &
+                word_field('the kind of slip', 6, 15, [character(len=10) :: 'COMPONENTS', 'RESULTANT'], 1), &
+                word_field('the kind of opening', 16, 25, [character(len=10) :: 'REVERSIBLE', 'BOND'], 1), &
+                real_field('the residual cohesion', 26, 35, from=0.0_wp, default=0.0_wp, symbol='C'), &
+                real_field('the residual friction angle', 36, 45, from=0.0_wp, below=90.0_wp, &
+                           default=0.0_wp, symbol='phi'), &
+                real_field('the angle of dilation', 46, 55, from=0.0_wp, below=90.0_wp, default=0.0_wp, &
+                           symbol='psi'), &
+                real_field('the gap', 56, 65, from=0.0_wp, default=0.0_wp, symbol='gap'), &
+                real_field('the initial normal stress', 66, 75, to=0.0_wp, default=0.0_wp, symbol='sigma')]
+   end function law_detail_fields
 
    !> Fields of the two cards of an orthotropic material
    pure function orthotropic_fields() result(fields)

@@ -1,13 +1,13 @@
 !> Restraints and loads
 module axijoint_deck_loads
    use axijoint_base_kinds, only : wp
-   use axijoint_deck_cases, only : cases_type, read_cases, case_of_card, warn_of_empty_cases, &
+   use axijoint_deck_cases, only : cases_type, read_cases, case_of_card, warn_of_empty_cases, refer_increments, &
       read_combinations
    use axijoint_deck_diagnostics, only : diagnostics_type, add_warning
    use axijoint_deck_draft, only : draft_type
    use axijoint_deck_face_loads, only : read_traction, read_pressure, read_resultant
    use axijoint_deck_harmonics, only : read_harmonics
-   use axijoint_deck_layout, only : section_control, section_harmonics, section_shapes, &
+   use axijoint_deck_layout, only : section_increments, section_control, section_harmonics, section_shapes, &
       section_restraints, section_fixed_faces, section_tractions, section_pressures, &
       section_resultants, section_ring_loads, section_point_loads, section_gravity, section_rotation, &
       section_temperatures, section_node_temps, section_moved_nodes, section_moved_faces, &
@@ -75,6 +75,7 @@ contains
          end do
          call read_section(card, section_springs, lists)
          call read_combinations(source, tables(section_combine), card%cases, model%combinations, diagnostics)
+         call refer_increments(source, tables(section_increments), card%cases, model%increments, diagnostics)
          call check_loaded(tables(load_sections), tables(section_case), card%cases, diagnostics)
       end associate
       model%harmonics = card%harmonics

@@ -22,7 +22,8 @@ module axijoint_deck_reader
    use axijoint_deck_gmsh_solids, only : draft_gmsh
    use axijoint_deck_interfaces, only : refer_interfaces, lay_interfaces
    use axijoint_deck_joints, only : draft_joints
-   use axijoint_deck_layout, only : section_control, section_nodes, section_lines, section_elements, &
+   use axijoint_deck_law_details, only : read_law_details
+   use axijoint_deck_layout, only : section_law_details, section_control, section_nodes, section_lines, section_elements, &
       section_blocks, section_groups, section_materials, section_laws, section_joints, section_faces, &
       section_chains, section_interfaces, section_increments, section_output, section_orthotropic, &
       section_sections, section_cuts, section_fixed_faces, section_moved_faces, section_springs
@@ -69,6 +70,7 @@ contains
                            tables(section_output), model)
          call read_properties(source, tables(section_materials), tables(section_orthotropic), &
                               tables(section_laws), properties, diagnostics)
+         call read_law_details(source, tables(section_law_details), properties, diagnostics)
          call read_mesh_file(source, import, diagnostics)
          call read_groups(source, tables(section_groups), properties, import, diagnostics)
          call make_solids(source, sections, properties, model, import, draft, diagnostics)

@@ -1,17 +1,28 @@
-!> Stress that a joint admits at one point (Eq. 15 and 16 of the paper)
+!> Stress that a joint admits at one point (Eq. 15 and 16 of the paper and
+!> other laws), and its derivatives
 module axijoint_element_joint_law
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: joint_law_type, admit_stress, state_of
-   public :: law_elastic, law_paper
+   public :: joint_law_type, memory_type, admit_stress, trial_stress, admit, renew, state_of
+   public :: law_elastic, law_paper, slip_components, slip_resultant, opening_reversible, opening_bond
    public :: state_stick, state_slip, state_open
    public :: xi, eta, theta
 
    !> Joint that neither opens nor slips
    integer, parameter :: law_elastic = 0
-   !> The paper's law: opens in tension, slips in each direction separately
+   !> Joint that opens in tension and slips at the yield stress
    integer, parameter :: law_paper = 1
+
+   !> Each shear stress is cut to the yield stress separately (Eq. 16)
+   integer, parameter :: slip_components = 1
+   !> The resultant of both shear stresses is cut, its direction kept
+   integer, parameter :: slip_resultant = 2
+
+   !> A point that closes again has its cohesion as before (the paper)
+   integer, parameter :: opening_reversible = 1
+   !> A bond holds tension until it breaks for good: then no cohesion is left
+   integer, parameter :: opening_bond = 2
 
    !> Point holds: stress as the elastic joint gives it
    integer, parameter :: state_stick = 0
@@ -37,12 +48,31 @@ module axijoint_element_joint_law
       real(wp) :: cohesion = 0.0_wp
       !> Tangent of the friction angle phi (Eq. 16)
       real(wp) :: friction = 0.0_wp
+      !> How it slips and opens, `slip_` and `opening_` parameters
+      integer :: slip = slip_components, opening = opening_reversible
+      !> Whether slip leaves less strength, and what is left
+      logical :: softens = .false.
+      real(wp) :: residual_cohesion = 0.0_wp, residual_friction = 0.0_wp
+      !> Tangent of the angle of dilation; only for `slip_resultant`
+      real(wp) :: dilation = 0.0_wp
+      !> Width that the joint stands open before it is loaded [length]
+      real(wp) :: gap = 0.0_wp
+      !> Normal stress before loading, in equilibrium with what is not modelled
+      real(wp) :: initial_stress = 0.0_wp
    end type joint_law_type
+
+   !> What a point remembers from the last increment in equilibrium
+   type :: memory_type
+      !> Relative displacement that is plastic: slip along xi and theta, dilation
+      !> along eta
+      real(wp) :: slip(3) = 0.0_wp
+      !> Whether its bond is broken, and whether it has slipped so that it softened
+      logical :: broken = .false., softened = .false.
+   end type memory_type
 
 contains
 
-   !> Stress admitted for a trial stress. Tension releases all stress; otherwise
-   !> each shear stress is cut to the yield stress C - sigma tan(phi) (Eq. 16)
+   !> Stress admitted by a point that has no memory
    pure function admit_stress(law, trial) result(stress)
       !> Properties of the joint
       type(joint_law_type), intent(in) :: law
@@ -51,22 +81,170 @@ contains
       !> Stress that the law admits, same components
       real(wp) :: stress(3)
 
-      real(wp) :: yield
+      real(wp) :: tangent(3, 3)
+
+      call admit(law, memory_type(), trial, stress, tangent)
+   end function admit_stress
+
+   !> Elastic stress of a relative displacement, less what is plastic of it; the
+   !> gap must close before there is pressure
+   pure function trial_stress(law, memory, jump) result(trial)
+      !> Properties of the joint
+      type(joint_law_type), intent(in) :: law
+      !> Memory of the point
+      type(memory_type), intent(in) :: memory
+      !> Relative displacement xi, eta, theta
+      real(wp), intent(in) :: jump(3)
+      !> tau_xi, sigma, tau_theta
+      real(wp) :: trial(3)
+
+      trial = law%stiffness*(jump - memory%slip + [0.0_wp, law%gap, 0.0_wp])
+      trial(eta) = trial(eta) + law%initial_stress
+   end function trial_stress
+
+   !> Stress admitted for a trial stress, and its derivatives. Tension releases all
+   !> stress unless a bond holds it; otherwise shear is cut to the yield stress
+   !> C - sigma tan(phi) (Eq. 16), C under tension.
+   pure subroutine admit(law, memory, trial, stress, tangent)
+      !> Properties of the joint
+      type(joint_law_type), intent(in) :: law
+      !> Memory of the point
+      type(memory_type), intent(in) :: memory
+      !> Trial stress: tau_xi, sigma (tension positive), tau_theta
+      real(wp), intent(in) :: trial(3)
+      !> Stress that the law admits, same components
+      real(wp), intent(out) :: stress(3)
+      !> Derivatives of the stress by the trial stress
+      real(wp), intent(out) :: tangent(3, 3)
+
+      real(wp) :: friction, cohesion
+      integer :: i
 
       stress = trial
+      tangent = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
       if (law%kind == law_elastic) return
+      call strength(law, memory, cohesion, friction)
       if (trial(eta) > 0.0_wp) then
-         stress = 0.0_wp
-      else
-         yield = law%cohesion - trial(eta)*law%friction
-         stress(xi) = cut(trial(xi), yield)
-         stress(theta) = cut(trial(theta), yield)
+         if (law%opening == opening_reversible .or. memory%broken) then
+            stress = 0.0_wp
+            tangent = 0.0_wp
+            return
+         end if
+         friction = 0.0_wp  ! the bond in tension
       end if
-   end function admit_stress
+      if (law%slip == slip_resultant) then
+         call cut_resultant(law, cohesion, friction, trial, stress, tangent)
+      else
+         do i = xi, theta, theta - xi
+            call cut_component(i, cohesion, friction, trial, stress, tangent)
+         end do
+      end if
+   end subroutine admit
+
+   !> Cohesion and tangent of the friction angle that are left to a point
+   pure subroutine strength(law, memory, cohesion, friction)
+      !> Properties of the joint
+      type(joint_law_type), intent(in) :: law
+      !> Memory of the point
+      type(memory_type), intent(in) :: memory
+      !> C and tan(phi)
+      real(wp), intent(out) :: cohesion, friction
+
+      cohesion = law%cohesion
+      friction = law%friction
+      if (memory%softened) then
+         cohesion = law%residual_cohesion
+         friction = law%residual_friction
+      end if
+      if (memory%broken) cohesion = 0.0_wp
+   end subroutine strength
+
+   !> Cut one shear stress to the yield stress, its sign kept
+   pure subroutine cut_component(i, cohesion, friction, trial, stress, tangent)
+      !> Component
+      integer, intent(in) :: i
+      !> C and tan(phi)
+      real(wp), intent(in) :: cohesion, friction
+      !> Trial stress
+      real(wp), intent(in) :: trial(3)
+      !> Stress and derivatives, changed in this component
+      real(wp), intent(inout) :: stress(3), tangent(3, 3)
+
+      real(wp) :: yield
+
+      yield = cohesion - trial(eta)*friction
+      if (abs(trial(i)) <= yield) return
+      stress(i) = sign(yield, trial(i))
+      tangent(i, :) = 0.0_wp
+      tangent(i, eta) = -sign(friction, trial(i))
+   end subroutine cut_component
+
+   !> Cut the resultant T of both shear stresses: tau = l T with l T = C - sigma
+   !> tan(phi). Slip (1 - l) T/k widens the joint by tan(psi) times its length,
+   !> which presses it: sigma falls by k_eta tan(psi) (1 - l) g, g = |T/k|.
+   pure subroutine cut_resultant(law, cohesion, friction, trial, stress, tangent)
+      !> Properties of the joint
+      type(joint_law_type), intent(in) :: law
+      !> C and tan(phi)
+      real(wp), intent(in) :: cohesion, friction
+      !> Trial stress
+      real(wp), intent(in) :: trial(3)
+      !> Stress and derivatives
+      real(wp), intent(inout) :: stress(3), tangent(3, 3)
+
+      real(wp) :: resultant, slip, widening, l, denominator
+      real(wp), dimension(3) :: direction, slip_by, l_by
+      integer, parameter :: shear(2) = [xi, theta]
+
+      resultant = norm2(trial(shear))
+      if (resultant <= cohesion - trial(eta)*friction) return
+      direction = trial/resultant
+      direction(eta) = 0.0_wp
+      slip = 0.0_wp
+      slip_by = 0.0_wp
+      widening = law%stiffness(eta)*law%dilation
+      if (widening > 0.0_wp) then
+         slip = norm2(trial(shear)/law%stiffness(shear))
+         slip_by(shear) = trial(shear)/(law%stiffness(shear)**2*slip)
+      end if
+      denominator = resultant + widening*friction*slip
+      l = (cohesion - trial(eta)*friction + widening*friction*slip)/denominator
+      l_by = (widening*friction*slip_by*(1.0_wp - l) - l*direction)/denominator
+      l_by(eta) = -friction/denominator
+      stress(shear) = l*trial(shear)
+      stress(eta) = trial(eta) - widening*(1.0_wp - l)*slip
+      tangent(xi, :) = trial(xi)*l_by
+      tangent(theta, :) = trial(theta)*l_by
+      tangent(xi, xi) = tangent(xi, xi) + l
+      tangent(theta, theta) = tangent(theta, theta) + l
+      tangent(eta, :) = widening*(slip*l_by - (1.0_wp - l)*slip_by)
+      tangent(eta, eta) = tangent(eta, eta) + 1.0_wp
+   end subroutine cut_resultant
+
+   !> Memory after an increment in equilibrium: what is not elastic of the
+   !> displacement is plastic. A point that is open remembers where it stands, so
+   !> that it carries no shear when it closes, but no opening.
+   pure subroutine renew(law, trial, stress, memory)
+      !> Properties of the joint
+      type(joint_law_type), intent(in) :: law
+      !> Trial stress, and stress that was admitted
+      real(wp), intent(in) :: trial(3), stress(3)
+      !> The memory
+      type(memory_type), intent(inout) :: memory
+
+      integer :: i
+
+      if (law%kind == law_elastic) return
+      do i = xi, theta
+         if (.not. law%stiffness(i) > 0.0_wp) cycle
+         if (i == eta .and. trial(eta) > 0.0_wp .and. .not. abs(stress(eta)) > 0.0_wp) cycle
+         memory%slip(i) = memory%slip(i) + (trial(i) - stress(i))/law%stiffness(i)
+      end do
+   end subroutine renew
 
    !> State of a point from the stress that it carries and its jump: open if
    !> apart without normal stress, slipping if a shear stress stands at yield
-   pure function state_of(law, stress, jump, small) result(state)
+   pure function state_of(law, stress, jump, small, memory) result(state)
       !> Properties of the joint
       type(joint_law_type), intent(in) :: law
       !> Stress that the law admits: tau_xi, sigma, tau_theta
@@ -75,30 +253,26 @@ contains
       real(wp), intent(in) :: jump(3)
       !> Stress that counts as zero
       real(wp), intent(in) :: small
+      !> Memory of the point; none if absent
+      type(memory_type), intent(in), optional :: memory
       !> Stick, slip or open
       integer :: state
 
+      type(memory_type) :: past
+      real(wp) :: cohesion, friction, shear, yield
+
       state = state_stick
       if (law%kind == law_elastic) return
-      if (stress(eta) >= -small .and. jump(eta) > 0.0_wp) then
+      if (present(memory)) past = memory
+      call strength(law, past, cohesion, friction)
+      shear = max(abs(stress(xi)), abs(stress(theta)))
+      if (law%slip == slip_resultant) shear = norm2(stress([xi, theta]))
+      yield = cohesion - min(stress(eta), 0.0_wp)*friction
+      if (abs(stress(eta)) <= small .and. shear <= small .and. jump(eta) + law%gap > 0.0_wp) then
          state = state_open
-      else if (max(abs(stress(xi)), abs(stress(theta))) &
-               >= law%cohesion - stress(eta)*law%friction - small &
-               .and. maxval(abs(stress)) > small) then
+      else if (shear >= yield - small .and. maxval(abs(stress)) > small) then
          state = state_slip
       end if
    end function state_of
-
-   !> A shear stress cut to the yield stress, its sign kept
-   pure function cut(shear, yield) result(admitted)
-      !> Trial shear stress
-      real(wp), intent(in) :: shear
-      !> Yield stress, not negative
-      real(wp), intent(in) :: yield
-      !> Shear stress within the yield stress
-      real(wp) :: admitted
-
-      admitted = sign(min(abs(shear), yield), shear)
-   end function cut
 
 end module axijoint_element_joint_law

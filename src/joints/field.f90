@@ -1,15 +1,18 @@
-!> State of all joint points on all planes
+!> State of the joint points on all planes
 module axijoint_joints_field
-   use axijoint_assembly_force, only : elastic_joint_stress
+   use axijoint_assembly_force, only : elastic_joint_stress, joint_jump
+   use axijoint_assembly_loading, only : in_situ_joint_stress
    use axijoint_base_kinds, only : wp
-   use axijoint_element_joint_law, only : admit_stress, state_of, state_stick, state_slip, &
-                                          state_open, eta
+   use axijoint_element_joint_law, only : memory_type, trial_stress, admit, renew, state_of, &
+                                          state_stick, state_slip, state_open, opening_bond, eta
+   use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: joint_field_type, iteration_type, new_joint_field, admit, judge_states
-   public :: elastic_stress, count_state, n_across_gaps
+   public :: joint_field_type, iteration_type, new_joint_field, admit_jump, admit_trial, judge_states
+   public :: set_initial_stress, stress_amplitude
+   public :: commit_field, break_bonds, count_state, n_across_gaps
 
    !> Share of the largest joint stress, or jump, below which a value is rounding
    real(wp), parameter :: noise = 1.0e-9_wp
@@ -22,9 +25,16 @@ module axijoint_joints_field
       real(wp), allocatable :: stress(:, :, :)
       !> Stick, slip or open, shape (points, planes)
       integer, allocatable :: state(:, :)
+      !> Slip and bonds, from the last increment in equilibrium and from what broke
+      !> since, shape (points, planes)
+      type(memory_type), allocatable :: memory(:, :)
+      !> Stress before loading: initial stress of the law and in-situ stress of the
+      !> bodies, and the latter alone, shape (3, points)
+      real(wp), allocatable :: initial(:, :), in_situ(:, :)
       !> Amplitudes of the stress k d - P that was not admitted and has been
-      !> transferred to the structure, shape (3, points, modes)
-      real(wp), allocatable :: excess(:, :, :)
+      !> transferred to the structure, and of that which has not yet been, shape
+      !> (3, points, modes)
+      real(wp), allocatable :: excess(:, :, :), pending(:, :, :)
    end type joint_field_type
 
    !> One line of the convergence path (Fig. 17 of the paper)
@@ -52,55 +62,124 @@ contains
 
       allocate (field%jump(3, n_points, n_planes), source=0.0_wp)
       allocate (field%stress(3, n_points, n_planes), source=0.0_wp)
-      allocate (field%excess(3, n_points, n_modes), source=0.0_wp)
+      allocate (field%excess(3, n_points, n_modes), field%pending(3, n_points, n_modes), source=0.0_wp)
+      allocate (field%initial(3, n_points), field%in_situ(3, n_points), source=0.0_wp)
       allocate (field%state(n_points, n_planes), source=state_stick)
+      allocate (field%memory(n_points, n_planes))
    end function new_joint_field
 
-   !> Elastic joint stress of relative displacements (Eq. 9)
-   pure function elastic_stress(model, points, jump) result(stress)
+   !> Give the joints their stress before loading
+   pure subroutine set_initial_stress(model, points, case_factor, field)
       !> The job
       type(model_type), intent(in) :: model
-      !> Points of all joints
+      !> Joint points
       type(model_joint_point_type), intent(in) :: points(:)
-      !> Relative displacements, shape (3, points, any)
-      real(wp), intent(in) :: jump(:, :, :)
-      !> Stresses, same shape
-      real(wp) :: stress(3, size(jump, 2), size(jump, 3))
+      !> Factors of the load cases, for the in-situ stress
+      real(wp), intent(in) :: case_factor(:)
+      !> State of the joints; stresses change by what is new
+      type(joint_field_type), intent(inout) :: field
 
-      integer :: j
+      real(wp) :: initial(3, size(points))
+      integer :: j, k
 
-      do j = 1, size(jump, 3)
-         stress(:, :, j) = elastic_joint_stress(model, points, jump(:, :, j))
+      field%in_situ = in_situ_joint_stress(model, points, case_factor)
+      initial = field%in_situ
+      do k = 1, size(points)
+         associate (law => model%joint_materials(points(k)%material)%law)
+            initial(eta, k) = initial(eta, k) + law%initial_stress
+         end associate
       end do
-   end function elastic_stress
+      do j = 1, size(field%stress, 3)
+         field%stress(:, :, j) = field%stress(:, :, j) + initial - field%initial
+      end do
+      field%initial = initial
+   end subroutine set_initial_stress
 
-   !> Let the laws admit a trial stress
-   pure subroutine admit(model, points, trial, field)
+   !> Let the laws admit the stress of total jumps. Gives what they do not admit,
+   !> and its derivatives by the jumps.
+   pure subroutine admit_jump(model, points, jump, field, excess, slope)
       !> The job
       type(model_type), intent(in) :: model
-      !> Points of all joints
+      !> Joint points
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Relative displacements, shape (3, points, planes)
+      real(wp), intent(in) :: jump(:, :, :)
+      !> Field that takes jumps and stresses
+      type(joint_field_type), intent(inout) :: field
+      !> k d + initial stress - P on the planes, shape (3, points, planes)
+      real(wp), intent(out) :: excess(:, :, :)
+      !> Its derivatives, shape (3, 3, points, planes)
+      real(wp), intent(out) :: slope(:, :, :, :)
+
+      real(wp) :: trial(3), tangent(3, 3)
+      integer :: i, j, k
+
+      field%jump = jump
+      do j = 1, size(jump, 3)
+         do k = 1, size(points)
+            associate (law => model%joint_materials(points(k)%material)%law)
+               trial = trial_of(model, points, k, j, jump(:, k, j), field)
+               call admit(law, field%memory(k, j), trial, field%stress(:, k, j), tangent)
+               excess(:, k, j) = law%stiffness*jump(:, k, j) + field%initial(:, k) &
+                  - field%stress(:, k, j)
+               do i = 1, 3
+                  slope(:, i, k, j) = -tangent(:, i)*law%stiffness(i)
+                  slope(i, i, k, j) = slope(i, i, k, j) + law%stiffness(i)
+               end do
+            end associate
+         end do
+      end do
+   end subroutine admit_jump
+
+   !> Trial stress of a point on a plane
+   pure function trial_of(model, points, k, j, jump, field) result(trial)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Joint points
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Point and plane
+      integer, intent(in) :: k, j
+      !> Relative displacement there
+      real(wp), intent(in) :: jump(3)
+      !> The field, for its memory and initial stress
+      type(joint_field_type), intent(in) :: field
+      !> tau_xi, sigma, tau_theta
+      real(wp) :: trial(3)
+
+      associate (law => model%joint_materials(points(k)%material)%law)
+         trial = trial_stress(law, field%memory(k, j), jump) + field%initial(:, k)
+         trial(eta) = trial(eta) - law%initial_stress  ! part of the field's
+      end associate
+   end function trial_of
+
+   !> Let the laws admit a trial stress (the paper's accumulated stress)
+   pure subroutine admit_trial(model, points, trial, field)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Joint points
       type(model_joint_point_type), intent(in) :: points(:)
       !> Trial stress, shape (3, points, planes)
       real(wp), intent(in) :: trial(:, :, :)
       !> Field that takes the stresses
       type(joint_field_type), intent(inout) :: field
 
+      real(wp) :: tangent(3, 3)
       integer :: j, k
 
       do j = 1, size(trial, 3)
          do k = 1, size(points)
-            field%stress(:, k, j) = admit_stress( &
-               model%joint_materials(points(k)%material)%law, trial(:, k, j))
+            call admit(model%joint_materials(points(k)%material)%law, field%memory(k, j), &
+                       trial(:, k, j), field%stress(:, k, j), tangent)
          end do
       end do
-   end subroutine admit
+   end subroutine admit_trial
 
    !> States from stresses and jumps, not from the last trial stress: once the
    !> loop has converged, that differs from the admitted by rounding only
    pure subroutine judge_states(model, points, field)
       !> The job
       type(model_type), intent(in) :: model
-      !> Points of all joints
+      !> Joint points
       type(model_joint_point_type), intent(in) :: points(:)
       !> Field that takes the states
       type(joint_field_type), intent(inout) :: field
@@ -112,11 +191,88 @@ contains
       do j = 1, size(field%state, 2)
          do k = 1, size(points)
             associate (law => model%joint_materials(points(k)%material)%law)
-               field%state(k, j) = state_of(law, field%stress(:, k, j), field%jump(:, k, j), small)
+               field%state(k, j) = state_of(law, field%stress(:, k, j), field%jump(:, k, j), small, &
+                                            field%memory(k, j))
             end associate
          end do
       end do
    end subroutine judge_states
+
+   !> Break the bonds that are in tension, and soften the points that slip
+   pure subroutine break_bonds(model, points, field, n)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Joint points
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Field in equilibrium, states judged
+      type(joint_field_type), intent(inout) :: field
+      !> Number of points times planes that changed
+      integer, intent(out) :: n
+
+      real(wp) :: small
+      integer :: j, k
+
+      n = 0
+      small = noise*maxval([0.0_wp, abs(field%stress)])
+      do j = 1, size(field%state, 2)
+         do k = 1, size(points)
+            associate (law => model%joint_materials(points(k)%material)%law, past => field%memory(k, j))
+               if (law%opening == opening_bond .and. .not. past%broken &
+                   .and. field%stress(eta, k, j) > small) then
+                  past%broken = .true.
+                  n = n + 1
+               end if
+               if (law%softens .and. .not. past%softened .and. field%state(k, j) == state_slip) then
+                  past%softened = .true.
+                  n = n + 1
+               end if
+            end associate
+         end do
+      end do
+   end subroutine break_bonds
+
+   !> Keep the slip of an increment in equilibrium
+   pure subroutine commit_field(model, points, field)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Joint points
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Field in equilibrium
+      type(joint_field_type), intent(inout) :: field
+
+      integer :: j, k
+
+      do j = 1, size(field%state, 2)
+         do k = 1, size(points)
+            call renew(model%joint_materials(points(k)%material)%law, &
+                       trial_of(model, points, k, j, field%jump(:, k, j), field), &
+                       field%stress(:, k, j), field%memory(k, j))
+         end do
+      end do
+   end subroutine commit_field
+
+   !> Amplitudes of the joint stress that acts on the bodies: k d and in-situ stress,
+   !> less what was not admitted
+   pure function stress_amplitude(model, points, mode, displacement, field, k) result(stress)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Points of all joints
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> Displacement amplitudes, shape (3, nodes)
+      real(wp), intent(in) :: displacement(:, :)
+      !> State of all joints
+      type(joint_field_type), intent(in) :: field
+      !> Place of the mode
+      integer, intent(in) :: k
+      !> tau_xi, sigma, tau_theta, shape (3, points)
+      real(wp) :: stress(3, size(points))
+
+      stress = elastic_joint_stress(model, points, joint_jump(points, displacement)) &
+         - field%excess(:, :, k)
+      if (same_mode(mode, mode_type(0, family_symmetric))) stress = stress + field%in_situ
+   end function stress_amplitude
 
    !> Points times planes that carry pressure across an open gap, and the widest
    !> of these gaps: the accumulated stress of step 3 may leave some

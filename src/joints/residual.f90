@@ -1,6 +1,6 @@
 !> Residual forces of the whole structure and their norm (Eq. 17)
 module axijoint_joints_residual
-   use axijoint_assembly_equations, only : equations_type, elastic_force, on_equations, worth_threads
+   use axijoint_assembly_equations, only : equations_type, on_equations
    use axijoint_assembly_force, only : joint_force
    use axijoint_assembly_loading, only : loading_type
    use axijoint_base_kinds, only : wp
@@ -12,37 +12,30 @@ module axijoint_joints_residual
 
 contains
 
-   !> Norm of the residual forces r = f - K u + N*^T e, with e the joint stress
-   !> k d - P not admitted: the ring forces on all equations, squared and
+   !> Norm of the residual forces r = N*^T e of joint stress that is neither
+   !> admitted nor transferred yet: the ring forces on all equations, squared and
    !> integrated round the circle, which is the sum over m of |r_m|^2 / c_m for
    !> generalized forces r_m (Psi^r of Eq. 17)
-   function residual_norm(equations, points, applied, displacement, excess) result(norm)
+   function residual_norm(equations, points, excess) result(norm)
       !> The equations
       type(equations_type), intent(in) :: equations
-      !> Points of all joints
+      !> Joint points
       type(model_joint_point_type), intent(in) :: points(:)
-      !> Applied forces on components, shape (3, nodes, modes)
-      real(wp), intent(in) :: applied(:, :, :)
-      !> Displacement amplitudes, same shape
-      real(wp), intent(in) :: displacement(:, :, :)
-      !> Amplitudes of the joint stress not admitted, shape (3, points, modes)
+      !> Amplitudes of that stress, shape (3, points, modes)
       real(wp), intent(in) :: excess(:, :, :)
       !> The norm
       real(wp) :: norm
 
       real(wp) :: squared(size(equations%modes))
-      integer :: k
+      integer :: k, n_nodes
 
-      !$omp parallel do schedule(dynamic) if (worth_threads(equations))
+      n_nodes = size(equations%classes(1)%dofs%equation, 2)
       do k = 1, size(equations%modes)
          associate (m => equations%modes(k)%harmonic)
-            squared(k) = sum((on_equations(equations, k, applied(:, :, k) &
-                                      + joint_force(points, m, excess(:, :, k), size(applied, 2))) &
-                              - elastic_force(equations, k, displacement(:, :, k)))**2) &
+            squared(k) = sum(on_equations(equations, k, joint_force(points, m, excess(:, :, k), n_nodes))**2) &
                /circle_integral(m)
          end associate
       end do
-      !$omp end parallel do
       norm = sqrt(sum(squared))
    end function residual_norm
 
@@ -51,7 +44,7 @@ contains
    function load_norm(equations, loading) result(norm)
       !> The equations
       type(equations_type), intent(in) :: equations
-      !> Loads for a factor of one
+      !> The loads
       type(loading_type), intent(in) :: loading
       !> The norm
       real(wp) :: norm

@@ -7,6 +7,7 @@ module axijoint_linalg_lapack
    public :: band_cholesky, dpbtrs, dtrsm, dgemm
    public :: cholesky, inverse_from_cholesky, product_with_transpose, symmetric_eigen, use_one_blas_thread, norm_step
    public :: product_rate
+   public :: matrix_vector, least_squares
 
    interface
       !> Cholesky factorization of a positive definite band matrix
@@ -75,6 +76,24 @@ module axijoint_linalg_lapack
          real(wp), intent(in) :: alpha, beta, a(lda, *)
          real(wp), intent(inout) :: c(ldc, *)
       end subroutine dsyrk
+      !> y = alpha op(a) x + beta y
+      subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
+         import :: wp
+         character, intent(in) :: trans
+         integer, intent(in) :: m, n, lda, incx, incy
+         real(wp), intent(in) :: alpha, beta, a(lda, *), x(*)
+         real(wp), intent(inout) :: y(*)
+      end subroutine dgemv
+      !> Least squares with a rank-revealing factorization
+      subroutine dgelsy(m, n, nrhs, a, lda, b, ldb, jpvt, rcond, rank, work, lwork, info)
+         import :: wp
+         integer, intent(in) :: m, n, nrhs, lda, ldb, lwork
+         real(wp), intent(inout) :: a(lda, *), b(ldb, *)
+         integer, intent(inout) :: jpvt(*)
+         real(wp), intent(in) :: rcond
+         real(wp), intent(out) :: work(*)
+         integer, intent(out) :: rank, info
+      end subroutine dgelsy
       !> One step of Higham's estimate of a 1-norm
       subroutine dlacn2(n, v, x, isgn, est, kase, isave)
          import :: wp
@@ -159,6 +178,40 @@ contains
       allocate (work(1 + 6*n + 2*n**2), iwork(3 + 5*n))
       call dsyevd('V', 'L', n, a, n, eigenvalue, work, size(work), iwork, size(iwork), info)
    end subroutine symmetric_eigen
+
+   !> Product of a matrix and a vector
+   subroutine matrix_vector(a, x, y)
+      !> The matrix, shape (m, n)
+      real(wp), intent(in), contiguous :: a(:, :)
+      !> The vector, n values in any shape
+      real(wp), intent(in) :: x(*)
+      !> The product, m values in any shape
+      real(wp), intent(inout) :: y(*)
+
+      call dgemv('N', size(a, 1), size(a, 2), 1.0_wp, a, max(1, size(a, 1)), x, 1, 0.0_wp, y, 1)
+   end subroutine matrix_vector
+
+   !> The x of least norm that makes |a x - b| least; columns of a that depend on
+   !> others to twelve digits do not count
+   subroutine least_squares(a, b, x)
+      !> The matrix, shape (m, n), m >= n; lost on return
+      real(wp), intent(inout), contiguous :: a(:, :)
+      !> The right-hand side, shape (m)
+      real(wp), intent(in) :: b(:)
+      !> The solution, shape (n)
+      real(wp), intent(out) :: x(:)
+
+      real(wp), allocatable :: right(:, :), work(:)
+      integer :: pivots(size(x)), rank, info, m, n
+
+      m = size(a, 1)
+      n = size(a, 2)
+      right = reshape(b, [m, 1])
+      pivots = 0
+      allocate (work(64*(n + 1)))
+      call dgelsy(m, n, 1, a, m, right, m, pivots, 1.0e-12_wp, rank, work, size(work), info)
+      x = right(:n, 1)
+   end subroutine least_squares
 
    !> One step of the estimate of the 1-norm of an operator: the caller applies
    !> the operator to `x` and comes back until `kase` is zero (Higham, ACM Trans.

@@ -124,6 +124,8 @@ module axijoint_model_load
       real(wp) :: tolerance = 1.0e-6_wp
       !> Most iterations
       integer :: max_iterations = 200
+      !> Load case (index) that the factor belongs to; 0 for all
+      integer :: case = 0
    end type increment_type
 
 end module axijoint_model_load

@@ -11,7 +11,16 @@ module axijoint_model_model
    use axijoint_model_request, only : line_type, cut_type, supported_face_type
    implicit none
    private
-   public :: model_type, can_yield, element_references, on_axis
+   public :: model_type, can_yield, can_yield_at, yielding_nodes, element_references, on_axis
+   public :: method_newton, method_total, method_anderson, method_transfer, method_names
+
+   !> How joints are brought to equilibrium: Newton's method; the paper's loop on
+   !> total jumps; the same with Anderson acceleration; the paper's loop itself,
+   !> stress accumulated
+   integer, parameter :: method_newton = 1, method_total = 2, method_anderson = 3, method_transfer = 4
+   !> Their names
+   character(len=8), parameter :: method_names(4) = [character(len=8) :: &
+      'NEWTON', 'TOTAL', 'ANDERSON', 'TRANSFER']
 
    !> A job
    type :: model_type
@@ -60,6 +69,8 @@ module axijoint_model_model
       integer :: gauss_linear = 2, gauss_quadratic = 3
       !> Whether 4-node elements take the volumetric strain as its mean (B-bar)
       logical :: mean_dilatation = .false.
+      !> How joints are brought to equilibrium, one of the `method_` parameters
+      integer :: method = method_newton
       !> Solver, one of the `solver_` parameters of the solver choice; 0 is auto
       integer :: solver = 0
       !> Angles at which totals are listed [radian]
@@ -79,15 +90,34 @@ contains
       !> The job
       type(model_type), intent(in) :: model
 
-      integer :: i
-
-      can_yield = .false.
-      do i = 1, size(model%mesh%joint_material)
-         associate (material => model%joint_materials(model%mesh%joint_material(i)))
-            if (material%law%kind /= law_elastic) can_yield = .true.
-         end associate
-      end do
+      can_yield = any(can_yield_at(model, model%mesh%joint_material))
    end function can_yield
+
+   !> Whether a joint can open or slip
+   elemental logical function can_yield_at(model, material)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Its material (index)
+      integer, intent(in) :: material
+
+      can_yield_at = model%joint_materials(material)%law%kind /= law_elastic
+   end function can_yield_at
+
+   !> Nodes of the joints that can yield: ordered last, they are condensed to
+   pure function yielding_nodes(model) result(yields)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Whether a node is one of them, shape (nodes)
+      logical :: yields(size(model%mesh%node_label))
+
+      integer :: k
+
+      yields = .false.
+      do k = 1, size(model%mesh%joint_material)
+         if (.not. can_yield_at(model, model%mesh%joint_material(k))) cycle
+         yields(model%mesh%joint_nodes(:model%mesh%joint_size(k), k)) = .true.
+      end do
+   end function yielding_nodes
 
    !> The kinds of elements with their integration points, by number of nodes:
    !> the one place that tells how many points an element has, and where

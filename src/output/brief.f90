@@ -40,7 +40,9 @@ contains
 
       text = line("deck", deck)
       if (results%combination > 0) text = text//line("combination", to_text(results%combination))
-      text = text//line("status", status_text(results))// &
+      text = text//line("status", status_text(results))
+      if (allocated(results%mechanism)) text = text//line("mechanism", results%mechanism)
+      text = text// &
          line("mesh", to_text(n_nodes(model%mesh))//" nodes, "// &
          to_text(n_elements(model%mesh))//" elements, "// &
          to_text(n_joints(model%mesh))//" joints")// &

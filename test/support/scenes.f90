@@ -6,7 +6,7 @@ module axijoint_test_scenes
    use axijoint_model_load, only : edge_load_type, ring_load_type, increment_type, combination_type, &
       load_case_type
    use axijoint_model_material, only : solid_material_type, joint_material_type
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, method_transfer
    implicit none
    private
    public :: new_scene, add_block, add_interface, add_edge_traction, set_elastic, node_at
@@ -32,6 +32,7 @@ contains
       allocate (model%joint_materials(1))
       model%max_harmonic = max_harmonic
       model%n_planes = 4*max_harmonic + 2
+      model%method = method_transfer
       model%output_angles = [0.0_wp, 0.5_wp*pi, pi]
       model%increments = [increment_type()]
       allocate (model%edge_loads(0), model%ring_loads(0), model%fixed(3, 0))

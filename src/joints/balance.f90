@@ -1,0 +1,276 @@
+!> Iterations of one load step to equilibrium at the joints, on the condensed
+!> structure: the paper's loop, the same on total jumps, Anderson, Newton
+module axijoint_joints_balance
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use axijoint_assembly_equations, only : equations_type
+   use axijoint_base_kinds, only : wp
+   use axijoint_joints_anderson, only : anderson_type, new_anderson, anderson_step
+   use axijoint_joints_field, only : joint_field_type, iteration_type, admit_jump, admit_trial, &
+                                     judge_states, break_bonds, count_state
+   use axijoint_joints_newton, only : newton_step
+   use axijoint_joints_planes, only : planes_type, synthesize, analyse
+   use axijoint_joints_residual, only : residual_norm, ratio
+   use axijoint_joints_response, only : response_type, jumps
+   use axijoint_model_joint_points, only : model_joint_point_type
+   use axijoint_model_model, only : model_type, method_newton, method_anderson, method_transfer
+   implicit none
+   private
+   public :: scene_type, verdict_type, balance_step
+
+   !> Iterates that Anderson's mix remembers
+   integer, parameter :: depth = 10
+   !> Bonds are broken, one pass after the other, in states at least this well
+   !> balanced; the last pass reaches the tolerance asked for
+   real(wp), parameter :: pass_tolerance = 1.0e-6_wp
+   !> Newton: tolerances of the linear solution far from and near to equilibrium,
+   !> and the ratio that divides them
+   real(wp), parameter :: loose = 1.0e-3_wp, strict = 1.0e-9_wp, near = 1.0e-2_wp
+   !> Shortest part of a Newton step; if even that does not help, so many steps of
+   !> Anderson's mix go before the next
+   real(wp), parameter :: shortest = 1.0_wp/8.0_wp
+   integer, parameter :: detour = 8
+   !> A step without a better residual for so many iterations has stalled
+   integer, parameter :: patience = 25
+   !> Iterations in which a point that changes its state counts as restless
+   integer, parameter :: recent = 12
+   !> Jumps so many times larger than those of the elastic joint are no state: a
+   !> Newton step to them is none, and shows a mechanism if no other step helps
+   real(wp), parameter :: runaway = 1.0e5_wp
+
+   !> All that an iteration needs to know and does not change
+   type :: scene_type
+      !> The job
+      type(model_type), pointer :: model => null()
+      !> Joint points that can yield
+      type(model_joint_point_type), allocatable :: points(:)
+      !> Equations of all modes, factored
+      type(equations_type), pointer :: equations => null()
+      !> Flexibilities, and jumps from the loads
+      type(response_type) :: response
+      !> Planes of the joint checks
+      type(planes_type) :: planes
+   end type scene_type
+
+   !> How a load step ended
+   type :: verdict_type
+      !> Whether it reached equilibrium
+      logical :: converged = .false.
+      !> Whether the residual stopped falling, and whether the jumps ran away
+      logical :: stalled = .false., ran_away = .false.
+      !> Points times planes that changed their state among the last iterations,
+      !> shape (points, planes); allocated if stalled
+      logical, allocatable :: restless(:, :)
+      !> Passes in which bonds broke or points softened
+      integer :: n_passes = 0
+   end type verdict_type
+
+contains
+
+   !> Iterate a load step to equilibrium
+   subroutine balance_step(scene, tolerance, most, norm, now, field, path, verdict)
+      !> What does not change
+      type(scene_type), intent(in) :: scene
+      !> Tolerance on the residual ratio, and most iterations
+      real(wp), intent(in) :: tolerance
+      integer, intent(in) :: most
+      !> Norm of the largest load so far (Psi_f)
+      real(wp), intent(in) :: norm
+      !> Increment, iterations made in it so far, load factor
+      type(iteration_type), intent(in) :: now
+      !> State of the joints: of the last step, then of this one
+      type(joint_field_type), intent(inout) :: field
+      !> Convergence path, to be continued
+      type(iteration_type), allocatable, intent(inout) :: path(:)
+      !> How it ended
+      type(verdict_type), intent(out) :: verdict
+
+      type(iteration_type) :: steps(most)
+      type(anderson_type) :: memory
+      real(wp), allocatable :: residual(:, :, :), slope(:, :, :, :), x(:)
+      integer, allocatable :: changed(:, :), before(:, :)
+      real(wp) :: best, elastic
+      integer :: k, n_broken, best_at, ran_at, from, mixes, method
+      logical :: helped, ran
+
+      associate (shape_of => shape(field%excess), planes => size(field%jump, 3))
+         allocate (residual(3, shape_of(2), shape_of(3)), slope(3, 3, shape_of(2), planes))
+         memory = new_anderson(size(field%excess), depth)
+         allocate (changed(shape_of(2), planes), source=0)
+      end associate
+      best = huge(best)
+      best_at = 0
+      ran_at = -1
+      mixes = 0
+      from = now%iteration
+      elastic = maxval([tiny(1.0_wp), abs(scene%response%free), abs(field%jump)])
+      call evaluate(scene, field, residual, slope)
+      before = field%state
+      do k = 1, most
+         associate (step => steps(k))
+            step = now
+            step%iteration = from + k
+            step%ratio = ratio(residual_norm(scene%equations, scene%points, residual), norm)
+            call judge_states(scene%model, scene%points, field)
+            call count_state(field, step%n_slip, step%n_open)
+            where (field%state /= before) changed = k
+            before = field%state
+            verdict%ran_away = .not. ieee_is_finite(step%ratio)
+            if (.not. verdict%ran_away) verdict%ran_away = maxval(abs(field%jump)) > runaway*elastic
+            if (verdict%ran_away) exit
+            if (step%ratio <= max(tolerance, pass_tolerance)) then
+               call break_bonds(scene%model, scene%points, field, n_broken)
+               if (n_broken > 0) then
+                  verdict%n_passes = verdict%n_passes + 1
+                  memory = new_anderson(size(field%excess), depth)
+                  best = huge(best)
+                  call evaluate(scene, field, residual, slope)
+                  cycle
+               end if
+               verdict%converged = step%ratio <= tolerance
+               if (verdict%converged) exit
+            end if
+            if (step%ratio < 0.9_wp*best) then
+               best = step%ratio
+               best_at = k
+            end if
+            verdict%stalled = scene%model%method == method_newton .and. k > best_at + patience
+            verdict%ran_away = verdict%stalled .and. ran_at >= best_at
+            if (verdict%stalled .or. k == most) exit
+            method = scene%model%method
+            if (method == method_newton .and. mixes == 0) then
+               call take_newton_step(scene, merge(strict, loose, step%ratio < near), runaway*elastic, &
+                                     field, residual, slope, helped, ran)
+               if (ran) ran_at = k
+               if (helped) cycle
+               mixes = detour
+               memory = new_anderson(size(field%excess), depth)
+            end if
+            if (method == method_newton) then
+               mixes = mixes - 1
+               method = method_anderson
+            end if
+            select case (method)
+            case (method_anderson)
+               x = reshape(field%excess, [size(field%excess)])
+               call anderson_step(memory, x, reshape(residual, [size(x)]))
+               field%excess = reshape(x, shape(field%excess))
+               call evaluate(scene, field, residual, slope)
+            case default
+               field%excess = field%excess + residual
+               call evaluate(scene, field, residual, slope)
+            end select
+         end associate
+      end do
+      field%pending = residual
+      k = min(k, most)
+      path = [path, steps(:k)]
+      if (.not. verdict%converged) verdict%restless = changed > k - recent
+   end subroutine balance_step
+
+   !> Excess stress that is not yet transferred, from the jumps that loads and
+   !> transferred stress give
+   subroutine evaluate(scene, field, residual, slope)
+      !> What does not change
+      type(scene_type), intent(in) :: scene
+      !> State of the joints; jumps and stresses follow its excess stress
+      type(joint_field_type), intent(inout) :: field
+      !> The amplitudes, shape (3, points, modes)
+      real(wp), intent(out) :: residual(:, :, :)
+      !> Derivatives of the excess stress by the jumps, shape (3, 3, points, planes)
+      real(wp), intent(out) :: slope(:, :, :, :)
+
+      real(wp), allocatable :: total(:, :, :), excess(:, :, :)
+
+      total = synthesize(scene%planes, jumps(scene%response, field%excess, free=.true.))
+      if (scene%model%method == method_transfer) then
+         call accumulate(scene, total, field, residual)
+         slope = 0.0_wp
+      else
+         excess = total  ! for its shape
+         call admit_jump(scene%model, scene%points, total, field, excess, slope)
+         residual = analyse(scene%planes, excess) - field%excess
+      end if
+   end subroutine evaluate
+
+   !> Steps 2 to 4 of the paper: the stress is accumulated over the iterations,
+   !> and what the law cuts off goes to the next residual
+   subroutine accumulate(scene, total, field, residual)
+      !> What does not change
+      type(scene_type), intent(in) :: scene
+      !> Jumps on the planes
+      real(wp), intent(in) :: total(:, :, :)
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> What was cut off, amplitudes
+      real(wp), intent(out) :: residual(:, :, :)
+
+      real(wp), allocatable :: trial(:, :, :)
+      integer :: k
+
+      trial = field%stress
+      do k = 1, size(scene%points)
+         associate (law => scene%model%joint_materials(scene%points(k)%material)%law)
+            trial(:, k, :) = trial(:, k, :) + spread(law%stiffness, 2, size(total, 3)) &
+               *(total(:, k, :) - field%jump(:, k, :))
+         end associate
+      end do
+      field%jump = total
+      call admit_trial(scene%model, scene%points, trial, field)
+      residual = analyse(scene%planes, trial - field%stress)
+   end subroutine accumulate
+
+   !> One step of Newton's method, shortened until the residual falls; if it does
+   !> not, the state stays as it was
+   subroutine take_newton_step(scene, tolerance, largest, field, residual, slope, helped, ran)
+      !> What does not change
+      type(scene_type), intent(in) :: scene
+      !> Tolerance of the linear solution
+      real(wp), intent(in) :: tolerance
+      !> Jumps beyond which there is no state
+      real(wp), intent(in) :: largest
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> Excess stress not transferred, and derivatives; of the new state on return
+      real(wp), intent(inout), contiguous :: residual(:, :, :), slope(:, :, :, :)
+      !> Whether the residual fell, and whether the whole step ran away
+      logical, intent(out) :: helped, ran
+
+      real(wp), allocatable :: change(:, :, :), start(:, :, :)
+      real(wp) :: length, before, reduction
+      integer :: n_products
+
+      start = field%excess
+      allocate (change, mold=start)
+      before = merit(residual)
+      ran = .false.
+      call newton_step(scene%response, scene%planes, slope, residual, tolerance, change, n_products, reduction)
+      length = 1.0_wp
+      do while (length >= shortest)
+         field%excess = start + length*change
+         call evaluate(scene, field, residual, slope)
+         helped = merit(residual) < before .and. maxval(abs(field%jump)) <= largest
+         if (helped) return
+         if (maxval(abs(field%jump)) > largest) ran = .true.
+         length = 0.5_wp*length
+      end do
+      field%excess = start
+      call evaluate(scene, field, residual, slope)
+
+   contains
+
+      !> Size of a residual, by the areas of the points
+      real(wp) function merit(residual)
+         !> The residual
+         real(wp), intent(in) :: residual(:, :, :)
+
+         integer :: k
+
+         merit = 0.0_wp
+         do k = 1, size(residual, 2)
+            merit = merit + scene%points(k)%weight*sum(residual(:, k, :)**2)
+         end do
+      end function merit
+
+   end subroutine take_newton_step
+
+end module axijoint_joints_balance

@@ -1,0 +1,216 @@
+!> Load increments one after the other, each to equilibrium at the joints
+module axijoint_joints_increments
+   use axijoint_assembly_loading, only : loading_type, new_loading
+   use axijoint_assembly_support, only : support_point_type
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_progress, only : progress_type, show_progress
+   use axijoint_base_text, only : to_text
+   use axijoint_joints_balance, only : scene_type, verdict_type, balance_step
+   use axijoint_joints_field, only : joint_field_type, iteration_type, new_joint_field, commit_field, &
+                                     set_initial_stress
+   use axijoint_joints_residual, only : load_norm
+   use axijoint_joints_response, only : load_response
+   use axijoint_model_joint_points, only : model_joint_point_type
+   use axijoint_model_load, only : combination_type, increment_type
+   use axijoint_model_model, only : model_type, method_transfer
+   implicit none
+   private
+   public :: history_type, run_increments, final_factors
+
+   !> A step that finds no equilibrium is halved so many times at most
+   integer, parameter :: most_halvings = 6
+
+   !> What the increments came to
+   type :: history_type
+      !> How the last step ended
+      type(verdict_type) :: verdict
+      !> Loads at the end: of the one that failed, or of the last in equilibrium
+      !> if joints ran away beyond it
+      type(loading_type) :: loading
+      !> The largest loads on the way, by their norm (Psi_f)
+      type(loading_type) :: peak
+      !> Excess stress of joints that ran away, shape (3, points, modes); allocated
+      !> if the joints came to a mechanism
+      real(wp), allocatable :: runaway(:, :, :)
+      !> Sum of the load factors of the last step in equilibrium
+      real(wp) :: reached = 0.0_wp
+      !> Convergence path
+      type(iteration_type), allocatable :: path(:)
+   end type history_type
+
+   !> Loads of a step
+   type :: step_type
+      !> Sum of the load factors
+      real(wp) :: load_factor = 0.0_wp
+      !> Factor of each load case
+      real(wp), allocatable :: case_factor(:)
+   end type step_type
+
+contains
+
+   !> Apply the increments. Each starts from the last state in equilibrium, whose
+   !> slip is kept; one that finds none is halved (not for the paper's loop, which
+   !> has no memory but its accumulated stress).
+   subroutine run_increments(scene, all_points, supports, combination, field, history, progress)
+      !> Joint points that can yield, their response, planes
+      type(scene_type), intent(inout) :: scene
+      !> Points of all joints, and of all springs
+      type(model_joint_point_type), intent(in) :: all_points(:)
+      type(support_point_type), intent(in) :: supports(:)
+      !> Factors of the load cases
+      type(combination_type), intent(in) :: combination
+      !> State of the joints that can yield
+      type(joint_field_type), intent(out) :: field
+      !> What it came to
+      type(history_type), intent(out) :: history
+      !> Where to show progress
+      type(progress_type), intent(inout) :: progress
+
+      type(step_type) :: start, goal
+      real(wp) :: peak_norm
+      integer :: i
+
+      allocate (history%path(0))
+      field = new_joint_field(size(scene%points), size(scene%planes%angle), size(scene%equations%modes))
+      goal = first_step(combination)
+      peak_norm = 0.0_wp
+      do i = 1, size(scene%model%increments)
+         start = goal
+         goal = next_step(goal, scene%model%increments(i), combination)
+         call show_progress(progress, 'increment '//to_text(i)//' of '//to_text(size(scene%model%increments)))
+         call reach(i, start, goal, most_halvings)
+         if (.not. history%verdict%converged) return
+      end do
+
+   contains
+
+      !> Go from one load to another, by halves if need be
+      recursive subroutine reach(increment, from, to, halvings)
+         !> Increment
+         integer, intent(in) :: increment
+         !> Loads in equilibrium, and loads to reach
+         type(step_type), intent(in) :: from, to
+         !> Halvings that are left
+         integer, intent(in) :: halvings
+
+         type(joint_field_type), allocatable :: before
+         type(step_type) :: middle
+
+         before = field
+         call try_step(increment, to)
+         if (history%verdict%converged .or. scene%model%method == method_transfer) return
+         if (halvings == 0) then
+            if (.not. history%verdict%ran_away) return
+            history%runaway = field%excess  ! what ran away is no state to show
+            field = before
+            call put_loads(from)
+            return
+         end if
+         field = before
+         deallocate (before)
+         middle = step_type(0.5_wp*(from%load_factor + to%load_factor), &
+                            0.5_wp*(from%case_factor + to%case_factor))
+         call reach(increment, from, middle, halvings - 1)
+         if (.not. history%verdict%converged) return
+         call reach(increment, middle, to, halvings - 1)
+      end subroutine reach
+
+      !> Iterate one step
+      subroutine try_step(increment, step)
+         !> Increment
+         integer, intent(in) :: increment
+         !> Loads
+         type(step_type), intent(in) :: step
+
+         type(iteration_type) :: now
+         real(wp) :: norm
+
+         associate (control => scene%model%increments(increment))
+            call put_loads(step)
+            norm = load_norm(scene%equations, history%loading)
+            if (norm >= peak_norm) then
+               peak_norm = norm
+               history%peak = history%loading
+            end if
+            now%increment = increment
+            now%load_factor = step%load_factor
+            if (size(history%path) > 0) then
+               associate (last => history%path(size(history%path)))
+                  if (last%increment == increment) now%iteration = last%iteration
+               end associate
+            end if
+            call balance_step(scene, control%tolerance, control%max_iterations, peak_norm, now, field, &
+                              history%path, history%verdict)
+            if (.not. history%verdict%converged) return
+            if (scene%model%method /= method_transfer) then
+               call commit_field(scene%model, scene%points, field)
+            end if
+            history%reached = step%load_factor
+         end associate
+      end subroutine try_step
+
+      !> Load the structure
+      subroutine put_loads(step)
+         !> Loads
+         type(step_type), intent(in) :: step
+
+         call new_loading(scene%model, all_points, supports, scene%equations%modes, &
+                          combination_type(combination%label, step%case_factor), history%loading)
+         call load_response(scene%equations, scene%points, history%loading, scene%response)
+         call set_initial_stress(scene%model, scene%points, step%case_factor, field)
+      end subroutine put_loads
+
+   end subroutine run_increments
+
+   !> No load
+   pure function first_step(combination) result(step)
+      !> Factors of the load cases
+      type(combination_type), intent(in) :: combination
+      !> The step
+      type(step_type) :: step
+
+      allocate (step%case_factor(size(combination%factor)), source=0.0_wp)
+   end function first_step
+
+   !> Loads after one more increment
+   pure function next_step(step, increment, combination) result(next)
+      !> Loads before
+      type(step_type), intent(in) :: step
+      !> The increment
+      type(increment_type), intent(in) :: increment
+      !> Factors of the load cases
+      type(combination_type), intent(in) :: combination
+      !> Loads after it
+      type(step_type) :: next
+
+      next = step
+      next%load_factor = step%load_factor + increment%factor
+      if (increment%case == 0) then
+         next%case_factor = step%case_factor + increment%factor*combination%factor
+      else
+         associate (case => increment%case)
+            next%case_factor(case) = step%case_factor(case) + increment%factor*combination%factor(case)
+         end associate
+      end if
+   end function next_step
+
+   !> Factors of the load cases after all increments
+   pure function final_factors(model, combination) result(factor)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Factors of the load cases
+      type(combination_type), intent(in) :: combination
+      !> The factors, shape (cases)
+      real(wp), allocatable :: factor(:)
+
+      type(step_type) :: step
+      integer :: i
+
+      step = first_step(combination)
+      do i = 1, size(model%increments)
+         step = next_step(step, model%increments(i), combination)
+      end do
+      factor = step%case_factor
+   end function final_factors
+
+end module axijoint_joints_increments

@@ -1,0 +1,222 @@
+!> What the structure does at its joints: relative displacements from loads and
+!> from joint stress that is not admitted, condensed to the joint points
+module axijoint_joints_response
+   use axijoint_assembly_dofs, only : dofs_type
+   use axijoint_assembly_equations, only : equations_type, solve_mode, worth_threads
+   use axijoint_assembly_force, only : joint_jump
+   use axijoint_assembly_loading, only : loading_type
+   use axijoint_base_error, only : error_type
+   use axijoint_base_kinds, only : wp
+   use axijoint_element_joint, only : jump_matrix
+   use axijoint_fe_fourier, only : circle_integral
+   use axijoint_linalg_lapack, only : matrix_vector
+   use axijoint_model_joint_points, only : model_joint_point_type
+   implicit none
+   private
+   public :: response_type, new_response, load_response, jumps
+
+   !> Flexibility of one harmonic
+   type :: flexibility_type
+      !> Jumps that unit amplitudes of excess stress give: N K_m^-1 N^T c_m w,
+      !> for xi, eta, theta of point 1, 2, ..., shape (3 points, 3 points)
+      real(wp), allocatable :: matrix(:, :)
+   end type flexibility_type
+
+   !> Response of the joint points, d_m = d0_m + F_m e_m
+   type :: response_type
+      !> Flexibilities, one a system of equations
+      type(flexibility_type), allocatable :: flexibilities(:)
+      !> System of each mode
+      integer, allocatable :: system(:)
+      !> Jumps from the loads, joints elastic, shape (3, points, modes)
+      real(wp), allocatable :: free(:, :, :)
+   end type response_type
+
+contains
+
+   !> Condense every harmonic to the joint points
+   subroutine new_response(equations, points, response, error)
+      !> Equations of all modes, factored
+      type(equations_type), intent(in) :: equations
+      !> Joint points
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> The response, without loads
+      type(response_type), intent(out) :: response
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(error_type), allocatable :: failure
+      integer :: s
+
+      response%system = equations%system
+      allocate (response%flexibilities(size(equations%systems)))
+      !$omp parallel do schedule(dynamic) private(failure) if (worth_threads(equations))
+      do s = 1, size(equations%systems)
+         call condense(equations, s, points, response%flexibilities(s)%matrix, failure)
+         !$omp critical
+         if (allocated(failure)) error = failure
+         !$omp end critical
+      end do
+      !$omp end parallel do
+   end subroutine new_response
+
+   !> Flexibility of one harmonic
+   subroutine condense(equations, s, points, matrix, error)
+      !> Equations of all modes, factored
+      type(equations_type), intent(in) :: equations
+      !> Place of the system
+      integer, intent(in) :: s
+      !> Joint points
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> N K^-1 N^T c_m w
+      real(wp), allocatable, intent(out) :: matrix(:, :)
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      integer, allocatable :: unknowns(:), place(:, :, :)
+      real(wp), allocatable :: coefficient(:, :, :), inverse(:, :), half(:, :)
+      integer :: k, i, column
+
+      associate (dofs => equations%classes(equations%systems(s)%class)%dofs)
+         call jump_rows(dofs, points, unknowns, place, coefficient)
+      end associate
+      call equations%systems(s)%factor%inverse_block(unknowns, inverse, error)
+      if (allocated(error)) return
+      allocate (half(size(unknowns), 3*size(points)), matrix(3*size(points), 3*size(points)))
+      do k = 1, size(points)
+         do i = 1, 3
+            column = 3*(k - 1) + i
+            half(:, column) = combination(inverse, place(:, i, k), coefficient(:, i, k))
+            half(:, column) = circle_integral(equations%systems(s)%harmonic)*points(k)%weight*half(:, column)
+         end do
+      end do
+      half = transpose(half)
+      do k = 1, size(points)
+         do i = 1, 3
+            column = 3*(k - 1) + i
+            matrix(:, column) = combination(half, place(:, i, k), coefficient(:, i, k))
+         end do
+      end do
+      matrix = transpose(matrix)
+
+   contains
+
+      !> Sum of some columns
+      pure function combination(columns, place, coefficient) result(total)
+         !> The columns
+         real(wp), intent(in) :: columns(:, :)
+         !> Which, zero for none, and their factors
+         integer, intent(in) :: place(:)
+         real(wp), intent(in) :: coefficient(:)
+         !> The sum
+         real(wp) :: total(size(columns, 1))
+
+         integer :: l
+
+         total = 0.0_wp
+         do l = 1, size(place)
+            if (place(l) > 0) total = total + coefficient(l)*columns(:, place(l))
+         end do
+      end function combination
+
+   end subroutine condense
+
+   !> The rows of N: jumps from the unknowns of the joints' nodes
+   subroutine jump_rows(dofs, points, unknowns, place, coefficient)
+      !> Unknowns of the harmonic
+      type(dofs_type), intent(in) :: dofs
+      !> Joint points
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Equations of the joints' nodes, ascending
+      integer, allocatable, intent(out) :: unknowns(:)
+      !> For each jump: places in `unknowns`, zero for none, and factors, shape
+      !> (18, 3, points)
+      integer, allocatable, intent(out) :: place(:, :, :)
+      real(wp), allocatable, intent(out) :: coefficient(:, :, :)
+
+      real(wp) :: matrix(3, 18)
+      integer, allocatable :: number(:)
+      integer :: k, a, i, n, count
+
+      allocate (number(dofs%n_equations), source=0)
+      do k = 1, size(points)
+         do a = 1, 2*points(k)%n_pairs
+            do i = 1, 3
+               associate (equation => dofs%equation(i, points(k)%nodes(a)))
+                  if (equation > 0) number(equation) = 1
+               end associate
+            end do
+         end do
+      end do
+      unknowns = pack([(i, i=1, size(number))], number > 0)
+      do count = 1, size(unknowns)
+         number(unknowns(count)) = count
+      end do
+      allocate (place(18, 3, size(points)), source=0)
+      allocate (coefficient(18, 3, size(points)), source=0.0_wp)
+      do k = 1, size(points)
+         n = 2*points(k)%n_pairs
+         call jump_matrix(points(k)%joint_point_type, matrix(:, :3*n))
+         do a = 1, n
+            do i = 1, 3
+               associate (node => points(k)%nodes(a), l => 3*(a - 1) + i)
+                  if (dofs%equation(i, node) == 0) cycle
+                  place(l, :, k) = number(dofs%equation(i, node))
+                  coefficient(l, :, k) = dofs%factor(i, node)*matrix(:, l)
+               end associate
+            end do
+         end do
+      end do
+   end subroutine jump_rows
+
+   !> Jumps from loads, joints elastic
+   subroutine load_response(equations, points, loading, response)
+      !> Equations of all modes, factored
+      type(equations_type), intent(in) :: equations
+      !> Joint points
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> The loads
+      type(loading_type), intent(in) :: loading
+      !> The response
+      type(response_type), intent(inout) :: response
+
+      real(wp), allocatable :: displacement(:, :)  ! threads have small stacks
+      integer :: s, i, k
+
+      if (.not. allocated(response%free)) then
+         allocate (response%free(3, size(points), size(equations%modes)))
+      end if
+      !$omp parallel do schedule(dynamic) private(i, k, displacement) if (worth_threads(equations))
+      do s = 1, size(equations%systems)
+         do i = 1, size(equations%systems(s)%modes)
+            k = equations%systems(s)%modes(i)
+            displacement = loading%right(:, :, k)  ! for its shape
+            call solve_mode(equations, k, loading%right(:, :, k), displacement)
+            if (allocated(loading%held)) displacement = displacement + loading%held(:, :, k)
+            response%free(:, :, k) = joint_jump(points, displacement)
+         end do
+      end do
+      !$omp end parallel do
+   end subroutine load_response
+
+   !> Jumps from loads and excess stress, or from the latter alone
+   function jumps(response, excess, free) result(jump)
+      !> The response
+      type(response_type), intent(in) :: response
+      !> Amplitudes of the excess stress, shape (3, points, modes)
+      real(wp), intent(in), contiguous :: excess(:, :, :)
+      !> Whether the loads act, too
+      logical, intent(in) :: free
+      !> Amplitudes of the jumps, same shape
+      real(wp) :: jump(3, size(excess, 2), size(excess, 3))
+
+      integer :: k
+
+      do k = 1, size(excess, 3)
+         call matrix_vector(response%flexibilities(response%system(k))%matrix, excess(:, :, k), &
+                             jump(:, :, k))
+      end do
+      if (free) jump = jump + response%free
+   end function jumps
+
+end module axijoint_joints_response
