@@ -10,7 +10,7 @@ module axijoint_analysis_static
    use axijoint_assembly_force, only : joint_force, joint_jump, elastic_joint_stress
    use axijoint_assembly_loading, only : loading_type, new_loading
    use axijoint_base_error, only : error_type
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, degree
    use axijoint_base_progress, only : progress_type
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type, phase_joints, phase_recover
@@ -18,7 +18,7 @@ module axijoint_analysis_static
    use axijoint_joints_field, only : joint_field_type, new_joint_field, set_initial_stress, n_across_gaps
    use axijoint_joints_increments, only : history_type, run_increments, final_factors
    use axijoint_joints_planes, only : planes_type, new_view, synthesize
-   use axijoint_model_joint_points, only : model_joint_point_type
+   use axijoint_model_joint_points, only : model_joint_point_type, stiffness_ratio
    use axijoint_model_load, only : combination_type
    use axijoint_model_model, only : model_type, method_transfer
    implicit none
@@ -28,6 +28,8 @@ module axijoint_analysis_static
    !> Largest residual-force ratio of a linear job, whose residual is rounding: the default tolerance
    !> of an increment. Of a ring with nu = 0.499999, whose large mean stresses cancel, it is 2e-8
    real(wp), parameter :: linear_tolerance = 1.0e-6_wp
+   !> Joints whose k h/E is above these: of a doubtful, and of no sensible proportion
+   real(wp), parameter :: stiff = 100.0_wp, stiffest = 1.0e4_wp
    !> Tolerances above this deserve a word
    real(wp), parameter :: coarse_tolerance = 1.0e-3_wp
 
@@ -88,7 +90,7 @@ contains
       call cut_resultants(model, structure, history%loading, field, results)
       call report_solves(structure, history%loading%right, field, results)
       results%converged = results%converged .and. results%residual_ratio <= results%tolerance + rounding(results)
-      results%remarks = remarks_on(model, history, field, results)
+      results%remarks = remarks_on(model, structure, history, field, results)
       call timer%pop()
    end subroutine analyse_combination
 
@@ -103,9 +105,11 @@ contains
    end function rounding
 
    !> What the user should know about the results
-   function remarks_on(model, history, field, results) result(remarks)
+   function remarks_on(model, structure, history, field, results) result(remarks)
       !> The job
       type(model_type), intent(in) :: model
+      !> The structure, for its joint points
+      type(structure_type), intent(in) :: structure
       !> How the increments ended
       type(history_type), intent(in) :: history
       !> State of the joints
@@ -115,7 +119,7 @@ contains
       !> The sentences
       type(remark_type), allocatable :: remarks(:)
 
-      real(wp) :: widest
+      real(wp) :: widest, proportion
       integer :: n
 
       allocate (remarks(0))
@@ -127,6 +131,11 @@ contains
          end if
          return
       end if
+      proportion = stiffness_ratio(model, structure%joint_points)
+      if (proportion > stiffest .or. .not. results%converged .and. proportion > stiff) then
+         call add('joints with k h/E up to '//to_text(proportion)//' are stiff out of proportion to '// &
+                  'the bodies (sensible: 1E-3 to 1E2); k = 10 E/h is as good as rigid')
+      end if
       if (allocated(results%mechanism)) then
          call add(results%mechanism)
       else if (.not. results%converged) then
@@ -134,7 +143,7 @@ contains
       end if
       if (history%verdict%stalled) then
          call add(to_text(count(history%verdict%restless))//' joint points on planes change their '// &
-                  'state for ever: a bond that breaks for good always has a solution')
+                  'state for ever'//restless_text()//': try BOND in LAWDETAILS')
       end if
       if (model%method == method_transfer) then
          call n_across_gaps(field, n, widest)
@@ -155,6 +164,20 @@ contains
       end if
 
    contains
+
+      !> The first of the points that change their state for ever
+      function restless_text() result(text)
+         !> Joint and plane, in brackets
+         character(len=:), allocatable :: text
+
+         integer :: place(2)
+
+         text = ''
+         place = findloc(history%verdict%restless, .true.)
+         if (any(place == 0)) return
+         text = ' (joint '//to_text(model%mesh%joint_label(structure%scene%points(place(1))%joint))// &
+            ' at theta = '//to_text(results%plane_angles(place(2))/degree)//', ...)'
+      end function restless_text
 
       !> Add a sentence
       subroutine add(text)
@@ -197,7 +220,9 @@ contains
       if (allocated(history%runaway)) then
          call solve_displacements(structure%equations, history%loading, structure%scene%points, &
                                   history%runaway, results%displacement)
-         results%mechanism = mechanism_text(model, history%reached, results)
+         if (stiffness_ratio(model, structure%scene%points) <= stiffest) then
+            results%mechanism = mechanism_text(model, history%reached, results)
+         end if
       end if
       call solve_displacements(structure%equations, history%loading, structure%scene%points, &
                                yielding%excess, results%displacement)

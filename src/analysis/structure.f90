@@ -7,7 +7,7 @@ module axijoint_analysis_structure
    use axijoint_assembly_pattern, only : node_graph
    use axijoint_assembly_support, only : support_point_type, new_support_points
    use axijoint_base_error, only : error_type
-   use axijoint_base_kinds, only : i8
+   use axijoint_base_kinds, only : wp, i8
    use axijoint_base_memory, only : require_memory
    use axijoint_base_progress, only : progress_type, show_progress
    use axijoint_base_text, only : to_text
@@ -16,7 +16,7 @@ module axijoint_analysis_structure
    use axijoint_joints_balance, only : scene_type
    use axijoint_joints_planes, only : new_planes
    use axijoint_joints_response, only : new_response
-   use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points
+   use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points, stiffness_ratio
    use axijoint_model_model, only : model_type, can_yield_at, yielding_nodes
    use axijoint_model_modes, only : used_modes
    use axijoint_order_graph, only : bandwidth, profile
@@ -76,6 +76,7 @@ contains
       if (size(structure%yielding) > 0) then
          call show_progress(progress, 'condensing to '//to_text(size(structure%yielding))//' joint points')
          structure%scene%planes = new_planes(model%n_planes, structure%modes)
+         structure%scene%first_share = share_seen_first(model, structure%scene%points)
          call new_response(structure%equations, structure%scene%points, structure%scene%response, error)
       end if
       call timer%pop()
@@ -111,6 +112,23 @@ contains
       call assemble_equations(structure%equations, model, structure%joint_points, &
                               structure%support_points, error)
    end subroutine assemble
+
+   !> Share of the joint stiffness that Newton's method begins with: what is about
+   !> the stiffness of the bodies. Cohesion makes yield depend on the size of the
+   !> stress, not on its direction alone; then the share would mislead.
+   pure real(wp) function share_seen_first(model, points) result(share)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Joint points that can yield
+      type(model_joint_point_type), intent(in) :: points(:)
+
+      !> Power of ten of k h/E that Newton's method needs no help for
+      integer, parameter :: easy = 0
+
+      share = 1.0_wp
+      if (any(model%joint_materials(points%material)%law%cohesion > 0.0_wp)) return
+      share = 10.0_wp**min(0, easy - floor(log10(max(tiny(1.0_wp), stiffness_ratio(model, points)))))
+   end function share_seen_first
 
    !> Bandwidth and profile of the orders side by side
    pure function compare_orders(orders) result(orderings)

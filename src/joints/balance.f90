@@ -20,8 +20,12 @@ module axijoint_joints_balance
    !> Iterates that Anderson's mix remembers
    integer, parameter :: depth = 10
    !> Bonds are broken, one pass after the other, in states at least this well
-   !> balanced; the last pass reaches the tolerance asked for
+   !> balanced: which break depends on what broke before, and must not depend on
+   !> rounding. The last pass reaches the tolerance asked for
    real(wp), parameter :: pass_tolerance = 1.0e-6_wp
+   !> Joints much stiffer than the bodies: the laws see a share of their stiffness
+   !> first, this many times more whenever the residual ratio has fallen so far
+   real(wp), parameter :: stage_factor = 10.0_wp, stage_tolerance = 0.1_wp
    !> Newton: tolerances of the linear solution far from and near to equilibrium,
    !> and the ratio that divides them
    real(wp), parameter :: loose = 1.0e-3_wp, strict = 1.0e-9_wp, near = 1.0e-2_wp
@@ -49,6 +53,8 @@ module axijoint_joints_balance
       type(response_type) :: response
       !> Planes of the joint checks
       type(planes_type) :: planes
+      !> Share of the joint stiffness that the laws see first
+      real(wp) :: first_share = 1.0_wp
    end type scene_type
 
    !> How a load step ended
@@ -103,6 +109,7 @@ contains
       mixes = 0
       from = now%iteration
       elastic = maxval([tiny(1.0_wp), abs(scene%response%free), abs(field%jump)])
+      if (scene%model%method == method_newton) field%share = scene%first_share
       call evaluate(scene, field, residual, slope)
       before = field%state
       do k = 1, most
@@ -117,7 +124,13 @@ contains
             verdict%ran_away = .not. ieee_is_finite(step%ratio)
             if (.not. verdict%ran_away) verdict%ran_away = maxval(abs(field%jump)) > runaway*elastic
             if (verdict%ran_away) exit
-            if (step%ratio <= max(tolerance, pass_tolerance)) then
+            if (field%share < 1.0_wp .and. step%ratio <= stage_tolerance) then
+               field%share = min(1.0_wp, stage_factor*field%share)
+               call evaluate(scene, field, residual, slope)
+               best = huge(best)
+               cycle
+            end if
+            if (field%share >= 1.0_wp .and. step%ratio <= max(tolerance, pass_tolerance)) then
                call break_bonds(scene%model, scene%points, field, n_broken)
                if (n_broken > 0) then
                   verdict%n_passes = verdict%n_passes + 1

@@ -31,6 +31,9 @@ module axijoint_joints_field
       !> Stress before loading: initial stress of the law and in-situ stress of the
       !> bodies, and the latter alone, shape (3, points)
       real(wp), allocatable :: initial(:, :), in_situ(:, :)
+      !> Share of the joint stiffness that the laws see: less than one on the way to
+      !> the state of stiff joints
+      real(wp) :: share = 1.0_wp
       !> Amplitudes of the stress k d - P that was not admitted and has been
       !> transferred to the structure, and of that which has not yet been, shape
       !> (3, points, modes)
@@ -123,7 +126,7 @@ contains
                excess(:, k, j) = law%stiffness*jump(:, k, j) + field%initial(:, k) &
                   - field%stress(:, k, j)
                do i = 1, 3
-                  slope(:, i, k, j) = -tangent(:, i)*law%stiffness(i)
+                  slope(:, i, k, j) = -field%share*tangent(:, i)*law%stiffness(i)
                   slope(i, i, k, j) = slope(i, i, k, j) + law%stiffness(i)
                end do
             end associate
@@ -147,8 +150,9 @@ contains
       real(wp) :: trial(3)
 
       associate (law => model%joint_materials(points(k)%material)%law)
-         trial = trial_stress(law, field%memory(k, j), jump) + field%initial(:, k)
+         trial = trial_stress(law, field%memory(k, j), jump)
          trial(eta) = trial(eta) - law%initial_stress  ! part of the field's
+         trial = field%share*trial + field%initial(:, k)
       end associate
    end function trial_of
 

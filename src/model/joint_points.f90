@@ -7,7 +7,7 @@ module axijoint_model_joint_points
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: model_joint_point_type, new_joint_points, joint_rule
+   public :: model_joint_point_type, new_joint_points, joint_rule, stiffness_ratio
 
    !> A joint point in its model
    type, extends(joint_point_type) :: model_joint_point_type
@@ -67,5 +67,35 @@ contains
          call lobatto_rule(n, x, w)
       end if
    end subroutine joint_rule
+
+   !> Stiffness of the joints in proportion to the bodies: the largest k h/E, with
+   !> the length h of a joint and the least modulus E of the elements
+   pure real(wp) function stiffness_ratio(model, points) result(ratio)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Joint points
+      type(model_joint_point_type), intent(in) :: points(:)
+
+      real(wp) :: modulus
+      integer :: k
+
+      modulus = huge(1.0_wp)
+      do k = 1, size(model%mesh%element_material)
+         associate (material => model%materials(model%mesh%element_material(k)))
+            if (material%orthotropic) then
+               modulus = min(modulus, minval(material%moduli))
+            else
+               modulus = min(modulus, material%young)
+            end if
+         end associate
+      end do
+      ratio = 0.0_wp
+      do k = 1, size(points)
+         associate (x => model%mesh%coordinates(:, points(k)%nodes(1:2)))
+            ratio = max(ratio, maxval(model%joint_materials(points(k)%material)%law%stiffness) &
+                               *norm2(x(:, 2) - x(:, 1))/modulus)
+         end associate
+      end do
+   end function stiffness_ratio
 
 end module axijoint_model_joint_points
