@@ -2,7 +2,6 @@
 module axijoint_solver_band
    use axijoint_base_error, only : error_type, fatal_error, exit_memory
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_base_large_pages, only : use_large_pages
    use axijoint_base_text, only : to_text
    use axijoint_linalg_band_solve, only : band_cholesky_solve
    use axijoint_linalg_lapack, only : band_cholesky
@@ -81,7 +80,6 @@ contains
                           'out of memory: a band factor needs '//to_text(self%factor_bytes)//' bytes')
          return
       end if
-      call use_large_pages(new%band)
       new%band = 0.0_wp
       do i = 1, self%n
          do k = pattern%row_start(i), pattern%row_start(i + 1) - 1

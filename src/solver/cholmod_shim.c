@@ -19,7 +19,9 @@ typedef struct {
    int32_t *from;
 } handle_type;
 
-/* Memory of the factors. Large pages are cleared on first touch with far fewer faults. */
+/* Memory of the values, which every factorization fills anew: large pages are cleared on first
+   touch with far fewer faults. Factors do without: many at once take memory that nobody used
+   before, and large pages of that were measured to cost more than small ones. */
 static void *allocate(size_t bytes) {
 #ifdef MADV_HUGEPAGE
    const size_t page = (size_t)1 << 21;
@@ -35,7 +37,6 @@ static void *allocate(size_t bytes) {
 
 static void choose(cholmod_common *common) {
    cholmod_l_start(common);
-   SuiteSparse_config.malloc_func = allocate;
    common->print = 0;
    common->supernodal = CHOLMOD_SUPERNODAL;
    common->final_ll = 1;

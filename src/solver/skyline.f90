@@ -2,7 +2,6 @@
 module axijoint_solver_skyline
    use axijoint_base_error, only : error_type, fatal_error, exit_memory
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_base_large_pages, only : use_large_pages
    use axijoint_base_text, only : to_text
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type, judge_pivots
@@ -93,7 +92,6 @@ contains
       new%n = self%n
       new%first = self%first
       new%diagonal = self%diagonal
-      call use_large_pages(new%entry)
       new%entry = 0.0_wp
       do i = 1, self%n
          do k = pattern%row_start(i), pattern%row_start(i + 1) - 1
