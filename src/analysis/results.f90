@@ -76,6 +76,9 @@ module axijoint_analysis_results
    type :: results_type
       !> Whether every increment reached its tolerance
       logical :: converged = .false.
+      !> Largest difference of joint stress, over the largest, to the paper's loop at 3 %
+      !> (to Newton's method, if the paper's loop was used); negative if not known
+      real(wp) :: other_loop = -1.0_wp
       !> The mechanism that ended the job, in words; allocated if there was one
       character(len=:), allocatable :: mechanism
       !> Number of the load combination; 0 if there is one only

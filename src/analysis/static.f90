@@ -16,7 +16,7 @@ module axijoint_analysis_static
    use axijoint_base_timer, only : timer_type, phase_joints, phase_recover
    use axijoint_fe_mode, only : is_torsion, mode_name
    use axijoint_joints_field, only : joint_field_type, new_joint_field, set_initial_stress, n_across_gaps
-   use axijoint_joints_increments, only : history_type, run_increments, final_factors
+   use axijoint_joints_increments, only : history_type, run_increments, final_factors, other_loop_difference
    use axijoint_joints_planes, only : planes_type, new_view, synthesize
    use axijoint_model_joint_points, only : model_joint_point_type, stiffness_ratio
    use axijoint_model_load, only : combination_type
@@ -211,9 +211,11 @@ contains
 
       structure%scene%model => model
       structure%scene%equations => structure%equations
+      structure%scene%method = model%method
       call run_increments(structure%scene, structure%joint_points, structure%support_points, &
                           combination, yielding, history, progress)
       results%converged = history%verdict%converged
+      results%other_loop = other_loop_difference(structure%scene, history, yielding)
       results%path = history%path
       results%tolerance = model%increments(size(model%increments))%tolerance
       allocate (results%displacement, mold=history%loading%right)

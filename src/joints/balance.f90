@@ -53,6 +53,8 @@ module axijoint_joints_balance
       type(response_type) :: response
       !> Planes of the joint checks
       type(planes_type) :: planes
+      !> How joints are brought to equilibrium, one of the `method_` parameters
+      integer :: method = method_newton
       !> Share of the joint stiffness that the laws see first
       real(wp) :: first_share = 1.0_wp
    end type scene_type
@@ -109,7 +111,7 @@ contains
       mixes = 0
       from = now%iteration
       elastic = maxval([tiny(1.0_wp), abs(scene%response%free), abs(field%jump)])
-      if (scene%model%method == method_newton) field%share = scene%first_share
+      if (scene%method == method_newton) field%share = scene%first_share
       call evaluate(scene, field, residual, slope)
       before = field%state
       do k = 1, most
@@ -146,10 +148,10 @@ contains
                best = step%ratio
                best_at = k
             end if
-            verdict%stalled = scene%model%method == method_newton .and. k > best_at + patience
+            verdict%stalled = scene%method == method_newton .and. k > best_at + patience
             verdict%ran_away = verdict%stalled .and. ran_at >= best_at
             if (verdict%stalled .or. k == most) exit
-            method = scene%model%method
+            method = scene%method
             if (method == method_newton .and. mixes == 0) then
                call take_newton_step(scene, merge(strict, loose, step%ratio < near), runaway*elastic, &
                                      field, residual, slope, helped, ran)
@@ -195,7 +197,7 @@ contains
       real(wp), allocatable :: total(:, :, :), excess(:, :, :)
 
       total = synthesize(scene%planes, jumps(scene%response, field%excess, free=.true.))
-      if (scene%model%method == method_transfer) then
+      if (scene%method == method_transfer) then
          call accumulate(scene, total, field, residual)
          slope = 0.0_wp
       else

@@ -62,7 +62,7 @@ contains
       call write_increments(file, model)
 
       call write_equations(file, results)
-      call write_convergence(file, results)
+      call write_convergence(file, model%method, results)
       call write_displacements(file, model, results)
       call write_total_displacements(file, model, results)
       call write_stresses(file, model, results)

@@ -1,6 +1,7 @@
 !> Summary of a run in JSON, for scripts
 module axijoint_output_summary
    use axijoint_analysis_results, only : results_type
+   use axijoint_base_kinds, only : wp
    use axijoint_base_system, only : peak_memory_mb
    use axijoint_base_timer, only : timer_type, phase_names, phase_read, phase_assemble, &
       phase_factor, phase_joints, phase_recover, phase_write, phase_total
@@ -8,7 +9,7 @@ module axijoint_output_summary
    use axijoint_element_joint_law, only : state_stick, state_slip, state_open
    use axijoint_fe_mode, only : family_symmetric, family_antisymmetric
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, method_names
    use axijoint_output_json, only : json_string, json_number, json_integers, json_strings
    use axijoint_output_run, only : run_type, status_name, status_error
    use axijoint_output_text_file, only : text_file_type
@@ -53,6 +54,12 @@ contains
       call put_pair(file, "iterations", json_number(size(results%path)))
       call put_pair(file, "residual_ratio", json_number(results%residual_ratio))
       call put_pair(file, "tolerance", json_number(results%tolerance))
+      call put_pair(file, "method", json_string(lower(trim(method_names(model%method)))))
+      if (results%other_loop >= 0.0_wp) then
+         call put_pair(file, "other_loop_difference", json_number(results%other_loop))
+      else
+         call put_pair(file, "other_loop_difference", "null")
+      end if
       call put_pair(file, "joint_states", states_text(results))
       call put_pair(file, "equilibrium_error", json_number(results%equilibrium_error))
       call put_pair(file, "part_equilibrium_error", json_number(results%part_error))
