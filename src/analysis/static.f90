@@ -3,24 +3,23 @@ module axijoint_analysis_static
    use axijoint_analysis_cuts, only : cut_resultants
    use axijoint_analysis_nodal_stress, only : smooth_stress
    use axijoint_analysis_recovery, only : recover
-   use axijoint_analysis_results, only : results_type, remark_type
+   use axijoint_analysis_remarks, only : remarks_on, mechanism_text, out_of_proportion
+   use axijoint_analysis_results, only : results_type
    use axijoint_analysis_structure, only : structure_type, build_structure
    use axijoint_assembly_equations, only : equations_type, solve_mode, refine_mode, &
                                            backward_error, condition_estimate, worth_threads
    use axijoint_assembly_force, only : joint_force, joint_jump, elastic_joint_stress
    use axijoint_assembly_loading, only : loading_type, new_loading
    use axijoint_base_error, only : error_type
-   use axijoint_base_kinds, only : wp, degree
+   use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : progress_type
-   use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type, phase_joints, phase_recover
-   use axijoint_fe_mode, only : is_torsion, mode_name
-   use axijoint_joints_field, only : joint_field_type, new_joint_field, set_initial_stress, n_across_gaps
+   use axijoint_joints_field, only : joint_field_type, new_joint_field, set_initial_stress
    use axijoint_joints_increments, only : history_type, run_increments, final_factors, other_loop_difference
    use axijoint_joints_planes, only : planes_type, new_view, synthesize
-   use axijoint_model_joint_points, only : model_joint_point_type, stiffness_ratio
+   use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type
-   use axijoint_model_model, only : model_type, method_transfer
+   use axijoint_model_model, only : model_type
    implicit none
    private
    public :: analyse_model, analyse_combination
@@ -28,10 +27,6 @@ module axijoint_analysis_static
    !> Largest residual-force ratio of a linear job, whose residual is rounding: the default tolerance
    !> of an increment. Of a ring with nu = 0.499999, whose large mean stresses cancel, it is 2e-8
    real(wp), parameter :: linear_tolerance = 1.0e-6_wp
-   !> Joints whose k h/E is above these: of a doubtful, and of no sensible proportion
-   real(wp), parameter :: stiff = 100.0_wp, stiffest = 1.0e4_wp
-   !> Tolerances above this deserve a word
-   real(wp), parameter :: coarse_tolerance = 1.0e-3_wp
 
 contains
 
@@ -104,91 +99,6 @@ contains
       if (size(results%path) > 0) rounding = 10.0_wp*epsilon(1.0_wp)*maxval(results%solves%condition)
    end function rounding
 
-   !> What the user should know about the results
-   function remarks_on(model, structure, history, field, results) result(remarks)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The structure, for its joint points
-      type(structure_type), intent(in) :: structure
-      !> How the increments ended
-      type(history_type), intent(in) :: history
-      !> State of the joints
-      type(joint_field_type), intent(in) :: field
-      !> The results
-      type(results_type), intent(in) :: results
-      !> The sentences
-      type(remark_type), allocatable :: remarks(:)
-
-      real(wp) :: widest, proportion
-      integer :: n
-
-      allocate (remarks(0))
-      if (size(results%path) == 0) then
-         if (.not. results%converged) then
-            call add('the equations are ill-conditioned (condition number '// &
-                     to_text(maxval(results%solves%condition))//', residual '// &
-                     to_text(results%residual_ratio)//'): stiffnesses out of all proportion?')
-         end if
-         return
-      end if
-      proportion = stiffness_ratio(model, structure%joint_points)
-      if (proportion > stiffest .or. .not. results%converged .and. proportion > stiff) then
-         call add('joints with k h/E up to '//to_text(proportion)//' are stiff out of proportion to '// &
-                  'the bodies (sensible: 1E-3 to 1E2); k = 10 E/h is as good as rigid')
-      end if
-      if (allocated(results%mechanism)) then
-         call add(results%mechanism)
-      else if (.not. results%converged) then
-         call add('the last equilibrium was at the load factor '//to_text(history%reached))
-      end if
-      if (history%verdict%stalled) then
-         call add(to_text(count(history%verdict%restless))//' joint points on planes change their '// &
-                  'state for ever'//restless_text()//': try BOND in LAWDETAILS')
-      end if
-      if (model%method == method_transfer) then
-         call n_across_gaps(field, n, widest)
-         if (n > 0) call add('pressure across an open gap at '//to_text(n)//' joint points on planes '// &
-                             '(widest '//to_text(widest)//'): stress accumulated, as in the paper')
-      end if
-      if (results%tolerance > coarse_tolerance) then
-         call add('a tolerance of '//to_text(results%tolerance)// &
-                  ' leaves joint stresses several per cent wrong (default 1E-6)')
-      end if
-      if (results%part_error > max(results%tolerance, coarse_tolerance)) then
-         call add('forces of '//to_text(results%part_error)//' of the load are not balanced on '// &
-                  'some part: see EQUILIBRIUM')
-      end if
-      if (maxval(results%modes%harmonic) + 1 == model%n_planes) then
-         call add('w of the highest harmonic vanishes on all planes: nothing of it is '// &
-                  'transferred (M + 2 planes avoid that)')
-      end if
-
-   contains
-
-      !> The first of the points that change their state for ever
-      function restless_text() result(text)
-         !> Joint and plane, in brackets
-         character(len=:), allocatable :: text
-
-         integer :: place(2)
-
-         text = ''
-         place = findloc(history%verdict%restless, .true.)
-         if (any(place == 0)) return
-         text = ' (joint '//to_text(model%mesh%joint_label(structure%scene%points(place(1))%joint))// &
-            ' at theta = '//to_text(results%plane_angles(place(2))/degree)//', ...)'
-      end function restless_text
-
-      !> Add a sentence
-      subroutine add(text)
-         !> The sentence; fits a line of the listing
-         character(len=*), intent(in) :: text
-
-         remarks = [remarks, remark_type(text)]
-      end subroutine add
-
-   end function remarks_on
-
    !> Joints that yield: the increments on the condensed structure, then the
    !> displacements of the whole
    subroutine solve_joints(model, structure, combination, history, field, results, progress)
@@ -222,7 +132,7 @@ contains
       if (allocated(history%runaway)) then
          call solve_displacements(structure%equations, history%loading, structure%scene%points, &
                                   history%runaway, results%displacement)
-         if (stiffness_ratio(model, structure%scene%points) <= stiffest) then
+         if (.not. out_of_proportion(model, structure)) then
             results%mechanism = mechanism_text(model, history%reached, results)
          end if
       end if
@@ -237,37 +147,6 @@ contains
          field%excess(:, yield, :) = yielding%excess + yielding%pending
       end associate
    end subroutine solve_joints
-
-   !> A mechanism in words: where and how the structure moves most
-   function mechanism_text(model, reached, results) result(text)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Load factor of the last equilibrium
-      real(wp), intent(in) :: reached
-      !> Results with the displacements that ran away
-      type(results_type), intent(in) :: results
-      !> The sentence
-      character(len=:), allocatable :: text
-
-      character(len=*), parameter :: along(3) = [character(len=13) :: 'along r', 'along z', 'along theta']
-      integer :: place(3)
-
-      place = maxloc(abs(results%displacement))
-      associate (mode => results%modes(place(3)), node => place(2))
-         text = 'no equilibrium beyond the load factor '//to_text(reached)//': the part with node '// &
-            to_text(model%mesh%node_label(node))
-         if (is_torsion(mode)) then
-            text = text//' turns about z'
-         else if (mode%harmonic == 0 .and. place(1) == 2) then
-            text = text//' moves along z'
-         else if (mode%harmonic == 1) then
-            text = text//merge(' tilts or lifts ', ' slides or tilts', place(1) == 2)
-         else
-            text = text//' gives way '//trim(along(place(1)))
-         end if
-         text = trim(text)//' (harmonic '//mode_name(mode)//'); results are those there'
-      end associate
-   end function mechanism_text
 
    !> Joints that stay elastic: one solution
    subroutine solve_linear(model, structure, combination, history, field, results)

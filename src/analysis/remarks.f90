@@ -1,0 +1,189 @@
+!> Sentences about results that the user should know
+module axijoint_analysis_remarks
+   use axijoint_analysis_results, only : results_type, remark_type
+   use axijoint_analysis_structure, only : structure_type
+   use axijoint_base_kinds, only : wp, degree
+   use axijoint_base_text, only : to_text
+   use axijoint_fe_mode, only : is_torsion, mode_name
+   use axijoint_joints_field, only : joint_field_type, n_across_gaps
+   use axijoint_joints_increments, only : history_type
+   use axijoint_model_joint_points, only : stiffness_ratio
+   use axijoint_model_model, only : model_type, method_transfer
+   implicit none
+   private
+   public :: remarks_on, mechanism_text, out_of_proportion
+
+   !> Joints whose k h/E is above these: of a doubtful, and of no sensible proportion
+   real(wp), parameter :: stiff = 100.0_wp, stiffest = 1.0e4_wp
+   !> Tolerances above this deserve a word
+   real(wp), parameter :: coarse_tolerance = 1.0e-3_wp
+
+contains
+
+   !> What the user should know about the results
+   function remarks_on(model, structure, history, field, results) result(remarks)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, for its joint points
+      type(structure_type), intent(in) :: structure
+      !> How the increments ended
+      type(history_type), intent(in) :: history
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> The results
+      type(results_type), intent(in) :: results
+      !> The sentences, each of which fits a line of the listing
+      type(remark_type), allocatable :: remarks(:)
+
+      allocate (remarks(0))
+      if (size(results%path) > 0) then
+         call remark_on_end(model, structure, history, results, remarks)
+         call remark_on_accuracy(model, field, results, remarks)
+      else if (.not. results%converged) then
+         call add(remarks, 'the equations are ill-conditioned (condition number '// &
+                  to_text(maxval(results%solves%condition))//', residual '// &
+                  to_text(results%residual_ratio)//'): stiffnesses out of all proportion?')
+      end if
+   end function remarks_on
+
+   !> Why the increments ended as they did
+   subroutine remark_on_end(model, structure, history, results, remarks)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, for its joint points
+      type(structure_type), intent(in) :: structure
+      !> How the increments ended
+      type(history_type), intent(in) :: history
+      !> The results
+      type(results_type), intent(in) :: results
+      !> The sentences, to be continued
+      type(remark_type), allocatable, intent(inout) :: remarks(:)
+
+      real(wp) :: proportion
+
+      proportion = stiffness_ratio(model, structure%joint_points)
+      if (proportion > stiffest .or. .not. results%converged .and. proportion > stiff) then
+         call add(remarks, 'joints with k h/E up to '//to_text(proportion)// &
+            ' are stiff out of proportion to the bodies (sensible: 1E-3 to 1E2); '// &
+            'k = 10 E/h is as good as rigid')
+      end if
+      if (allocated(results%mechanism)) then
+         call add(remarks, results%mechanism)
+      else if (.not. results%converged) then
+         call add(remarks, 'the last equilibrium was at the load factor '// &
+                                         to_text(history%reached))
+      end if
+      if (.not. history%verdict%stalled .or. results%converged) return
+      call add(remarks, to_text(count(history%verdict%restless))//' joint points on '// &
+         'planes change their state for ever'//restless_text(model, structure, history, results)// &
+         ': try BOND in LAWDETAILS')
+   end subroutine remark_on_end
+
+   !> The first of the points that change their state for ever
+   function restless_text(model, structure, history, results) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, for its joint points
+      type(structure_type), intent(in) :: structure
+      !> How the increments ended
+      type(history_type), intent(in) :: history
+      !> The results
+      type(results_type), intent(in) :: results
+      !> Joint and plane, in brackets
+      character(len=:), allocatable :: text
+
+      integer :: place(2)
+
+      text = ''
+      place = findloc(history%verdict%restless, .true.)
+      if (any(place == 0)) return
+      text = ' (joint '//to_text(model%mesh%joint_label(structure%scene%points(place(1))%joint))// &
+         ' at theta = '//to_text(results%plane_angles(place(2))/degree)//', ...)'
+   end function restless_text
+
+   !> How far results that are there can be trusted
+   subroutine remark_on_accuracy(model, field, results, remarks)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> The results
+      type(results_type), intent(in) :: results
+      !> The sentences, to be continued
+      type(remark_type), allocatable, intent(inout) :: remarks(:)
+
+      real(wp) :: widest
+      integer :: n
+
+      if (model%method == method_transfer) then
+         call n_across_gaps(field, n, widest)
+         if (n > 0) call add(remarks, 'pressure across an open gap at '//to_text(n)// &
+            ' joint points on planes (widest '//to_text(widest)// &
+            '): stress accumulated, as in the paper')
+      end if
+      if (results%tolerance > coarse_tolerance) then
+         call add(remarks, 'a tolerance of '//to_text(results%tolerance)// &
+            ' leaves joint stresses several per cent wrong (default 1E-6)')
+      end if
+      if (results%part_error > max(results%tolerance, coarse_tolerance)) then
+         call add(remarks, 'forces of '//to_text(results%part_error)// &
+            ' of the load are not balanced on some part: see EQUILIBRIUM')
+      end if
+      if (maxval(results%modes%harmonic) + 1 == model%n_planes) then
+         call add(remarks, 'w of the highest harmonic vanishes on all planes: '// &
+            'nothing of it is transferred (M + 2 planes avoid that)')
+      end if
+   end subroutine remark_on_accuracy
+
+   !> Add a sentence
+   subroutine add(remarks, text)
+      !> The sentences
+      type(remark_type), allocatable, intent(inout) :: remarks(:)
+      !> One more
+      character(len=*), intent(in) :: text
+
+      remarks = [remarks, remark_type(text)]
+   end subroutine add
+
+   !> Whether the joints are so stiff that rounding decides, not mechanics
+   pure logical function out_of_proportion(model, structure)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, for its joint points
+      type(structure_type), intent(in) :: structure
+
+      out_of_proportion = stiffness_ratio(model, structure%joint_points) > stiffest
+   end function out_of_proportion
+
+   !> A mechanism in words: where and how the structure moves most
+   function mechanism_text(model, reached, results) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Load factor of the last equilibrium
+      real(wp), intent(in) :: reached
+      !> Results with the displacements that ran away
+      type(results_type), intent(in) :: results
+      !> The sentence
+      character(len=:), allocatable :: text
+
+      character(len=*), parameter :: along(3) = [character(len=13) :: 'along r', 'along z', 'along theta']
+      integer :: place(3)
+
+      place = maxloc(abs(results%displacement))
+      associate (mode => results%modes(place(3)), node => place(2))
+         text = 'no equilibrium beyond the load factor '//to_text(reached)//': the part with node '// &
+            to_text(model%mesh%node_label(node))
+         if (is_torsion(mode)) then
+            text = text//' turns about z'
+         else if (mode%harmonic == 0 .and. place(1) == 2) then
+            text = text//' moves along z'
+         else if (mode%harmonic == 1) then
+            text = text//merge(' tilts or lifts ', ' slides or tilts', place(1) == 2)
+         else
+            text = text//' gives way '//trim(along(place(1)))
+         end if
+         text = trim(text)//' (harmonic '//mode_name(mode)//'); results are those there'
+      end associate
+   end function mechanism_text
+
+end module axijoint_analysis_remarks
