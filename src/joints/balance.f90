@@ -37,8 +37,9 @@ module axijoint_joints_balance
    integer, parameter :: patience = 25
    !> Iterations in which a point that changes its state counts as restless
    integer, parameter :: recent = 12
-   !> Jumps so many times larger than those of the elastic joint are no state: a
-   !> Newton step to them is none, and shows a mechanism if no other step helps
+   !> Jumps so many times larger than the displacements with elastic joints are no
+   !> state: a Newton step to them is none, and shows a mechanism if no other step
+   !> helps. (The jumps of an elastic joint are no measure: they vanish if it is stiff.)
    real(wp), parameter :: runaway = 1.0e5_wp
 
    !> All that an iteration needs to know and does not change
@@ -110,7 +111,7 @@ contains
       ran_at = -1
       mixes = 0
       from = now%iteration
-      elastic = maxval([tiny(1.0_wp), abs(scene%response%free), abs(field%jump)])
+      elastic = maxval([tiny(1.0_wp), scene%response%largest, abs(scene%response%free), abs(field%jump)])
       if (scene%method == method_newton) field%share = scene%first_share
       call evaluate(scene, field, residual, slope)
       before = field%state

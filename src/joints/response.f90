@@ -30,6 +30,8 @@ module axijoint_joints_response
       integer, allocatable :: system(:)
       !> Jumps from the loads, joints elastic, shape (3, points, modes)
       real(wp), allocatable :: free(:, :, :)
+      !> Largest displacement from the loads, joints elastic, shape (modes)
+      real(wp), allocatable :: largest(:)
    end type response_type
 
 contains
@@ -185,6 +187,7 @@ contains
 
       if (.not. allocated(response%free)) then
          allocate (response%free(3, size(points), size(equations%modes)))
+         allocate (response%largest(size(equations%modes)))
       end if
       !$omp parallel do schedule(dynamic) private(i, k, displacement) if (worth_threads(equations))
       do s = 1, size(equations%systems)
@@ -194,6 +197,7 @@ contains
             call solve_mode(equations, k, loading%right(:, :, k), displacement)
             if (allocated(loading%held)) displacement = displacement + loading%held(:, :, k)
             response%free(:, :, k) = joint_jump(points, displacement)
+            response%largest(k) = maxval(abs(displacement))
          end do
       end do
       !$omp end parallel do
