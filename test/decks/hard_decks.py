@@ -1,0 +1,177 @@
+"""Joints at their limits: loads just below and just beyond what they can carry, eccentric discs,
+cycles, stress of the ground, and the same scene in other units"""
+import json
+import os
+import subprocess
+
+import hard_scenes as scenes
+import listing
+from support import HERE, Test, expected, read_text, write
+
+# Digits of the listing, and the interpreter that has h5py where it is installed
+LISTED = 2e-7
+PYTHON = '/usr/bin/python3'
+ONE_CYCLE = [(1, 2), (-1, 2), (-1, 2), (1, 2)]
+
+
+def solved(program, folder, name, deck, code=0):
+    """Run a deck: summary and tables of the listing"""
+    ran = program.run('run', write(folder, f'{name}.dat', deck), '-o', folder)
+    faults = ran.ended_with(code)
+    if faults:
+        raise AssertionError('\n'.join([name, *faults]))
+    return (json.loads(read_text(os.path.join(folder, f'{name}.json'))),
+            listing.tables(read_text(os.path.join(folder, f'{name}.lis'))))
+
+
+def at(rows, r, z, last=False):
+    """The first or last row of a table at a place"""
+    return [row for row in rows if abs(row['r'] - r) < 1e-9 and abs(row['z'] - z) < 1e-9][-last]
+
+
+def close(what, wanted, found, tolerance):
+    """A fault, unless two numbers differ by less than a tolerance"""
+    good = abs(found - wanted) <= tolerance
+    return [] if good else [f'{what}: expected {wanted:.9G} within {tolerance:.1E}, found {found:.9G}']
+
+
+def capacity(program, folder, make, motion):
+    """99 % of the load is carried; at 101 % a mechanism is named, below the true capacity"""
+    summary, _ = solved(program, folder, 'below', make(0.99))
+    faults = expected('status', 'converged', summary['status'])
+    summary, _ = solved(program, folder, 'beyond', make(1.01), code=4)
+    words = [text for text in summary['messages'] if 'no equilibrium beyond' in text]
+    if len(words) != 1 or motion not in words[0]:
+        return faults + [f'expected a message with {motion!r}, found {summary["messages"]}']
+    return faults
+
+
+def eccentric(program, folder, ratio):
+    """Rotation and largest pressure within 1E-4 of the exact ones"""
+    _, tables = solved(program, folder, 'disc', scenes.eccentric_disc(ratio))
+    rotation, depth, pressure = scenes.eccentric_exact(ratio)
+    down = -at(tables['m = 0'], 1.0, 0.0, last=True)['v']
+    tilt = abs(at(tables['m = 1'], 1.0, 0.0, last=True)['v'])
+    return (close('rotation', rotation, tilt, 1e-4*rotation)
+            + close('depth at the centre', depth, down, 1e-4*pressure)
+            + close('largest pressure', pressure, down + tilt, 1e-4*pressure))
+
+
+def sliding_exactly(program, folder):
+    """A millionth below its capacity the resultant law holds, a millionth beyond it does not"""
+    solved(program, folder, 'below', scenes.slide(1 - 1e-6, scenes.RESULTANT, tolerance=1e-9))
+    ran = program.run('run', write(folder, 'beyond.dat', scenes.slide(1 + 1e-6, scenes.RESULTANT, tolerance=1e-9)),
+                      '-o', folder)
+    return [] if ran.code in (3, 4) else [f'beyond the capacity the exit code is {ran.code}']
+
+
+def head(program, folder, count, **options):
+    """Lateral displacement of a pile's head after some steps of cyclic load"""
+    steps = [(1, 1)] + 3*ONE_CYCLE
+    deck = scenes.soil_pile('Cycles', steps[:count], tolerance=1e-9, **options)
+    summary, tables = solved(program, folder, f'after_{count}', deck)
+    return summary, at(tables['m = 1'], 0.0, 1.0)['u']
+
+
+def gapping(program, folder):
+    """Without friction nothing is left of a cycle; gaps open and close alike on both sides"""
+    summary, there = head(program, folder, 2, friction=0.0)
+    faults = [] if summary['joint_states']['open'] > 100 else ['no gap opened']
+    _, unloaded = head(program, folder, 3, friction=0.0)
+    _, back = head(program, folder, 4, friction=0.0)
+    _, again = head(program, folder, 6, friction=0.0)
+    return (faults + close('unloaded', 0.0, unloaded, 1e-9*there) + close('other way', -there, back, LISTED*there)
+            + close('second cycle', there, again, LISTED*there))
+
+
+def slip_stays(program, folder):
+    """With friction a displacement is left, of the sign of the load, and cycle after cycle less is new"""
+    options = {'details': {'slip': 'RESULTANT', 'initial': -0.005}}
+    _, there = head(program, folder, 2, **options)
+    left = [head(program, folder, count, **options)[1] for count in (3, 5, 9, 13)]
+    faults = [] if 0.01*there < left[0] < 0.5*there and left[1] < 0 else [f'left: {left} after {there}']
+    first, second = abs(left[2] - left[1]), abs(left[3] - left[2])
+    return faults + ([] if second < 0.5*first else [f'the cycles do not close: {left[1:]}'])
+
+
+def ground_stress(program, folder):
+    """Weight and stress of the ground balance each other, sigma = K0 gamma z; a lateral load follows"""
+    summary, tables = solved(program, folder, 'weight', scenes.soil_pile('K0', [(1, 1)], gravity=1.0,
+                                                                        details=scenes.RESULTANT))
+    shaft = [row for row in tables['joints'] if abs(row['r'] - 0.5) < 1e-9]
+    faults = [fault for row in shaft for fault in close('sigma', 0.01*row['z'], row['sigma'], 1e-6)]
+    largest = max(abs(row[c]) for m in ('m = 0', 'm = 1') for row in tables.get(m, []) for c in 'uvw')
+    faults += close('displacement', 0.0, largest, 1e-15)
+    summary, tables = solved(program, folder, 'lateral', scenes.soil_pile('K0', [(1, 1), (1, 2)], gravity=1.0,
+                                                                         details=scenes.RESULTANT))
+    force = [row for row in tables['equilibrium'] if row['name'] == 'lateral'][0]
+    return (faults + close('lateral force', -0.05, force['reacted'], 1e-8)
+            + ([] if summary['joint_states']['slip'] > 0 < summary['joint_states']['open']
+               else [f'states: {summary["joint_states"]}']))
+
+
+def open_everywhere(program, folder):
+    """A gap that never closes is as good as no joint"""
+    steps = [(1, 1), (1, 2)]
+    open_deck = scenes.soil_pile('Open', steps, friction=0.0, details={'slip': 'COMPONENTS', 'gap': 5.0})
+    summary, one = solved(program, folder, 'open', open_deck)
+    _, two = solved(program, folder, 'none', scenes.soil_pile('None', steps, friction=0.0).replace(
+        'INTERFACES\n1, 2, 3\n', 'INTERFACES\n'))
+    largest = max(abs(row[c]) for row in two['m = 1'] for c in 'uvw')
+    error = max(abs(a[c] - b[c]) for a, b in zip(one['m = 1'], two['m = 1']) for c in 'uvw')
+    return close('displacement', 0.0, error/largest, 1e-6) + expected('slipping', 0, summary['joint_states']['slip'])
+
+
+def newton(program, folder, number, factor, most):
+    """The paper's cases to 1E-10: iterations, with the passes of the bond law"""
+    summary, _ = solved(program, folder, 'case', scenes.example(number, factor=factor))
+    if summary['iterations'] > most or summary['residual_ratio'] > 1e-10 + 1e-11:
+        return [f'{summary["iterations"]} iterations (at most {most}), residual {summary["residual_ratio"]:.1E}']
+    return []
+
+
+def same_in_units(program, folder, make):
+    """The same iterations and, where h5py reads all digits, results to 1E-9"""
+    faults, counts = [], []
+    for units in scenes.UNITS:
+        summary, _ = solved(program, folder, units.name, make(units))
+        counts.append(summary['iterations'])
+    faults += expected('iterations', counts[:1]*len(counts), counts)
+    if subprocess.run([PYTHON, '-c', 'import numpy, h5py'], capture_output=True, check=False).returncode:
+        return faults
+    done = subprocess.run([PYTHON, '-B', os.path.join(HERE, 'hard_units.py'), folder], capture_output=True,
+                          text=True, check=False)
+    return faults + ([f'{done.stdout}{done.stderr}'] if done.returncode else [])
+
+
+# Scenes in units: of their units
+IN_UNITS = {
+    'sliding disc': lambda units: scenes.slide(0.9, scenes.RESULTANT, units),
+    'eccentric disc': lambda units: scenes.eccentric_disc(0.5, n=8, planes=17, units=units, young=1e3),
+    'cone': lambda units: scenes.cone(0.99, units),
+    'pulled and twisted': lambda units: scenes.pull_and_twist(0.99, units),
+    'pulled out of a socket': lambda units: scenes.pull_out_of_socket(0.99, units),
+    'case 1': lambda units: scenes.example(1, units=units),
+    'case 2, soft': lambda units: scenes.example(2, factor=0.01, units=units),
+    'case 3, stiff': lambda units: scenes.example(3, factor=100.0, units=units),
+    'cycle': lambda units: scenes.soil_pile('Cycle', [(1, 1)] + ONE_CYCLE, units=units, tolerance=1e-9,
+                                            details={'slip': 'RESULTANT', 'initial': -0.005}),
+    'stress of the ground': lambda units: scenes.soil_pile('K0', [(1, 1), (1, 2)], gravity=1.0, units=units,
+                                                           details=scenes.RESULTANT),
+}
+
+
+def tests(program):
+    """The tests of this module"""
+
+    def test(name, function, *arguments):
+        return Test(f'joints: {name}', lambda folder: function(program, folder, *arguments))
+
+    return ([test(f'{name}, 99 and 101 %', capacity, *case) for name, case in scenes.CAPACITIES.items()]
+            + [test(f'disc, e/R = {ratio}', eccentric, ratio) for ratio in (0.3, 0.5, 0.7)]
+            + [test(f'units, {name}', same_in_units, make) for name, make in IN_UNITS.items()]
+            + [test(f'case {number} x {factor:g}', newton, number, factor, most)
+               for number, factor, most in ((1, 0.01, 30), (1, 1, 30), (1, 10, 30), (2, 0.01, 30), (2, 1, 30),
+                                            (3, 0.01, 12), (3, 1, 12), (3, 10, 12), (3, 100, 12))]
+            + [test('slide exactly', sliding_exactly), test('gaps close', gapping), test('slip stays', slip_stays),
+               test('stress of the ground', ground_stress), test('open everywhere', open_everywhere)])
