@@ -129,6 +129,12 @@ contains
          call add(remarks, 'forces of '//to_text(results%part_error)// &
             ' of the load are not balanced on some part: see EQUILIBRIUM')
       end if
+      associate (last => results%path(size(results%path)))
+         if (last%n_slip + last%n_open > 0 .and. all(model%harmonics > 0)) then
+            call add(remarks, 'joints that open or slip act in harmonic 0, '// &
+               'which HARMONICS leaves out: results may be far off')
+         end if
+      end associate
       if (maxval(results%modes%harmonic) + 1 == model%n_planes) then
          call add(remarks, 'w of the highest harmonic vanishes on all planes: '// &
             'nothing of it is transferred (M + 2 planes avoid that)')

@@ -136,8 +136,9 @@ contains
       type(number_map_type) :: index_of
       logical, allocatable :: taken(:, :)
       real(wp), allocatable :: factor(:)
-      integer :: entry, i, n
+      integer :: entry, errors_before, i, n
 
+      errors_before = diagnostics%n_errors
       n = size(cases%cases)
       allocate (combinations(0))
       allocate (factor(n), source=0.0_wp)
@@ -160,7 +161,31 @@ contains
          end if
          call read_pairs(source, table, entry, cases, taken(:, i), combinations(i)%factor, diagnostics)
       end do
+      if (diagnostics%n_errors > errors_before .or. .not. all(table%good(:table%n))) return
+      call warn_of_unused_cases(cases, any(taken, 2), diagnostics)
    end subroutine read_combinations
+
+   !> Warn of load cases that are in no combination: nothing is computed of their loads
+   subroutine warn_of_unused_cases(cases, used, diagnostics)
+      !> The cases
+      type(cases_type), intent(in) :: cases
+      !> Whether a case is in a combination, shape (cases)
+      logical, intent(in) :: used(:)
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      integer :: case, place, card
+
+      do case = 1, size(cases%cases)
+         if (used(case)) cycle
+         place = findloc(cases%case_of, case, 1)
+         card = 0
+         if (place > 0) card = cases%cards(place)
+         call add_warning(diagnostics, card, 0, 0, &
+                          'load case '//to_text(cases%cases(case)%label)//' is in no combination', &
+                          mend='add it to a combination of COMBINE, or remove it')
+      end do
+   end subroutine warn_of_unused_cases
 
    !> Read the load cases and factors of one card
    subroutine read_pairs(source, table, entry, cases, taken, factor, diagnostics)
