@@ -73,6 +73,22 @@ module axijoint_joints_balance
       integer :: n_passes = 0
    end type verdict_type
 
+   !> What is remembered from iterate to iterate
+   type :: watch_type
+      !> Jumps beyond which there is no state
+      real(wp) :: largest = 0.0_wp
+      !> Best residual ratio, its iteration, and that of the last Newton step that
+      !> ran away
+      real(wp) :: best = huge(1.0_wp)
+      integer :: best_at = 0, ran_at = -1
+      !> Steps of Anderson's mix that are left before the next of Newton's
+      integer :: mixes = 0
+      type(anderson_type) :: memory
+      !> States of the last iterate, and the iteration that changed them last, shape
+      !> (points, planes)
+      integer, allocatable :: before(:, :), changed(:, :)
+   end type watch_type
+
 contains
 
    !> Iterate a load step to equilibrium
@@ -93,95 +109,170 @@ contains
       !> How it ended
       type(verdict_type), intent(out) :: verdict
 
-      type(iteration_type) :: steps(most)
-      type(anderson_type) :: memory
-      real(wp), allocatable :: residual(:, :, :), slope(:, :, :, :), x(:)
-      integer, allocatable :: changed(:, :), before(:, :)
-      real(wp) :: best, elastic
-      integer :: k, n_broken, best_at, ran_at, from, mixes, method
-      logical :: helped, ran
+      type(iteration_type), allocatable :: steps(:)
+      type(watch_type) :: watch
+      real(wp), allocatable :: residual(:, :, :), slope(:, :, :, :)
+      logical :: again
+      integer :: k
 
-      associate (shape_of => shape(field%excess), planes => size(field%jump, 3))
-         allocate (residual(3, shape_of(2), shape_of(3)), slope(3, 3, shape_of(2), planes))
-         memory = new_anderson(size(field%excess), depth)
-         allocate (changed(shape_of(2), planes), source=0)
-      end associate
-      best = huge(best)
-      best_at = 0
-      ran_at = -1
-      mixes = 0
-      from = now%iteration
-      elastic = maxval([tiny(1.0_wp), scene%response%largest, abs(scene%response%free), abs(field%jump)])
+      allocate (residual, mold=field%excess)
+      allocate (slope(3, 3, size(field%jump, 2), size(field%jump, 3)))
+      allocate (steps(0))
       if (scene%method == method_newton) field%share = scene%first_share
+      watch = new_watch(scene, field)
       call evaluate(scene, field, residual, slope)
-      before = field%state
       do k = 1, most
-         associate (step => steps(k))
-            step = now
-            step%iteration = from + k
-            step%ratio = ratio(residual_norm(scene%equations, scene%points, residual), norm)
-            call judge_states(scene%model, scene%points, field)
-            call count_state(field, step%n_slip, step%n_open)
-            where (field%state /= before) changed = k
-            before = field%state
-            verdict%ran_away = .not. ieee_is_finite(step%ratio)
-            if (.not. verdict%ran_away) verdict%ran_away = maxval(abs(field%jump)) > runaway*elastic
-            if (verdict%ran_away) exit
-            if (field%share < 1.0_wp .and. step%ratio <= stage_tolerance) then
-               field%share = min(1.0_wp, stage_factor*field%share)
-               call evaluate(scene, field, residual, slope)
-               best = huge(best)
-               cycle
-            end if
-            if (field%share >= 1.0_wp .and. step%ratio <= max(tolerance, pass_tolerance)) then
-               call break_bonds(scene%model, scene%points, field, n_broken)
-               if (n_broken > 0) then
-                  verdict%n_passes = verdict%n_passes + 1
-                  memory = new_anderson(size(field%excess), depth)
-                  best = huge(best)
-                  call evaluate(scene, field, residual, slope)
-                  cycle
-               end if
-               verdict%converged = step%ratio <= tolerance
-               if (verdict%converged) exit
-            end if
-            if (step%ratio < 0.9_wp*best) then
-               best = step%ratio
-               best_at = k
-            end if
-            verdict%stalled = scene%method == method_newton .and. k > best_at + patience
-            verdict%ran_away = verdict%stalled .and. ran_at >= best_at
-            if (verdict%stalled .or. k == most) exit
-            method = scene%method
-            if (method == method_newton .and. mixes == 0) then
-               call take_newton_step(scene, merge(strict, loose, step%ratio < near), runaway*elastic, &
-                                     field, residual, slope, helped, ran)
-               if (ran) ran_at = k
-               if (helped) cycle
-               mixes = detour
-               memory = new_anderson(size(field%excess), depth)
-            end if
-            if (method == method_newton) then
-               mixes = mixes - 1
-               method = method_anderson
-            end if
-            select case (method)
-            case (method_anderson)
-               x = reshape(field%excess, [size(field%excess)])
-               call anderson_step(memory, x, reshape(residual, [size(x)]))
-               field%excess = reshape(x, shape(field%excess))
-               call evaluate(scene, field, residual, slope)
-            case default
-               field%excess = field%excess + residual
-               call evaluate(scene, field, residual, slope)
-            end select
-         end associate
+         call append(steps, k, now)
+         steps(k)%iteration = now%iteration + k
+         steps(k)%ratio = ratio(residual_norm(scene%equations, scene%points, residual), norm)
+         call judge_states(scene%model, scene%points, field)
+         call count_state(field, steps(k)%n_slip, steps(k)%n_open)
+         call look(scene, k, steps(k)%ratio, field, watch, verdict)
+         if (verdict%ran_away) exit
+         call go_on(scene, tolerance, steps(k)%ratio, field, watch, verdict, again)
+         if (verdict%converged) exit
+         if (again) then
+            call evaluate(scene, field, residual, slope)
+            cycle
+         end if
+         if (verdict%stalled .or. k == most) exit
+         call take_step(scene, k, steps(k)%ratio, field, residual, slope, watch)
       end do
       field%pending = residual
       k = min(k, most)
       path = [path, steps(:k)]
-      if (.not. verdict%converged) verdict%restless = changed > k - recent
+      if (.not. verdict%converged) verdict%restless = watch%changed > k - recent
    end subroutine balance_step
+
+   !> Room for one more line of a path, which grows by doubling
+   subroutine append(steps, k, step)
+      !> The path
+      type(iteration_type), allocatable, intent(inout) :: steps(:)
+      !> Place of the line
+      integer, intent(in) :: k
+      !> The line
+      type(iteration_type), intent(in) :: step
+
+      type(iteration_type), allocatable :: longer(:)
+
+      if (k > size(steps)) then
+         allocate (longer(2*k))
+         longer(:k - 1) = steps(:k - 1)
+         call move_alloc(longer, steps)
+      end if
+      steps(k) = step
+   end subroutine append
+
+   !> Nothing seen yet
+   function new_watch(scene, field) result(watch)
+      !> What does not change
+      type(scene_type), intent(in) :: scene
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> The watch
+      type(watch_type) :: watch
+
+      watch%memory = new_anderson(size(field%excess), depth)
+      watch%largest = runaway*maxval([tiny(1.0_wp), scene%response%largest, abs(scene%response%free), &
+                                      abs(field%jump)])
+      watch%before = field%state
+      watch%changed = 0*field%state
+   end function new_watch
+
+   !> Take note of an iterate: what changed, whether it ran away, whether it stalls
+   subroutine look(scene, k, ratio, field, watch, verdict)
+      !> What does not change
+      type(scene_type), intent(in) :: scene
+      !> Iteration, and its residual ratio
+      integer, intent(in) :: k
+      real(wp), intent(in) :: ratio
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> The watch
+      type(watch_type), intent(inout) :: watch
+      !> Takes `ran_away` and `stalled`
+      type(verdict_type), intent(inout) :: verdict
+
+      where (field%state /= watch%before) watch%changed = k
+      watch%before = field%state
+      verdict%ran_away = .not. ieee_is_finite(ratio)
+      if (verdict%ran_away) return
+      verdict%ran_away = maxval(abs(field%jump)) > watch%largest
+      if (ratio < 0.9_wp*watch%best) then
+         watch%best = ratio
+         watch%best_at = k
+      end if
+      verdict%stalled = scene%method == method_newton .and. k > watch%best_at + patience
+      if (verdict%stalled) verdict%ran_away = watch%ran_at >= watch%best_at
+   end subroutine look
+
+   !> In a state that is balanced well enough, see what is next: more of the joints'
+   !> stiffness, the next bonds to break, or the end
+   subroutine go_on(scene, tolerance, ratio, field, watch, verdict, again)
+      !> What does not change
+      type(scene_type), intent(in) :: scene
+      !> Tolerance on the residual ratio, and the ratio
+      real(wp), intent(in) :: tolerance, ratio
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> The watch; begins again if the task changed
+      type(watch_type), intent(inout) :: watch
+      !> Takes `converged` and the passes
+      type(verdict_type), intent(inout) :: verdict
+      !> Whether the task changed
+      logical, intent(out) :: again
+
+      integer :: n_broken
+
+      again = field%share < 1.0_wp .and. ratio <= stage_tolerance
+      if (again) then
+         field%share = min(1.0_wp, stage_factor*field%share)
+      else if (field%share >= 1.0_wp .and. ratio <= max(tolerance, pass_tolerance)) then
+         call break_bonds(scene%model, scene%points, field, n_broken)
+         again = n_broken > 0
+         if (again) verdict%n_passes = verdict%n_passes + 1
+         verdict%converged = .not. again .and. ratio <= tolerance
+      end if
+      if (.not. again) return
+      watch%best = huge(1.0_wp)
+      watch%memory = new_anderson(size(field%excess), depth)
+   end subroutine go_on
+
+   !> One step of the method; where Newton's does not help, some of Anderson's mix
+   subroutine take_step(scene, k, ratio, field, residual, slope, watch)
+      !> What does not change
+      type(scene_type), intent(in) :: scene
+      !> Iteration, and its residual ratio
+      integer, intent(in) :: k
+      real(wp), intent(in) :: ratio
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> Excess stress not transferred, and derivatives; of the new state on return
+      real(wp), intent(inout), contiguous :: residual(:, :, :), slope(:, :, :, :)
+      !> The watch
+      type(watch_type), intent(inout) :: watch
+
+      real(wp), allocatable :: x(:)
+      logical :: helped, ran
+
+      if (scene%method == method_newton .and. watch%mixes == 0) then
+         call take_newton_step(scene, merge(strict, loose, ratio < near), watch%largest, field, &
+                               residual, slope, helped, ran)
+         if (ran) watch%ran_at = k
+         if (helped) return
+         watch%mixes = detour
+         watch%memory = new_anderson(size(field%excess), depth)
+      end if
+      if (scene%method == method_newton .or. scene%method == method_anderson) then
+         watch%mixes = watch%mixes - 1
+         x = reshape(field%excess, [size(field%excess)])
+         call anderson_step(watch%memory, x, reshape(residual, [size(x)]))
+         field%excess = reshape(x, shape(field%excess))
+      else
+         field%excess = field%excess + residual
+      end if
+      call evaluate(scene, field, residual, slope)
+   end subroutine take_step
 
    !> Excess stress that is not yet transferred, from the jumps that loads and
    !> transferred stress give
