@@ -19,7 +19,7 @@ module axijoint_driver_estimate
    public :: estimate_decks
 
    !> Solver, equations, entries, operations, memory, time
-   character(len=*), parameter :: format_row = '(2x, a8, i14, es16.3, es16.3, f14.1, f14.3)'
+   character(len=*), parameter :: format_row = '(2x, a8, i14, es16.3, es16.3, f14.1, f14.4)'
 
 contains
 
@@ -82,7 +82,7 @@ contains
          end if
          write (output_unit, format_row) solver_names(kind), estimate%n_equations, &
             real(estimate%factor_entries, wp), estimate%operations, &
-            real(estimate%bytes, wp)/1.0e6_wp, estimate%seconds
+            real(estimate%bytes, wp)/2.0_wp**20, estimate%seconds
       end do
    end subroutine estimate_deck
 

@@ -31,7 +31,7 @@ module axijoint_analysis_estimate
    !> Bytes of a real
    integer(i8), parameter :: real_bytes = storage_size(1.0_wp)/8
    !> Program and libraries without any data [byte]
-   integer(i8), parameter :: program_bytes = 20000000_i8
+   integer(i8), parameter :: program_bytes = 22000000_i8
 
 contains
 

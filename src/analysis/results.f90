@@ -49,6 +49,8 @@ module axijoint_analysis_results
       !> Half-bandwidth and profile of the graph of the nodes
       integer :: bandwidth = 0
       integer(i8) :: profile = 0
+      !> Entries of the factor on the graph of the nodes
+      integer(i8) :: fill = 0
    end type ordering_type
 
    !> A sentence about the results

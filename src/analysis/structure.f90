@@ -19,7 +19,7 @@ module axijoint_analysis_structure
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points, stiffness_ratio
    use axijoint_model_model, only : model_type, can_yield_at, yielding_nodes
    use axijoint_model_modes, only : used_modes
-   use axijoint_order_graph, only : bandwidth, profile
+   use axijoint_order_graph, only : bandwidth, profile, fill
    use axijoint_solver_choice, only : orders_type, new_orders
    implicit none
    private
@@ -130,7 +130,7 @@ contains
       share = 10.0_wp**min(0, easy - floor(log10(max(tiny(1.0_wp), stiffness_ratio(model, points)))))
    end function share_seen_first
 
-   !> Bandwidth and profile of the orders side by side
+   !> Bandwidth, profile and fill of the orders side by side
    pure function compare_orders(orders) result(orderings)
       !> The orders
       type(orders_type), intent(in) :: orders
@@ -140,11 +140,14 @@ contains
       associate (graph => orders%graph)
          orderings = [ordering_type('reverse Cuthill-McKee', &
                                     bandwidth(graph, orders%cuthill_mckee), &
-                                    profile(graph, orders%cuthill_mckee)), &
+                                    profile(graph, orders%cuthill_mckee), &
+                                    fill(graph, orders%cuthill_mckee)), &
                       ordering_type('Sloan', bandwidth(graph, orders%sloan), &
-                                    profile(graph, orders%sloan)), &
+                                    profile(graph, orders%sloan), &
+                                    fill(graph, orders%sloan)), &
                       ordering_type('nested dissection', bandwidth(graph, orders%dissection), &
-                                    profile(graph, orders%dissection))]
+                                    profile(graph, orders%dissection), &
+                                    fill(graph, orders%dissection))]
       end associate
    end function compare_orders
 

@@ -225,21 +225,21 @@ contains
       !> Bytes
       integer(i8) :: bytes
 
-      integer(i8) :: values
+      integer(i8) :: work
       integer :: k
 
       bytes = 0
-      values = 0
+      work = 0
       do k = 1, size(equations%classes)
-         associate (class => equations%classes(k))
-            bytes = bytes + class_bytes(class) + equations%plans(k)%solver%plan_bytes
-            values = max(values, value_bytes*size(class%pattern%column, kind=i8))
+         associate (class => equations%classes(k), solver => equations%plans(k)%solver)
+            bytes = bytes + class_bytes(class) + solver%plan_bytes
+            work = max(work, value_bytes*size(class%pattern%column, kind=i8) + solver%work_bytes)
          end associate
       end do
       do k = 1, size(equations%systems)
          bytes = bytes + equations%plans(equations%systems(k)%class)%solver%factor_bytes
       end do
-      bytes = bytes + 2*values*threads_in_use(equations)  ! K_m, and again in the solver's order
+      bytes = bytes + work*threads_in_use(equations)
    end function needed_bytes
 
    !> Bytes of the stiffness of a class

@@ -236,7 +236,7 @@ contains
       !> Floating-point operations a second
       real(wp) :: rate
 
-      integer, parameter :: n = 1000, runs = 4
+      integer, parameter :: n = 1000, runs = 8
       real(wp), allocatable :: a(:, :), b(:, :), c(:, :)
       integer(i8) :: start, finish, ticks
       integer :: k

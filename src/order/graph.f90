@@ -3,7 +3,7 @@ module axijoint_order_graph
    use axijoint_base_kinds, only : i8
    implicit none
    private
-   public :: graph_type, new_graph, subgraph, degree, bandwidth, profile
+   public :: graph_type, new_graph, subgraph, degree, bandwidth, profile, fill
 
    !> Neighbours of each node, the node itself left out
    type :: graph_type
@@ -168,6 +168,38 @@ contains
 
       profile = sum(int(reach(graph, order), i8))
    end function profile
+
+   !> Entries of the Cholesky factor of an order, the diagonal among them, on the
+   !> graph of the nodes. Row k has the places on the ways from its neighbours up
+   !> the elimination tree (Liu, SIAM J. Matrix Anal. Appl. 11, 1990)
+   pure function fill(graph, order)
+      !> Graph of the nodes
+      type(graph_type), intent(in) :: graph
+      !> order(k) is the k-th node
+      integer, intent(in) :: order(:)
+      !> The entries
+      integer(i8) :: fill
+
+      integer, allocatable :: place(:), parent(:), seen(:)
+      integer :: k, l, way
+
+      allocate (place(graph%n), parent(graph%n), seen(graph%n), source=0)
+      place(order) = [(k, k=1, size(order))]
+      fill = size(order)
+      do k = 1, size(order)
+         seen(k) = k
+         do l = graph%start(order(k)), graph%start(order(k) + 1) - 1
+            way = place(graph%neighbour(l))
+            do while (way < k)
+               if (seen(way) == k) exit
+               seen(way) = k
+               fill = fill + 1
+               if (parent(way) == 0) parent(way) = k
+               way = parent(way)
+            end do
+         end do
+      end do
+   end function fill
 
    !> Distance of each place in an order back to its first neighbour
    pure function reach(graph, order)

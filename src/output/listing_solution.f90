@@ -24,8 +24,8 @@ module axijoint_output_listing_solution
    character(len=*), parameter :: format_equations = '(i10, 1x, a1, i14, i16)'
    !> Increment and iteration
    character(len=*), parameter :: format_iteration = '(2i12)'
-   !> Name of an order, its half-bandwidth and profile
-   character(len=*), parameter :: format_order = '(2x, a22, i10, i16)'
+   !> Name of an order, its half-bandwidth, profile and fill
+   character(len=*), parameter :: format_order = '(2x, a22, i10, 2i16)'
    !> Node that stands for a part
    character(len=*), parameter :: format_part = '(i16)'
    !> Points that slip and that are open
@@ -53,16 +53,16 @@ contains
       type(results_type), intent(in) :: results
 
       character(len=42) :: numbers
-      character(len=50) :: order
+      character(len=66) :: order
       integer :: i
 
       call write_heading(file, "EQUATIONS ("//to_text(n_unknowns(results))//" unknowns in all)")
       call file%put("  solver: "//trim(solver_names(results%solver))//", nodes ordered by "// &
          order_name(results%solver))
-      call file%put("  order of the nodes       bandwidth         profile")
+      call file%put("  order of the nodes       bandwidth         profile            fill")
       do i = 1, size(results%orderings)
          associate (ordering => results%orderings(i))
-            write (order, format_order) ordering%name, ordering%bandwidth, ordering%profile
+            write (order, format_order) ordering%name, ordering%bandwidth, ordering%profile, ordering%fill
             call file%put(order)
          end associate
       end do

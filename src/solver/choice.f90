@@ -116,10 +116,11 @@ contains
       end select
    end function order_name
 
-   !> Time of one factorization at a given rate of matrix products: operations
-   !> at a share of that rate, and a time for each entry of the factor, which is
-   !> memory taken, filled and written whatever the rate. The constants are fitted
-   !> to runs of the benchmark of the solvers; see doc/benchmarks.md.
+   !> Time of forming and factoring one matrix at a given rate of matrix products:
+   !> operations at a share of that rate, a time for each entry of the factor, which
+   !> is memory taken, filled and written whatever the rate, and a time for each
+   !> equation, whose row is formed and ordered anew. The constants are fitted to
+   !> runs of decks; see doc/benchmarks.md.
    pure function expected_seconds(solver, kind, rate) result(seconds)
       !> The plan, analysed
       class(solver_type), intent(in) :: solver
@@ -130,22 +131,24 @@ contains
       !> The time
       real(wp) :: seconds
 
-      real(wp) :: share, entry_seconds, set_up
+      real(wp) :: share, entry_seconds, equation_seconds
 
-      set_up = 0.0_wp
       select case (kind)
       case (solver_band)
-         share = 0.75_wp
-         entry_seconds = 1.8e-9_wp
+         share = 0.83_wp
+         entry_seconds = 5.7e-9_wp
+         equation_seconds = 3.0e-7_wp
       case (solver_skyline)
          share = 0.14_wp
          entry_seconds = 0.0_wp
+         equation_seconds = 3.0e-7_wp
       case default
-         share = 0.33_wp
-         entry_seconds = 7.7e-9_wp
-         set_up = 2.0e-4_wp  ! counts in small jobs only
+         share = 0.76_wp
+         entry_seconds = 1.7e-8_wp
+         equation_seconds = 3.8e-7_wp
       end select
-      seconds = set_up + solver%operations/(share*rate) + entry_seconds*real(solver%factor_entries, wp)
+      seconds = solver%operations/(share*rate) + entry_seconds*real(solver%factor_entries, wp) &
+         + equation_seconds*solver%n
    end function expected_seconds
 
 end module axijoint_solver_choice

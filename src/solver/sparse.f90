@@ -106,6 +106,9 @@ contains
                                     entries, operations, self%factor_bytes)
       self%factor_entries = int(entries, i8)
       self%operations = operations
+      ! rows in 8 bytes and places of the values in 4; values in the order of the factor
+      self%plan_bytes = 12*size(pattern%column, kind=i8) + 64*int(pattern%n, i8)
+      self%work_bytes = 8*size(pattern%column, kind=i8)
       if (c_associated(self%handle)) return
       call fatal_error(error, exit_memory, 'out of memory: analysis of a sparse matrix with '// &
                        to_text(pattern%n)//' equations')

@@ -30,6 +30,8 @@ module axijoint_solver_type
       integer :: n = 0
       !> Bytes of the plan itself, for as long as it lives
       integer(i8) :: plan_bytes = 0
+      !> Bytes that a factorization takes besides, and gives back
+      integer(i8) :: work_bytes = 0
       !> Bytes that one factor takes
       integer(i8) :: factor_bytes = 0
       !> Entries of one factor, zeros stored among them left out
