@@ -4,6 +4,7 @@ module axijoint_analysis_remarks
    use axijoint_analysis_structure, only : structure_type
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text
+   use axijoint_element_joint_law, only : opening_reversible
    use axijoint_fe_mode, only : is_torsion, mode_name
    use axijoint_joints_field, only : joint_field_type, n_across_gaps
    use axijoint_joints_increments, only : history_type
@@ -73,11 +74,29 @@ contains
          call add(remarks, 'the last equilibrium was at the load factor '// &
                                          to_text(history%reached))
       end if
-      if (.not. history%verdict%stalled .or. results%converged) return
+      if (.not. history%verdict%stalled .or. results%converged .or. allocated(results%mechanism)) return
+      if (.not. any(history%verdict%restless)) return
       call add(remarks, to_text(count(history%verdict%restless))//' joint points on '// &
          'planes change their state for ever'//restless_text(model, structure, history, results)// &
-         ': try BOND in LAWDETAILS')
+         advice(model, structure))
    end subroutine remark_on_end
+
+   !> What helps: only cohesion that comes back when a point closes makes the law jump
+   pure function advice(model, structure) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, for its joint points
+      type(structure_type), intent(in) :: structure
+      !> Words
+      character(len=:), allocatable :: text
+
+      text = ''
+      associate (laws => model%joint_materials(structure%scene%points%material)%law)
+         if (any(laws%cohesion > 0.0_wp .and. laws%opening == opening_reversible)) then
+            text = ': try BOND in LAWDETAILS'
+         end if
+      end associate
+   end function advice
 
    !> The first of the points that change their state for ever
    function restless_text(model, structure, history, results) result(text)
