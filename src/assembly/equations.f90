@@ -22,8 +22,8 @@ module axijoint_assembly_equations
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type
    implicit none
    private
-   public :: equations_type, system_type, plan_equations, assemble_equations, factorize_equations
-   public :: solve_mode, elastic_force, backward_error, on_equations
+   public :: equations_type, plan_equations, assemble_equations, factorize_equations
+   public :: solve_mode, backward_error, on_equations
    public :: plan_solver, worth_threads, planned_seconds, needed_bytes, refine_mode, condition_estimate
 
    !> A band wider than this many nodes is never faster than nested dissection

@@ -7,7 +7,7 @@ module axijoint_assembly_pattern
    use axijoint_order_graph, only : graph_type, new_graph
    implicit none
    private
-   public :: node_graph, new_pattern, element_cliques
+   public :: node_graph, new_pattern
 
 contains
 
@@ -20,23 +20,11 @@ contains
 
       integer, allocatable :: start(:), member(:), joint_start(:), joint_member(:)
 
-      call element_cliques(mesh, start, member)
+      call list_nodes(mesh%element_size, mesh%element_nodes, start, member)
       call list_nodes(mesh%joint_size, mesh%joint_nodes, joint_start, joint_member)
       call new_graph(graph, n_nodes(mesh), [start, joint_start(2:) + size(member)], &
                      [member, joint_member])
    end function node_graph
-
-   !> Nodes of the solid elements as cliques
-   subroutine element_cliques(mesh, start, member)
-      !> The mesh
-      type(mesh_type), intent(in) :: mesh
-      !> First node of each element in `member`, shape (elements + 1)
-      integer, allocatable, intent(out) :: start(:)
-      !> Nodes of the elements
-      integer, allocatable, intent(out) :: member(:)
-
-      call list_nodes(mesh%element_size, mesh%element_nodes, start, member)
-   end subroutine element_cliques
 
    !> Node lists of different lengths one behind the other
    pure subroutine list_nodes(sizes, nodes, start, member)
