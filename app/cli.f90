@@ -1,6 +1,8 @@
 !> Command line: words to a configuration
 module axijoint_cli
    use axijoint_base_error, only : error_type, fatal_error, exit_deck
+   use axijoint_base_kinds, only : i8
+   use axijoint_base_memory, only : no_limit
    use axijoint_base_text, only : nearest_word, upper, lower
    use axijoint_base_version, only : program_name, program_version
    use axijoint_solver_choice, only : solver_names
@@ -23,8 +25,9 @@ module axijoint_cli
    !> Names of the commands, by number
    character(len=*), parameter :: command_names(4) = ['run     ', 'check   ', 'estimate', 'help    ']
 
-   !> Options of `run` that take a value
-   character(len=*), parameter :: value_options(3) = ['-o       ', '--solver ', '--threads']
+   !> Options of `run` that take a value; `estimate` has the last two
+   character(len=*), parameter :: value_options(4) = ['-o       ', '--solver ', '--threads', '--memory ']
+   character(len=*), parameter :: estimate_options(2) = value_options(3:)
 
    !> A word of any length
    type :: word_type
@@ -44,6 +47,8 @@ module axijoint_cli
       integer :: solver = -1
       !> Threads asked for; 0: as the environment says
       integer :: threads = 0
+      !> Bytes that the process may take
+      integer(i8) :: memory_limit = no_limit
       !> Command that help was asked for; empty for all
       character(len=:), allocatable :: topic
    end type command_type
@@ -113,11 +118,12 @@ contains
                command%decks = [command%decks, words(k)]
             else if (word == '--') then
                only_decks = .true.
-            else if (any(word == value_options) .and. command%command == command_run) then
+            else if ((any(word == value_options) .and. command%command == command_run) .or. &
+                     (any(word == estimate_options) .and. command%command == command_estimate)) then
                if (k == size(words)) then
                   call fatal_error(error, exit_deck, 'option '//word//' needs a '// &
                                    trim(merge('directory', 'value    ', word == '-o'))// &
-                                   ": see 'axijoint help run'")
+                                   ": see 'axijoint help "//trim(command_names(command%command))//"'")
                   return
                end if
                k = k + 1
@@ -129,6 +135,9 @@ contains
                return
             else if (command%command == command_run) then
                call unknown('option', word, [character(len=9) :: value_options, '--help'], error)
+               return
+            else if (command%command == command_estimate) then
+               call unknown('option', word, [character(len=9) :: estimate_options, '--help'], error)
                return
             else
                call unknown('option', word, ['--help'], error)
@@ -161,6 +170,8 @@ contains
       case ('--solver')
          command%solver = findloc(solver_names == upper(value), .true., 1) - 1
          if (command%solver < 0) call unknown('solver', value, lower_all(solver_names), error)
+      case ('--memory')
+         call read_memory(value, command%memory_limit, error)
       case default
          stat = 1
          if (verify(value, '0123456789') == 0 .and. len(value) <= 4) then
@@ -171,6 +182,32 @@ contains
                           "', allowed is a number from 1 to 9999")
       end select
    end subroutine read_option
+
+   !> A limit on memory
+   subroutine read_memory(value, bytes, error)
+      !> Number of MiB
+      character(len=*), intent(in) :: value
+      !> The limit
+      integer(i8), intent(inout) :: bytes
+      !> Value that is not allowed
+      type(error_type), allocatable, intent(out) :: error
+
+      integer(i8), parameter :: mebibyte = 2_i8**20
+      integer(i8) :: number
+      integer :: stat
+
+      stat = 1
+      number = 0
+      if (verify(value, '0123456789') == 0 .and. len(value) > 0 .and. len(value) <= 9) then
+         read (value, *, iostat=stat) number
+      end if
+      if (stat == 0 .and. number > 0) then
+         bytes = number*mebibyte
+      else
+         call fatal_error(error, exit_deck, "option --memory: found '"//value// &
+                          "', allowed is a number of MiB from 1 to 999999999")
+      end if
+   end subroutine read_memory
 
    !> Words in small letters
    pure function lower_all(words) result(small)
@@ -236,6 +273,7 @@ contains
       select case (topic)
       case ('run')
          text = 'usage: axijoint run DECK... [-o DIR] [--solver NAME] [--threads N]'//nl// &
+            '                            [--memory MIB]'//nl// &
             nl// &
             'Solves each deck and writes NAME.lis (listing), NAME.json (summary) and NAME.h5'//nl// &
             '(results), NAME being the name of the deck without its ending.'//nl// &
@@ -243,6 +281,8 @@ contains
             '  -o DIR         directory for the results (default: the current one)'//nl// &
             '  --solver NAME  auto, band, skyline or sparse (default: as the deck says)'//nl// &
             '  --threads N    harmonics at once (default: OMP_NUM_THREADS, or all processors)'//nl// &
+            '  --memory MIB   memory that the process may take: fewer factors at once then (default:'//nl// &
+            '                 what the machine, its control group and limits leave)'//nl// &
             '  --             everything that follows is a deck'//nl// &
             nl// &
             'Exit codes: 0 ok; 2 deck or usage; 3 not converged; 4 singular or mechanism;'//nl// &
@@ -253,10 +293,11 @@ contains
             'Reads and checks each deck, prints all its errors and what it describes, and'//nl// &
             'solves nothing. Exit codes: 0 ok; 2 deck or usage.'
       case ('estimate')
-         text = 'usage: axijoint estimate DECK...'//nl// &
+         text = 'usage: axijoint estimate DECK... [--threads N] [--memory MIB]'//nl// &
             nl// &
             'Says for each solver what a run of each deck would need: unknowns, entries of the'//nl// &
-            'factors, operations, memory and time. Nothing is solved.'
+            'factors, operations, memory and time, with the threads and in the memory that the run'//nl// &
+            'would have. Nothing is solved.'
       case ('help')
          text = 'usage: axijoint help [COMMAND]'
       case default

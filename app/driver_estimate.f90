@@ -5,7 +5,7 @@ module axijoint_driver_estimate
    use axijoint_assembly_pattern, only : node_graph
    use axijoint_base_error, only : error_type, exit_ok, exit_deck
    use axijoint_base_kinds, only : wp
-   use axijoint_cli, only : word_type
+   use axijoint_cli, only : command_type
    use axijoint_deck_diagnostics, only : diagnostics_type, render
    use axijoint_deck_reader, only : read_deck
    use axijoint_deck_source, only : source_type
@@ -14,19 +14,20 @@ module axijoint_driver_estimate
    use axijoint_model_model, only : model_type, yielding_nodes
    use axijoint_solver_choice, only : solver_band, solver_sparse, solver_names, orders_type, &
                                       new_orders
+   use omp_lib, only : omp_set_num_threads
    implicit none
    private
    public :: estimate_decks
 
-   !> Solver, equations, entries, operations, memory, time
-   character(len=*), parameter :: format_row = '(2x, a8, i14, es16.3, es16.3, f14.1, f14.4)'
+   !> Solver, equations, entries, operations, factors, memory, time
+   character(len=*), parameter :: format_row = '(2x, a8, i14, es16.3, es16.3, i9, f13.1, f15.4)'
 
 contains
 
    !> Print the costs of each deck with each solver
-   subroutine estimate_decks(decks, exit_code)
-      !> The decks
-      type(word_type), intent(in) :: decks(:)
+   subroutine estimate_decks(command, exit_code)
+      !> Decks and options
+      type(command_type), intent(in) :: command
       !> Largest exit code of all decks
       integer, intent(out) :: exit_code
 
@@ -38,17 +39,19 @@ contains
       integer :: k
 
       exit_code = exit_ok
+      if (command%threads > 0) call omp_set_num_threads(command%threads)
       rate = product_rate()
-      do k = 1, size(decks)
-         call read_deck(decks(k)%text, source, model, diagnostics)
+      do k = 1, size(command%decks)
+         call read_deck(command%decks(k)%text, source, model, diagnostics)
          if (diagnostics%n_errors > 0) then
             write (error_unit, '(a)') render(diagnostics, source)
             exit_code = max(exit_code, exit_deck)
             cycle
          end if
-         call estimate_deck(decks(k)%text, model, rate, error)
+         model%memory_limit = command%memory_limit
+         call estimate_deck(command%decks(k)%text, model, rate, error)
          if (allocated(error)) then
-            call print_error(decks(k)%text, error)
+            call print_error(command%decks(k)%text, error)
             exit_code = max(exit_code, error%code)
          end if
       end do
@@ -78,10 +81,10 @@ contains
             write (output_unit, '(a, i0, a, f0.1, a)') deck//': ', estimate%n_harmonics, &
                ' harmonics; matrix products at ', rate/1.0e9_wp, ' GFLOP/s in one thread'
             write (output_unit, '(a)') '  solver       equations  factor entries      operations'// &
-               '  memory [MB]  factoring [s]'
+               '  at once  memory [MB]  factoring [s]'
          end if
          write (output_unit, format_row) solver_names(kind), estimate%n_equations, &
-            real(estimate%factor_entries, wp), estimate%operations, &
+            real(estimate%factor_entries, wp), estimate%operations, estimate%n_factors, &
             real(estimate%bytes, wp)/2.0_wp**20, estimate%seconds
       end do
    end subroutine estimate_deck

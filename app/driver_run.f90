@@ -91,6 +91,7 @@ contains
       if (diagnostics%n_warnings > 0) write (error_unit, '(a)') render(diagnostics, source)
 
       if (command%solver >= 0) model%solver = command%solver
+      model%memory_limit = command%memory_limit
       do k = 1, size(model%combinations)
          call check_output(command%directory, result_name(deck, model, k), source, error)
          if (allocated(error)) return
@@ -128,15 +129,17 @@ contains
       type(progress_type), intent(inout) :: progress
       !> 0, or 3 if the results are not converged
       integer, intent(out) :: exit_code
-      !> The results cannot be written
+      !> Singular stiffness, out of memory; the results cannot be written
       type(error_type), allocatable, intent(out) :: error
 
       type(results_type) :: results
       character(len=:), allocatable :: name
 
       name = result_name(deck, model, k)
-      call analyse_combination(model, structure, model%combinations(k), results, timer, progress)
+      call analyse_combination(model, structure, model%combinations(k), results, timer, progress, error)
       call clear_progress(progress)
+      exit_code = exit_ok
+      if (allocated(error)) return
       if (size(model%combinations) > 1) results%combination = model%combinations(k)%label
       exit_code = merge(exit_ok, exit_not_converged, results%converged)
       if (allocated(results%mechanism)) exit_code = exit_singular

@@ -2,6 +2,7 @@
 program axijoint
    use, intrinsic :: iso_fortran_env, only : output_unit
    use axijoint_base_error, only : error_type, exit_ok
+   use axijoint_base_system, only : return_freed_memory
    use axijoint_base_version, only : program_name, program_version
    use axijoint_cli, only : command_type, read_command, help_text, command_run, command_check, &
                             command_estimate, command_help
@@ -15,6 +16,7 @@ program axijoint
    integer :: exit_code
 
    exit_code = exit_ok
+   call return_freed_memory()
    call read_command(command, error)
    if (allocated(error)) then
       call print_error('', error)
@@ -26,7 +28,7 @@ program axijoint
       case (command_check)
          call check_decks(command%decks, exit_code)
       case (command_estimate)
-         call estimate_decks(command%decks, exit_code)
+         call estimate_decks(command, exit_code)
       case (command_help)
          write (output_unit, '(a)') help_text(command%topic)
       case default

@@ -35,9 +35,9 @@ def estimates(program, path):
                           env=os.environ | {"OMP_NUM_THREADS": "1"})
     found = {}
     for line in text.stdout.splitlines():
-        row = re.match(r"\s+(BAND|SKYLINE|SPARSE)\s+(\S+)\s+(\S+)\s+(\S+)\s+(\S+)\s+(\S+)", line)
+        row = re.match(r"\s+(BAND|SKYLINE|SPARSE)" + r"\s+(\S+)"*6, line)
         if row:
-            found[row[1].lower()] = (int(row[2]), float(row[5]), float(row[6]))
+            found[row[1].lower()] = (int(row[2]), float(row[6]), float(row[7]))
     return found
 
 

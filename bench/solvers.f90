@@ -7,8 +7,10 @@
 program solvers
    use, intrinsic :: iso_fortran_env, only : output_unit
    use omp_lib, only : omp_set_num_threads, omp_get_num_procs
-   use axijoint_assembly_equations, only : equations_type, plan_equations, assemble_equations, &
-                                           factorize_equations, needed_bytes
+   use axijoint_assembly_equations, only : equations_type, plan_equations, assemble_equations
+   use axijoint_assembly_factors, only : plan_factors, standing_bytes, parts_bytes, kept_bytes, &
+                                         passing_bytes, workspace_type, new_workspaces, own, &
+                                         hold_factor, release_factor, report_failure
    use axijoint_assembly_harmonic, only : harmonic_values
    use axijoint_assembly_pattern, only : node_graph
    use axijoint_assembly_stiffness, only : stiffness_type, new_stiffness, assemble_parts
@@ -18,7 +20,7 @@ program solvers
    use axijoint_base_error, only : error_type
    use axijoint_fe_mode, only : mode_type
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_base_memory, only : available_memory
+   use axijoint_base_memory, only : available_memory, no_limit
    use axijoint_base_text, only : to_text, lower
    use axijoint_linalg_lapack, only : use_one_blas_thread
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type, multiply, infinity_norm
@@ -293,24 +295,44 @@ contains
       record%n_harmonics = config%n_harmonics
       record%operations = record%operations*config%n_harmonics
       record%expected = record%expected*config%n_harmonics
-      record%bytes = real(needed_bytes(equations), wp)
+      call plan_factors(equations, .false., 0_i8, no_limit, error)
+      call stop_on(error)
+      record%bytes = real(standing_bytes(equations) + parts_bytes(equations) &
+                          + kept_bytes(equations) + passing_bytes(equations), wp)
       if (.not. feasible(record)) return
       start = seconds()
       call assemble_equations(equations, model, [model_joint_point_type ::], &
-                              [support_point_type ::], error)
-      call stop_on(error)
+                              [support_point_type ::])
       record%parts = seconds() - start
       start = seconds()
       call form_matrices(equations)
       record%matrix = seconds() - start
       call cpu_time(processor)
       start = seconds()
-      call factorize_equations(equations, model, error)
+      call factorize_in_turn(equations)
+      call report_failure(equations, model, error)
       call stop_on(error)
       record%factorization = seconds() - start
       call cpu_time(processor_end)
       record%share = (processor_end - processor)/record%factorization
    end subroutine measure_threads
+
+   !> Factor all harmonics, each thread one after the other in the same memory, as a linear job
+   subroutine factorize_in_turn(equations)
+      !> The equations, assembled
+      type(equations_type), intent(inout) :: equations
+
+      type(workspace_type), allocatable :: spaces(:)
+      integer :: s
+
+      call new_workspaces(equations, spaces)
+      !$omp parallel do schedule(dynamic) num_threads(size(spaces))
+      do s = 1, size(equations%systems)
+         call hold_factor(equations, s, spaces(own()))
+         call release_factor(equations, s, spaces(own()))
+      end do
+      !$omp end parallel do
+   end subroutine factorize_in_turn
 
    !> Form the matrices of all harmonics, for the time that it takes: the
    !> factorizations form theirs themselves

@@ -1,11 +1,14 @@
 !> What a job would cost with each solver, before anything is solved
 module axijoint_analysis_estimate
-   use axijoint_assembly_equations, only : equations_type, plan_solver, planned_seconds, needed_bytes
+   use axijoint_analysis_footprint, only : footprint_type, data_footprint
+   use axijoint_analysis_structure, only : reuses_factors
+   use axijoint_assembly_equations, only : equations_type, plan_solver, planned_seconds
+   use axijoint_assembly_factors, only : plan_factors, standing_bytes, parts_bytes, kept_bytes, &
+                                         passing_bytes
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_fe_reference, only : reference_type
-   use axijoint_model_mesh, only : n_nodes
-   use axijoint_model_model, only : model_type, element_references
+   use axijoint_model_joint_points, only : new_joint_points
+   use axijoint_model_model, only : model_type
    use axijoint_model_modes, only : used_modes
    use axijoint_solver_choice, only : orders_type
    implicit none
@@ -24,12 +27,12 @@ module axijoint_analysis_estimate
       real(wp) :: operations = 0.0_wp
       !> Bytes at the peak
       integer(i8) :: bytes = 0
+      !> Factors that are there at once at most
+      integer :: n_factors = 0
       !> Time of all factorizations, one after the other [second]
       real(wp) :: seconds = 0.0_wp
    end type estimate_type
 
-   !> Bytes of a real
-   integer(i8), parameter :: real_bytes = storage_size(1.0_wp)/8
    !> Program and libraries without any data [byte]
    integer(i8), parameter :: program_bytes = 22000000_i8
 
@@ -51,6 +54,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(equations_type), allocatable :: equations
+      type(footprint_type) :: others
       integer :: k
 
       call plan_solver(equations, model, used_modes(model), orders, kind, error)
@@ -64,26 +68,17 @@ contains
          end associate
       end do
       estimate%seconds = planned_seconds(equations, rate)
-      estimate%bytes = program_bytes + needed_bytes(equations) &
-         + field_bytes(model, size(equations%modes))
+      others = data_footprint(model, size(equations%modes), size(equations%systems), &
+                              new_joint_points(model))
+      call plan_factors(equations, reuses_factors(model), others%coming(), model%memory_limit, error)
+      if (allocated(error)) deallocate (error)  ! it is told all the same
+      associate (n => size(equations%systems))
+         estimate%n_factors = equations%n_kept + min(equations%n_workers, n - equations%n_kept)
+      end associate
+      estimate%bytes = program_bytes + others%mesh + standing_bytes(equations) + parts_bytes(equations) &
+         + kept_bytes(equations) + others%joints &
+         + max(passing_bytes(equations) + others%loads, others%joint_work*equations%n_workers, &
+               others%loads + others%stresses)
    end subroutine estimate_job
-
-   !> Bytes of displacements, forces, reactions and stresses
-   pure function field_bytes(model, n_modes) result(bytes)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Number of modes
-      integer, intent(in) :: n_modes
-      !> The bytes
-      integer(i8) :: bytes
-
-      type(reference_type) :: references(3:9)
-
-      references = element_references(model)
-      bytes = 12*int(n_nodes(model%mesh), i8)  ! displacements, loads twice, reactions
-      bytes = bytes + 6*sum(int(references(model%mesh%element_size)%n_points, i8))
-      bytes = bytes + 6*int(n_nodes(model%mesh), i8)  ! stresses smoothed to them
-      bytes = bytes*n_modes*real_bytes
-   end function field_bytes
 
 end module axijoint_analysis_estimate

@@ -5,15 +5,14 @@ module axijoint_analysis_static
    use axijoint_analysis_recovery, only : recover
    use axijoint_analysis_remarks, only : remarks_on, mechanism_text, out_of_proportion
    use axijoint_analysis_results, only : results_type
+   use axijoint_analysis_solution, only : solve_displacements
    use axijoint_analysis_structure, only : structure_type, build_structure
-   use axijoint_assembly_equations, only : equations_type, solve_mode, refine_mode, &
-                                           backward_error, condition_estimate, worth_threads
-   use axijoint_assembly_force, only : joint_force, joint_jump, elastic_joint_stress
+   use axijoint_assembly_force, only : joint_jump, elastic_joint_stress
    use axijoint_assembly_loading, only : loading_type, new_loading
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : progress_type
-   use axijoint_base_timer, only : timer_type, phase_joints, phase_recover
+   use axijoint_base_timer, only : timer_type, phase_factor, phase_joints, phase_recover
    use axijoint_joints_field, only : joint_field_type, new_joint_field, set_initial_stress
    use axijoint_joints_increments, only : history_type, run_increments, final_factors, other_loop_difference
    use axijoint_joints_planes, only : planes_type, new_view, synthesize
@@ -47,14 +46,14 @@ contains
 
       call build_structure(model, structure, timer, progress, error)
       if (allocated(error)) return
-      call analyse_combination(model, structure, model%combinations(1), results, timer, progress)
+      call analyse_combination(model, structure, model%combinations(1), results, timer, progress, error)
    end subroutine analyse_model
 
    !> Solve one combination of load cases: displacements and joints, recovery
-   subroutine analyse_combination(model, structure, combination, results, timer, progress)
+   subroutine analyse_combination(model, structure, combination, results, timer, progress, error)
       !> The job
       type(model_type), intent(in), target :: model
-      !> The structure, factored
+      !> The structure, assembled
       type(structure_type), intent(inout), target :: structure
       !> The combination
       type(combination_type), intent(in) :: combination
@@ -64,17 +63,24 @@ contains
       type(timer_type), intent(inout) :: timer
       !> Where to show progress
       type(progress_type), intent(inout) :: progress
+      !> Singular stiffness, or out of memory
+      type(error_type), allocatable, intent(out) :: error
 
       type(joint_field_type) :: field
       type(history_type) :: history
 
       results%modes = structure%modes
       results%orderings = structure%orderings
+      results%solver = structure%equations%solver
       call timer%push(phase_joints)
       if (size(structure%yielding) > 0) then
-         call solve_joints(model, structure, combination, history, field, results, progress)
+         call solve_joints(model, structure, combination, history, field, results, progress, error)
       else
-         call solve_linear(model, structure, combination, history, field, results)
+         call solve_linear(model, structure, combination, history, field, results, timer, error)
+      end if
+      if (allocated(error)) then
+         call timer%pop()
+         return
       end if
       call take_joint_results(structure%joint_points, field, results)
       call timer%pop()
@@ -83,7 +89,6 @@ contains
       call recover(model, structure, history%loading, history%peak, field, results)
       call smooth_stress(model, results)
       call cut_resultants(model, structure, history%loading, field, results)
-      call report_solves(structure, history%loading%right, field, results)
       results%converged = results%converged .and. results%residual_ratio <= results%tolerance + rounding(results)
       results%remarks = remarks_on(model, structure, history, field, results)
       call timer%pop()
@@ -101,7 +106,7 @@ contains
 
    !> Joints that yield: the increments on the condensed structure, then the
    !> displacements of the whole
-   subroutine solve_joints(model, structure, combination, history, field, results, progress)
+   subroutine solve_joints(model, structure, combination, history, field, results, progress, error)
       !> The job
       type(model_type), intent(in), target :: model
       !> The structure, factored and condensed
@@ -116,28 +121,39 @@ contains
       type(results_type), intent(inout) :: results
       !> Where to show progress
       type(progress_type), intent(inout) :: progress
+      !> Singular stiffness, or out of memory
+      type(error_type), allocatable, intent(out) :: error
 
       type(joint_field_type) :: yielding
+      real(wp) :: factor_share
 
       structure%scene%model => model
       structure%scene%equations => structure%equations
       structure%scene%method = model%method
       call run_increments(structure%scene, structure%joint_points, structure%support_points, &
                           combination, yielding, history, progress)
+      if (allocated(history%failure)) then
+         error = history%failure
+         return
+      end if
       results%converged = history%verdict%converged
       results%other_loop = other_loop_difference(structure%scene, history, yielding)
       results%path = history%path
       results%tolerance = model%increments(size(model%increments))%tolerance
       allocate (results%displacement, mold=history%loading%right)
       if (allocated(history%runaway)) then
-         call solve_displacements(structure%equations, history%loading, structure%scene%points, &
-                                  history%runaway, results%displacement)
+         call solve_displacements(structure%equations, model, history%loading, &
+                                  structure%scene%points, history%runaway, results%displacement, &
+                                  results%solves, factor_share, error)
+         if (allocated(error)) return
          if (.not. out_of_proportion(model, structure)) then
             results%mechanism = mechanism_text(model, history%reached, results)
          end if
       end if
-      call solve_displacements(structure%equations, history%loading, structure%scene%points, &
-                               yielding%excess, results%displacement)
+      call solve_displacements(structure%equations, model, history%loading, structure%scene%points, &
+                               yielding%excess, results%displacement, results%solves, factor_share, &
+                               error)
+      if (allocated(error)) return
       results%plane_angles = structure%scene%planes%angle
       call elastic_field(model, structure, structure%scene%planes, history, results%displacement, field)
       associate (yield => structure%yielding)
@@ -149,11 +165,11 @@ contains
    end subroutine solve_joints
 
    !> Joints that stay elastic: one solution
-   subroutine solve_linear(model, structure, combination, history, field, results)
+   subroutine solve_linear(model, structure, combination, history, field, results, timer, error)
       !> The job
       type(model_type), intent(in) :: model
-      !> The structure, factored
-      type(structure_type), intent(in) :: structure
+      !> The structure, assembled
+      type(structure_type), intent(inout) :: structure
       !> Factors of the load cases
       type(combination_type), intent(in) :: combination
       !> Takes the loads
@@ -162,9 +178,14 @@ contains
       type(joint_field_type), intent(out) :: field
       !> Results that take displacements and convergence
       type(results_type), intent(inout) :: results
+      !> Times of the phases
+      type(timer_type), intent(inout) :: timer
+      !> Singular stiffness, or out of memory
+      type(error_type), allocatable, intent(out) :: error
 
       type(planes_type) :: planes
       real(wp), allocatable :: none(:, :, :)
+      real(wp) :: factor_share
 
       call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
                        combination_type(combination%label, final_factors(model, combination)), &
@@ -172,43 +193,18 @@ contains
       history%peak = history%loading
       allocate (results%displacement, mold=history%loading%right)
       allocate (results%path(0), none(3, 0, size(structure%modes)))
-      call solve_displacements(structure%equations, history%loading, structure%joint_points(:0), &
-                               none, results%displacement)
+      call timer%push(phase_joints)
+      call solve_displacements(structure%equations, model, history%loading, &
+                               structure%joint_points(:0), none, results%displacement, &
+                               results%solves, factor_share, error)
+      call timer%pop(phase_factor, factor_share)
+      if (allocated(error)) return
       results%converged = .true.  ! if the residual says so, too
       results%tolerance = linear_tolerance
       planes = new_view(model%output_angles, structure%modes)
       results%plane_angles = planes%angle
       call elastic_field(model, structure, planes, history, results%displacement, field)
    end subroutine solve_linear
-
-   !> Displacements under loads and excess joint stress, a step of refinement in them
-   subroutine solve_displacements(equations, loading, points, excess, displacement)
-      !> Equations of all modes, factored
-      type(equations_type), intent(in) :: equations
-      !> The loads
-      type(loading_type), intent(in) :: loading
-      !> Joint points with excess stress, and its amplitudes, shape (3, points, modes)
-      type(model_joint_point_type), intent(in) :: points(:)
-      real(wp), intent(in) :: excess(:, :, :)
-      !> Displacement amplitudes, shape (3, nodes, modes)
-      real(wp), intent(out) :: displacement(:, :, :)
-
-      real(wp), allocatable :: force(:, :)  ! threads have small stacks
-      integer :: s, i, k
-
-      !$omp parallel do schedule(dynamic) private(i, k, force) if (worth_threads(equations))
-      do s = 1, size(equations%systems)
-         do i = 1, size(equations%systems(s)%modes)
-            k = equations%systems(s)%modes(i)
-            force = loading%right(:, :, k) + joint_force(points, equations%modes(k)%harmonic, &
-                                                         excess(:, :, k), size(displacement, 2))
-            call solve_mode(equations, k, force, displacement(:, :, k))
-            call refine_mode(equations, k, force, displacement(:, :, k))
-         end do
-      end do
-      !$omp end parallel do
-      if (allocated(loading%held)) displacement = displacement + loading%held
-   end subroutine solve_displacements
 
    !> State of all joints, as if none yielded
    subroutine elastic_field(model, structure, planes, history, displacement, field)
@@ -262,49 +258,5 @@ contains
       results%joint_stress = field%stress
       results%joint_state = field%state
    end subroutine take_joint_results
-
-   !> How well the equations of each mode are solved: the backward error of one
-   !> more solution, for the forces that act at the end
-   subroutine report_solves(structure, applied, field, results)
-      !> The structure, factored
-      type(structure_type), intent(in) :: structure
-      !> Forces on the unknowns, shape (3, nodes, modes)
-      real(wp), intent(in) :: applied(:, :, :)
-      !> State of the joints
-      type(joint_field_type), intent(in) :: field
-      !> Results that take the report
-      type(results_type), intent(inout) :: results
-
-      real(wp), allocatable :: force(:, :), displacement(:, :)  ! threads have small stacks
-      real(wp) :: condition
-      integer :: s, i, k
-
-      associate (equations => structure%equations)
-         results%solver = equations%solver
-         allocate (results%solves(size(equations%modes)))
-         !$omp parallel do schedule(dynamic) private(i, k, condition, force, displacement) &
-         !$omp if (worth_threads(equations))
-         do s = 1, size(equations%systems)
-            condition = condition_estimate(equations, s)
-            do i = 1, size(equations%systems(s)%modes)
-               k = equations%systems(s)%modes(i)
-               force = applied(:, :, k) + joint_force(structure%joint_points, &
-                  equations%modes(k)%harmonic, field%excess(:, :, k), size(applied, 2))
-               displacement = force  ! for its shape
-               call solve_mode(equations, k, force, displacement)
-               call refine_mode(equations, k, force, displacement)
-               associate (report => results%solves(k), system => equations%systems(s))
-                  report%mode = equations%modes(k)
-                  report%n_equations = equations%classes(system%class)%dofs%n_equations
-                  report%factor_entries = equations%plans(system%class)%solver%factor_entries
-                  report%condition = condition
-                  report%smallest_pivot = system%pivots%smallest
-                  report%backward_error = backward_error(equations, k, force, displacement)
-               end associate
-            end do
-         end do
-         !$omp end parallel do
-      end associate
-   end subroutine report_solves
 
 end module axijoint_analysis_static

@@ -1,8 +1,9 @@
 !> What all load combinations of a job share: modes, joints, factored equations
 module axijoint_analysis_structure
+   use axijoint_analysis_footprint, only : footprint_type, data_footprint
    use axijoint_analysis_results, only : ordering_type
-   use axijoint_assembly_equations, only : equations_type, plan_equations, assemble_equations, &
-                                           factorize_equations
+   use axijoint_assembly_equations, only : equations_type, plan_equations, assemble_equations
+   use axijoint_assembly_factors, only : plan_factors, factorize_equations, report_failure
    use axijoint_assembly_mechanism, only : check_mechanism
    use axijoint_assembly_pattern, only : node_graph
    use axijoint_assembly_support, only : support_point_type, new_support_points
@@ -17,13 +18,13 @@ module axijoint_analysis_structure
    use axijoint_joints_planes, only : new_planes
    use axijoint_joints_response, only : new_response
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points, stiffness_ratio
-   use axijoint_model_model, only : model_type, can_yield_at, yielding_nodes
+   use axijoint_model_model, only : model_type, can_yield, can_yield_at, yielding_nodes
    use axijoint_model_modes, only : used_modes
    use axijoint_order_graph, only : bandwidth, profile, fill
    use axijoint_solver_choice, only : orders_type, new_orders
    implicit none
    private
-   public :: structure_type, build_structure
+   public :: structure_type, build_structure, reuses_factors
 
    !> A structure ready to be loaded
    type :: structure_type
@@ -64,7 +65,9 @@ contains
       call timer%pop()
       if (allocated(error)) return
       call timer%push(phase_factor)
-      call show_progress(progress, 'factoring '//to_text(size(structure%equations%systems))//' harmonics')
+      if (structure%equations%n_kept > 0) then
+         call show_progress(progress, 'factoring '//to_text(structure%equations%n_kept)//' harmonics')
+      end if
       call factorize_equations(structure%equations, model, error)
       call timer%pop()
       if (allocated(error)) return
@@ -78,6 +81,7 @@ contains
          structure%scene%planes = new_planes(model%n_planes, structure%modes)
          structure%scene%first_share = share_seen_first(model, structure%scene%points)
          call new_response(structure%equations, structure%scene%points, structure%scene%response, error)
+         if (.not. allocated(error)) call report_failure(structure%equations, model, error)
       end if
       call timer%pop()
    end subroutine build_structure
@@ -94,11 +98,12 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(orders_type) :: orders
+      type(footprint_type) :: others
 
       structure%joint_points = new_joint_points(model)
       structure%support_points = new_support_points(model)
       structure%modes = used_modes(model)
-      call require_memory(0_i8, 'the solvers', error)
+      call require_memory(0_i8, 'the solvers', model%memory_limit, error)
       if (allocated(error)) return
       call check_mechanism(model, structure%joint_points, structure%support_points, &
                            structure%modes, error)
@@ -109,9 +114,23 @@ contains
       structure%orderings = compare_orders(orders)
       call plan_equations(structure%equations, model, structure%modes, orders, error)
       if (allocated(error)) return
+      others = data_footprint(model, size(structure%modes), size(structure%equations%systems), &
+                              structure%joint_points)
+      call plan_factors(structure%equations, reuses_factors(model), others%coming(), &
+                        model%memory_limit, error)
+      if (allocated(error)) return
       call assemble_equations(structure%equations, model, structure%joint_points, &
-                              structure%support_points, error)
+                              structure%support_points)
    end subroutine assemble
+
+   !> Whether the factors are needed more than once: by several load combinations, or by joints,
+   !> which take flexibilities, then displacements
+   pure logical function reuses_factors(model)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      reuses_factors = size(model%combinations) > 1 .or. can_yield(model)
+   end function reuses_factors
 
    !> Share of the joint stiffness that Newton's method begins with: what is about
    !> the stiffness of the bodies. Cohesion makes yield depend on the size of the

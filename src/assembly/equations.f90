@@ -1,19 +1,13 @@
 !> The equations of all harmonics: matrices, factors, solution
 module axijoint_assembly_equations
-   use omp_lib, only : omp_get_max_threads
-   use axijoint_assembly_dofs, only : gather, expand, kinematic_class, component_name
-   use axijoint_assembly_harmonic, only : harmonic_values, harmonic_product
-   use axijoint_assembly_stiffness, only : stiffness_type, new_stiffness, assemble_parts, &
-                                           n_parts
+   use axijoint_assembly_dofs, only : gather, expand, kinematic_class
+   use axijoint_assembly_harmonic, only : harmonic_product
+   use axijoint_assembly_stiffness, only : stiffness_type, new_stiffness, assemble_parts
    use axijoint_assembly_support, only : support_point_type
-   use axijoint_base_error, only : error_type, fatal_error, exit_singular
-   use axijoint_base_kinds, only : wp, i8
-   use axijoint_base_large_pages, only : use_large_pages
-   use axijoint_base_memory, only : require_memory
-   use axijoint_base_text, only : to_text
+   use axijoint_base_error, only : error_type
+   use axijoint_base_kinds, only : wp
    use axijoint_fe_mode, only : mode_type
-   use axijoint_linalg_lapack, only : use_one_blas_thread, norm_step
-   use axijoint_linalg_symmetric_matrix, only : infinity_norm
+   use axijoint_linalg_lapack, only : norm_step
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type, on_axis
    use axijoint_order_graph, only : bandwidth
@@ -22,16 +16,14 @@ module axijoint_assembly_equations
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type
    implicit none
    private
-   public :: equations_type, plan_equations, assemble_equations, factorize_equations
+   public :: equations_type, system_type, plan_equations, assemble_equations
    public :: solve_mode, backward_error, on_equations
-   public :: plan_solver, worth_threads, planned_seconds, needed_bytes, refine_mode, condition_estimate
+   public :: plan_solver, worth_threads, planned_seconds, refine_mode, condition_estimate
 
    !> A band wider than this many nodes is never faster than nested dissection
    integer, parameter :: widest_band = 400
    !> With fewer equations in all, threads cost more than they save
    integer, parameter :: least_equations = 10000
-   !> Bytes of a value
-   integer(i8), parameter :: value_bytes = storage_size(1.0_wp)/8
    !> Rate of matrix products that solvers are chosen by [operations/second]
    real(wp), parameter :: nominal_rate = 5.0e10_wp
 
@@ -46,9 +38,12 @@ module axijoint_assembly_equations
       integer, allocatable :: modes(:)
       !> Largest sum of absolute values in a row of K_m
       real(wp) :: norm = 0.0_wp
-      !> Factor and pivots
+      !> Factor while it is there, and pivots once it was
       class(factor_type), allocatable :: factor
       type(pivot_report_type) :: pivots
+      !> Whether it cannot be factored, and the words if a pivot is not the reason
+      logical :: failed = .false.
+      type(error_type), allocatable :: failure
    end type system_type
 
    !> Plan of one class
@@ -71,6 +66,10 @@ module axijoint_assembly_equations
       type(stiffness_type), allocatable :: classes(:)
       !> Plans of the solver, one a class
       type(plan_slot_type), allocatable :: plans(:)
+      !> So many systems, the first ones, keep their factors
+      integer :: n_kept = 0
+      !> Systems that are worked on at once
+      integer :: n_workers = 1
    end type equations_type
 
 contains
@@ -201,7 +200,7 @@ contains
    end function planned_seconds
 
    !> Assemble the stiffness of all classes
-   subroutine assemble_equations(equations, model, joint_points, support_points, error)
+   subroutine assemble_equations(equations, model, joint_points, support_points)
       !> The equations, planned
       type(equations_type), intent(inout) :: equations
       !> The job
@@ -209,144 +208,9 @@ contains
       !> Points of all joints, and of all springs
       type(model_joint_point_type), intent(in) :: joint_points(:)
       type(support_point_type), intent(in) :: support_points(:)
-      !> Out of memory
-      type(error_type), allocatable, intent(out) :: error
 
-      call require_memory(needed_bytes(equations), 'the factors of '// &
-                          to_text(size(equations%systems))//' harmonics', error)
-      if (allocated(error)) return
       call assemble_parts(equations%classes, model, joint_points, support_points)
    end subroutine assemble_equations
-
-   !> Bytes of the stiffness of all classes and of all factors
-    function needed_bytes(equations) result(bytes)
-      !> The equations, analysed
-      type(equations_type), intent(in) :: equations
-      !> Bytes
-      integer(i8) :: bytes
-
-      integer(i8) :: work
-      integer :: k
-
-      bytes = 0
-      work = 0
-      do k = 1, size(equations%classes)
-         associate (class => equations%classes(k), solver => equations%plans(k)%solver)
-            bytes = bytes + class_bytes(class) + solver%plan_bytes
-            work = max(work, value_bytes*size(class%pattern%column, kind=i8) + solver%work_bytes)
-         end associate
-      end do
-      do k = 1, size(equations%systems)
-         bytes = bytes + equations%plans(equations%systems(k)%class)%solver%factor_bytes
-      end do
-      bytes = bytes + work*threads_in_use(equations)
-   end function needed_bytes
-
-   !> Bytes of the stiffness of a class
-   pure integer(i8) function class_bytes(stiffness)
-      !> The stiffness
-      type(stiffness_type), intent(in) :: stiffness
-
-      integer(i8), parameter :: column_bytes = storage_size(1)/8
-
-      class_bytes = (column_bytes + value_bytes*n_parts(stiffness)) &
-         *size(stiffness%pattern%column, kind=i8)
-   end function class_bytes
-
-   !> Harmonics that are worked on at once
-   integer function threads_in_use(equations)
-      !> The equations, planned
-      type(equations_type), intent(in) :: equations
-
-      threads_in_use = 1
-      if (worth_threads(equations)) then
-         threads_in_use = min(omp_get_max_threads(), size(equations%systems))
-      end if
-   end function threads_in_use
-
-   !> Form and factor the matrices of all harmonics, one harmonic a thread
-   subroutine factorize_equations(equations, model, error)
-      !> The equations
-      type(equations_type), intent(inout) :: equations
-      !> The job, for the words of an error
-      type(model_type), intent(in) :: model
-      !> Out of memory; a pivot that is not positive, as node and direction
-      type(error_type), allocatable, intent(out) :: error
-
-      type(error_type), allocatable :: failure
-      real(wp), allocatable :: value(:)  ! a thread's, for one harmonic after the other
-      integer :: k, failed
-
-      call use_one_blas_thread()
-      failed = huge(1)  ! the lowest harmonic that fails is the one reported, with any threads
-      !$omp parallel do schedule(dynamic) private(failure, value) if (worth_threads(equations))
-      do k = 1, size(equations%systems)
-         call factorize_system(equations, equations%systems(k), value, failure)
-         if (.not. allocated(failure) .and. equations%systems(k)%pivots%equation > 0) then
-            call fatal_error(failure, exit_singular, &
-                             pivot_message(equations, k, equations%systems(k)%pivots%equation, model))
-         end if
-         if (.not. allocated(failure)) cycle
-         !$omp critical
-         if (k < failed) then
-            failed = k
-            error = failure
-         end if
-         !$omp end critical
-      end do
-      !$omp end parallel do
-   end subroutine factorize_equations
-
-   !> Form and factor the matrix of one system
-   subroutine factorize_system(equations, system, value, error)
-      !> The equations, assembled
-      type(equations_type), intent(in) :: equations
-      !> The system
-      type(system_type), intent(inout) :: system
-      !> Values of a matrix: memory to be used again
-      real(wp), allocatable, intent(inout) :: value(:)
-      !> Out of memory
-      type(error_type), allocatable, intent(out) :: error
-
-      associate (class => equations%classes(system%class))
-         if (allocated(value)) then
-            if (size(value) /= size(class%pattern%column)) deallocate (value)
-         end if
-         if (.not. allocated(value)) then
-            allocate (value(size(class%pattern%column)))
-            call use_large_pages(value)
-         end if
-         call harmonic_values(class, system%harmonic, value)
-         system%norm = infinity_norm(class%pattern, value)
-         call equations%plans(system%class)%solver%factorize(class%pattern, value, system%factor, &
-                                                             system%pivots, error)
-      end associate
-   end subroutine factorize_system
-
-   !> A pivot that is not positive, in words
-   function pivot_message(equations, k, equation, model) result(message)
-      !> The equations
-      type(equations_type), intent(in) :: equations
-      !> Place of the system
-      integer, intent(in) :: k
-      !> Equation of the pivot
-      integer, intent(in) :: equation
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Cause and remedy
-      character(len=:), allocatable :: message
-
-      integer :: place(2)
-
-      place = findloc(equations%classes(equations%systems(k)%class)%dofs%equation, equation)
-      message = 'the stiffness of harmonic '//to_text(equations%systems(k)%harmonic)// &
-                ' is singular: node '//to_text(model%mesh%node_label(place(2)))// &
-                ' (r = '//to_text(model%mesh%coordinates(1, place(2)))// &
-                ', z = '//to_text(model%mesh%coordinates(2, place(2)))// &
-                ') can move freely in direction '//trim(component_name(place(1)))//new_line('a')// &
-                'mend: is a restraint missing, is a joint stiffness zero or out of all '// &
-                'proportion to the bodies, or a material far softer than the rest?'
-   end function pivot_message
 
    !> Displacement of one mode under nodal forces
    subroutine solve_mode(equations, k, force, displacement)

@@ -5,8 +5,10 @@ module axijoint_base_memory
    use axijoint_base_text, only : to_text
    implicit none
    private
-   public :: require_memory, available_memory
+   public :: require_memory, available_memory, free_memory, no_limit
 
+   !> The user gave no limit
+   integer(i8), parameter :: no_limit = huge(1_i8)
    !> No limit is known
    integer(i8), parameter :: unknown = huge(1_i8)
    !> Bytes that must stay free: BLAS takes buffers of its own when a thread
@@ -19,20 +21,54 @@ contains
 
    !> Make sure that memory is there before it is allocated: a system that
    !> promises more than it has would kill the process later without a word
-   subroutine require_memory(bytes, purpose, error)
+   subroutine require_memory(bytes, purpose, limit, error)
       !> Bytes needed, without the head-room of the libraries
       integer(i8), intent(in) :: bytes
       !> What for
       character(len=*), intent(in) :: purpose
+      !> Bytes that the user lets the process take in all
+      integer(i8), intent(in) :: limit
       !> Too little memory, with the bytes
       type(error_type), allocatable, intent(out) :: error
 
-      if (bytes + head_room <= available_memory()) return
+      if (bytes <= free_memory(limit)) return
+      if (bytes > left_of(limit)) then
+         call fatal_error(error, exit_memory, 'out of memory: '//purpose//' need '// &
+                          in_mebibytes(bytes)//', the limit given leaves '// &
+                          in_mebibytes(left_of(limit))//new_line('a')// &
+                          'mend: a larger limit, or a coarser mesh')
+         return
+      end if
       call fatal_error(error, exit_memory, 'out of memory: '//purpose//' need '// &
                        in_mebibytes(bytes + head_room)//', available are '// &
                        in_mebibytes(available_memory())//new_line('a')// &
                        'mend: a coarser mesh, fewer harmonics, or a larger memory limit')
    end subroutine require_memory
+
+   !> Bytes that data of this process may still take, by what is found and what the user allows
+   function free_memory(limit) result(bytes)
+      !> Bytes that the user lets the process take in all
+      integer(i8), intent(in) :: limit
+      !> Bytes
+      integer(i8) :: bytes
+
+      bytes = min(available_memory() - head_room, left_of(limit))
+   end function free_memory
+
+   !> Bytes that a limit on the whole process leaves
+   function left_of(limit) result(bytes)
+      !> The limit
+      integer(i8), intent(in) :: limit
+      !> Bytes
+      integer(i8) :: bytes
+
+      integer(i8) :: used
+
+      bytes = limit
+      if (limit == no_limit) return
+      used = scaled(number_after('/proc/self/status', 'VmRSS:'), 1024_i8)
+      if (used /= unknown) bytes = max(limit - used, 0_i8)
+   end function left_of
 
    !> Bytes that this process may still take: the least of what the machine has
    !> free, what its control group leaves and what its address space leaves

@@ -6,7 +6,7 @@ module axijoint_base_system
    private
    public :: path_kind, is_directory, same_file, rename_path, unlink_path, sync_path
    public :: peak_memory_mb, process_id, error_output_is_terminal
-   public :: ignore_file_size_signal, last_error, set_last_error, error_text
+   public :: return_freed_memory, ignore_file_size_signal, last_error, set_last_error, error_text
    public :: path_absent, path_file, path_directory, path_link, path_other
 
    !> Nothing has this name
@@ -86,6 +86,10 @@ module axijoint_base_system
          integer(c_int), value :: descriptor
          integer(c_int) :: c_isatty
       end function c_isatty
+
+      !> Have memory back from the heap; system_shim.c
+      subroutine c_return_freed_memory() bind(c, name="axijoint_return_freed_memory")
+      end subroutine c_return_freed_memory
 
       !> Ignore SIGXFSZ; system_shim.c
       subroutine c_ignore_file_size_signal() bind(c, name="axijoint_ignore_file_size_signal")
@@ -187,6 +191,11 @@ contains
    logical function error_output_is_terminal()
       error_output_is_terminal = c_isatty(standard_error) == 1_c_int
    end function error_output_is_terminal
+
+   !> From now on give large arrays back to the system as soon as they are freed
+   subroutine return_freed_memory()
+      call c_return_freed_memory()
+   end subroutine return_freed_memory
 
    !> Let a write beyond the limit on file sizes fail instead of ending the
    !> process by a signal

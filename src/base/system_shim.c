@@ -3,6 +3,9 @@
    value of errno, unless its comment says otherwise. */
 #include <errno.h>
 #include <fcntl.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -61,10 +64,21 @@ int axijoint_sync_stream(FILE *stream)
    return 0;
 }
 
-/* Largest resident memory of this process so far in kilobytes; -1 unknown. */
+/* Largest resident memory of this process so far in kilobytes; -1 unknown. Linux
+   says it in /proc; what getrusage says there is at least the memory of the
+   process that started this one. */
 long axijoint_peak_memory(void)
 {
    struct rusage usage;
+   char line[128];
+   long peak = -1;
+   FILE *status = fopen("/proc/self/status", "r");
+   if (status) {
+      while (peak < 0 && fgets(line, sizeof line, status))
+         if (sscanf(line, "VmHWM: %ld", &peak) != 1) peak = -1;
+      fclose(status);
+      if (peak >= 0) return peak;
+   }
    if (getrusage(RUSAGE_SELF, &usage) != 0) return -1;
 #ifdef __APPLE__
    return usage.ru_maxrss / 1024;
@@ -78,6 +92,16 @@ long axijoint_peak_memory(void)
 void axijoint_ignore_file_size_signal(void)
 {
    signal(SIGXFSZ, SIG_IGN);
+}
+
+/* Large arrays go back to the system as soon as they are freed. By itself the
+   library keeps ever larger ones for later, up to 32 MiB, and then less memory
+   is free than the factors were planned for. */
+void axijoint_return_freed_memory(void)
+{
+#ifdef M_MMAP_THRESHOLD
+   mallopt(M_MMAP_THRESHOLD, 4 << 20);
+#endif
 }
 
 /* The last error of this thread, and setting it. */

@@ -97,12 +97,27 @@ contains
    end subroutine push
 
    !> End the phase pushed last; nothing happens if none is open
-   subroutine pop(self)
+   subroutine pop(self, other, share)
       !> The timer
       class(timer_type), intent(inout) :: self
+      !> A phase whose work was done in turn with that of the phase pushed last, since that
+      !> was pushed or went on, and its share of the time
+      integer, intent(in), optional :: other
+      real(wp), intent(in), optional :: share
+
+      type(reading_type) :: before, stretch
+      integer :: running
 
       if (self%depth == 0) return
+      running = self%open_phases(min(self%depth, max_depth))
+      before = self%elapsed(running)
       call settle(self)
+      if (present(other) .and. present(share)) then
+         stretch = minus(self%elapsed(running), before)
+         stretch = reading_type(share*stretch%wall, share*stretch%cpu)
+         self%elapsed(running) = minus(self%elapsed(running), stretch)
+         self%elapsed(other) = plus(self%elapsed(other), stretch)
+      end if
       self%depth = self%depth - 1
    end subroutine pop
 

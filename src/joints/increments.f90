@@ -1,7 +1,9 @@
 !> Load increments one after the other, each to equilibrium at the joints
 module axijoint_joints_increments
+   use axijoint_assembly_factors, only : report_failure
    use axijoint_assembly_loading, only : loading_type, new_loading
    use axijoint_assembly_support, only : support_point_type
+   use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : progress_type, show_progress
    use axijoint_base_text, only : to_text
@@ -36,6 +38,8 @@ module axijoint_joints_increments
       real(wp) :: reached = 0.0_wp
       !> Convergence path
       type(iteration_type), allocatable :: path(:)
+      !> What ended the increments before their time: too little memory
+      type(error_type), allocatable :: failure
    end type history_type
 
    !> Loads of a step
@@ -98,6 +102,7 @@ contains
 
          before = field
          call try_step(increment, to)
+         if (allocated(history%failure)) return
          if (history%verdict%converged .or. scene%method == method_transfer) return
          if (halvings == 0) then
             if (.not. history%verdict%ran_away) return
@@ -127,6 +132,8 @@ contains
 
          associate (control => scene%model%increments(increment))
             call put_loads(step)
+            history%verdict%converged = .false.
+            if (allocated(history%failure)) return
             norm = load_norm(scene%equations, history%loading)
             if (norm >= peak_norm) then
                peak_norm = norm
@@ -157,6 +164,7 @@ contains
          call new_loading(scene%model, all_points, supports, scene%equations%modes, &
                           combination_type(combination%label, step%case_factor), history%loading)
          call load_response(scene%equations, scene%points, history%loading, scene%response)
+         call report_failure(scene%equations, scene%model, history%failure)
          call set_initial_stress(scene%model, scene%points, step%case_factor, field)
       end subroutine put_loads
 

@@ -2,7 +2,9 @@
 !> from joint stress that is not admitted, condensed to the joint points
 module axijoint_joints_response
    use axijoint_assembly_dofs, only : dofs_type
-   use axijoint_assembly_equations, only : equations_type, solve_mode, worth_threads
+   use axijoint_assembly_equations, only : equations_type, solve_mode
+   use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
+                                         release_factor
    use axijoint_assembly_force, only : joint_jump
    use axijoint_assembly_loading, only : loading_type
    use axijoint_base_error, only : error_type
@@ -38,8 +40,8 @@ contains
 
    !> Condense every harmonic to the joint points
    subroutine new_response(equations, points, response, error)
-      !> Equations of all modes, factored
-      type(equations_type), intent(in) :: equations
+      !> Equations of all modes, assembled; systems that cannot be factored are marked there
+      type(equations_type), intent(inout) :: equations
       !> Joint points
       type(model_joint_point_type), intent(in) :: points(:)
       !> The response, without loads
@@ -48,13 +50,18 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(error_type), allocatable :: failure
+      type(workspace_type), allocatable :: spaces(:)
       integer :: s
 
       response%system = equations%system
       allocate (response%flexibilities(size(equations%systems)))
-      !$omp parallel do schedule(dynamic) private(failure) if (worth_threads(equations))
+      call new_workspaces(equations, spaces)
+      !$omp parallel do schedule(dynamic) private(failure) num_threads(size(spaces))
       do s = 1, size(equations%systems)
+         call hold_factor(equations, s, spaces(own()))
+         if (equations%systems(s)%failed) cycle
          call condense(equations, s, points, response%flexibilities(s)%matrix, failure)
+         call release_factor(equations, s, spaces(own()))
          !$omp critical
          if (allocated(failure)) error = failure
          !$omp end critical
@@ -173,8 +180,8 @@ contains
 
    !> Jumps from loads, joints elastic
    subroutine load_response(equations, points, loading, response)
-      !> Equations of all modes, factored
-      type(equations_type), intent(in) :: equations
+      !> Equations of all modes, assembled; systems that cannot be factored are marked there
+      type(equations_type), intent(inout) :: equations
       !> Joint points
       type(model_joint_point_type), intent(in) :: points(:)
       !> The loads
@@ -183,14 +190,18 @@ contains
       type(response_type), intent(inout) :: response
 
       real(wp), allocatable :: displacement(:, :)  ! threads have small stacks
+      type(workspace_type), allocatable :: spaces(:)
       integer :: s, i, k
 
       if (.not. allocated(response%free)) then
          allocate (response%free(3, size(points), size(equations%modes)))
          allocate (response%largest(size(equations%modes)))
       end if
-      !$omp parallel do schedule(dynamic) private(i, k, displacement) if (worth_threads(equations))
+      call new_workspaces(equations, spaces)
+      !$omp parallel do schedule(dynamic) private(i, k, displacement) num_threads(size(spaces))
       do s = 1, size(equations%systems)
+         call hold_factor(equations, s, spaces(own()))
+         if (equations%systems(s)%failed) cycle
          do i = 1, size(equations%systems(s)%modes)
             k = equations%systems(s)%modes(i)
             displacement = loading%right(:, :, k)  ! for its shape
@@ -199,6 +210,7 @@ contains
             response%free(:, :, k) = joint_jump(points, displacement)
             response%largest(k) = maxval(abs(displacement))
          end do
+         call release_factor(equations, s, spaces(own()))
       end do
       !$omp end parallel do
    end subroutine load_response

@@ -3,7 +3,7 @@ module axijoint_linalg_symmetric_matrix
    use axijoint_base_kinds, only : wp, i8
    implicit none
    private
-   public :: symmetric_matrix_type, multiply, entry_position, infinity_norm
+   public :: symmetric_matrix_type, multiply, infinity_norm
 
    !> Lower triangle by rows (the upper triangle by columns); the columns of a
    !> row ascend, so that the diagonal is the last entry of each row
@@ -45,30 +45,6 @@ contains
          y(i) = y(i) + row_sum + matrix%value(k)*x(i)
       end do
    end function multiply
-
-   !> Position of an entry of the lower triangle, by bisection of its row
-   pure function entry_position(matrix, row, column) result(position)
-      !> The matrix or its pattern
-      type(symmetric_matrix_type), intent(in) :: matrix
-      !> Row and column, row >= column; the entry is in the pattern
-      integer, intent(in) :: row, column
-      !> Position in `column` and `value`
-      integer(i8) :: position
-
-      integer(i8) :: low, high
-
-      low = matrix%row_start(row)
-      high = matrix%row_start(row + 1) - 1
-      do while (low < high)
-         position = (low + high)/2
-         if (matrix%column(position) < column) then
-            low = position + 1
-         else
-            high = position
-         end if
-      end do
-      position = low
-   end function entry_position
 
    !> Largest sum of absolute values in a row of the whole matrix
    pure function infinity_norm(pattern, value) result(norm)

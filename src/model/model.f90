@@ -1,6 +1,7 @@
 !> Everything that a deck says about a job
 module axijoint_model_model
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_memory, only : no_limit
    use axijoint_element_joint_law, only : law_elastic
    use axijoint_fe_reference, only : reference_type, new_reference
    use axijoint_model_load, only : edge_load_type, ring_load_type, body_load_type, &
@@ -73,6 +74,8 @@ module axijoint_model_model
       integer :: method = method_newton
       !> Solver, one of the `solver_` parameters of the solver choice; 0 is auto
       integer :: solver = 0
+      !> Bytes that the process may take; more than there are if the user gave no limit
+      integer(i8) :: memory_limit = no_limit
       !> Angles at which totals are listed [radian]
       real(wp), allocatable :: output_angles(:)
       !> Lines along which results are listed

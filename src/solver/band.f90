@@ -60,8 +60,8 @@ contains
       type(symmetric_matrix_type), intent(in) :: pattern
       !> Values of the matrix
       real(wp), intent(in), contiguous :: value(:)
-      !> Its factor
-      class(factor_type), allocatable, intent(out) :: factor
+      !> Its factor; one of this plan that is given is overwritten
+      class(factor_type), allocatable, intent(inout) :: factor
       !> Pivots
       type(pivot_report_type), intent(out) :: pivots
       !> Out of memory
@@ -74,7 +74,9 @@ contains
 
       allocate (new)
       new%n = self%n
-      allocate (new%band(self%half_bandwidth + 1, self%n), stat=stat)
+      stat = 0
+      if (allocated(factor)) call take_memory(factor, new)
+      if (.not. allocated(new%band)) allocate (new%band(self%half_bandwidth + 1, self%n), stat=stat)
       if (stat /= 0) then
          call fatal_error(error, exit_memory, &
                           'out of memory: a band factor needs '//to_text(self%factor_bytes)//' bytes')
@@ -91,6 +93,20 @@ contains
       if (pivots%equation == 0) call judge_pivots(diagonal, new%band(1, :), pivots)
       call move_alloc(new, factor)
    end subroutine factorize
+
+   !> Take the memory of a factor that is no longer needed
+   subroutine take_memory(old, new)
+      !> The factor, of the same plan; deallocated
+      class(factor_type), allocatable, intent(inout) :: old
+      !> Takes its array
+      type(band_factor_type), intent(inout) :: new
+
+      select type (old)
+      type is (band_factor_type)
+         call move_alloc(old%band, new%band)
+      end select
+      deallocate (old)
+   end subroutine take_memory
 
    !> Solve with the rows and columns of the factor from one on
    subroutine solve_trailing(self, first, b)

@@ -171,16 +171,24 @@ void *axijoint_cholmod_analyse(int64_t n, const int64_t *start, const int32_t *c
    return plan;
 }
 
+/* A factor of the plan, without values; null if there is no memory */
+static handle_type *new_factor(const handle_type *plan) {
+   handle_type *handle = calloc(1, sizeof *handle);
+   if (!handle) return NULL;
+   choose(&handle->common);
+   handle->n = plan->n;
+   handle->factor = cholmod_l_copy_factor(plan->factor, &handle->common);
+   if (handle->factor) return handle;
+   axijoint_cholmod_free(handle);
+   return NULL;
+}
+
 /* Numeric factor in the order of the plan; 0 if there is no memory */
 static int factorize(const handle_type *plan, const double *value, handle_type *handle) {
    int64_t k, entries = plan->start[plan->n];
    double shift[2] = {0.0, 0.0};
    double *x = allocate(sizeof *x * (size_t)(entries + 1));
-   int ok, levels;
-   choose(&handle->common);
-   handle->n = plan->n;
-   handle->factor = cholmod_l_copy_factor(plan->factor, &handle->common);
-   ok = x && handle->factor;
+   int ok = x != NULL, levels;
    if (ok) {
       cholmod_sparse a = view(plan->n, plan->start, plan->row, x, -1);
       for (k = 0; k < entries; k++) x[k] = value[plan->from[k]];
@@ -192,13 +200,14 @@ static int factorize(const handle_type *plan, const double *value, handle_type *
    return ok && handle->common.status != CHOLMOD_OUT_OF_MEMORY;
 }
 
-/* Factor of a matrix of the pattern, given by its values: null if there is no memory. `failed` is
-   zero or the equation, counted from one, whose pivot is not positive; `diagonal` takes the
-   diagonal of the factor in the order of the equations. */
-void *axijoint_cholmod_factorize(const void *pointer, const double *value, double *diagonal,
-                                 int64_t *failed) {
+/* Factor of a matrix of the pattern, given by its values: null if there is no memory. An old
+   factor of the plan, if not null, is overwritten and becomes the new one. `failed` is zero or the
+   equation, counted from one, whose pivot is not positive; `diagonal` takes the diagonal of the
+   factor in the order of the equations. */
+void *axijoint_cholmod_factorize(const void *pointer, void *old, const double *value,
+                                 double *diagonal, int64_t *failed) {
    const handle_type *plan = pointer;
-   handle_type *handle = calloc(1, sizeof *handle);
+   handle_type *handle = old ? old : new_factor(plan);
    *failed = 0;
    if (!handle) return NULL;
    if (!factorize(plan, value, handle)) {

@@ -71,8 +71,8 @@ contains
       type(symmetric_matrix_type), intent(in) :: pattern
       !> Values of the matrix
       real(wp), intent(in), contiguous :: value(:)
-      !> Its factor
-      class(factor_type), allocatable, intent(out) :: factor
+      !> Its factor; one of this plan that is given is overwritten
+      class(factor_type), allocatable, intent(inout) :: factor
       !> Pivots
       type(pivot_report_type), intent(out) :: pivots
       !> Out of memory
@@ -83,7 +83,9 @@ contains
       integer :: i, stat
 
       allocate (new)
-      allocate (new%entry(self%factor_entries), stat=stat)
+      stat = 0
+      if (allocated(factor)) call take_memory(factor, new)
+      if (.not. allocated(new%entry)) allocate (new%entry(self%factor_entries), stat=stat)
       if (stat /= 0) then
          call fatal_error(error, exit_memory, 'out of memory: a skyline factor needs '// &
                           to_text(self%factor_bytes)//' bytes')
@@ -107,6 +109,20 @@ contains
       end if
       call move_alloc(new, factor)
    end subroutine factorize
+
+   !> Take the memory of a factor that is no longer needed
+   subroutine take_memory(old, new)
+      !> The factor, of the same plan; deallocated
+      class(factor_type), allocatable, intent(inout) :: old
+      !> Takes its array
+      type(skyline_factor_type), intent(inout) :: new
+
+      select type (old)
+      type is (skyline_factor_type)
+         call move_alloc(old%entry, new%entry)
+      end select
+      deallocate (old)
+   end subroutine take_memory
 
    !> Factor one row; the rows before are done
    pure subroutine factor_row(factor, i, failed)

@@ -51,11 +51,11 @@ module axijoint_solver_sparse
          integer(c_int64_t), intent(out) :: bytes
          type(c_ptr) :: handle
       end function cholmod_analyse
-      !> Factor of a matrix
-      function cholmod_factorize(plan, value, diagonal, failed) result(handle) &
+      !> Factor of a matrix, in the memory of an old one if that is not null
+      function cholmod_factorize(plan, old, value, diagonal, failed) result(handle) &
          bind(c, name='axijoint_cholmod_factorize')
          import :: c_ptr, c_int32_t, c_int64_t, c_double
-         type(c_ptr), value :: plan
+         type(c_ptr), value :: plan, old
          real(c_double), intent(in) :: value(*)
          real(c_double), intent(out) :: diagonal(*)
          integer(c_int64_t), intent(out) :: failed
@@ -122,8 +122,8 @@ contains
       type(symmetric_matrix_type), intent(in) :: pattern
       !> Values of the matrix
       real(wp), intent(in), contiguous :: value(:)
-      !> Its factor
-      class(factor_type), allocatable, intent(out) :: factor
+      !> Its factor; one of this plan that is given is overwritten
+      class(factor_type), allocatable, intent(inout) :: factor
       !> Pivots
       type(pivot_report_type), intent(out) :: pivots
       !> Out of memory
@@ -135,7 +135,8 @@ contains
 
       allocate (new)
       new%n = self%n
-      new%handle = cholmod_factorize(self%handle, value, root, failed)
+      if (allocated(factor)) call take_memory(factor, new)
+      new%handle = cholmod_factorize(self%handle, new%handle, value, root, failed)
       pivots%equation = int(failed)
       if (c_associated(new%handle)) then
          if (failed == 0) call judge_pivots(value(pattern%row_start(2:) - 1), root, pivots)
@@ -145,6 +146,21 @@ contains
                           to_text(int(self%factor_bytes/2**20))//' MiB')
       end if
    end subroutine factorize
+
+   !> Take the memory of a factor that is no longer needed
+   subroutine take_memory(old, new)
+      !> The factor, of the same plan; deallocated
+      class(factor_type), allocatable, intent(inout) :: old
+      !> Takes its handle
+      type(sparse_factor_type), intent(inout) :: new
+
+      select type (old)
+      type is (sparse_factor_type)
+         new%handle = old%handle
+         old%handle = c_null_ptr
+      end select
+      deallocate (old)
+   end subroutine take_memory
 
    !> Solve for a block of right-hand sides
    subroutine solve(self, b)

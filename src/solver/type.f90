@@ -79,8 +79,9 @@ module axijoint_solver_type
          type(symmetric_matrix_type), intent(in) :: pattern
          !> Values of the matrix at the entries of the pattern
          real(wp), intent(in), contiguous :: value(:)
-         !> Its factor; of use only if no pivot failed
-         class(factor_type), allocatable, intent(out) :: factor
+         !> Its factor; of use only if no pivot failed. A factor of this plan that is given
+         !> is overwritten: its memory is used again
+         class(factor_type), allocatable, intent(inout) :: factor
          !> Pivots; a failed one is for the caller to put into words
          type(pivot_report_type), intent(out) :: pivots
          !> Out of memory

@@ -4,6 +4,7 @@ import os
 import re
 import resource
 
+from hard_scenes import example
 from support import INPUTS, Test, read_text, write
 
 # A ring large enough for harmonics to be solved in parallel
@@ -77,6 +78,56 @@ def threads_change_nothing(program, folder):
     return faults
 
 
+def predicted_memory(program, deck, *options):
+    """Memory [MB] that `estimate` expects of the sparse solver, and its factors at once"""
+    ran = program.run('estimate', deck, *options)
+    row = re.search(r'^ +SPARSE( +\S+){3} +(\d+) +(\S+)', ran.out, re.MULTILINE)
+    return float(row[3]), int(row[2])
+
+
+def memory_changes_nothing(program, folder):
+    """With less memory fewer factors are there at once, and every number stays: a linear job, one
+    with several combinations, which keeps its factors, and one with joints"""
+    fine = RING.replace('1, 1, 8, 20, 20', '1, 1, 8, 70, 70')
+    decks = {'linear': (fine, 2, 1),
+             'combined': (fine.replace('TRACTIONS', 'CASE\n1, all\nTRACTIONS').replace(
+                 'END', 'COMBINE\n1, 1, 1\n2, 1, 2\nEND'), 4, 1),
+             'joints': (example(3, refined=7, harmonic=4, planes=17), 5, 2)}
+    faults = []
+    for name, (text, most, least) in decks.items():
+        deck = write(folder, name + '.dat', text)
+        options = ('--solver', 'sparse', '--threads', '2')
+        stem = name + ('.2' if name == 'combined' else '')
+        runs = []
+        for limit in (999999, None):
+            if limit is None:
+                limit = int(0.78*predicted_memory(program, deck, '--threads', '2')[0])
+            factors = predicted_memory(program, deck, '--threads', '2', '--memory', str(limit))[1]
+            ran = program.run('run', deck, '-o', folder, *options, '--memory', str(limit))
+            if ran.code != 0:
+                return faults + [f'{name}: exit code {ran.code}\n{ran.err}']
+            summary = json.loads(read_text(os.path.join(folder, stem + '.json')))
+            text = read_text(os.path.join(folder, stem + '.lis'))
+            runs.append((factors, text[text.index('\nDISPLACEMENT AMP'):text.index('\nTIMES')]))
+            if summary['peak_memory_mb'] > limit:
+                faults.append(f'{name}: {summary["peak_memory_mb"]} MB with a limit of {limit} MB')
+        if runs[0][0] != most or not least <= runs[1][0] < most:
+            faults.append(f'{name}: factors at once {runs[0][0]} and {runs[1][0]}, expected {most} and less')
+        if runs[0][1] != runs[1][1]:
+            faults.append(f'{name}: the tables differ')
+    return faults
+
+
+def memory_too_small(program, folder):
+    """A limit that one factor does not fit in; one that is no number"""
+    deck = write(folder, 'fine.dat', RING.replace('1, 1, 8, 20, 20', '1, 1, 8, 70, 70'))
+    faults = []
+    for limit, code, words in (('40', 6, 'the limit given leaves'), ('much', 2, 'option --memory')):
+        ran = program.run('run', deck, '-o', folder, '--memory', limit)
+        faults += ran.ended_with(code) + ([] if words in ran.err else [ran.err])
+    return faults
+
+
 def stacks_stay_small(program, folder):
     """Threads have stacks of some MB at most: no array of the mesh's size may lie there"""
     deck = write(folder, 'fine.dat', RING.replace('1, 1, 8, 20, 20', '1, 1, 4, 120, 120'))
@@ -100,5 +151,7 @@ def tests(program):
     return [Test(f'solvers: {name}', lambda folder, check=check: check(program, folder))
             for name, check in (('they agree', solvers_agree),
                                 ('threads', threads_change_nothing),
+                                ('memory', memory_changes_nothing),
+                                ('too little memory', memory_too_small),
                                 ('stacks', stacks_stay_small),
                                 ('estimate', estimate_tells_costs))]

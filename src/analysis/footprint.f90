@@ -1,0 +1,76 @@
+!> Memory that a job takes besides its equations
+module axijoint_analysis_footprint
+   use axijoint_base_kinds, only : wp, i8
+   use axijoint_fe_reference, only : reference_type
+   use axijoint_model_joint_points, only : model_joint_point_type
+   use axijoint_model_mesh, only : n_nodes
+   use axijoint_model_model, only : model_type, element_references, can_yield_at, yielding_nodes
+   implicit none
+   private
+   public :: footprint_type, data_footprint
+
+   !> Bytes of a real
+   integer(i8), parameter :: real_bytes = storage_size(1.0_wp)/8
+   !> Numbers of a joint point on a plane: jumps, stresses, states, slip, slopes, and copies
+   integer(i8), parameter :: plane_numbers = 60
+
+   !> Bytes of a node in the mesh, its elements, graph, orders and equations, as measured
+   integer(i8), parameter :: mesh_bytes = 520
+
+   !> Bytes
+   type :: footprint_type
+      !> Mesh and what is numbered on it, which stand once the equations are planned
+      integer(i8) :: mesh = 0
+      !> Loads and displacements, which stand while the equations are solved
+      integer(i8) :: loads = 0
+      !> Reactions and stresses, which come after
+      integer(i8) :: stresses = 0
+      !> Flexibilities and state of the joints that can yield
+      integer(i8) :: joints = 0
+      !> What a thread takes to form a flexibility
+      integer(i8) :: joint_work = 0
+   contains
+      !> All that comes after planning
+      procedure :: coming
+   end type footprint_type
+
+contains
+
+   !> Memory of loads, results and joints
+   pure function data_footprint(model, n_modes, n_systems, joint_points) result(footprint)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Modes, and matrices
+      integer, intent(in) :: n_modes, n_systems
+      !> Points of all joints
+      type(model_joint_point_type), intent(in) :: joint_points(:)
+      !> The bytes
+      type(footprint_type) :: footprint
+
+      type(reference_type) :: references(3:9)
+      integer(i8) :: nodes, jumps, unknowns
+
+      references = element_references(model)
+      nodes = n_nodes(model%mesh)
+      footprint%mesh = mesh_bytes*nodes
+      footprint%loads = 15*nodes*n_modes*real_bytes  ! displacements, two kinds of loads twice
+      footprint%stresses = 3*nodes + 6*sum(int(references(model%mesh%element_size)%n_points, i8)) &
+         + 6*nodes  ! smoothed to nodes
+      footprint%stresses = footprint%stresses*n_modes*real_bytes
+      jumps = 3*count(can_yield_at(model, joint_points%material), kind=i8)
+      unknowns = 3*count(yielding_nodes(model), kind=i8)
+      footprint%joints = real_bytes*(n_systems*jumps**2 &
+                                     + plane_numbers*jumps/3*max(model%n_planes, n_modes))
+      footprint%joint_work = real_bytes*(unknowns**2 + 2*unknowns*jumps + 2*jumps**2)
+      if (jumps == 0) footprint%joint_work = 0
+   end function data_footprint
+
+   !> All that comes after planning, were none given back
+   elemental integer(i8) function coming(self)
+      !> The bytes
+      class(footprint_type), intent(in) :: self
+
+      coming = self%loads + self%stresses + self%joints + self%joint_work
+   end function coming
+
+end module axijoint_analysis_footprint

@@ -1,0 +1,295 @@
+!> Factors of the harmonics: as many at once as memory allows, each for as long as it is needed
+module axijoint_assembly_factors
+   use omp_lib, only : omp_get_max_threads, omp_get_thread_num
+   use axijoint_assembly_dofs, only : component_name
+   use axijoint_assembly_equations, only : equations_type, system_type, worth_threads
+   use axijoint_assembly_harmonic, only : harmonic_values
+   use axijoint_assembly_stiffness, only : stiffness_type, n_parts
+   use axijoint_base_error, only : error_type, fatal_error, exit_singular
+   use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_large_pages, only : use_large_pages
+   use axijoint_base_memory, only : require_memory, free_memory
+   use axijoint_base_text, only : to_text
+   use axijoint_linalg_lapack, only : use_one_blas_thread
+   use axijoint_linalg_symmetric_matrix, only : infinity_norm
+   use axijoint_model_model, only : model_type
+   use axijoint_solver_type, only : factor_type
+   implicit none
+   private
+   public :: workspace_type, new_workspaces, own, plan_factors, factorize_equations
+   public :: hold_factor, release_factor, report_failure
+   public :: standing_bytes, parts_bytes, kept_bytes, passing_bytes
+
+   !> Bytes of a value
+   integer(i8), parameter :: value_bytes = storage_size(1.0_wp)/8
+
+   !> Memory of one thread that factors one harmonic after the other
+   type :: workspace_type
+      private
+      !> Values of a matrix
+      real(wp), allocatable :: value(:)
+      !> A factor that is not needed any more, and its class: memory for the next
+      class(factor_type), allocatable :: spare
+      integer :: class = 0
+   end type workspace_type
+
+contains
+
+   !> Decide how many factors are kept and how many harmonics are worked on at once: as many as
+   !> are wanted and fit. The harmonics whose factors are not kept are factored anew whenever they
+   !> are solved; results do not depend on it.
+   subroutine plan_factors(equations, keep, other_bytes, limit, error)
+      !> The equations, planned
+      type(equations_type), intent(inout) :: equations
+      !> Whether factors are needed more than once, so that keeping them saves time
+      logical, intent(in) :: keep
+      !> Bytes that the job takes besides
+      integer(i8), intent(in) :: other_bytes
+      !> Bytes that the process may take in all
+      integer(i8), intent(in) :: limit
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      integer(i8) :: room
+
+      associate (n => size(equations%systems))
+         equations%n_workers = 1
+         if (worth_threads(equations)) equations%n_workers = max(1, min(omp_get_max_threads(), n))
+         equations%n_kept = merge(n, 0, keep)
+      end associate
+      room = free_memory(limit) - other_bytes
+      do while (coming_bytes(equations) > room)
+         if (equations%n_kept > 0) then
+            equations%n_kept = equations%n_kept - 1
+         else if (equations%n_workers > 1) then
+            equations%n_workers = equations%n_workers - 1
+         else
+            exit
+         end if
+      end do
+      call require_memory(coming_bytes(equations) + other_bytes, &
+                          'the factor of one harmonic and the results', limit, error)
+   end subroutine plan_factors
+
+   !> Bytes that assembling and factoring will take
+   pure integer(i8) function coming_bytes(equations) result(bytes)
+      !> The equations, planned
+      type(equations_type), intent(in) :: equations
+
+      bytes = parts_bytes(equations) + kept_bytes(equations) + passing_bytes(equations)
+   end function coming_bytes
+
+   !> Bytes of patterns and plans, which stand once the equations are planned
+   pure integer(i8) function standing_bytes(equations) result(bytes)
+      !> The equations, planned
+      type(equations_type), intent(in) :: equations
+
+      integer(i8), parameter :: column_bytes = storage_size(1)/8
+      integer :: k
+
+      bytes = 0
+      do k = 1, size(equations%classes)
+         bytes = bytes + column_bytes*size(equations%classes(k)%pattern%column, kind=i8) &
+            + equations%plans(k)%solver%plan_bytes
+      end do
+   end function standing_bytes
+
+   !> Bytes of the stiffness of all classes
+   pure integer(i8) function parts_bytes(equations) result(bytes)
+      !> The equations, planned
+      type(equations_type), intent(in) :: equations
+
+      integer :: k
+
+      bytes = 0
+      do k = 1, size(equations%classes)
+         bytes = bytes + value_bytes*n_parts(equations%classes(k)) &
+            *size(equations%classes(k)%pattern%column, kind=i8)
+      end do
+   end function parts_bytes
+
+   !> Bytes of the factors that are kept
+   pure integer(i8) function kept_bytes(equations) result(bytes)
+      !> The equations, planned
+      type(equations_type), intent(in) :: equations
+
+      integer :: s
+
+      bytes = 0
+      do s = 1, equations%n_kept
+         bytes = bytes + equations%plans(equations%systems(s)%class)%solver%factor_bytes
+      end do
+   end function kept_bytes
+
+   !> Bytes of the factors that are made, used and given up, by all threads at once, with what
+   !> factoring takes besides
+   pure integer(i8) function passing_bytes(equations) result(bytes)
+      !> The equations, planned
+      type(equations_type), intent(in) :: equations
+
+      integer(i8) :: work, largest
+      integer :: s
+
+      work = 0
+      largest = 0
+      do s = 1, size(equations%systems)
+         associate (class => equations%systems(s)%class)
+            associate (solver => equations%plans(class)%solver)
+               work = max(work, solver%work_bytes &
+                          + value_bytes*size(equations%classes(class)%pattern%column, kind=i8))
+               if (s > equations%n_kept) largest = max(largest, solver%factor_bytes)
+            end associate
+         end associate
+      end do
+      bytes = work*equations%n_workers &
+         + largest*min(equations%n_workers, size(equations%systems) - equations%n_kept)
+   end function passing_bytes
+
+   !> Memory for all threads of a loop over systems
+   subroutine new_workspaces(equations, spaces)
+      !> The equations, planned
+      type(equations_type), intent(in) :: equations
+      !> One a thread
+      type(workspace_type), allocatable, intent(out) :: spaces(:)
+
+      allocate (spaces(equations%n_workers))
+   end subroutine new_workspaces
+
+   !> Place of this thread's workspace
+   integer function own()
+      own = omp_get_thread_num() + 1
+   end function own
+
+   !> Form and factor the matrices of the harmonics whose factors are kept, one harmonic a thread
+   subroutine factorize_equations(equations, model, error)
+      !> The equations
+      type(equations_type), intent(inout) :: equations
+      !> The job, for the words of an error
+      type(model_type), intent(in) :: model
+      !> Out of memory; a pivot that is not positive, as node and direction
+      type(error_type), allocatable, intent(out) :: error
+
+      type(workspace_type), allocatable :: spaces(:)
+      integer :: s
+
+      call use_one_blas_thread()
+      call new_workspaces(equations, spaces)
+      !$omp parallel do schedule(dynamic) num_threads(size(spaces))
+      do s = 1, equations%n_kept
+         call hold_factor(equations, s, spaces(own()))
+      end do
+      !$omp end parallel do
+      call report_failure(equations, model, error)
+   end subroutine factorize_equations
+
+   !> Make sure that the factor of a system is there. If it cannot be, the system has failed;
+   !> `report_failure` puts that into words
+   subroutine hold_factor(equations, s, space)
+      !> The equations, assembled
+      type(equations_type), intent(inout) :: equations
+      !> Place of the system
+      integer, intent(in) :: s
+      !> Memory of the thread
+      type(workspace_type), intent(inout) :: space
+
+      associate (system => equations%systems(s))
+         if (allocated(system%factor) .or. system%failed) return
+         if (allocated(space%spare)) then
+            if (space%class == system%class) then
+               call move_alloc(space%spare, system%factor)
+            else
+               deallocate (space%spare)
+            end if
+         end if
+         call factorize_system(equations, system, space%value)
+         system%failed = allocated(system%failure) .or. system%pivots%equation > 0
+         if (system%failed .and. allocated(system%factor)) deallocate (system%factor)
+      end associate
+   end subroutine hold_factor
+
+   !> Give a factor up unless it is kept; its memory serves the next one of the thread
+   subroutine release_factor(equations, s, space)
+      !> The equations
+      type(equations_type), intent(inout) :: equations
+      !> Place of the system
+      integer, intent(in) :: s
+      !> Memory of the thread
+      type(workspace_type), intent(inout) :: space
+
+      associate (system => equations%systems(s))
+         if (s <= equations%n_kept .or. .not. allocated(system%factor)) return
+         space%class = system%class
+         call move_alloc(system%factor, space%spare)
+      end associate
+   end subroutine release_factor
+
+   !> Form and factor the matrix of one system
+   subroutine factorize_system(equations, system, value)
+      !> The equations, assembled
+      type(equations_type), intent(in) :: equations
+      !> The system
+      type(system_type), intent(inout) :: system
+      !> Values of a matrix: memory to be used again
+      real(wp), allocatable, intent(inout) :: value(:)
+
+      associate (class => equations%classes(system%class))
+         if (allocated(value)) then
+            if (size(value) /= size(class%pattern%column)) deallocate (value)
+         end if
+         if (.not. allocated(value)) then
+            allocate (value(size(class%pattern%column)))
+            call use_large_pages(value)
+         end if
+         call harmonic_values(class, system%harmonic, value)
+         system%norm = infinity_norm(class%pattern, value)
+         call equations%plans(system%class)%solver%factorize(class%pattern, value, system%factor, &
+                                                             system%pivots, system%failure)
+      end associate
+   end subroutine factorize_system
+
+   !> The failure of the lowest harmonic that has one: the same with any number of threads
+   subroutine report_failure(equations, model, error)
+      !> The equations
+      type(equations_type), intent(in) :: equations
+      !> The job, for the words
+      type(model_type), intent(in) :: model
+      !> Out of memory; a pivot that is not positive, as node and direction
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: s
+
+      s = findloc(equations%systems%failed, .true., 1)
+      if (s == 0) return
+      if (allocated(equations%systems(s)%failure)) then
+         error = equations%systems(s)%failure
+      else
+         call fatal_error(error, exit_singular, pivot_message(equations, s, model))
+      end if
+   end subroutine report_failure
+
+   !> A pivot that is not positive, in words
+   function pivot_message(equations, s, model) result(message)
+      !> The equations
+      type(equations_type), intent(in) :: equations
+      !> Place of the system
+      integer, intent(in) :: s
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Cause and remedy
+      character(len=:), allocatable :: message
+
+      integer :: place(2)
+
+      associate (system => equations%systems(s))
+         place = findloc(equations%classes(system%class)%dofs%equation, system%pivots%equation)
+         message = 'the stiffness of harmonic '//to_text(system%harmonic)// &
+                   ' is singular: node '//to_text(model%mesh%node_label(place(2)))// &
+                   ' (r = '//to_text(model%mesh%coordinates(1, place(2)))// &
+                   ', z = '//to_text(model%mesh%coordinates(2, place(2)))// &
+                   ') can move freely in direction '//trim(component_name(place(1)))//new_line('a')// &
+                   'mend: is a restraint missing, is a joint stiffness zero or out of all '// &
+                   'proportion to the bodies, or a material far softer than the rest?'
+      end associate
+   end function pivot_message
+
+end module axijoint_assembly_factors
