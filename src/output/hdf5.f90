@@ -8,6 +8,7 @@ module axijoint_output_hdf5
    use axijoint_output_echo, only : deck_text
    use axijoint_output_face_reactions, only : write_support_group
    use axijoint_output_hdf5_file, only : hdf5_file_type
+   use axijoint_output_hdf5_loads, only : write_load_group, write_spring_group
    use axijoint_output_hdf5_sections, only : write_section_groups, write_cut_group
    use axijoint_output_run, only : run_type, status_name
    implicit none
@@ -45,6 +46,8 @@ contains
       call file%write("/deck", deck_text(source), "Cards as read, included files in place")
       call write_mesh(file, model)
       call write_materials(file, model)
+      call write_load_group(file, model, results)
+      call write_spring_group(file, model)
       call write_solution(file, results)
       call write_stress(file, results)
       call write_joints(file, results)
