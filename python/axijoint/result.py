@@ -1,0 +1,390 @@
+"""A result file of axijoint."""
+import pathlib
+import re
+from functools import cached_property
+
+import h5py
+import numpy as np
+
+from . import circle, elements
+from .mesh import Mesh
+from .section import Section, line_rows
+from .table import Table
+
+DISPLACEMENTS = ("u", "v", "w")
+STRESSES = ("sigma_r", "sigma_z", "sigma_theta", "tau_rz", "tau_rtheta", "tau_ztheta")
+STATES = np.array(["stick", "slip", "open"])
+
+
+class OutsideError(ValueError):
+    """Points that lie in no element, or in none of the body and material asked for."""
+
+
+class Result:
+    """A result file NAME.h5, opened for reading.
+
+    Arrays are read when they are first needed, and kept; the file is not held open. Lengths, forces
+    and stresses are in the units of the deck, angles in degrees. Components of displacements are u (r),
+    v (z), w (theta), those of stresses r, z, theta, rz, r-theta, z-theta (`STRESSES`); tension is
+    positive. Numbers of nodes, elements, bodies, materials and joints are those of the deck.
+
+    path          the file
+    title         title card
+    status        converged, not_converged or mechanism
+    combination   number of the load combination; 0 if there is one only
+    attributes    all attributes of the file
+    """
+
+    def __init__(self, path):
+        self.path = pathlib.Path(path)
+        with h5py.File(self.path, "r") as file:
+            self.attributes = {name: text_of(value) for name, value in file.attrs.items()}
+        if self.attributes.get("program") != "axijoint":
+            raise ValueError(f"{path} is no result file of axijoint")
+        self.title = self.attributes["title"].strip()
+        self.status = self.attributes["status"]
+        self.combination = int(self.attributes["combination"])
+
+    def __repr__(self):
+        return f"Result({str(self.path)!r}): {self.title}"
+
+    # What is in the file
+
+    def read(self, name):
+        """A dataset as it is stored (C order), or the attributes and datasets' names of a group."""
+        with h5py.File(self.path, "r") as file:
+            if name not in file:
+                raise KeyError(f"{self.path} has no {name}")
+            return text_of(file[name][()])
+
+    def has(self, name):
+        """Whether the file has a dataset or group."""
+        with h5py.File(self.path, "r") as file:
+            return name in file
+
+    def attributes_of(self, name):
+        """Attributes of a group, by name."""
+        with h5py.File(self.path, "r") as file:
+            return {key: text_of(value) for key, value in file[name].attrs.items()}
+
+    @cached_property
+    def mesh(self):
+        """The mesh."""
+        return Mesh(self.read)
+
+    @cached_property
+    def deck(self):
+        """Text of the deck, included files in place."""
+        return self.read("deck")
+
+    @cached_property
+    def messages(self):
+        """Warnings, remarks, and how the iteration ended: a list of texts."""
+        return [line for line in self.read("messages").splitlines() if line.strip()]
+
+    @cached_property
+    def harmonic(self):
+        """Harmonic m of each mode."""
+        return self.read("modes/harmonic")
+
+    @cached_property
+    def family(self):
+        """Family of each mode: 1 symmetric (u, v ~ cos, w ~ sin), 2 antisymmetric (~ sin, -cos)."""
+        return self.read("modes/family")
+
+    @cached_property
+    def displacement_amplitude(self):
+        """Amplitudes u, v, w of the nodes, (modes, nodes, 3)."""
+        return self.read("displacement")
+
+    @cached_property
+    def gauss_amplitude(self):
+        """Amplitudes of the stresses at the Gauss points, (modes, points, 6)."""
+        return self.read("stress/amplitude")
+
+    @cached_property
+    def nodal_amplitude(self):
+        """Amplitudes of the stresses smoothed to the nodes, (modes, values, 6)."""
+        return self.read("stress/nodal")
+
+    @cached_property
+    def value_of(self):
+        """Index of the smoothed stress of each node of each element, (elements, 9); -1 beyond."""
+        node, material = self.read("stress/nodal_node") - 1, self.read("stress/nodal_material") - 1
+        count = len(self.mesh.material_label)
+        key = node*count + material
+        order = np.argsort(key)
+        wanted = self.mesh.element_nodes*count + self.mesh.element_material[:, None]
+        place = np.searchsorted(key[order], np.maximum(wanted, 0))
+        found = order[np.minimum(place, len(order) - 1)]
+        return np.where(self.mesh.element_nodes >= 0, found, -1)
+
+    # Values at points
+
+    def displacement(self, r, z, theta=0.0, *, body=None, material=None, outside="error",
+                     cartesian=False):
+        """Displacement u, v, w at points: an array (..., 3).
+
+        r, z, theta: numbers or arrays, which are broadcast; theta in degrees.
+        body, material: only this body, only this material (numbers of the deck). Where solids meet, a
+            point lies in several; of those left, the one of the lowest body number counts, and of
+            these the one of the lowest material number.
+        outside: "error" raises an OutsideError for points in no element, "nan" gives nan there.
+        cartesian: components x, y, z in place of r, z, theta; x is along theta = 0, y along 90 degrees.
+        """
+        points, theta, shape = self._points(r, z, theta)
+        known, element, natural = self._find(points, body, material, outside)
+        total = self._totals(self.displacement_amplitude, self.mesh.element_nodes, element, natural,
+                             theta[known])
+        if cartesian:
+            total = circle.cartesian_displacement(total, theta[known])
+        return _filled(total, known, shape)
+
+    def stress(self, r, z, theta=0.0, *, body=None, material=None, outside="error", cartesian=False,
+               source="nodal"):
+        """Stresses r, z, theta, rz, r-theta, z-theta at points: an array (..., 6).
+
+        source: "nodal", the stresses smoothed to the nodes of the point's material, interpolated by the
+            shape functions of its element, as the listing does on sections; or "gauss", the stress
+            of the nearest Gauss point of its element, as computed.
+        cartesian: xx, yy, zz, xy, yz, xz in place of the cylindrical components.
+        The other arguments are those of `displacement`.
+        """
+        if source not in ("nodal", "gauss"):
+            raise ValueError(f"source is {source!r}; it may be 'nodal' or 'gauss'")
+        points, theta, shape = self._points(r, z, theta)
+        known, element, natural = self._find(points, body, material, outside)
+        if source == "nodal":
+            total = self._totals(self.nodal_amplitude, self.value_of, element, natural, theta[known])
+        else:
+            nearest = self._nearest_gauss(points[known], element)
+            total = circle.totals(self.gauss_amplitude[:, nearest], self.harmonic, self.family,
+                                  theta[known])
+        if cartesian:
+            total = circle.cartesian_stress(total, theta[known])
+        return _filled(total, known, shape)
+
+    def _points(self, r, z, theta):
+        r, z, theta = np.broadcast_arrays(*(np.asarray(x, float) for x in (r, z, theta)))
+        return np.stack([r.ravel(), z.ravel()], -1), theta.ravel(), r.shape
+
+    def _find(self, points, body, material, outside):
+        """Numbers of the points that lie in the mesh, their elements and natural coordinates."""
+        if outside not in ("error", "nan"):
+            raise ValueError(f"outside is {outside!r}; it may be 'error' or 'nan'")
+        point, element, natural = self.mesh.locate(points)
+        keep = self.chosen(body, material)[element]
+        point, element, natural = point[keep], element[keep], natural[keep]
+        order = np.lexsort((self.mesh.material_label[self.mesh.element_material[element]],
+                            self.mesh.element_body[element], point))
+        known, first = np.unique(point[order], return_index=True)
+        if outside == "error" and len(known) < len(points):
+            missing = np.setdiff1d(np.arange(len(points)), known)
+            where = "the mesh" if body is None and material is None else \
+                f"body {'any' if body is None else body}, material {'any' if material is None else material}"
+            first_r, first_z = points[missing[0]]
+            raise OutsideError(f"{len(missing)} of {len(points)} points outside {where}, the first at "
+                               f"r = {first_r:g}, z = {first_z:g}; outside='nan' gives nan there")
+        return known, element[order][first], natural[order][first]
+
+    def chosen(self, body=None, material=None):
+        """Which elements are of a body and a material (None: of any)."""
+        mesh = self.mesh
+        keep = np.ones(len(mesh.element_body), bool)
+        for name, wanted, labels in (("body", body, mesh.element_body),
+                                     ("material", material, mesh.material_label[mesh.element_material])):
+            if wanted is None:
+                continue
+            if wanted not in labels:
+                raise ValueError(f"there is no {name} {wanted}; there is {sorted(map(int, set(labels)))}")
+            keep &= labels == wanted
+        return keep
+
+    def _totals(self, amplitude, index, element, natural, theta):
+        """Interpolate in elements and add up the modes: (points, components)."""
+        total = np.empty((len(element), amplitude.shape[-1]))
+        for size in np.unique(self.mesh.element_size[element]):
+            chosen = np.flatnonzero(self.mesh.element_size[element] == size)
+            value, _ = elements.shape_functions(int(size), natural[chosen])
+            nodes = index[element[chosen], :size]
+            here = np.einsum("pn,mpnc->mpc", value, amplitude[:, nodes])
+            total[chosen] = circle.totals(here, self.harmonic, self.family, theta[chosen])
+        return total
+
+    def _nearest_gauss(self, points, element):
+        """Index of the Gauss point of an element that is nearest to a point."""
+        owner, position = self.read("stress/element") - 1, self.read("stress/position")
+        start, end = (np.searchsorted(owner, element, side) for side in ("left", "right"))
+        best, least = start.copy(), np.full(len(points), np.inf)
+        for k in range(int((end - start).max(initial=0))):
+            here = np.minimum(start + k, end - 1)
+            distance = ((position[here] - points)**2).sum(axis=1)
+            nearer = distance < least
+            best[nearer], least[nearer] = here[nearer], distance[nearer]
+        return best
+
+    # Sections
+
+    @cached_property
+    def section_numbers(self):
+        """Numbers of the sections of the deck."""
+        with h5py.File(self.path, "r") as file:
+            return sorted(int(name) for name in file["sections"]) if "sections" in file else []
+
+    def section(self, number):
+        """A section of the deck, as stored: a Section."""
+        if number not in self.section_numbers:
+            raise KeyError(f"{self.path} has no section {number}; it has {self.section_numbers}")
+        group = f"sections/{number}/"
+        element = self.read(group + "element") - 1
+        first, last = self.read(group + "ends")
+        return self._section(first, last, self.read(group + "point"), self.read(group + "position"),
+                             element, np.degrees(self.read(group + "angles")),
+                             self.read(group + "displacement"), self.read(group + "stress"), number)
+
+    def line(self, first, last, theta=0.0, points=101):
+        """Values along a straight line of the meridional plane: a Section.
+
+        first, last: r and z of its ends; theta: an angle or several [degree]; points: how many at equal
+        distances, or their distances from the first end over the length. Points outside the mesh are
+        left out; where solids meet, a point has a row for each, first for the one the line comes from.
+        """
+        first, last = np.asarray(first, float), np.asarray(last, float)
+        share = np.linspace(0, 1, points) if np.isscalar(points) else np.asarray(points, float)
+        place = (1 - share)[:, None]*first + share[:, None]*last
+        number, element, natural = line_rows(self.mesh, place)
+        angles = np.atleast_1d(np.asarray(theta, float))
+        values = [[self._totals(amplitude, index, element, natural, np.full(len(element), angle))
+                   for angle in angles]
+                  for amplitude, index in ((self.displacement_amplitude, self.mesh.element_nodes),
+                                           (self.nodal_amplitude, self.value_of))]
+        return self._section(first, last, number + 1, place[number], element, angles,
+                             np.array(values[0]), np.array(values[1]), None)
+
+    def _section(self, first, last, point, position, element, theta, displacement, stress, number):
+        direction = (last - first)/np.linalg.norm(last - first)
+        return Section(number, first, last, theta, point, position, (position - first) @ direction,
+                       self.mesh.element_label[element], self.mesh.element_body[element],
+                       self.mesh.material_label[self.mesh.element_material[element]],
+                       displacement, stress)
+
+    # Tables
+
+    def nodes(self, theta=0.0):
+        """Table of the total displacements of all nodes at an angle [degree]."""
+        total = self.nodal_displacement(theta)
+        return Table({"node": self.mesh.node_label, "r": self.mesh.coordinates[:, 0],
+                      "z": self.mesh.coordinates[:, 1]} | _columns(DISPLACEMENTS, total))
+
+    def nodal_displacement(self, theta=0.0):
+        """Total displacements of all nodes at an angle [degree], (nodes, 3)."""
+        return self._sum(self.displacement_amplitude, theta)
+
+    def nodal_stress_values(self, theta=0.0):
+        """Total smoothed stresses at an angle [degree], (values, 6); `value_of` tells whose they are."""
+        return self._sum(self.nodal_amplitude, theta)
+
+    def nodal_stresses(self, theta=0.0):
+        """Table of the smoothed stresses at the nodes, a row for each material of a node."""
+        node, material = self.read("stress/nodal_node") - 1, self.read("stress/nodal_material") - 1
+        r, z = self.mesh.coordinates[node].T
+        return Table({"node": self.mesh.node_label[node], "material": self.mesh.material_label[material],
+                      "r": r, "z": z} | _columns(STRESSES, self.nodal_stress_values(theta)))
+
+    def gauss_stresses(self, theta=0.0):
+        """Table of the stresses at the Gauss points, as computed."""
+        element = self.read("stress/element") - 1
+        r, z = self.read("stress/position").T
+        return Table({"element": self.mesh.element_label[element], "point": _places(element),
+                      "r": r, "z": z} | _columns(STRESSES, self._sum(self.gauss_amplitude, theta)))
+
+    def joints(self):
+        """Table of the joint points on all planes on which the law is checked.
+
+        joint, law, point, r, z, theta [degree]; sigma (tension positive), tau_xi, tau_theta; tau, the
+        size of both; gap, the relative displacement d_eta (positive opens); slip_xi and slip_theta,
+        the relative displacements d_xi and d_theta, elastic parts included; slip, the size of both;
+        state: stick, slip, open.
+        """
+        owner, planes = self.read("joints/joint") - 1, np.degrees(self.read("joints/planes"))
+        n, count = len(owner), len(planes)
+        if n == 0:
+            owner, count = np.empty(0, int), 0
+        position = self.read("joints/position").reshape(n, 2)
+        stress, jump, state = (self.read(f"joints/{name}") for name in ("stress", "jump", "state"))
+        each = np.tile(np.arange(n), count)
+        tau_xi, sigma, tau_theta = stress.reshape(-1, 3).T[:, :n*count]
+        slip_xi, gap, slip_theta = jump.reshape(-1, 3).T[:, :n*count]
+        return Table({
+            "joint": self.mesh.joint_label[owner][each],
+            "law": self.mesh.law_label[self.mesh.joint_material[owner]][each],
+            "point": _places(owner)[each], "r": position[each, 0], "z": position[each, 1],
+            "theta": np.repeat(planes[:count], n), "sigma": sigma, "tau_xi": tau_xi,
+            "tau_theta": tau_theta, "tau": np.hypot(tau_xi, tau_theta), "gap": gap, "slip_xi": slip_xi,
+            "slip_theta": slip_theta, "slip": np.hypot(slip_xi, slip_theta),
+            "state": STATES[state.reshape(-1)[:n*count]]})
+
+    def convergence(self):
+        """Table of the convergence path; no rows for a linear job."""
+        names = ("increment", "iteration", "load_factor", "ratio", "n_slip", "n_open")
+        return Table((name, self.read(f"convergence/{name}")) for name in names)
+
+    def spectrum(self):
+        """Table of the modes: harmonic, family, largest amplitude of displacement and of stress.
+
+        displacement is the largest sqrt(u^2 + v^2 + w^2) of the nodes; stress the largest root of the sum
+        of the squares of all nine components, of the smoothed stresses.
+        """
+        weight = np.array([1, 1, 1, 2, 2, 2])
+        size = np.sqrt((self.displacement_amplitude**2).sum(-1)).max(-1)
+        stress = np.sqrt((self.nodal_amplitude**2*weight).sum(-1)).max(-1)
+        family = np.where(self.family == circle.SYMMETRIC, "symmetric", "antisymmetric")
+        return Table({"harmonic": self.harmonic, "family": family, "displacement": size, "stress": stress})
+
+    def _sum(self, amplitude, theta):
+        if np.ndim(theta):
+            raise ValueError("theta is one angle here")
+        return circle.totals(amplitude, self.harmonic, self.family,
+                             np.full(amplitude.shape[1], float(theta)))
+
+
+def open_result(path):
+    """Open a result file NAME.h5: a Result."""
+    return Result(path)
+
+
+def open_combinations(path):
+    """All combinations of a job: dictionary from their numbers to Results.
+
+    path: the results' name with the directory, as `out/chimney` or `out/chimney.h5`; the files are
+    `chimney.1.h5`, `chimney.2.h5`, ..., or `chimney.h5` alone (number 0).
+    """
+    path = pathlib.Path(path)
+    name = path.name[:-3] if path.name.endswith(".h5") else path.name
+    pattern = re.compile(re.escape(name) + r"(\.\d+)?\.h5")
+    found = [Result(file) for file in path.parent.iterdir() if pattern.fullmatch(file.name)]
+    if not found:
+        raise FileNotFoundError(f"no {name}.h5 or {name}.N.h5 in {path.parent}")
+    return {result.combination: result for result in sorted(found, key=lambda one: one.combination)}
+
+
+def text_of(value):
+    """A value of the file; bytes become text."""
+    return value.decode("utf-8").rstrip("\0") if isinstance(value, bytes) else value
+
+
+def _columns(names, values):
+    return {name: values[..., k] for k, name in enumerate(names)}
+
+
+def _places(owner):
+    """1, 2, ... within each run of equal numbers."""
+    start = np.flatnonzero(np.diff(owner, prepend=-1))
+    return np.arange(len(owner)) - np.repeat(start, np.diff(start, append=len(owner))) + 1
+
+
+def _filled(values, known, shape):
+    """Values of the known points among all, nan elsewhere, in the shape of the points."""
+    full = np.full((int(np.prod(shape)), values.shape[-1]), np.nan)
+    full[known] = values
+    return full.reshape(*shape, values.shape[-1])

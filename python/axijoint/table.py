@@ -1,0 +1,34 @@
+"""Tables: named columns of equal length."""
+
+
+class Table(dict):
+    """A dictionary of columns (NumPy arrays of one length), in order.
+
+    table["r"] is a column, len(table.column_names) their number, table.rows the length;
+    table.where(mask) the rows for which a mask holds; table.to_pandas() a pandas.DataFrame.
+    """
+
+    @property
+    def column_names(self):
+        """Names of the columns."""
+        return list(self)
+
+    @property
+    def rows(self):
+        """Number of rows."""
+        return len(next(iter(self.values()))) if self else 0
+
+    def where(self, mask):
+        """The rows for which a mask (array of logicals) holds, or of a list of numbers of rows."""
+        return Table((name, column[mask]) for name, column in self.items())
+
+    def to_pandas(self):
+        """The same as a pandas.DataFrame; pandas must be installed."""
+        try:
+            import pandas
+        except ImportError as error:
+            raise ImportError("Table.to_pandas needs pandas: pip install pandas") from error
+        return pandas.DataFrame(dict(self))
+
+    def __repr__(self):
+        return f"Table of {self.rows} rows: {', '.join(self)}"

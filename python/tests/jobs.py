@@ -1,0 +1,26 @@
+"""Runs axijoint for tests. The environment variable AXIJOINT is the path of the program."""
+import os
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT/"python"), str(ROOT/"test/decks")]
+
+
+def run(folder, name, text):
+    """Run a deck; returns the path of the results without ending."""
+    deck = pathlib.Path(folder)/f"{name}.dat"
+    deck.write_text(text)
+    done = subprocess.run([os.environ["AXIJOINT"], "run", deck, "-o", folder], capture_output=True,
+                          text=True, check=False)
+    if done.returncode:
+        raise RuntimeError(f"{deck}: exit code {done.returncode}\n{done.stderr}{done.stdout}")
+    return pathlib.Path(folder)/name
+
+
+def input_deck(name, *cards):
+    """Text of a deck of `inputs`, with further cards before its END."""
+    lines = (ROOT/f"inputs/{name}.dat").read_text().rstrip().splitlines()
+    assert lines[-1] == "END"
+    return "\n".join([*lines[:-1], *cards, "END", ""])
