@@ -57,7 +57,7 @@ contains
       integer :: i
 
       associate (loads => model%edge_loads, n => size(model%edge_loads))
-         call write_tags(file, "/loads/edge", loads%mode, loads%case)
+         call write_tags(file, "/loads/edge", (loads%mode), (loads%case))
          call file%write("/loads/edge/nodes", reshape([(loads(i)%nodes, i=1, n)], [3, n]), &
             "First, last and middle node of the edge, 0 if it has none; (3, load)")
          call file%write("/loads/edge/traction", &
@@ -76,7 +76,7 @@ contains
       integer :: i
 
       associate (loads => model%ring_loads, n => size(model%ring_loads))
-         call write_tags(file, "/loads/ring", loads%mode, loads%case)
+         call write_tags(file, "/loads/ring", (loads%mode), (loads%case))
          call file%write("/loads/ring/node", (loads%node), "Node; (load)")
          call file%write("/loads/ring/force", reshape([(loads(i)%force, i=1, n)], [3, n]), &
             "Work over the circle on unit amplitudes of u, v, w; (3, load) [force]")
@@ -93,7 +93,7 @@ contains
       integer :: i
 
       associate (loads => model%body_loads, n => size(model%body_loads))
-         call write_tags(file, "/loads/body", loads%mode, loads%case)
+         call write_tags(file, "/loads/body", (loads%mode), (loads%case))
          call file%write("/loads/body/acceleration", &
             reshape([(loads(i)%acceleration, i=1, n)], [3, n]), &
             "Amplitudes along r, z, theta; (3, load) [length/time^2]")
@@ -110,7 +110,7 @@ contains
       type(model_type), intent(in) :: model
 
       associate (moves => model%prescribed)
-         call write_tags(file, "/loads/prescribed", moves%mode, moves%case)
+         call write_tags(file, "/loads/prescribed", (moves%mode), (moves%case))
          call file%write("/loads/prescribed/node", (moves%node), "Node; (load)")
          call file%write("/loads/prescribed/component", (moves%component), "1 u, 2 v, 3 w; (load)")
          call file%write("/loads/prescribed/value", (moves%value), "Amplitude; (load) [length]")
@@ -126,7 +126,7 @@ contains
       !> Harmonic and family of each load
       type(mode_type), intent(in) :: modes(:)
       !> Load case (index) of each load
-      integer, intent(in) :: cases(:)
+      integer, contiguous, intent(in) :: cases(:)
 
       call file%group(group)
       call file%write(group//"/harmonic", (modes%harmonic), "Harmonic m; (load)")
