@@ -49,10 +49,14 @@ class Section:
 
     def pieces(self):
         """Rows of each stretch in one solid, in order: curves break where the solid changes."""
-        if not len(self.point):
-            return []
-        change = (np.diff(self.body) != 0) | (np.diff(self.material) != 0) | (np.diff(self.point) > 1)
-        return np.split(np.arange(len(self.point)), np.flatnonzero(change) + 1)
+        found, latest = [], {}
+        for row, solid in enumerate(zip(self.body.tolist(), self.material.tolist())):
+            piece = latest.get(solid)
+            if piece is None or self.point[row] - self.point[piece[-1]] > 1:
+                piece = latest[solid] = []
+                found.append(piece)
+            piece.append(row)
+        return [np.array(piece) for piece in found]
 
 
 def line_rows(mesh, points):

@@ -1,0 +1,145 @@
+"""Curves: profiles along sections, convergence path, spectrum of the harmonics."""
+import numpy as np
+
+from ..result import STRESSES
+from . import pieces, style
+from .style import plt
+
+
+def default_lines(result):
+    """Lines for a deck without sections: across the middle of the longest interface, and along
+    z half-way between it and the least radius.
+
+    Without joints: across and along the middle of the body. Returns pairs of ends (r, z).
+    """
+    low, high = result.mesh.coordinates.min(axis=0), result.mesh.coordinates.max(axis=0)
+    middle = inner = (low + high)/2
+    chains = pieces.interfaces(result)
+    if chains:
+        longest = max(chains, key=lambda one: one.length)
+        middle = np.concatenate(longest.lines).mean(axis=0)
+        inner = (low + middle)/2
+    return [((low[0], middle[1]), (high[0], middle[1])), ((inner[0], low[1]), (inner[0], high[1]))]
+
+
+def sections(result):
+    """Sections of the deck by name, or along the default lines."""
+    if result.section_numbers:
+        return {f"section_{number}": result.section(number) for number in result.section_numbers}
+    names = ("line_across", "line_along")
+    return dict(zip(names, (result.line(*ends, theta=(0, 180), points=201)
+                            for ends in default_lines(result))))
+
+
+@style.styled
+def draw_section(result, section):
+    """Displacements and stresses along a line: a Figure. Curves break where solids meet."""
+    units = style.Units(result)
+    shown = _components(section, units)
+    rows = -(-len(shown)//3)
+    figure, axes = plt.subplots(rows, 3, figsize=(style.TWO_COLUMNS, 0.5 + 1.75*rows), sharex=True,
+                                squeeze=False)
+    for one, (label, values) in zip(axes.flat, shown):
+        plot_pieces(one, section, values)
+        one.set_ylabel(label)
+        one.tick_params(labelbottom=True)
+        one.set_xlabel(units.of_length("distance"))
+        one.ticklabel_format(axis="y", scilimits=(-3, 4), useMathText=True)
+    for one in axes.flat[len(shown):]:
+        one.remove()
+    names = [style.degrees(theta) for theta in section.theta]
+    figure.legend(axes[0, 0].get_lines()[:len(names)], names, loc="outside upper right", ncols=len(names))
+    number = "" if section.number is None else f"section {section.number}: "
+    figure.suptitle(f"{number}from r = {section.first[0]:g}, z = {section.first[1]:g} to "
+                    f"r = {section.last[0]:g}, z = {section.last[1]:g}", x=0.01, ha="left")
+    return figure
+
+
+def _components(section, units):
+    """Labels and values (angles, rows) of the components that are not zero all along."""
+    found = []
+    for labels, values in (([units.of_length(f"${name}$") for name in "uvw"], section.displacement),
+                           ([units.of_stress(name) for name in STRESSES], section.stress)):
+        largest = abs(values).max()
+        found += [(label, values[..., k]) for k, label in enumerate(labels)
+                  if abs(values[..., k]).max() > 1e-9*largest]
+    return found or [(units.of_length("$u$"), section.displacement[..., 0])]
+
+
+def plot_pieces(axes, section, values, **options):
+    """Curves of values (angles, rows) against the distance; they break where the solid changes."""
+    for k in range(len(section.theta)):
+        colour, dashes, _ = style.CURVES[k % len(style.CURVES)]
+        distance, curve = broken(section, values[k])
+        axes.plot(distance, curve, color=colour, ls=dashes, **options)
+    axes.axhline(0, color="0.7", lw=0.5, zorder=0)
+
+
+def broken(section, values):
+    """Distances and values with nan between the stretches of different solids."""
+    distance, curve = [], []
+    for rows in section.pieces():
+        distance += [*section.distance[rows], np.nan]
+        curve += [*values[rows], np.nan]
+    return np.array(distance), np.array(curve)
+
+
+@style.styled
+def draw_convergence(result):
+    """Residual ratio against iterations, points that slip or are open below: a Figure; None if linear."""
+    path = result.convergence()
+    if not path.rows:
+        return None
+    figure, (above, below) = plt.subplots(2, 1, figsize=(4.6, 4.2), sharex=True, height_ratios=(3, 2))
+    step = np.arange(1, path.rows + 1)
+    marker = {"marker": "o", "markevery": max(1, path.rows//40), "ms": 3}
+    ratio = np.where(path["ratio"] > 0, path["ratio"], np.nan)
+    above.semilogy(step, ratio, color="black", **marker)
+    above.axhline(result.attributes_of("convergence")["tolerance"], color="0.4", ls="--", lw=0.8)
+    above.annotate("tolerance", (0.01, result.attributes_of("convergence")["tolerance"]), (0, 2),
+                   xycoords=("axes fraction", "data"), textcoords="offset points", color="0.25")
+    ratio_axis(above.yaxis, np.nanmin(ratio), np.nanmax(ratio))
+    above.set_ylabel("residual forces / applied forces")
+    for name, label, (colour, dashes, shape) in zip(("n_open", "n_slip"), ("open", "slip"), style.CURVES):
+        below.plot(step, path[name], color=colour, ls=dashes, **(marker | {"marker": shape}), label=label)
+    below.set_ylabel("points × planes")
+    below.set_xlabel("iteration")
+    below.set_ylim(bottom=0)
+    below.legend()
+    for change in np.flatnonzero(np.diff(path["increment"])):
+        for one in (above, below):
+            one.axvline(change + 1.5, color="0.75", lw=0.6)
+    below.xaxis.set_major_locator(style.matplotlib.ticker.MaxNLocator(integer=True))
+    return figure
+
+
+def ratio_axis(axis, low, high):
+    """Ticks of a logarithmic axis of ratios: 1, 2, 5 within few decades, else powers of ten."""
+    if high > 300*low:
+        return
+    axis.set_major_locator(style.matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(lambda x, _: f"{x:g}")
+    axis.set_minor_formatter(style.matplotlib.ticker.NullFormatter())
+
+
+@style.styled
+def draw_spectrum(result):
+    """Largest amplitude of displacement and stress of each harmonic: a Figure."""
+    units, table = style.Units(result), result.spectrum()
+    figure, axes = plt.subplots(1, 2, figsize=(style.TWO_COLUMNS, 2.4))
+    families = [name for name in ("symmetric", "antisymmetric") if (table["family"] == name).any()]
+    width = 0.8/len(families)
+    for one, name, unit in zip(axes, ("displacement", "stress"), (units.length, units.stress)):
+        largest = table[name].max()
+        for k, family in enumerate(families):
+            rows = (table["family"] == family) & (table[name] > 1e-12*largest)
+            one.bar(table["harmonic"][rows] + (k - (len(families) - 1)/2)*width, table[name][rows], width*0.9,
+                    color=("0.35", "white")[k], edgecolor="black", lw=0.6, hatch=("", "////")[k], label=family)
+        one.set_yscale("log")
+        one.set_xlabel("harmonic $m$")
+        one.set_ylabel(units.label(f"largest {name}", unit))
+        one.xaxis.set_major_locator(style.matplotlib.ticker.MaxNLocator(integer=True))
+        one.set_xlim(table["harmonic"].min() - 0.7, table["harmonic"].max() + 0.7)
+    if len(families) > 1:
+        axes[1].legend()
+    return figure
