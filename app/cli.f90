@@ -49,6 +49,8 @@ module axijoint_cli
       integer :: threads = 0
       !> Bytes that the process may take
       integer(i8) :: memory_limit = no_limit
+      !> Whether the bodies are to be swept through theta, whatever the deck says
+      logical :: swept = .false.
       !> Command that help was asked for; empty for all
       character(len=:), allocatable :: topic
    end type command_type
@@ -129,12 +131,14 @@ contains
                k = k + 1
                call read_option(word, words(k)%text, command, error)
                if (allocated(error)) return
+            else if (word == '--vtk' .and. command%command == command_run) then
+               command%swept = .true.
             else if (word == '-h' .or. word == '--help') then
                command%topic = trim(command_names(command%command))
                command%command = command_help
                return
             else if (command%command == command_run) then
-               call unknown('option', word, [character(len=9) :: value_options, '--help'], error)
+               call unknown('option', word, [character(len=9) :: value_options, '--vtk', '--help'], error)
                return
             else if (command%command == command_estimate) then
                call unknown('option', word, [character(len=9) :: estimate_options, '--help'], error)
@@ -273,7 +277,7 @@ contains
       select case (topic)
       case ('run')
          text = 'usage: axijoint run DECK... [-o DIR] [--solver NAME] [--threads N]'//nl// &
-            '                            [--memory MIB]'//nl// &
+            '                            [--memory MIB] [--vtk]'//nl// &
             nl// &
             'Solves each deck and writes NAME.lis (listing), NAME.json (summary) and NAME.h5'//nl// &
             '(results), NAME being the name of the deck without its ending.'//nl// &
@@ -283,6 +287,7 @@ contains
             '  --threads N    harmonics at once (default: OMP_NUM_THREADS, or all processors)'//nl// &
             '  --memory MIB   memory that the process may take: fewer factors at once then (default:'//nl// &
             '                 what the machine, its control group and limits leave)'//nl// &
+            '  --vtk          NAME.vtkhdf for ParaView, too (whole circle; SWEEP of the deck says more)'//nl// &
             '  --             everything that follows is a deck'//nl// &
             nl// &
             'Exit codes: 0 ok; 2 deck or usage; 3 not converged; 4 singular or mechanism;'//nl// &

@@ -92,8 +92,9 @@ contains
 
       if (command%solver >= 0) model%solver = command%solver
       model%memory_limit = command%memory_limit
+      model%sweep%wanted = model%sweep%wanted .or. command%swept
       do k = 1, size(model%combinations)
-         call check_output(command%directory, result_name(deck, model, k), source, error)
+         call check_output(command%directory, result_name(deck, model, k), source, model, error)
          if (allocated(error)) return
       end do
       call build_structure(model, structure, timer, progress, error)
@@ -145,7 +146,7 @@ contains
       if (allocated(results%mechanism)) exit_code = exit_singular
       call timer%push(phase_write)
       call write_output(command%directory, name, source, all_warnings(warnings, results%remarks), &
-                        model, results, timer, exit_code, error)
+                        model, structure, results, timer, exit_code, error)
       call timer%pop()
       if (allocated(error)) return
       write (output_unit, '(a)') brief_text(command%directory, name, deck, model, results, timer)

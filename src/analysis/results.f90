@@ -3,6 +3,7 @@ module axijoint_analysis_results
    use axijoint_base_kinds, only : wp, i8
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_field, only : iteration_type
+   use axijoint_joints_states, only : increment_state_type
    implicit none
    private
    public :: results_type, iteration_type, mode_solve_type, ordering_type, remark_type, &
@@ -119,6 +120,9 @@ module axijoint_analysis_results
       real(wp), allocatable :: joint_stress(:, :, :)
       !> Stick, slip or open, shape (joint points, planes); `state_` parameters
       integer, allocatable :: joint_state(:, :)
+      !> States at the ends of the increments, the last one being that of these results;
+      !> the others are there only if the job wants its bodies swept
+      type(increment_state_type), allocatable :: states(:)
       !> Convergence path; empty for a linear job
       type(iteration_type), allocatable :: path(:)
       !> Residual-force ratio at the end (Eq. 17), from the whole structure

@@ -5,17 +5,19 @@ module axijoint_analysis_static
    use axijoint_analysis_recovery, only : recover
    use axijoint_analysis_remarks, only : remarks_on, mechanism_text, out_of_proportion
    use axijoint_analysis_results, only : results_type
+   use axijoint_analysis_increment_fields, only : elastic_field
    use axijoint_analysis_solution, only : solve_displacements
    use axijoint_analysis_structure, only : structure_type, build_structure
-   use axijoint_assembly_force, only : joint_jump, elastic_joint_stress
-   use axijoint_assembly_loading, only : loading_type, new_loading
+   use axijoint_assembly_loading, only : new_loading
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : progress_type
    use axijoint_base_timer, only : timer_type, phase_factor, phase_joints, phase_recover
-   use axijoint_joints_field, only : joint_field_type, new_joint_field, set_initial_stress
-   use axijoint_joints_increments, only : history_type, run_increments, final_factors, other_loop_difference
-   use axijoint_joints_planes, only : planes_type, new_view, synthesize
+   use axijoint_joints_field, only : joint_field_type
+   use axijoint_joints_increments, only : history_type, run_increments, final_factors, &
+                                          loads_of_increments, other_loop_difference
+   use axijoint_joints_planes, only : planes_type, new_view
+   use axijoint_joints_states, only : increment_state_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type
    use axijoint_model_model, only : model_type
@@ -139,6 +141,7 @@ contains
       results%converged = history%verdict%converged
       results%other_loop = other_loop_difference(structure%scene, history, yielding)
       results%path = history%path
+      results%states = [history%states, last_state(history)]
       results%tolerance = model%increments(size(model%increments))%tolerance
       allocate (results%displacement, mold=history%loading%right)
       if (allocated(history%runaway)) then
@@ -155,7 +158,8 @@ contains
                                error)
       if (allocated(error)) return
       results%plane_angles = structure%scene%planes%angle
-      call elastic_field(model, structure, structure%scene%planes, history, results%displacement, field)
+      call elastic_field(model, structure, structure%scene%planes, history%loading%case_factor, &
+                         results%displacement, field)
       associate (yield => structure%yielding)
          field%jump(:, yield, :) = yielding%jump
          field%stress(:, yield, :) = yielding%stress
@@ -193,6 +197,8 @@ contains
       history%peak = history%loading
       allocate (results%displacement, mold=history%loading%right)
       allocate (results%path(0), none(3, 0, size(structure%modes)))
+      results%states = loads_of_increments(model, combination)
+      if (.not. model%sweep%wanted) results%states = results%states(size(results%states):)
       call timer%push(phase_joints)
       call solve_displacements(structure%equations, model, history%loading, &
                                structure%joint_points(:0), none, results%displacement, &
@@ -203,40 +209,23 @@ contains
       results%tolerance = linear_tolerance
       planes = new_view(model%output_angles, structure%modes)
       results%plane_angles = planes%angle
-      call elastic_field(model, structure, planes, history, results%displacement, field)
+      call elastic_field(model, structure, planes, history%loading%case_factor, results%displacement, field)
    end subroutine solve_linear
 
-   !> State of all joints, as if none yielded
-   subroutine elastic_field(model, structure, planes, history, displacement, field)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The structure, for its joint points
-      type(structure_type), intent(in) :: structure
-      !> Planes
-      type(planes_type), intent(in) :: planes
-      !> The loads, for the in-situ stress
+   !> Loads at the end of the increments: of the last one, or of the one that failed
+   pure function last_state(history) result(state)
+      !> What the increments came to
       type(history_type), intent(in) :: history
-      !> Displacement amplitudes, shape (3, nodes, modes)
-      real(wp), intent(in) :: displacement(:, :, :)
-      !> State of the joints
-      type(joint_field_type), intent(out) :: field
+      !> The state
+      type(increment_state_type) :: state
 
-      real(wp), allocatable :: jump(:, :, :)
-      integer :: j, k
-
-      associate (points => structure%joint_points)
-         field = new_joint_field(size(points), size(planes%angle), size(displacement, 3))
-         call set_initial_stress(model, points, history%loading%case_factor, field)
-         allocate (jump(3, size(points), size(displacement, 3)))
-         do k = 1, size(displacement, 3)
-            jump(:, :, k) = joint_jump(points, displacement(:, :, k))
-         end do
-         field%jump = synthesize(planes, jump)
-         do j = 1, size(planes%angle)
-            field%stress(:, :, j) = elastic_joint_stress(model, points, field%jump(:, :, j)) + field%initial
-         end do
+      associate (last => history%path(size(history%path)))
+         state%increment = last%increment
+         state%load_factor = last%load_factor
       end associate
-   end subroutine elastic_field
+      if (allocated(history%runaway)) state%load_factor = history%reached
+      state%case_factor = history%loading%case_factor
+   end function last_state
 
    !> Joint points and their state into the results
    subroutine take_joint_results(points, field, results)

@@ -124,12 +124,13 @@ contains
    end subroutine assemble
 
    !> Whether the factors are needed more than once: by several load combinations, or by joints,
-   !> which take flexibilities, then displacements
+   !> which take flexibilities, then displacements, or to show earlier increments
    pure logical function reuses_factors(model)
       !> The job
       type(model_type), intent(in) :: model
 
-      reuses_factors = size(model%combinations) > 1 .or. can_yield(model)
+      reuses_factors = size(model%combinations) > 1 .or. can_yield(model) &
+         .or. model%sweep%wanted .and. size(model%increments) > 1
    end function reuses_factors
 
    !> Share of the joint stiffness that Newton's method begins with: what is about

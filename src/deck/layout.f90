@@ -21,7 +21,7 @@ module axijoint_deck_layout
    integer, parameter, public :: keyword_length = 12
 
    !> Number of keywords
-   integer, parameter, public :: n_sections = 41
+   integer, parameter, public :: n_sections = 42
    integer, parameter, public :: section_title = 1, section_control = 2, section_nodes = 3, &
       section_lines = 4, section_elements = 5, section_blocks = 6, section_materials = 7, &
       section_laws = 8, section_joints = 9, section_faces = 10, section_chains = 11, &
@@ -34,7 +34,7 @@ module axijoint_deck_layout
       section_temperatures = 31, section_node_temps = 32, section_moved_nodes = 33, &
       section_moved_faces = 34, section_springs = 35, section_in_situ = 36, &
       section_case = 37, section_combine = 38, &
-      section_sections = 39, section_cuts = 40, section_law_details = 41
+      section_sections = 39, section_cuts = 40, section_law_details = 41, section_sweep = 42
 
    !> The keywords
    character(len=keyword_length), parameter :: section_names(n_sections) = &
@@ -45,7 +45,7 @@ module axijoint_deck_layout
       'SHAPES', 'PRESSURES', 'POINTLOADS', 'HARMONICS', 'ORTHOTROPIC', &
       'GMSH', 'GROUPS', 'GRAVITY', 'ROTATION', 'TEMPERATURES', 'NODETEMPS', 'MOVEDNODES', &
       'MOVEDFACES', 'SPRINGS', 'INSITU', 'CASE', 'COMBINE', 'SECTIONS', 'CUTS', &
-      'LAWDETAILS']
+      'LAWDETAILS', 'SWEEP']
 
    !> Kinds of groups on the cards of GROUPS
    character(len=5), parameter, public :: group_kinds(3) = [character(len=5) :: 'BODY', 'FACE', 'JOINT']
@@ -114,7 +114,7 @@ contains
                    last_number('the last node', 11), step(16)]
       case (section_groups)
          fields = group_fields()
-      case (section_sections, section_cuts)
+      case (section_sections, section_cuts, section_sweep)
          fields = request_fields(section)
       case (section_fixed_faces)
          fields = [number('the face', 1), code_field('the code', 6, 10)]
@@ -178,7 +178,7 @@ contains
       end do
    end function block_fields
 
-   !> Fields of SECTIONS and CUTS
+   !> Fields of SECTIONS, CUTS and SWEEP
    pure function request_fields(section) result(fields)
       !> The section
       integer, intent(in) :: section
@@ -193,6 +193,12 @@ contains
                    length('z of the last point', 36), &
                    integer_field('the number of points', 46, 50, 2, largest_division, default=11), &
                    (angle('angle '//to_text(i), 41 + 10*i), i=1, 3)]
+      else if (section == section_sweep) then
+         fields = [real_field('the first angle', 1, 10, from=-360.0_wp, to=360.0_wp, default=0.0_wp, &
+                              symbol='theta'), &
+                   real_field('the last angle', 11, 20, from=-360.0_wp, to=360.0_wp, default=360.0_wp, &
+                              symbol='theta'), &
+                   integer_field('the number of sectors', 21, 25, 1, largest_division, default=0)]
       else
          fields = [number('the cut', 1), length('z', 6), body(16)]
       end if

@@ -26,7 +26,7 @@ module axijoint_deck_reader
    use axijoint_deck_layout, only : section_law_details, section_control, section_nodes, section_lines, section_elements, &
       section_blocks, section_groups, section_materials, section_laws, section_joints, section_faces, &
       section_chains, section_interfaces, section_increments, section_output, section_orthotropic, &
-      section_sections, section_cuts, section_fixed_faces, section_moved_faces, section_springs
+      section_sections, section_cuts, section_sweep, section_fixed_faces, section_moved_faces, section_springs
    use axijoint_deck_loads, only : read_loads, check_properties
    use axijoint_deck_places, only : group_places, new_point_tree, point_tree_type, same_place
    use axijoint_deck_locking, only : warn_of_locking
@@ -36,6 +36,7 @@ module axijoint_deck_reader
    use axijoint_deck_sections, only : sections_type, read_sections
    use axijoint_deck_source, only : source_type
    use axijoint_deck_source_reader, only : read_source
+   use axijoint_deck_sweep, only : read_sweep
    use axijoint_model_model, only : model_type, element_references
    implicit none
    private
@@ -79,6 +80,7 @@ contains
          call make_joints_and_faces(source, sections, properties, import, draft, diagnostics)
          call read_loads(source, sections, draft, model, diagnostics)
          call read_requests(source, sections, draft, model, diagnostics)
+         call read_sweep(source, tables(section_sweep), model%sweep, diagnostics)
          if (diagnostics%n_errors > 0) return
          call take_model(draft, properties, model)
          call check_properties(sections, model, diagnostics)

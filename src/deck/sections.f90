@@ -4,7 +4,7 @@ module axijoint_deck_sections
    use axijoint_deck_diagnostics, only : diagnostics_type, add_error, add_warning
    use axijoint_deck_layout, only : n_sections, section_names, section_fields, keyword_fields, &
       cards_per_entry, section_title, section_control, section_include, section_end, section_orthotropic, &
-      section_gmsh, card_width
+      section_gmsh, section_sweep, card_width
    use axijoint_deck_source, only : source_type, card_text, card_content, card_position, card_title, &
       card_data, card_keyword, tab
    use axijoint_deck_table, only : table_type, new_table, read_entry, entry_error, field_error, &
@@ -143,7 +143,7 @@ contains
       do card = 1, source%n_cards
          if (source%cards(card)%kind /= card_keyword) cycle
          associate (section => source%cards(card)%keyword)
-            if (all(section /= [section_title, section_control, section_gmsh])) cycle
+            if (all(section /= [section_title, section_control, section_gmsh, section_sweep])) cycle
             if (seen(section) > 0) then
                call add_error(diagnostics, card, 1, len_trim(section_names(section)), &
                               trim(section_names(section))//' is there twice, first on '// &

@@ -12,12 +12,13 @@ module axijoint_joints_increments
                                      set_initial_stress
    use axijoint_joints_residual, only : load_norm, ratio
    use axijoint_joints_response, only : load_response
+   use axijoint_joints_states, only : increment_state_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type, increment_type
    use axijoint_model_model, only : model_type, method_newton, method_transfer
    implicit none
    private
-   public :: history_type, run_increments, final_factors, other_loop_difference
+   public :: history_type, run_increments, final_factors, loads_of_increments, other_loop_difference
 
    !> A step that finds no equilibrium is halved so many times at most
    integer, parameter :: most_halvings = 6
@@ -36,6 +37,9 @@ module axijoint_joints_increments
       real(wp), allocatable :: runaway(:, :, :)
       !> Sum of the load factors of the last step in equilibrium
       real(wp) :: reached = 0.0_wp
+      !> States at the ends of the increments before the last; none unless the job
+      !> wants its bodies swept
+      type(increment_state_type), allocatable :: states(:)
       !> Convergence path
       type(iteration_type), allocatable :: path(:)
       !> What ended the increments before their time: too little memory
@@ -74,7 +78,7 @@ contains
       real(wp) :: peak_norm
       integer :: i
 
-      allocate (history%path(0))
+      allocate (history%path(0), history%states(0))
       field = new_joint_field(size(scene%points), size(scene%planes%angle), size(scene%equations%modes))
       goal = first_step(combination)
       peak_norm = 0.0_wp
@@ -84,6 +88,7 @@ contains
          call show_progress(progress, 'increment '//to_text(i)//' of '//to_text(size(scene%model%increments)))
          call reach(i, start, goal, most_halvings)
          if (.not. history%verdict%converged) return
+         if (scene%model%sweep%wanted .and. i < size(scene%model%increments)) call keep_state(i, goal)
       end do
 
    contains
@@ -119,6 +124,25 @@ contains
          if (.not. history%verdict%converged) return
          call reach(increment, middle, to, halvings - 1)
       end subroutine reach
+
+      !> Keep a state at the end of an increment
+      subroutine keep_state(increment, step)
+         !> Increment
+         integer, intent(in) :: increment
+         !> Loads in equilibrium
+         type(step_type), intent(in) :: step
+
+         type(increment_state_type) :: state
+
+         state%increment = increment
+         state%load_factor = step%load_factor
+         state%case_factor = step%case_factor
+         state%jump = field%jump
+         state%stress = field%stress
+         state%state = field%state
+         state%excess = field%excess
+         history%states = [history%states, state]
+      end subroutine keep_state
 
       !> Iterate one step
       subroutine try_step(increment, step)
@@ -237,6 +261,27 @@ contains
          end associate
       end if
    end function next_step
+
+   !> Loads after each increment, without states of joints
+   pure function loads_of_increments(model, combination) result(states)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Factors of the load cases
+      type(combination_type), intent(in) :: combination
+      !> One an increment
+      type(increment_state_type) :: states(size(model%increments))
+
+      type(step_type) :: step
+      integer :: i
+
+      step = first_step(combination)
+      do i = 1, size(states)
+         step = next_step(step, model%increments(i), combination)
+         states(i)%increment = i
+         states(i)%load_factor = step%load_factor
+         states(i)%case_factor = step%case_factor
+      end do
+   end function loads_of_increments
 
    !> Factors of the load cases after all increments
    pure function final_factors(model, combination) result(factor)

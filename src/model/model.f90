@@ -9,7 +9,7 @@ module axijoint_model_model
       load_case_type, combination_type, increment_type, truncation_type
    use axijoint_model_material, only : solid_material_type, joint_material_type
    use axijoint_model_mesh, only : mesh_type
-   use axijoint_model_request, only : line_type, cut_type, supported_face_type
+   use axijoint_model_request, only : line_type, cut_type, supported_face_type, sweep_type
    implicit none
    private
    public :: model_type, can_yield, can_yield_at, yielding_nodes, element_references, on_axis
@@ -82,6 +82,8 @@ module axijoint_model_model
       type(line_type), allocatable :: lines(:)
       !> Cuts whose resultants are listed
       type(cut_type), allocatable :: cuts(:)
+      !> Range of theta that the bodies are swept through
+      type(sweep_type) :: sweep
       !> Faces whose reactions are listed
       type(supported_face_type), allocatable :: supported_faces(:)
    end type model_type

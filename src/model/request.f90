@@ -1,9 +1,10 @@
-!> Where a deck asks for results: along lines, on cuts z = const, on supported faces
+!> Where a deck asks for results: along lines, on cuts z = const, on supported faces,
+!> on the body swept through a range of theta
 module axijoint_model_request
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, pi
    implicit none
    private
-   public :: line_type, line_point_type, cut_type, supported_face_type
+   public :: line_type, line_point_type, cut_type, supported_face_type, sweep_type
 
    !> A point of a line in an element
    type :: line_point_type
@@ -40,6 +41,16 @@ module axijoint_model_request
       !> Body that is cut; 0 for all
       integer :: body = 0
    end type cut_type
+
+   !> Range of theta that the bodies are swept through, for pictures
+   type :: sweep_type
+      !> Whether that is wanted
+      logical :: wanted = .false.
+      !> First and last angle [radian]
+      real(wp) :: from = 0.0_wp, to = 2.0_wp*pi
+      !> Number of sectors; 0 if the highest harmonic is to tell
+      integer :: n_sectors = 0
+   end type sweep_type
 
    !> A face that restraints, given displacements or springs hold
    type :: supported_face_type

@@ -56,9 +56,22 @@ contains
          displacement_line(model, results)// &
          line("time, peak memory", seconds_text(timer%seconds(phase_total))//" s, "// &
          to_text(nint(peak_memory_mb()))//" MB")// &
-         line("files", join_path(directory, name)//".lis .json .h5")
+         line("files", join_path(directory, name)//".lis .json .h5"//picture_endings(model))
       text = text(:len(text) - 1)
    end function brief_text
+
+   !> Endings of the files of the swept bodies
+   pure function picture_endings(model) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Such as " .vtkhdf"
+      character(len=:), allocatable :: text
+
+      text = ""
+      if (.not. model%sweep%wanted) return
+      text = " .vtkhdf"
+      if (n_joints(model%mesh) > 0) text = text//" .joints.vtkhdf"
+   end function picture_endings
 
    !> Converged, or how it failed
    pure function status_text(results) result(text)

@@ -8,12 +8,13 @@ module axijoint_output_hdf5_data
       h5pset_chunk_f, h5pset_shuffle_f, h5pset_deflate_f, h5pset_fletcher32_f, h5pclose_f, &
       h5p_dataset_create_f, h5dcreate_f, h5dwrite_f, h5dclose_f, h5acreate_f, h5awrite_f, &
       h5aclose_f, h5oopen_f, h5oclose_f, h5tcopy_f, h5tset_size_f, h5tset_cset_f, &
-      h5tset_strpad_f, h5tclose_f, h5t_cset_utf8_f, h5t_str_nullpad_f, h5t_c_s1, &
+      h5tset_strpad_f, h5tclose_f, h5t_cset_utf8_f, h5t_cset_ascii_f, h5t_str_nullpad_f, h5t_c_s1, &
       h5zfilter_avail_f, h5z_filter_deflate_f
    implicit none
    private
    public :: hdf5_failure_type, no_handle
    public :: write_array, write_string, write_attribute, write_string_attribute
+   public :: make_space, make_properties, close_handles
 
    !> A handle that is not open
    integer(hid_t), parameter :: no_handle = -1_hid_t
@@ -110,7 +111,7 @@ contains
       call set_last_error(0)
       call h5screate_f(h5s_scalar_f, space, status)
       call failure%check(status, name)
-      call make_text_type(len(copy), type, name, failure)
+      call make_text_type(len(copy), .false., type, name, failure)
       if (.not. failure%failed) then
          call h5dcreate_f(file, name, type, space, dataset, status)
          call failure%check(status, name)
@@ -122,14 +123,16 @@ contains
       call close_handles(name, failure, dataset=dataset, type=type, space=space)
    end subroutine write_string
 
-   !> Attach a text to a group or dataset
-   subroutine write_string_attribute(file, object, name, text, failure)
+   !> Attach a text to a group or dataset, fixed length
+   subroutine write_string_attribute(file, object, name, text, ascii, failure)
       !> Handle of the file
       integer(hid_t), intent(in) :: file
       !> Absolute path of the group or dataset, and name of the attribute
       character(len=*), intent(in) :: object, name
       !> The text
       character(len=*), intent(in) :: text
+      !> Whether to mark it as ASCII, else as UTF-8
+      logical, intent(in) :: ascii
       !> What failed first; nothing is done after a failure
       type(hdf5_failure_type), intent(inout) :: failure
 
@@ -139,7 +142,7 @@ contains
       if (failure%failed) return
       copy = not_empty(text)
       call set_last_error(0)
-      call make_text_type(len(copy), type, object, failure)
+      call make_text_type(len(copy), ascii, type, object, failure)
       call write_attribute(file, object, name, type, type, c_loc(copy), failure)
       call close_handles(object, failure, type=type)
    end subroutine write_string_attribute
@@ -214,10 +217,12 @@ contains
       end do
    end function chunk_extent
 
-   !> Make the type of a text of fixed length, UTF-8
-   subroutine make_text_type(length, type, name, failure)
+   !> Make the type of a text of fixed length
+   subroutine make_text_type(length, ascii, type, name, failure)
       !> Bytes
       integer, intent(in) :: length
+      !> Whether to mark it as ASCII, else as UTF-8
+      logical, intent(in) :: ascii
       !> The type
       integer(hid_t), intent(out) :: type
       !> Object, for the message
@@ -234,14 +239,14 @@ contains
       if (failure%failed) return
       call h5tset_size_f(type, int(length, size_t), status)
       call failure%check(status, name)
-      call h5tset_cset_f(type, h5t_cset_utf8_f, status)
+      call h5tset_cset_f(type, merge(h5t_cset_ascii_f, h5t_cset_utf8_f, ascii), status)
       call failure%check(status, name)
       call h5tset_strpad_f(type, h5t_str_nullpad_f, status)
       call failure%check(status, name)
    end subroutine make_text_type
 
-   !> Attach a scalar to a group or dataset
-   subroutine write_attribute(file, object, name, file_type, memory_type, value, failure)
+   !> Attach a scalar, or a vector, to a group or dataset
+   subroutine write_attribute(file, object, name, file_type, memory_type, value, failure, length)
       !> Handle of the file
       integer(hid_t), intent(in) :: file
       !> Absolute path of the group or dataset, and name of the attribute
@@ -252,6 +257,8 @@ contains
       type(c_ptr), intent(in) :: value
       !> What failed first; nothing is done after a failure
       type(hdf5_failure_type), intent(inout) :: failure
+      !> Length of a vector
+      integer(hsize_t), intent(in), optional :: length
 
       integer(hid_t) :: owner, space, attribute
       integer :: status
@@ -259,7 +266,11 @@ contains
       if (failure%failed) return
       owner = no_handle; space = no_handle; attribute = no_handle
       call set_last_error(0)
-      call h5screate_f(h5s_scalar_f, space, status)
+      if (present(length)) then
+         call h5screate_simple_f(1, [length], space, status)
+      else
+         call h5screate_f(h5s_scalar_f, space, status)
+      end if
       call failure%check(status, object)
       call h5oopen_f(file, object, owner, status)
       call failure%check(status, object)

@@ -17,6 +17,7 @@ module axijoint_output_listing
    use axijoint_output_listing_solution, only : write_equations, write_convergence, &
       write_displacements, write_total_displacements, write_reactions, write_equilibrium, &
       write_times, convergence_text
+   use axijoint_output_listing_sweep, only : picture_type, write_pictures
    use axijoint_output_listing_stress, only : write_stresses, write_nodal_stresses, &
       write_joint_results
    use axijoint_output_run, only : run_type
@@ -29,7 +30,7 @@ module axijoint_output_listing
 contains
 
    !> All tables in order
-   subroutine write_listing(file, run, source, warnings, model, results, timer)
+   subroutine write_listing(file, run, source, warnings, model, results, timer, pictures)
       !> The listing
       class(text_file_type), intent(inout) :: file
       !> Name tags of the run
@@ -44,6 +45,8 @@ contains
       type(results_type), intent(in) :: results
       !> Times of the run
       type(timer_type), intent(in) :: timer
+      !> Files of the swept bodies
+      type(picture_type), intent(in) :: pictures(:)
 
       call write_header(file, run, model, results)
       call write_echo(file, source)
@@ -73,6 +76,7 @@ contains
       call write_reactions(file, model, results)
       call write_face_reactions(file, model, results)
       call write_equilibrium(file, model, results)
+      call write_pictures(file, size(results%states), pictures)
       call write_times(file, timer)
       call write_end(file, results)
    end subroutine write_listing

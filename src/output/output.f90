@@ -1,40 +1,49 @@
-!> The files of a run: all three complete under their final names, or none
+!> The files of a run: all of them complete under their final names, or none
 module axijoint_output_output
    use axijoint_analysis_results, only : results_type
+   use axijoint_analysis_structure, only : structure_type
    use axijoint_base_error, only : error_type, fatal_error, exit_io, exit_internal
    use axijoint_base_system, only : path_kind, is_directory, same_file, path_absent, path_file, &
       path_directory, path_link, error_text
    use axijoint_base_timer, only : timer_type
    use axijoint_deck_source, only : source_type, card_file
+   use axijoint_model_mesh, only : n_joints
    use axijoint_model_model, only : model_type
    use axijoint_output_echo, only : deck_path
    use axijoint_output_hdf5, only : write_results
    use axijoint_output_hdf5_file, only : hdf5_file_type
    use axijoint_output_listing, only : write_listing
    use axijoint_output_listing_solution, only : convergence_text
+   use axijoint_output_listing_sweep, only : picture_type, new_picture
    use axijoint_output_pending, only : join_path, sync_names
    use axijoint_output_run, only : run_type, new_run
    use axijoint_output_summary, only : write_summary, write_failure_summary
+   use axijoint_output_swept_mesh, only : swept_mesh_type
    use axijoint_output_text_file, only : text_file_type
+   use axijoint_output_vtkhdf_bodies, only : write_bodies
+   use axijoint_output_vtkhdf_joints, only : write_joint_surfaces
    implicit none
    private
    public :: check_output, write_output, write_error_summary
 
-   !> Endings of the files, in the order in which they get their final names;
-   !> the summary last, so that it speaks for all
-   character(len=5), parameter :: endings(3) = [character(len=5) :: ".h5", ".lis", ".json"]
+   !> Endings of the files
+   character(len=14), parameter :: endings(5) = [character(len=14) :: &
+      ".h5", ".lis", ".json", ".vtkhdf", ".joints.vtkhdf"]
+   integer, parameter :: file_arrays = 1, file_listing = 2, file_summary = 3, file_bodies = 4, file_joints = 5
 
 contains
 
    !> Before the solve: the directory is there, files can be made in it, and
    !> the final names are free or regular files
-   subroutine check_output(directory, name, source, error)
+   subroutine check_output(directory, name, source, model, error)
       !> Directory of the files; empty for the current one
       character(len=*), intent(in) :: directory
       !> Name of the job
       character(len=*), intent(in) :: name
       !> Cards of the deck: their files must not be overwritten
       type(source_type), intent(in) :: source
+      !> The job, which tells what files there will be
+      type(model_type), intent(in) :: model
       !> What stands in the way
       type(error_type), allocatable, intent(out) :: error
 
@@ -45,22 +54,24 @@ contains
             " for the results"//new_line("a")//"mend: make it first, or choose another with -o")
          return
       end if
-      call check_names(directory, name, error)
+      call check_names(directory, name, n_files(model), error)
       if (allocated(error)) return
-      call spare_sources(directory, name, source, error)
+      call spare_sources(directory, name, source, n_files(model), error)
       if (allocated(error)) return
-      call probe%open(final_path(directory, name, 3), error)
+      call probe%open(final_path(directory, name, file_summary), error)
       call probe%abandon()
    end subroutine check_output
 
    !> Refuse to write over the deck or a file that it includes
-   subroutine spare_sources(directory, name, source, error)
+   subroutine spare_sources(directory, name, source, n, error)
       !> Directory of the files
       character(len=*), intent(in) :: directory
       !> Name of the job
       character(len=*), intent(in) :: name
       !> Cards of the deck
       type(source_type), intent(in) :: source
+      !> Number of files, by their endings
+      integer, intent(in) :: n
       !> The file in danger
       type(error_type), allocatable, intent(out) :: error
 
@@ -71,7 +82,7 @@ contains
       do card = 1, source%n_cards
          if (card_file(source, card) == file) cycle
          file = card_file(source, card)
-         do ending = 1, 3
+         do ending = 1, n
             if (.not. same_file(final_path(directory, name, ending), file)) cycle
             call fatal_error(error, exit_io, "the results would overwrite "//file// &
                ", a file of the deck"//new_line("a")// &
@@ -81,11 +92,11 @@ contains
       end do
    end subroutine spare_sources
 
-   !> Write listing, summary and results. Nothing changes under a final name
-   !> before all three are complete on the disk; after an error the temporary
-   !> files are gone and earlier files stand.
-   subroutine write_output(directory, name, source, warnings, model, results, timer, exit_code, &
-         error)
+   !> Write results, swept bodies, listing and summary. Nothing changes under a final
+   !> name before all are complete on the disk; after an error the temporary files are
+   !> gone and earlier files stand. The summary gets its name last: it speaks for all.
+   subroutine write_output(directory, name, source, warnings, model, structure, results, timer, &
+         exit_code, error)
       !> Directory of the files; empty for the current one
       character(len=*), intent(in) :: directory
       !> Name of the job
@@ -96,6 +107,8 @@ contains
       character(len=*), intent(in) :: warnings(:)
       !> The job
       type(model_type), intent(in) :: model
+      !> The structure, assembled: swept bodies show earlier increments, too
+      type(structure_type), intent(inout) :: structure
       !> Results
       type(results_type), intent(in) :: results
       !> Times of the run so far
@@ -106,7 +119,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(run_type) :: run
-      type(hdf5_file_type) :: arrays
+      type(hdf5_file_type) :: arrays, bodies, joints
+      type(picture_type), allocatable :: pictures(:)
       type(text_file_type) :: listing, summary
       character(len=max(len(warnings), len(convergence_text(results)))) :: &
          messages(size(warnings) + merge(0, 1, results%converged))
@@ -117,31 +131,71 @@ contains
       if (.not. results%converged) messages(1) = convergence_text(results)
       messages(size(messages) - size(warnings) + 1:) = warnings
 
-      call arrays%create(final_path(directory, name, 1), error)
+      call arrays%create(final_path(directory, name, file_arrays), error)
       if (.not. allocated(error)) then
          call write_results(arrays, run, source, messages, model, results)
          call arrays%finish(error)
       end if
-      if (.not. allocated(error)) call listing%open(final_path(directory, name, 2), error)
+      allocate (pictures(0))
+      if (.not. allocated(error)) call write_pictures()
+      if (.not. allocated(error)) call listing%open(final_path(directory, name, file_listing), error)
       if (.not. allocated(error)) then
-         call write_listing(listing, run, source, warnings, model, results, timer)
+         call write_listing(listing, run, source, warnings, model, results, timer, pictures)
          call listing%finish(error)
       end if
-      if (.not. allocated(error)) call summary%open(final_path(directory, name, 3), error)
+      if (.not. allocated(error)) call summary%open(final_path(directory, name, file_summary), error)
       if (.not. allocated(error)) then
          call write_summary(summary, run, messages, model, results, timer)
          call summary%finish(error)
       end if
 
-      if (.not. allocated(error)) call check_names(directory, name, error)
+      if (.not. allocated(error)) call check_names(directory, name, n_files(model), error)
       if (.not. allocated(error)) call arrays%commit(error)
+      if (.not. allocated(error)) call bodies%commit(error)
+      if (.not. allocated(error)) call joints%commit(error)
       if (.not. allocated(error)) call listing%commit(error)
       if (.not. allocated(error)) call summary%commit(error)
       call sync_names(directory)
       call arrays%abandon()
+      call bodies%abandon()
+      call joints%abandon()
       call listing%abandon()
       call summary%abandon()
+
+   contains
+
+      !> Swept bodies and joints, if they are wanted
+      subroutine write_pictures()
+         type(swept_mesh_type) :: mesh
+
+         if (n_files(model) < file_bodies) return
+         call bodies%create(final_path(directory, name, file_bodies), error)
+         if (allocated(error)) return
+         call write_bodies(bodies, run, model, structure, results, mesh, error)
+         if (allocated(error)) return
+         call bodies%finish(error)
+         if (allocated(error)) return
+         pictures = [new_picture(name//trim(endings(file_bodies)), bodies%size(), mesh)]
+         if (n_files(model) < file_joints) return
+         call joints%create(final_path(directory, name, file_joints), error)
+         if (allocated(error)) return
+         call write_joint_surfaces(joints, run, model, structure, results, mesh, error)
+         if (allocated(error)) return
+         call joints%finish(error)
+         if (allocated(error)) return
+         pictures = [pictures, new_picture(name//trim(endings(file_joints)), joints%size(), mesh)]
+      end subroutine write_pictures
+
    end subroutine write_output
+
+   !> Number of files that a job writes, by their endings
+   pure integer function n_files(model)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      n_files = file_summary
+      if (model%sweep%wanted) n_files = merge(file_joints, file_bodies, n_joints(model%mesh) > 0)
+   end function n_files
 
    !> Summary of a run that failed. Results of an earlier run stay untouched:
    !> nothing is written where its listing or arrays stand. A failure to write
@@ -161,12 +215,12 @@ contains
       type(text_file_type) :: summary
       type(error_type), allocatable :: error
 
-      if (path_kind(final_path(directory, name, 1)) /= path_absent) return
-      if (path_kind(final_path(directory, name, 2)) /= path_absent) return
-      if (same_file(final_path(directory, name, 3), deck)) return
-      call check_names(directory, name, error)
+      if (path_kind(final_path(directory, name, file_arrays)) /= path_absent) return
+      if (path_kind(final_path(directory, name, file_listing)) /= path_absent) return
+      if (same_file(final_path(directory, name, file_summary), deck)) return
+      call check_names(directory, name, file_summary, error)
       if (allocated(error)) return
-      call summary%open(final_path(directory, name, 3), error)
+      call summary%open(final_path(directory, name, file_summary), error)
       if (allocated(error)) return
       call write_failure_summary(summary, new_run(deck, exit_code), messages)
       call summary%finish(error)
@@ -176,18 +230,20 @@ contains
 
    !> The final names are free or regular files: a link might lead anywhere,
    !> and a directory or device cannot be replaced
-   subroutine check_names(directory, name, error)
+   subroutine check_names(directory, name, n, error)
       !> Directory of the files
       character(len=*), intent(in) :: directory
       !> Name of the job
       character(len=*), intent(in) :: name
+      !> Number of files, by their endings
+      integer, intent(in) :: n
       !> The name that is taken
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: found
       integer :: i, kind
 
-      do i = 1, size(endings)
+      do i = 1, n
          kind = path_kind(final_path(directory, name, i))
          if (kind == path_absent .or. kind == path_file) cycle
          found = "is neither a file nor free"
@@ -228,7 +284,8 @@ contains
          .and. allocated(results%joint_point_joint) &
          .and. allocated(results%joint_point_position) &
          .and. allocated(results%joint_jump) .and. allocated(results%joint_stress) &
-         .and. allocated(results%joint_state) .and. allocated(results%path)) return
+         .and. allocated(results%joint_state) .and. allocated(results%path) &
+         .and. allocated(results%states)) return
       call fatal_error(error, exit_internal, "the results are not complete"//new_line("a")// &
          "mend: this is a fault of the program; please report it with the deck")
    end subroutine check_results

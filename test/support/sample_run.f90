@@ -60,7 +60,7 @@ contains
       results%part_unbalance = reshape([(0.0_wp, k=1, 6)], [6, 1])
       results%solver = 1
       allocate (results%cut_resultants(6, 0))
-      allocate (results%solves(2), results%path(3))
+      allocate (results%solves(2), results%path(3), results%states(1))
       results%solves%mode%harmonic = harmonics
       results%solves%n_equations = [4, 6]
       results%path%increment = 1

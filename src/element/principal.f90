@@ -1,0 +1,65 @@
+!> Principal stresses
+module axijoint_element_principal
+   use axijoint_base_kinds, only : wp
+   implicit none
+   private
+   public :: principal_stresses
+
+   !> Rotations in turn at most; three to five suffice
+   integer, parameter :: most_sweeps = 12
+
+contains
+
+   !> Principal stresses by Jacobi's rotations, the largest first
+   pure function principal_stresses(stress) result(principal)
+      !> xx, yy, zz, xy, yz, xz, in any cartesian axes
+      real(wp), intent(in) :: stress(6)
+      !> The stresses
+      real(wp) :: principal(3)
+
+      real(wp) :: a(3, 3)
+      integer :: sweep
+
+      a = reshape(stress([1, 4, 6, 4, 2, 5, 6, 5, 3]), [3, 3])
+      do sweep = 1, most_sweeps
+         if (.not. abs(a(1, 2)) + abs(a(2, 3)) + abs(a(1, 3)) > tiny(1.0_wp)) exit
+         call rotate(a, 1, 2)
+         call rotate(a, 2, 3)
+         call rotate(a, 1, 3)
+      end do
+      principal = [maxval([a(1, 1), a(2, 2), a(3, 3)]), 0.0_wp, minval([a(1, 1), a(2, 2), a(3, 3)])]
+      principal(2) = max(min(a(1, 1), a(2, 2)), min(max(a(1, 1), a(2, 2)), a(3, 3)))
+   end function principal_stresses
+
+   !> Turn the axes p and q so that the shear stress between them vanishes (Golub and
+   !> Van Loan, Matrix Computations, 8.5)
+   pure subroutine rotate(a, p, q)
+      !> The stress
+      real(wp), intent(inout) :: a(3, 3)
+      !> The axes
+      integer, intent(in) :: p, q
+
+      real(wp) :: tau, t, c, s, row_p(3), row_q(3)
+
+      if (.not. abs(a(p, q)) > epsilon(1.0_wp)*1.0e-3_wp*(abs(a(p, p)) + abs(a(q, q)))) then
+         a(p, q) = 0.0_wp
+         a(q, p) = 0.0_wp
+         return
+      end if
+      tau = (a(q, q) - a(p, p))/(2.0_wp*a(p, q))
+      t = sign(1.0_wp, tau)/(abs(tau) + sqrt(1.0_wp + tau**2))
+      c = 1.0_wp/sqrt(1.0_wp + t**2)
+      s = t*c
+      row_p = a(p, :)
+      row_q = a(q, :)
+      a(p, :) = c*row_p - s*row_q
+      a(q, :) = s*row_p + c*row_q
+      row_p = a(:, p)
+      row_q = a(:, q)
+      a(:, p) = c*row_p - s*row_q
+      a(:, q) = s*row_p + c*row_q
+      a(p, q) = 0.0_wp
+      a(q, p) = 0.0_wp
+   end subroutine rotate
+
+end module axijoint_element_principal
