@@ -80,7 +80,9 @@ contains
    end function new_swept_mesh
 
    !> Sweep a convex polygon: a wedge or a hexahedron; at the axis, where its points
-   !> stay in place, what is left of it: tetrahedra, pyramids, wedges
+   !> stay in place, what is left of it: tetrahedra, pyramids, wedges. The first triangle
+   !> of a wedge is seen counterclockwise from outside, as VTK's manual has it (its
+   !> releases since 9.6 measure the volume of such a wedge as negative).
    pure subroutine add_solid(mesh, owner, polygon)
       !> The mesh
       type(swept_mesh_type), intent(inout) :: mesh
@@ -101,7 +103,7 @@ contains
       select case (count(mesh%axis(p)))
       case (0)
          if (n == 3) then
-            call add_cell(mesh, owner, wedge, [p, p], [1, 1, 1, 0, 0, 0])
+            call add_cell(mesh, owner, wedge, [p, p], [0, 0, 0, 1, 1, 1])
          else
             call add_cell(mesh, owner, hexahedron, [p, p], [1, 1, 1, 1, 0, 0, 0, 0])
          end if
@@ -112,7 +114,7 @@ contains
          if (n == 3) then
             call add_cell(mesh, owner, tetrahedron, [p(2), p(3), p(3), p(1)], [0, 0, 1, 0])
          else
-            call add_cell(mesh, owner, wedge, [p(2), p(3), p(3), p(1), p(4), p(4)], [0, 0, 1, 0, 0, 1])
+            call add_cell(mesh, owner, wedge, [p(2), p(3), p(3), p(1), p(4), p(4)], [0, 1, 0, 0, 1, 0])
          end if
       end select
    end subroutine add_solid

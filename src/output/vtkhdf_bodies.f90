@@ -1,8 +1,8 @@
 !> The bodies swept through theta, with displacements and stresses: NAME.vtkhdf
 module axijoint_output_vtkhdf_bodies
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
-   use axijoint_analysis_results, only : results_type, nodal_stress_type
    use axijoint_analysis_increment_fields, only : solve_increment
+   use axijoint_analysis_results, only : results_type, nodal_stress_type
    use axijoint_analysis_structure, only : structure_type
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp, i8

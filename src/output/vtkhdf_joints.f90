@@ -6,8 +6,8 @@
 !> neighbours. Between them it is divided at the planes of the swept bodies. Joints of a
 !> linear job have what the harmonics give in the middle of each sector.
 module axijoint_output_vtkhdf_joints
-   use axijoint_analysis_results, only : results_type
    use axijoint_analysis_increment_fields, only : solve_increment, view_joints
+   use axijoint_analysis_results, only : results_type
    use axijoint_analysis_structure, only : structure_type
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp, i8, pi
