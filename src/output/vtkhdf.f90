@@ -201,7 +201,7 @@ contains
       call put_offsets("Cell", cell_fields, step*n_cells(mesh))
       call put_offsets("Cell", labels_cells, none)
       call file%group("/VTKHDF/FieldData")
-      call file%write("/VTKHDF/FieldData/load_factor", states%load_factor, &
+      call file%write("/VTKHDF/FieldData/load_factor", (states%load_factor), &
                       "Sum of the load factors; (step)")
       call file%group(steps//"/FieldDataOffsets")
       call put_offsets("Field", ["load_factor"], step)
@@ -220,7 +220,7 @@ contains
          integer :: k
 
          do k = 1, size(fields)
-            call file%write(steps//"/"//kind//"DataOffsets/"//trim(fields(k)), offsets, &
+            call file%write(steps//"/"//kind//"DataOffsets/"//trim(fields(k)), (offsets), &
                             "First value of each step")
          end do
       end subroutine put_offsets

@@ -72,7 +72,7 @@ contains
       associate (owner => mesh%owner(:mesh%n_cells))
          call write_cell_labels(file, mesh, "body", model%mesh%element_body(owner), "Body")
          call write_cell_labels(file, mesh, "material", &
-            model%materials(model%mesh%element_material(owner))%label, "Material")
+            (model%materials(model%mesh%element_material(owner))%label), "Material")
          call write_cell_labels(file, mesh, "element", model%mesh%element_label(owner), "Element")
       end associate
       call write_node_labels(file, model, section, mesh)
@@ -180,9 +180,9 @@ contains
       label(1:) = model%mesh%node_label
       call file%begin(series, point_group//"node", kind_long, [n_points(mesh)], &
                       "Node, 0 at the centre of an element of 8 nodes; (point)")
-      call file%append(series, label(pack(section%node, mesh%axis)))
+      call file%append(series, (label(pack(section%node, mesh%axis))))
       do j = 1, size(mesh%angle)
-         call file%append(series, label(pack(section%node, .not. mesh%axis)))
+         call file%append(series, (label(pack(section%node, .not. mesh%axis))))
       end do
       call file%end(series)
    end subroutine write_node_labels
@@ -257,10 +257,10 @@ contains
          integer :: n
 
          points = pack([(n, n=1, size(some))], some)
-         call file%append(displacement, plane%displacement(:, points))
-         call file%append(stress, plane%stress(:, points))
+         call file%append(displacement, (plane%displacement(:, points)))
+         call file%append(stress, (plane%stress(:, points)))
          do n = 1, size(scalars)
-            call file%append(scalar(n), plane%scalar(points, n))
+            call file%append(scalar(n), (plane%scalar(points, n)))
          end do
       end subroutine put_plane
 

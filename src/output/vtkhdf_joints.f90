@@ -76,7 +76,7 @@ contains
       call write_frame(file, run, model, results, mesh)
       associate (points => structure%joint_points(mesh%owner(:mesh%n_cells)))
          call write_cell_labels(file, mesh, "joint", model%mesh%joint_label(points%joint), "Joint")
-         call write_cell_labels(file, mesh, "law", model%joint_materials(points%material)%label, "Law")
+         call write_cell_labels(file, mesh, "law", (model%joint_materials(points%material)%label), "Law")
          call write_cell_labels(file, mesh, "joint_point", mesh%owner(:mesh%n_cells), &
                                 "Joint point, as in the results file")
       end associate
@@ -446,13 +446,13 @@ contains
                mirror = real(surface%sign(j), wp)
                jump = field%jump(:, owner, plane)
                stress = field%stress(:, owner, plane)
-               call file%append(scalar(1), jump(xi, :))
-               call file%append(scalar(2), jump(eta, :))
+               call file%append(scalar(1), (jump(xi, :)))
+               call file%append(scalar(2), (jump(eta, :)))
                call file%append(scalar(3), mirror*jump(theta, :))
                call file%append(scalar(4), max(0.0_wp, jump(eta, :) + gap))
                call file%append(scalar(5), norm2(jump([xi, theta], :), 1))
-               call file%append(scalar(6), stress(xi, :))
-               call file%append(scalar(7), stress(eta, :))
+               call file%append(scalar(6), (stress(xi, :)))
+               call file%append(scalar(7), (stress(eta, :)))
                call file%append(scalar(8), mirror*stress(theta, :))
                call file%append(state, int(field%state(owner, plane), i8))
             end do
