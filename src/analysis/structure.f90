@@ -14,9 +14,9 @@ module axijoint_analysis_structure
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type, phase_assemble, phase_factor, phase_joints
    use axijoint_fe_mode, only : mode_type
-   use axijoint_joints_balance, only : scene_type
    use axijoint_joints_planes, only : new_planes
    use axijoint_joints_response, only : new_response
+   use axijoint_joints_scene, only : scene_type
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points, stiffness_ratio
    use axijoint_model_model, only : model_type, can_yield, can_yield_at, yielding_nodes
    use axijoint_model_modes, only : used_modes
@@ -79,7 +79,8 @@ contains
       if (size(structure%yielding) > 0) then
          call show_progress(progress, 'condensing to '//to_text(size(structure%yielding))//' joint points')
          structure%scene%planes = new_planes(model%n_planes, structure%modes)
-         structure%scene%first_share = share_seen_first(model, structure%scene%points)
+         structure%scene%proportion = stiffness_ratio(model, structure%scene%points)
+         structure%scene%first_share = share_seen_first(model, structure%scene)
          call new_response(structure%equations, structure%scene%points, structure%scene%response, error)
          if (.not. allocated(error)) call report_failure(structure%equations, model, error)
       end if
@@ -136,18 +137,18 @@ contains
    !> Share of the joint stiffness that Newton's method begins with: what is about
    !> the stiffness of the bodies. Cohesion makes yield depend on the size of the
    !> stress, not on its direction alone; then the share would mislead.
-   pure real(wp) function share_seen_first(model, points) result(share)
+   pure real(wp) function share_seen_first(model, scene) result(share)
       !> The job
       type(model_type), intent(in) :: model
-      !> Joint points that can yield
-      type(model_joint_point_type), intent(in) :: points(:)
+      !> Joint points that can yield, and their stiffness in proportion to the bodies
+      type(scene_type), intent(in) :: scene
 
       !> Power of ten of k h/E that Newton's method needs no help for
       integer, parameter :: easy = 0
 
       share = 1.0_wp
-      if (any(model%joint_materials(points%material)%law%cohesion > 0.0_wp)) return
-      share = 10.0_wp**min(0, easy - floor(log10(max(tiny(1.0_wp), stiffness_ratio(model, points)))))
+      if (any(model%joint_materials(scene%points%material)%law%cohesion > 0.0_wp)) return
+      share = 10.0_wp**min(0, easy - floor(log10(max(tiny(1.0_wp), scene%proportion))))
    end function share_seen_first
 
    !> Bandwidth, profile and fill of the orders side by side

@@ -2,36 +2,33 @@
 !> structure: the paper's loop, the same on total jumps, Anderson, Newton
 module axijoint_joints_balance
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
-   use axijoint_assembly_equations, only : equations_type
    use axijoint_base_kinds, only : wp
    use axijoint_joints_anderson, only : anderson_type, new_anderson, anderson_step
-   use axijoint_joints_field, only : joint_field_type, iteration_type, admit_jump, admit_trial, &
-                                     judge_states, break_bonds, count_state
-   use axijoint_joints_newton, only : newton_step
-   use axijoint_joints_planes, only : planes_type, synthesize, analyse
+   use axijoint_joints_field, only : joint_field_type, iteration_type, judge_states, break_bonds, soften, count_state
+   use axijoint_joints_newton, only : newton_type, new_newton, newton_step
    use axijoint_joints_residual, only : residual_norm, ratio
-   use axijoint_joints_response, only : response_type, jumps
-   use axijoint_model_joint_points, only : model_joint_point_type
-   use axijoint_model_model, only : model_type, method_newton, method_anderson, method_transfer
+   use axijoint_joints_scene, only : scene_type, evaluate
+   use axijoint_model_model, only : method_newton, method_anderson
    implicit none
    private
-   public :: scene_type, verdict_type, balance_step
+   public :: verdict_type, balance_step
 
    !> Iterates that Anderson's mix remembers
    integer, parameter :: depth = 10
-   !> Bonds are broken, one pass after the other, in states at least this well
-   !> balanced: which break depends on what broke before, and must not depend on
-   !> rounding. The last pass reaches the tolerance asked for
-   real(wp), parameter :: pass_tolerance = 1.0e-6_wp
+   !> Bonds are broken and points softened, one pass after the other, in states at
+   !> least this well balanced. The last pass reaches the tolerance asked for
+   real(wp), parameter :: pass_tolerance = 1.0e-3_wp
+   !> Joints much stiffer than the bodies (k h/E beyond `stiff`) tear like a zip, in
+   !> many passes: their bonds are broken in looser states, which comes closer to
+   !> the order in which a growing load breaks them
+   real(wp), parameter :: stiff = 5.0_wp, loose_pass = 0.3_wp
    !> Joints much stiffer than the bodies: the laws see a share of their stiffness
    !> first, this many times more whenever the residual ratio has fallen so far
    real(wp), parameter :: stage_factor = 10.0_wp, stage_tolerance = 0.1_wp
    !> Newton: tolerances of the linear solution far from and near to equilibrium,
    !> and the ratio that divides them
    real(wp), parameter :: loose = 1.0e-3_wp, strict = 1.0e-9_wp, near = 1.0e-2_wp
-   !> Shortest part of a Newton step; if even that does not help, so many steps of
-   !> Anderson's mix go before the next
-   real(wp), parameter :: shortest = 1.0_wp/8.0_wp
+   !> If Newton's step runs away, so many steps of Anderson's mix go before the next
    integer, parameter :: detour = 8
    !> A step without a better residual for so many iterations has stalled
    integer, parameter :: patience = 25
@@ -41,24 +38,6 @@ module axijoint_joints_balance
    !> state: a Newton step to them is none, and shows a mechanism if no other step
    !> helps. (The jumps of an elastic joint are no measure: they vanish if it is stiff.)
    real(wp), parameter :: runaway = 1.0e5_wp
-
-   !> All that an iteration needs to know and does not change
-   type :: scene_type
-      !> The job
-      type(model_type), pointer :: model => null()
-      !> Joint points that can yield
-      type(model_joint_point_type), allocatable :: points(:)
-      !> Equations of all modes, factored
-      type(equations_type), pointer :: equations => null()
-      !> Flexibilities, and jumps from the loads
-      type(response_type) :: response
-      !> Planes of the joint checks
-      type(planes_type) :: planes
-      !> How joints are brought to equilibrium, one of the `method_` parameters
-      integer :: method = method_newton
-      !> Share of the joint stiffness that the laws see first
-      real(wp) :: first_share = 1.0_wp
-   end type scene_type
 
    !> How a load step ended
    type :: verdict_type
@@ -111,16 +90,16 @@ contains
 
       type(iteration_type), allocatable :: steps(:)
       type(watch_type) :: watch
-      real(wp), allocatable :: residual(:, :, :), slope(:, :, :, :)
+      type(newton_type) :: newton
+      real(wp), allocatable :: residual(:, :, :)
       logical :: again
       integer :: k
 
       allocate (residual, mold=field%excess)
-      allocate (slope(3, 3, size(field%jump, 2), size(field%jump, 3)))
       allocate (steps(0))
       if (scene%method == method_newton) field%share = scene%first_share
       watch = new_watch(scene, field)
-      call evaluate(scene, field, residual, slope)
+      call look_again(scene, field, residual, newton)
       do k = 1, most
          call append(steps, k, now)
          steps(k)%iteration = now%iteration + k
@@ -132,11 +111,11 @@ contains
          call go_on(scene, tolerance, steps(k)%ratio, field, watch, verdict, again)
          if (verdict%converged) exit
          if (again) then
-            call evaluate(scene, field, residual, slope)
+            call look_again(scene, field, residual, newton)
             cycle
          end if
          if (verdict%stalled .or. k == most) exit
-         call take_step(scene, k, steps(k)%ratio, field, residual, slope, watch)
+         call take_step(scene, k, steps(k)%ratio, field, residual, newton, watch)
       end do
       field%pending = residual
       k = min(k, most)
@@ -222,24 +201,31 @@ contains
       !> Whether the task changed
       logical, intent(out) :: again
 
-      integer :: n_broken
+      integer :: n_broken, n_softened
 
       again = field%share < 1.0_wp .and. ratio <= stage_tolerance
       if (again) then
          field%share = min(1.0_wp, stage_factor*field%share)
-      else if (field%share >= 1.0_wp .and. ratio <= max(tolerance, pass_tolerance)) then
-         call break_bonds(scene%model, scene%points, field, n_broken)
-         again = n_broken > 0
+      else if (field%share >= 1.0_wp) then
+         if (scene%proportion > stiff .and. ratio <= loose_pass) then
+            call break_bonds(scene%model, scene%points, field, n_broken)
+            again = n_broken > 0
+         end if
+         if (.not. again .and. ratio <= max(tolerance, pass_tolerance)) then
+            call break_bonds(scene%model, scene%points, field, n_broken)
+            call soften(scene%model, scene%points, field, n_softened)
+            again = n_broken + n_softened > 0
+            verdict%converged = .not. again .and. ratio <= tolerance
+         end if
          if (again) verdict%n_passes = verdict%n_passes + 1
-         verdict%converged = .not. again .and. ratio <= tolerance
       end if
       if (.not. again) return
       watch%best = huge(1.0_wp)
       watch%memory = new_anderson(size(field%excess), depth)
    end subroutine go_on
 
-   !> One step of the method; where Newton's does not help, some of Anderson's mix
-   subroutine take_step(scene, k, ratio, field, residual, slope, watch)
+   !> One step of the method; where Newton's runs away, some of Anderson's mix
+   subroutine take_step(scene, k, ratio, field, residual, newton, watch)
       !> What does not change
       type(scene_type), intent(in) :: scene
       !> Iteration, and its residual ratio
@@ -247,19 +233,21 @@ contains
       real(wp), intent(in) :: ratio
       !> State of the joints
       type(joint_field_type), intent(inout) :: field
-      !> Excess stress not transferred, and derivatives; of the new state on return
-      real(wp), intent(inout), contiguous :: residual(:, :, :), slope(:, :, :, :)
+      !> Excess stress not transferred; of the new state on return
+      real(wp), intent(inout), contiguous :: residual(:, :, :)
+      !> Laws about the state, for Newton's method
+      type(newton_type), intent(inout) :: newton
       !> The watch
       type(watch_type), intent(inout) :: watch
 
       real(wp), allocatable :: x(:)
-      logical :: helped, ran
+      logical :: made, ran
 
       if (scene%method == method_newton .and. watch%mixes == 0) then
-         call take_newton_step(scene, merge(strict, loose, ratio < near), watch%largest, field, &
-                               residual, slope, helped, ran)
+         call newton_step(scene, merge(strict, loose, ratio < near), watch%largest, newton, field, residual, &
+                          made, ran)
          if (ran) watch%ran_at = k
-         if (helped) return
+         if (made) return
          watch%mixes = detour
          watch%memory = new_anderson(size(field%excess), depth)
       end if
@@ -271,113 +259,23 @@ contains
       else
          field%excess = field%excess + residual
       end if
-      call evaluate(scene, field, residual, slope)
+      call look_again(scene, field, residual, newton)
    end subroutine take_step
 
-   !> Excess stress that is not yet transferred, from the jumps that loads and
-   !> transferred stress give
-   subroutine evaluate(scene, field, residual, slope)
+   !> What an iterate leaves without equilibrium, and the laws about it for Newton's
+   !> method
+   subroutine look_again(scene, field, residual, newton)
       !> What does not change
       type(scene_type), intent(in) :: scene
-      !> State of the joints; jumps and stresses follow its excess stress
-      type(joint_field_type), intent(inout) :: field
-      !> The amplitudes, shape (3, points, modes)
-      real(wp), intent(out) :: residual(:, :, :)
-      !> Derivatives of the excess stress by the jumps, shape (3, 3, points, planes)
-      real(wp), intent(out) :: slope(:, :, :, :)
-
-      real(wp), allocatable :: total(:, :, :), excess(:, :, :)
-
-      total = synthesize(scene%planes, jumps(scene%response, field%excess, free=.true.))
-      if (scene%method == method_transfer) then
-         call accumulate(scene, total, field, residual)
-         slope = 0.0_wp
-      else
-         excess = total  ! for its shape
-         call admit_jump(scene%model, scene%points, total, field, excess, slope)
-         residual = analyse(scene%planes, excess) - field%excess
-      end if
-   end subroutine evaluate
-
-   !> Steps 2 to 4 of the paper: the stress is accumulated over the iterations,
-   !> and what the law cuts off goes to the next residual
-   subroutine accumulate(scene, total, field, residual)
-      !> What does not change
-      type(scene_type), intent(in) :: scene
-      !> Jumps on the planes
-      real(wp), intent(in) :: total(:, :, :)
       !> State of the joints
       type(joint_field_type), intent(inout) :: field
-      !> What was cut off, amplitudes
+      !> Excess stress not transferred
       real(wp), intent(out) :: residual(:, :, :)
+      !> Laws about the state
+      type(newton_type), intent(inout) :: newton
 
-      real(wp), allocatable :: trial(:, :, :)
-      integer :: k
-
-      trial = field%stress
-      do k = 1, size(scene%points)
-         associate (law => scene%model%joint_materials(scene%points(k)%material)%law)
-            trial(:, k, :) = trial(:, k, :) + spread(law%stiffness, 2, size(total, 3)) &
-               *(total(:, k, :) - field%jump(:, k, :))
-         end associate
-      end do
-      field%jump = total
-      call admit_trial(scene%model, scene%points, trial, field)
-      residual = analyse(scene%planes, trial - field%stress)
-   end subroutine accumulate
-
-   !> One step of Newton's method, shortened until the residual falls; if it does
-   !> not, the state stays as it was
-   subroutine take_newton_step(scene, tolerance, largest, field, residual, slope, helped, ran)
-      !> What does not change
-      type(scene_type), intent(in) :: scene
-      !> Tolerance of the linear solution
-      real(wp), intent(in) :: tolerance
-      !> Jumps beyond which there is no state
-      real(wp), intent(in) :: largest
-      !> State of the joints
-      type(joint_field_type), intent(inout) :: field
-      !> Excess stress not transferred, and derivatives; of the new state on return
-      real(wp), intent(inout), contiguous :: residual(:, :, :), slope(:, :, :, :)
-      !> Whether the residual fell, and whether the whole step ran away
-      logical, intent(out) :: helped, ran
-
-      real(wp), allocatable :: change(:, :, :), start(:, :, :)
-      real(wp) :: length, before, reduction
-      integer :: n_products
-
-      start = field%excess
-      allocate (change, mold=start)
-      before = merit(residual)
-      ran = .false.
-      call newton_step(scene%response, scene%planes, slope, residual, tolerance, change, n_products, reduction)
-      length = 1.0_wp
-      do while (length >= shortest)
-         field%excess = start + length*change
-         call evaluate(scene, field, residual, slope)
-         helped = merit(residual) < before .and. maxval(abs(field%jump)) <= largest
-         if (helped) return
-         if (maxval(abs(field%jump)) > largest) ran = .true.
-         length = 0.5_wp*length
-      end do
-      field%excess = start
-      call evaluate(scene, field, residual, slope)
-
-   contains
-
-      !> Size of a residual, by the areas of the points
-      real(wp) function merit(residual)
-         !> The residual
-         real(wp), intent(in) :: residual(:, :, :)
-
-         integer :: k
-
-         merit = 0.0_wp
-         do k = 1, size(residual, 2)
-            merit = merit + scene%points(k)%weight*sum(residual(:, k, :)**2)
-         end do
-      end function merit
-
-   end subroutine take_newton_step
+      call evaluate(scene, field, residual)
+      if (scene%method == method_newton) newton = new_newton(scene, field)
+   end subroutine look_again
 
 end module axijoint_joints_balance

@@ -11,8 +11,8 @@ module axijoint_joints_field
    implicit none
    private
    public :: joint_field_type, iteration_type, new_joint_field, admit_jump, admit_trial, judge_states
-   public :: set_initial_stress, stress_amplitude
-   public :: commit_field, break_bonds, count_state, n_across_gaps
+   public :: set_initial_stress, trial_of, stress_amplitude
+   public :: commit_field, break_bonds, soften, count_state, n_across_gaps
 
    !> Share of the largest joint stress, or jump, below which a value is rounding
    real(wp), parameter :: noise = 1.0e-9_wp
@@ -38,6 +38,9 @@ module axijoint_joints_field
       !> transferred to the structure, and of that which has not yet been, shape
       !> (3, points, modes)
       real(wp), allocatable :: excess(:, :, :), pending(:, :, :)
+      !> Stress of Newton's iterate, which the law admits only in the end, shape
+      !> (3, points, planes)
+      real(wp), allocatable :: carried(:, :, :)
    end type joint_field_type
 
    !> One line of the convergence path (Fig. 17 of the paper)
@@ -64,7 +67,7 @@ contains
       type(joint_field_type) :: field
 
       allocate (field%jump(3, n_points, n_planes), source=0.0_wp)
-      allocate (field%stress(3, n_points, n_planes), source=0.0_wp)
+      allocate (field%stress(3, n_points, n_planes), field%carried(3, n_points, n_planes), source=0.0_wp)
       allocate (field%excess(3, n_points, n_modes), field%pending(3, n_points, n_modes), source=0.0_wp)
       allocate (field%initial(3, n_points), field%in_situ(3, n_points), source=0.0_wp)
       allocate (field%state(n_points, n_planes), source=state_stick)
@@ -94,13 +97,13 @@ contains
       end do
       do j = 1, size(field%stress, 3)
          field%stress(:, :, j) = field%stress(:, :, j) + initial - field%initial
+         field%carried(:, :, j) = field%carried(:, :, j) + initial - field%initial
       end do
       field%initial = initial
    end subroutine set_initial_stress
 
-   !> Let the laws admit the stress of total jumps. Gives what they do not admit,
-   !> and its derivatives by the jumps.
-   pure subroutine admit_jump(model, points, jump, field, excess, slope)
+   !> Let the laws admit the stress of total jumps. Gives what they do not admit.
+   pure subroutine admit_jump(model, points, jump, field, excess)
       !> The job
       type(model_type), intent(in) :: model
       !> Joint points
@@ -111,11 +114,9 @@ contains
       type(joint_field_type), intent(inout) :: field
       !> k d + initial stress - P on the planes, shape (3, points, planes)
       real(wp), intent(out) :: excess(:, :, :)
-      !> Its derivatives, shape (3, 3, points, planes)
-      real(wp), intent(out) :: slope(:, :, :, :)
 
       real(wp) :: trial(3), tangent(3, 3)
-      integer :: i, j, k
+      integer :: j, k
 
       field%jump = jump
       do j = 1, size(jump, 3)
@@ -125,10 +126,6 @@ contains
                call admit(law, field%memory(k, j), trial, field%stress(:, k, j), tangent)
                excess(:, k, j) = law%stiffness*jump(:, k, j) + field%initial(:, k) &
                   - field%stress(:, k, j)
-               do i = 1, 3
-                  slope(:, i, k, j) = -field%share*tangent(:, i)*law%stiffness(i)
-                  slope(i, i, k, j) = slope(i, i, k, j) + law%stiffness(i)
-               end do
             end associate
          end do
       end do
@@ -202,13 +199,13 @@ contains
       end do
    end subroutine judge_states
 
-   !> Break the bonds that are in tension, and soften the points that slip
+   !> Break the bonds that are in tension
    pure subroutine break_bonds(model, points, field, n)
       !> The job
       type(model_type), intent(in) :: model
       !> Joint points
       type(model_joint_point_type), intent(in) :: points(:)
-      !> Field in equilibrium, states judged
+      !> Field, states judged
       type(joint_field_type), intent(inout) :: field
       !> Number of points times planes that changed
       integer, intent(out) :: n
@@ -220,20 +217,41 @@ contains
       small = noise*maxval([0.0_wp, abs(field%stress)])
       do j = 1, size(field%state, 2)
          do k = 1, size(points)
-            associate (law => model%joint_materials(points(k)%material)%law, past => field%memory(k, j))
-               if (law%opening == opening_bond .and. .not. past%broken &
-                   .and. field%stress(eta, k, j) > small) then
-                  past%broken = .true.
-                  n = n + 1
-               end if
-               if (law%softens .and. .not. past%softened .and. field%state(k, j) == state_slip) then
-                  past%softened = .true.
-                  n = n + 1
-               end if
+            associate (past => field%memory(k, j))
+               if (model%joint_materials(points(k)%material)%law%opening /= opening_bond .or. past%broken) cycle
+               if (.not. field%stress(eta, k, j) > small) cycle
+               past%broken = .true.
+               n = n + 1
             end associate
          end do
       end do
    end subroutine break_bonds
+
+   !> Soften the points that slip
+   pure subroutine soften(model, points, field, n)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Joint points
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Field, states judged
+      type(joint_field_type), intent(inout) :: field
+      !> Number of points times planes that changed
+      integer, intent(out) :: n
+
+      integer :: j, k
+
+      n = 0
+      do j = 1, size(field%state, 2)
+         do k = 1, size(points)
+            associate (past => field%memory(k, j))
+               if (.not. model%joint_materials(points(k)%material)%law%softens .or. past%softened) cycle
+               if (field%state(k, j) /= state_slip) cycle
+               past%softened = .true.
+               n = n + 1
+            end associate
+         end do
+      end do
+   end subroutine soften
 
    !> Keep the slip of an increment in equilibrium
    pure subroutine commit_field(model, points, field)

@@ -7,11 +7,12 @@ module axijoint_joints_increments
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : progress_type, show_progress
    use axijoint_base_text, only : to_text
-   use axijoint_joints_balance, only : scene_type, verdict_type, balance_step
+   use axijoint_joints_balance, only : verdict_type, balance_step
    use axijoint_joints_field, only : joint_field_type, iteration_type, new_joint_field, commit_field, &
                                      set_initial_stress
    use axijoint_joints_residual, only : load_norm, ratio
    use axijoint_joints_response, only : load_response
+   use axijoint_joints_scene, only : scene_type
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type, increment_type
