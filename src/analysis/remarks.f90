@@ -1,12 +1,12 @@
 !> Sentences about results that the user should know
 module axijoint_analysis_remarks
+   use axijoint_analysis_motion, only : motion_text
    use axijoint_analysis_results, only : results_type, remark_type
    use axijoint_analysis_structure, only : structure_type
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text
    use axijoint_element_joint_law, only : opening_reversible
-   use axijoint_fe_mode, only : is_torsion, mode_name
-   use axijoint_joints_field, only : joint_field_type, n_across_gaps
+   use axijoint_joints_field, only : joint_field_type, iteration_type, n_across_gaps
    use axijoint_joints_increments, only : history_type
    use axijoint_model_joint_points, only : stiffness_ratio
    use axijoint_model_model, only : model_type, method_transfer
@@ -74,12 +74,40 @@ contains
          call add(remarks, 'the last equilibrium was at the load factor '// &
                                          to_text(history%reached))
       end if
+      if (history%verdict%at_rounding) then
+         call add(remarks, 'rounding allows no smaller residual ratio: the stress of open joints so '// &
+                  'stiff is large; a tolerance of '//to_text(10.0_wp*results%residual_ratio)//' can be reached')
+         return
+      end if
       if (.not. history%verdict%stalled .or. results%converged .or. allocated(results%mechanism)) return
       if (.not. any(history%verdict%restless)) return
       call add(remarks, to_text(count(history%verdict%restless))//' joint points on '// &
-         'planes change their state for ever'//restless_text(model, structure, history, results)// &
-         advice(model, structure))
+         'planes change their state for ever'//period_text(results%path)// &
+         restless_text(model, structure, history, results)//advice(model, structure))
    end subroutine remark_on_end
+
+   !> After how many iterations the path repeats itself, in words
+   pure function period_text(path) result(text)
+      !> Convergence path
+      type(iteration_type), intent(in) :: path(:)
+      !> Words; empty if it does not
+      character(len=:), allocatable :: text
+
+      real(wp), parameter :: alike = 1.0e-2_wp
+      integer, parameter :: longest = 12
+      integer :: n, p
+
+      text = ''
+      n = size(path)
+      do p = 1, min(longest, (n - 1)/3)
+         associate (last => path(n - 2*p + 1:n), before => path(n - 3*p + 1:n - p))
+            if (any(last%n_slip /= before%n_slip .or. last%n_open /= before%n_open)) cycle
+            if (any(abs(last%ratio - before%ratio) > alike*before%ratio)) cycle
+         end associate
+         text = ', alike every '//to_text(p)//' iterations'
+         return
+      end do
+   end function period_text
 
    !> What helps: only cohesion that comes back when a point closes makes the law jump
    pure function advice(model, structure) result(text)
@@ -180,7 +208,7 @@ contains
       out_of_proportion = stiffness_ratio(model, structure%joint_points) > stiffest
    end function out_of_proportion
 
-   !> A mechanism in words: where and how the structure moves most
+   !> A mechanism in words
    function mechanism_text(model, reached, results) result(text)
       !> The job
       type(model_type), intent(in) :: model
@@ -191,24 +219,8 @@ contains
       !> The sentence
       character(len=:), allocatable :: text
 
-      character(len=*), parameter :: along(3) = [character(len=13) :: 'along r', 'along z', 'along theta']
-      integer :: place(3)
-
-      place = maxloc(abs(results%displacement))
-      associate (mode => results%modes(place(3)), node => place(2))
-         text = 'no equilibrium beyond the load factor '//to_text(reached)//': the part with node '// &
-            to_text(model%mesh%node_label(node))
-         if (is_torsion(mode)) then
-            text = text//' turns about z'
-         else if (mode%harmonic == 0 .and. place(1) == 2) then
-            text = text//' moves along z'
-         else if (mode%harmonic == 1) then
-            text = text//merge(' tilts or lifts ', ' slides or tilts', place(1) == 2)
-         else
-            text = text//' gives way '//trim(along(place(1)))
-         end if
-         text = trim(text)//' (harmonic '//mode_name(mode)//'); results are those there'
-      end associate
+      text = 'no equilibrium beyond the load factor '//to_text(reached)//': '// &
+         motion_text(model%mesh, results%modes, results%displacement)//'; results are those there'
    end function mechanism_text
 
 end module axijoint_analysis_remarks

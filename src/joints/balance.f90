@@ -17,7 +17,7 @@ module axijoint_joints_balance
    integer, parameter :: depth = 10
    !> Bonds are broken and points softened, one pass after the other, in states at
    !> least this well balanced. The last pass reaches the tolerance asked for
-   real(wp), parameter :: pass_tolerance = 1.0e-3_wp
+   real(wp), parameter :: pass_tolerance = 1.0e-4_wp
    !> Joints much stiffer than the bodies (k h/E beyond `stiff`) tear like a zip, in
    !> many passes: their bonds are broken in looser states, which comes closer to
    !> the order in which a growing load breaks them
@@ -30,6 +30,8 @@ module axijoint_joints_balance
    real(wp), parameter :: loose = 1.0e-3_wp, strict = 1.0e-9_wp, near = 1.0e-2_wp
    !> If Newton's step runs away, so many steps of Anderson's mix go before the next
    integer, parameter :: detour = 8
+   !> Rounding of the forces of the excess stress
+   real(wp), parameter :: rounding = 1.0e2_wp*epsilon(1.0_wp)
    !> A step without a better residual for so many iterations has stalled
    integer, parameter :: patience = 25
    !> Iterations in which a point that changes its state counts as restless
@@ -43,8 +45,9 @@ module axijoint_joints_balance
    type :: verdict_type
       !> Whether it reached equilibrium
       logical :: converged = .false.
-      !> Whether the residual stopped falling, and whether the jumps ran away
-      logical :: stalled = .false., ran_away = .false.
+      !> Whether the residual stopped falling, whether it is down to rounding then,
+      !> and whether the jumps ran away
+      logical :: stalled = .false., at_rounding = .false., ran_away = .false.
       !> Points times planes that changed their state among the last iterations,
       !> shape (points, planes); allocated if stalled
       logical, allocatable :: restless(:, :)
@@ -92,6 +95,7 @@ contains
       type(watch_type) :: watch
       type(newton_type) :: newton
       real(wp), allocatable :: residual(:, :, :)
+      real(wp) :: transferred
       logical :: again
       integer :: k
 
@@ -120,7 +124,11 @@ contains
       field%pending = residual
       k = min(k, most)
       path = [path, steps(:k)]
-      if (.not. verdict%converged) verdict%restless = watch%changed > k - recent
+      if (verdict%converged) return
+      verdict%restless = watch%changed > k - recent
+      if (.not. verdict%stalled) return
+      transferred = residual_norm(scene%equations, scene%points, field%excess)
+      verdict%at_rounding = watch%best <= rounding*ratio(transferred, norm)
    end subroutine balance_step
 
    !> Room for one more line of a path, which grows by doubling

@@ -89,6 +89,7 @@ contains
          call show_progress(progress, 'increment '//to_text(i)//' of '//to_text(size(scene%model%increments)))
          call reach(i, start, goal, most_halvings)
          if (.not. history%verdict%converged) return
+         if (allocated(history%runaway)) deallocate (history%runaway)  ! smaller steps got there
          if (scene%model%sweep%wanted .and. i < size(scene%model%increments)) call keep_state(i, goal)
       end do
 
@@ -109,11 +110,12 @@ contains
          before = field
          call try_step(increment, to)
          if (allocated(history%failure)) return
-         if (history%verdict%converged .or. scene%method == method_transfer) return
+         if (history%verdict%converged .or. history%verdict%at_rounding) return
+         if (scene%method == method_transfer) return
+         if (history%verdict%ran_away) history%runaway = field%excess
          if (halvings == 0) then
-            if (.not. history%verdict%ran_away) return
-            history%runaway = field%excess  ! what ran away is no state to show
-            field = before
+            if (.not. allocated(history%runaway)) return
+            field = before  ! what ran away is no state to show
             call put_loads(from)
             return
          end if

@@ -128,6 +128,9 @@ contains
       if (.not. results%converged .and. size(results%path) == 0) then
          text = mark_not_converged//" linear job: residual ratio "//ratio//" above "//tolerance// &
             ": its equations are ill-conditioned"
+      else if (allocated(results%mechanism)) then
+         text = mark_not_converged//" after "//to_text(size(results%path))// &
+            " iterations: a mechanism; results are those of the last equilibrium, residual ratio "//ratio
       else if (.not. results%converged) then
          text = mark_not_converged//" residual ratio "//ratio//", tolerance "//tolerance// &
             ", after "//to_text(size(results%path))//" iterations: these results are no equilibrium"

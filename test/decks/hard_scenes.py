@@ -3,6 +3,8 @@
 Lengths are in m and forces in MN before `Units` changes them. All cards are free, with 12 digits.
 """
 import math
+import os
+import sys
 from dataclasses import dataclass
 
 
@@ -174,9 +176,9 @@ def slide_dilating(share, units=METRE, method='NEWTON'):
     return slide(share, {'slip': 'RESULTANT', 'dilation': 10.0}, units, method)
 
 
-def twist(share, units=METRE, method='NEWTON'):
+def twist(share, units=METRE, method='NEWTON', young=1e4):
     """A pressed disc is twisted: 2/3 mu N R"""
-    deck = disc('A pressed disc is twisted', details=RESULTANT, units=units, method=method)
+    deck = disc('A pressed disc is twisted', details=RESULTANT, units=units, method=method, young=young)
     return pressed(deck, (2, 'TORQUE', 2/3*MU), share=share)
 
 
@@ -193,11 +195,11 @@ def lift(share, units=METRE, method='NEWTON'):
     return pressed(deck, (2, 'AXIAL', 1.0), share=share)
 
 
-def overturn(share, units=METRE, method='NEWTON'):
+def overturn(share, units=METRE, method='NEWTON', young=1e4):
     """A pressed disc is tilted until it stands on the outermost joint points alone"""
     n = 8
     edge = 1.0 - (0.5 - 0.5/math.sqrt(3.0))/n
-    deck = disc('A disc is overturned', n=n, planes=17, details=RESULTANT, units=units, method=method)
+    deck = disc('A disc is overturned', n=n, planes=17, details=RESULTANT, units=units, method=method, young=young)
     return pressed(deck, (2, 'MOMENT', edge), share=share)
 
 
@@ -271,18 +273,18 @@ def cone(share, units=METRE, method='NEWTON'):
 
 # Name: deck of a share of the load that the joint can carry, and how it fails
 CAPACITIES = {
-    'slides, resultant law': (lambda share, *a: slide(share, RESULTANT, *a), 'slides'),
-    'slides, component law': (lambda share, *a: slide(share, COMPONENTS, *a, planes=65), 'slides'),
-    'slides at 30 degrees': (lambda share, *a: slide(share, RESULTANT, *a, direction=30.0), 'slides'),
+    'slides, resultant law': (lambda share, *a: slide(share, RESULTANT, *a), 'slides sideways'),
+    'slides, component law': (lambda share, *a: slide(share, COMPONENTS, *a, planes=65), 'slides sideways'),
+    'slides at 30 degrees': (lambda share, *a: slide(share, RESULTANT, *a, direction=30.0), 'slides sideways'),
     'slides, 8-node, Lobatto': (lambda share, *a: slide(share, RESULTANT, *a, nodes=8, rule='LOBATTO'),
-                                'slides'),
-    'slides, cohesion': (slide_cohesion, 'slides'),
-    'slides, residual strength': (slide_residual, 'slides'),
+                                'slides sideways'),
+    'slides, cohesion': (slide_cohesion, 'slides sideways'),
+    'slides, residual strength': (slide_residual, 'slides sideways'),
     'slides, dilation': (slide_dilating, ''),  # it lifts as it slides: either motion may be named
     'twisted': (twist, 'turns about z'),
     'twisted, cohesion': (twist_cohesion, 'turns about z'),
     'lifted': (lift, 'moves along z'),
-    'overturned': (overturn, 'tilts or lifts'),
+    'overturned': (overturn, 'tilts'),
     'pulled out': (pull_out, 'moves along z'),
     'pulled out of a socket': (pull_out_of_socket, 'moves along z'),
     'pulled out, 8-node': (pull_out_quadratic, 'moves along z'),
@@ -341,3 +343,66 @@ def soil_pile(title, increments, *, friction=25.0, cohesion=0.0, gravity=0.0, de
     deck.add('CASE', (2, 'lateral')).resultants((1, 'LATERAL', lateral))
     deck.add('COMBINE', (1, 1, 1.0, 2, 1.0))
     return deck.add('INCREMENTS', *((float(f), tolerance, None, case) for f, case in increments)).text()
+
+
+def with_reference(deck, *lines):
+    """A deck with comments above its first card"""
+    return ''.join(f'! {line}\n' for line in lines) + deck
+
+
+def hard_inputs():
+    """The decks of inputs/hard by name, each with its reference"""
+    cycle = [(1, 1), (1, 2), (-1, 2), (-1, 2), (1, 2), (1, 2)]
+    rotation, depth, pressure = eccentric_exact(0.5)
+    decks = {
+        'eccentric_disc': with_reference(
+            eccentric_disc(0.5), 'A rigid disc without tension under it, pressed by 1 at e = R/2: half of it lifts.',
+            f'Exact: rotation {rotation:.9f} (v of harmonic 1 at r = 1), depth at the centre {depth:.9f}',
+            f'(v of harmonic 0), largest pressure {pressure:.9f}.'),
+        'sliding_disc': with_reference(
+            slide(0.99, RESULTANT), 'A disc pressed by 1 and pushed sideways by 99 % of its resistance tan(30).',
+            'Exact: holds; at 1.01 in the last card it slides (exit code 4). With COMPONENTS instead of',
+            'RESULTANT it holds up to 4/pi times as much.'),
+        'twisted_disc': with_reference(
+            twist(0.99), 'A disc pressed by 1 and twisted by 99 % of its resistance 2/3 tan(30).',
+            'Exact: holds; at 1.01 in the last card it turns (exit code 4).'),
+        'overturned_disc': with_reference(
+            overturn(0.99), 'A disc tilted until it stands on the outermost joint points alone, at 99 % of that moment.',
+            'Exact for the points of this mesh: holds; at 1.01 in the last card it tilts (exit code 4).'),
+        'pulled_out': with_reference(
+            pull_out_of_socket(0.99), 'A bonded pile pulled out of a socket by 99 % of 2 pi R L C; two joints meet at its toe.',
+            'Exact: holds; a load of 101 % pulls it out (exit code 4).'),
+        'pulled_and_twisted': with_reference(
+            pull_and_twist(0.99), 'A bonded shaft pulled by P and twisted by T, 99 % of P^2 + (T/R)^2 = (2 pi R L C)^2.',
+            'Exact: holds; loads of 101 % turn it out (exit code 4).'),
+        'cone': with_reference(
+            cone(0.99), 'A plug in a cone, pressed and twisted by 99 % of its resistance: an inclined joint.',
+            'Exact: T = mu p 2/3 pi (R^3 - r^3)/sin(alpha) with p = N/(pi (R^2 - r^2)).'),
+        'cyclic_pile': with_reference(
+            soil_pile('A pile in soil, pushed to and fro', cycle, friction=0.0, tolerance=1e-9),
+            'A frictionless pile shaft: gaps open on either side in turn and close again.',
+            'Exact: after each half cycle the head stands where it stood, the other way round.'),
+        'ground_stress': with_reference(
+            soil_pile('K0, then a lateral load', [(1, 1), (1, 2)], gravity=1.0, details=RESULTANT),
+            'Weight and stress of the ground (K0 = 0.5) in a pile shaft, then a lateral load.',
+            'Exact after the first increment: no displacement, sigma = 0.5 gamma z on the shaft.'),
+        'reversible_cycle': with_reference(
+            example(2, factor=10.0, bond=False, tolerance=1e-6), "Case 2 with joints ten times as stiff, the paper's law: "
+            'cohesion comes back when a point closes.', 'No state is found: exit code 3, and the remark that points '
+            'change their state for ever; BOND has a state.'),
+        'rigid_joints': with_reference(
+            example(3, factor=1e6, tolerance=1e-6), 'Case 3 with joints a million times as stiff, k h/E = 1E5.',
+            'Converges; the remark says that they are out of proportion.'),
+    }
+    return {f'{name}.dat': text for name, text in decks.items()}
+
+
+def main(folder):
+    """Write the decks of inputs/hard"""
+    for name, text in hard_inputs().items():
+        with open(os.path.join(folder, name), 'w', encoding='ascii') as file:
+            file.write(text)
+
+
+if __name__ == '__main__':
+    main(sys.argv[1])
