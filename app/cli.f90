@@ -4,12 +4,14 @@ module axijoint_cli
    use axijoint_base_kinds, only : i8
    use axijoint_base_memory, only : no_limit
    use axijoint_base_text, only : nearest_word, upper, lower
+   use axijoint_help_compare, only : compare_help
    use axijoint_base_version, only : program_name, program_version
    use axijoint_solver_choice, only : solver_names
    implicit none
    private
    public :: command_type, word_type, read_command, help_text
-   public :: command_run, command_check, command_estimate, command_help, command_version
+   public :: command_run, command_check, command_estimate, command_compare, command_help, &
+             command_version
 
    !> Solve decks
    integer, parameter :: command_run = 1
@@ -17,13 +19,16 @@ module axijoint_cli
    integer, parameter :: command_check = 2
    !> Say what decks would cost
    integer, parameter :: command_estimate = 3
+   !> Compare two listings or result files
+   integer, parameter :: command_compare = 4
    !> Print help
-   integer, parameter :: command_help = 4
+   integer, parameter :: command_help = 5
    !> Print the version
-   integer, parameter :: command_version = 5
+   integer, parameter :: command_version = 6
 
    !> Names of the commands, by number
-   character(len=*), parameter :: command_names(4) = ['run     ', 'check   ', 'estimate', 'help    ']
+   character(len=*), parameter :: command_names(5) = [character(len=8) :: 'run', 'check', &
+      'estimate', 'compare', 'help']
 
    !> Options of `run` that take a value; `estimate` has the last two
    character(len=*), parameter :: value_options(4) = ['-o       ', '--solver ', '--threads', '--memory ']
@@ -39,7 +44,7 @@ module axijoint_cli
    type :: command_type
       !> One of the `command_` parameters
       integer :: command = command_help
-      !> Decks to run or check
+      !> Decks to run or check; of `compare`, all words that follow it
       type(word_type), allocatable :: decks(:)
       !> Directory for results
       character(len=:), allocatable :: directory
@@ -82,6 +87,9 @@ contains
          command%command = command_check
       case ('estimate')
          command%command = command_estimate
+      case ('compare')
+         call read_compare_words(words(2:), command)
+         return
       case ('help', '--help', '-h')
          if (size(words) > 1) command%topic = words(2)%text
          if (len(command%topic) > 0 .and. .not. any(command_names == command%topic)) then
@@ -98,6 +106,24 @@ contains
       end select
       call read_arguments(words(2:), command, error)
    end subroutine read_command
+
+   !> Words of `compare`, which reads them itself, unless help is asked for
+   subroutine read_compare_words(words, command)
+      !> Words after the command
+      type(word_type), intent(in) :: words(:)
+      !> What the user asked for
+      type(command_type), intent(inout) :: command
+
+      integer :: k
+
+      command%command = command_compare
+      command%decks = words
+      do k = 1, size(words)
+         if (words(k)%text /= '-h' .and. words(k)%text /= '--help') cycle
+         command%command = command_help
+         command%topic = 'compare'
+      end do
+   end subroutine read_compare_words
 
    !> Decks and options of `run`, `check` and `estimate`
    subroutine read_arguments(words, command, error)
@@ -303,6 +329,8 @@ contains
             'Says for each solver what a run of each deck would need: unknowns, entries of the'//nl// &
             'factors, operations, memory and time, with the threads and in the memory that the run'//nl// &
             'would have. Nothing is solved.'
+      case ('compare')
+         text = compare_help
       case ('help')
          text = 'usage: axijoint help [COMMAND]'
       case default
@@ -314,6 +342,7 @@ contains
             '  run DECK... [OPTIONS]  solve decks'//nl// &
             '  check DECK...          read and check decks only'//nl// &
             '  estimate DECK...       say what decks would cost'//nl// &
+            '  compare A B [OPTIONS]  compare two listings or result files'//nl// &
             '  help [COMMAND]         help on a command'//nl// &
             '  --version              version'
       end select

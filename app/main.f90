@@ -5,8 +5,9 @@ program axijoint
    use axijoint_base_system, only : return_freed_memory
    use axijoint_base_version, only : program_name, program_version
    use axijoint_cli, only : command_type, read_command, help_text, command_run, command_check, &
-                            command_estimate, command_help
+                            command_estimate, command_compare, command_help
    use axijoint_driver_check, only : check_decks
+   use axijoint_driver_compare, only : compare_files
    use axijoint_driver_estimate, only : estimate_decks
    use axijoint_driver_run, only : run_decks, print_error
    implicit none
@@ -29,6 +30,8 @@ program axijoint
          call check_decks(command%decks, exit_code)
       case (command_estimate)
          call estimate_decks(command, exit_code)
+      case (command_compare)
+         call compare_files(command%decks, exit_code)
       case (command_help)
          write (output_unit, '(a)') help_text(command%topic)
       case default

@@ -1,0 +1,57 @@
+!> `axijoint compare`: two listings or result files, column by column
+module axijoint_driver_compare
+   use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
+   use axijoint_base_error, only : error_type, exit_ok, exit_deck
+   use axijoint_cli, only : word_type
+   use axijoint_cli_compare, only : compare_type, read_compare
+   use axijoint_compare_compare, only : compare_listings
+   use axijoint_compare_own_format, only : own_format_text
+   use axijoint_compare_reader, only : read_file
+   use axijoint_compare_table, only : listing_type, words_type
+   use axijoint_driver_run, only : print_error
+   implicit none
+   private
+   public :: compare_files
+
+   !> Exit code of files that differ; in this command alone 1 has a meaning
+   integer, parameter :: exit_different = 1
+
+contains
+
+   !> Compare two files
+   subroutine compare_files(words, exit_code)
+      !> Words of the command line after `compare`
+      type(word_type), intent(in) :: words(:)
+      !> 0 same, 1 different, 2 a file that cannot be read, or wrong usage
+      integer, intent(out) :: exit_code
+
+      type(compare_type) :: compare
+      type(listing_type) :: listings(2)
+      type(words_type) :: dictionary
+      type(error_type), allocatable :: error
+      logical :: same
+      integer :: k
+
+      exit_code = exit_deck
+      call read_compare(words, compare, error)
+      if (allocated(error)) then
+         call print_error('', error)
+         return
+      end if
+      if (compare%print_format) then
+         write (output_unit, '(a)', advance='no') own_format_text()
+         exit_code = exit_ok
+         return
+      end if
+      do k = 1, 2
+         call read_file(compare%path(k)%text, compare%format(k)%text, dictionary, listings(k), error)
+         if (allocated(error)) then
+            write (error_unit, '(a)') error%message
+            return
+         end if
+      end do
+      call compare_listings(output_unit, listings(1), listings(2), dictionary, compare%tolerances, same)
+      exit_code = merge(exit_ok, exit_different, same)
+   end subroutine compare_files
+
+end module axijoint_driver_compare
