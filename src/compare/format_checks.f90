@@ -24,11 +24,11 @@ contains
 
       integer :: k
 
+      if (diagnostics%n_errors > 0) return
       if (size(format%tables) == 0) then
          call add_error(diagnostics, min(1, source%n_cards), 0, 0, 'the format describes no table', &
             mend='a table is described by the cards TABLE, HEADING, COLUMN; see doc/compare.md')
       end if
-      if (diagnostics%n_errors > 0) return
       do k = 1, size(format%tables)
          call check_table(format%tables(k), table_card(k), diagnostics)
       end do

@@ -19,6 +19,8 @@ module axijoint_compare_listing_reader
    type :: state_type
       !> Table that is open; 0 between tables
       integer :: table = 0
+      !> Table that was open last; 0 before the first
+      integer :: last_table = 0
       !> Lines still to skip
       integer :: skip = 0
       !> Line of the heading
@@ -153,9 +155,12 @@ contains
          captures = state%of_lines
          call match_pattern(text, format%tables(k)%heading, captures, found)
          if (.not. found) cycle
-         if (allocated(state%above)) deallocate (state%above)
-         allocate (state%above(size(format%tables(k)%columns)))
+         if (k /= state%last_table) then  ! otherwise a page begins within the table
+            if (allocated(state%above)) deallocate (state%above)
+            allocate (state%above(size(format%tables(k)%columns)))
+         end if
          state%table = k
+         state%last_table = k
          state%skip = format%tables(k)%skip
          state%captures = captures
          state%heading_line = line

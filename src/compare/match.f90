@@ -143,7 +143,9 @@ contains
 
       real(wp), allocatable :: cost(:, :)
       integer :: i, j, k, best(2)
+      logical :: sure
 
+      sure = .true.
       allocate (cost(size(rows_a), size(rows_b)))
       do j = 1, size(rows_b)
          do i = 1, size(rows_a)
@@ -155,8 +157,9 @@ contains
          i = best(1)
          j = best(2)
          if (cost(i, j) > certain .and. size(cost) > 1) match%n_least = match%n_least + 1
-         call join(a, b, rows_a(i), rows_b(j), numberings, match, &
-                   sure=cost(i, j) <= certain .or. second(cost, i, j) > cost(i, j))
+         ! where other pairs are as good, the numbers of all rows of the group remain unknown
+         if (cost(i, j) > certain) sure = sure .and. second(cost, i, j) > cost(i, j)
+         call join(a, b, rows_a(i), rows_b(j), numberings, match, sure)
          cost(i, :) = taken
          cost(:, j) = taken
       end do

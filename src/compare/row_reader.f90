@@ -49,7 +49,9 @@ contains
          associate (column => format%columns(k))
             if (column%place == place_free .or. column%place == place_fixed) then
                call find_field(column, line, next, first, last)
-               call read_field(column, line, first, last, words, cells(k), fault)
+               if (cut_in_two(column, line, last)) call set_fault(fault, k, first, last, &
+                  'a number runs across the end of these columns')
+               call read_text(column, line(max(1, first):last), words, cells(k))
             else
                call read_text(column, outside_text(column, captures), words, cells(k))
             end if
@@ -103,45 +105,34 @@ contains
       next = last + 1
    end subroutine find_field
 
-   !> Value of a field
-   subroutine read_field(column, line, first, last, words, cell, fault)
+   !> Whether fixed columns end within a number: wrong columns would cut numbers without notice.
+   !> Numbers may touch, if both have a point; so may a label and a number that begins with 0.
+   pure logical function cut_in_two(column, line, last)
       !> The column
       type(column_format_type), intent(in) :: column
-      !> The line
-      character(len=*), intent(in) :: line
-      !> The field
-      integer, intent(in) :: first, last
-      !> All words
-      type(words_type), intent(inout) :: words
-      !> The value
-      type(cell_type), intent(out) :: cell
-      !> What is wrong
-      type(row_fault_type), intent(inout) :: fault
-
-      if (column%place == place_fixed) then
-         if (last >= first .and. last < len(line)) then
-            if (crosses(line, last)) then
-               call set_fault(fault, 1, first, last, 'a number runs across the end of '// &
-                  'these columns, those of '//column%name)
-               return
-            end if
-         end if
-      end if
-      call read_text(column, line(max(1, first):last), words, cell)
-   end subroutine read_field
-
-   !> Whether a digit stands at the end of a field and a digit or a point behind it: columns that
-   !> are given wrong would cut numbers in two without notice
-   pure logical function crosses(line, last)
       !> The line
       character(len=*), intent(in) :: line
       !> Last column of the field
       integer, intent(in) :: last
 
-      character(len=*), parameter :: inside = '0123456789.'
+      character(len=*), parameter :: digits = '0123456789', inside = digits//'.'
+      integer :: first, behind
 
-      crosses = scan(line(last:last), inside) == 1 .and. scan(line(last + 1:last + 1), inside) == 1
-   end function crosses
+      cut_in_two = .false.
+      if (column%place /= place_fixed .or. last < column%last .or. last >= len(line)) return
+      if (scan(line(last:last), inside) == 0 .or. scan(line(last + 1:last + 1), inside) == 0) return
+      first = column%first
+      behind = verify(line(last + 1:)//' ', digits)
+      cut_in_two = .true.
+      if (line(last + behind:min(last + behind, len(line))) /= '.') return
+      if (any(column%kind == [kind_label, kind_key])) then
+         cut_in_two = verify(trim(adjustl(line(first:last))), digits) > 0
+         if (line(last + 1:last + 1) /= '0' .and. line(last + 1:last + 1) /= '.') &
+            cut_in_two = verify(line(first:last), digits) > 0
+      else
+         cut_in_two = index(line(first:last), '.') == 0
+      end if
+   end function cut_in_two
 
    !> Value of a text
    subroutine read_text(column, text, words, cell)
