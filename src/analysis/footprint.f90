@@ -61,6 +61,12 @@ contains
       unknowns = 3*count(yielding_nodes(model), kind=i8)
       footprint%joints = real_bytes*(n_systems*jumps**2 &
                                      + plane_numbers*jumps/3*max(model%n_planes, n_modes))
+      if (model%sweep%wanted .and. size(model%increments) > 1) then
+         ! jumps, stresses and states are kept; one earlier increment at a time is solved again
+         footprint%joints = footprint%joints + real_bytes*(size(model%increments, kind=i8) - 1) &
+            *jumps/3*(7*model%n_planes + 3*n_modes)
+         footprint%stresses = 2*footprint%stresses + footprint%loads
+      end if
       footprint%joint_work = real_bytes*(unknowns**2 + 2*unknowns*jumps + 2*jumps**2)
       if (jumps == 0) footprint%joint_work = 0
    end function data_footprint

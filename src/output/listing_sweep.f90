@@ -1,7 +1,7 @@
 !> What the listing says of the files of the swept bodies
 module axijoint_output_listing_sweep
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_base_text, only : to_text
+   use axijoint_base_text, only : count_of
    use axijoint_output_headings, only : write_heading
    use axijoint_output_swept_mesh, only : swept_mesh_type, n_points, n_cells
    use axijoint_output_text_file, only : text_file_type
@@ -58,7 +58,7 @@ contains
       integer :: k
 
       if (size(pictures) == 0) return
-      call write_heading(file, "SWEPT BODIES ("//to_text(n_steps)//" time steps)")
+      call write_heading(file, "SWEPT BODIES ("//count_of(n_steps, "time step")//")")
       call file%put("file                                         sectors       points        cells"// &
                     "    size [MiB]")
       do k = 1, size(pictures)

@@ -5,6 +5,7 @@ Usage: read_swept.py CHECK NAME    CHECK: a function below; NAME: result files w
 Everything is found a second way: sums of harmonics by NumPy from the arrays of NAME.h5, volumes
 from the polygons of its mesh. Faults are printed; the exit code is 1 if there are any.
 """
+import os
 import re
 import sys
 
@@ -14,6 +15,9 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
 from vtkmodules.vtkIOHDF import vtkHDFReader
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', '..', 'python'))
+import axijoint  # the Python package of this project
 
 TOLERANCE = 1e-10
 STRESSES = ('sigma_r', 'sigma_z', 'sigma_theta', 'tau_rz', 'tau_rtheta', 'tau_ztheta')
@@ -162,6 +166,11 @@ def body_faults(swept, results, sectors=None, width=2*np.pi):
                               swept.of_points('material')])
     if len(np.unique(places + 0.0, axis=0)) != len(swept.x):
         faults.append('points are there twice')
+    known = swept.points['node'] > 0
+    nodes = np.argsort(results['mesh/node_label'][:])
+    nodes = nodes[np.searchsorted(results['mesh/node_label'][:][nodes], swept.points['node'][known])]
+    faults += same('r and z', results['mesh/coordinates'][:][nodes],
+                   np.column_stack([np.hypot(*swept.x[known, :2].T), swept.x[known, 2]]))
     u, s = amplitudes(results, swept)
     axis = swept.x[:, 0]**2 + swept.x[:, 1]**2 == 0
     theta = np.where(axis, 0.0, swept.theta) if width > 6.28 else swept.theta
@@ -224,6 +233,20 @@ def listing_faults(swept, path):
     return faults
 
 
+def package_faults(swept, path):
+    """Faults: ten points off the axis against the Python package"""
+    result = axijoint.open(path)
+    at = np.flatnonzero(swept.points['node'])[500::900][:10]
+    body, material = swept.of_points('body')[at], swept.of_points('material')[at]
+    places = list(zip(np.hypot(*swept.x[at, :2].T), swept.x[at, 2], np.degrees(swept.theta[at]), body, material))
+    found = [(result.displacement(r, z, theta, body=b, cartesian=True),
+              result.stress(r, z, theta, body=b, material=m, cartesian=True)) for r, z, theta, b, m in places]
+    wanted = np.array([pair[0] for pair in found]), np.array([pair[1] for pair in found])
+    return (same('displacement of the Python package', wanted[0], swept.points['displacement'][at])
+            + same('stress of the Python package', wanted[1], swept.points['stress'][at])
+            + ([] if len(at) == 10 else [f'{len(at)} points were looked at']))
+
+
 def whole(name):
     """A whole circle"""
     swept = Swept(name + '.vtkhdf')
@@ -236,7 +259,7 @@ def case_3(name):
     swept, joints = Swept(name + '.vtkhdf'), Swept(name + '.joints.vtkhdf')
     with h5py.File(name + '.h5') as results:
         return (body_faults(swept, results) + joint_faults(joints, results)
-                + listing_faults(swept, name + '.lis'))
+                + listing_faults(swept, name + '.lis') + package_faults(swept, name + '.h5'))
 
 
 def part(name):
