@@ -154,6 +154,18 @@ contains
             "k_xi, k_eta, k_theta; (3, law) [stress/length]")
          call file%write("/joint_materials/cohesion", (materials%law%cohesion), "C; (law) [stress]")
          call file%write("/joint_materials/friction", (materials%law%friction), "tan(phi); (law)")
+         call file%write("/joint_materials/slip", (materials%law%slip), "1 components, 2 resultant; (law)")
+         call file%write("/joint_materials/opening", (materials%law%opening), "1 reversible, 2 bond; (law)")
+         call file%write("/joint_materials/residual_cohesion", &
+            merge(materials%law%residual_cohesion, materials%law%cohesion, materials%law%softens), &
+            "C once a point has slipped; (law) [stress]")
+         call file%write("/joint_materials/residual_friction", &
+            merge(materials%law%residual_friction, materials%law%friction, materials%law%softens), &
+            "tan(phi) once a point has slipped; (law)")
+         call file%write("/joint_materials/dilation", (materials%law%dilation), "tan(psi); (law)")
+         call file%write("/joint_materials/gap", (materials%law%gap), "Before loading; (law) [length]")
+         call file%write("/joint_materials/initial_stress", (materials%law%initial_stress), &
+            "Normal, before loading; (law) [stress]")
       end associate
    end subroutine write_materials
 

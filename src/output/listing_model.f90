@@ -2,7 +2,7 @@
 module axijoint_output_listing_model
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text
-   use axijoint_element_joint_law, only : law_elastic
+   use axijoint_element_joint_law, only : law_elastic, slip_resultant, opening_bond
    use axijoint_fe_reference, only : reference_type
    use axijoint_model_material, only : rule_centroid, rule_gauss, rule_lobatto
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, n_joints
@@ -168,6 +168,21 @@ contains
             call file%put(label//columns([material%law%stiffness, material%law%cohesion, &
                atan(material%law%friction)/degree], wide)//"  "// &
                law_name(material%law%kind)//"  "//rule_name(material%rule))
+         end associate
+      end do
+      if (all(model%joint_materials%law%kind == law_elastic)) return
+      call file%put("")
+      call file%put("       law   slip        opening     residual C residual [deg]      psi [deg]            gap"// &
+         "  initial sigma")
+      do i = 1, size(model%joint_materials)
+         associate (material => model%joint_materials(i), law => model%joint_materials(i)%law)
+            if (law%kind == law_elastic) cycle
+            write (label, format_label) material%label
+            call file%put(label//"   "//merge("RESULTANT ", "COMPONENTS", law%slip == slip_resultant)// &
+               "  "//merge("BOND      ", "REVERSIBLE", law%opening == opening_bond)// &
+               columns([merge(law%residual_cohesion, law%cohesion, law%softens), &
+                        atan(merge(law%residual_friction, law%friction, law%softens))/degree, &
+                        atan(law%dilation)/degree, law%gap, law%initial_stress], wide))
          end associate
       end do
    end subroutine write_joint_materials
