@@ -10,23 +10,19 @@ module axijoint_output_vtkhdf_joints
    use axijoint_analysis_results, only : results_type
    use axijoint_analysis_structure, only : structure_type
    use axijoint_base_error, only : error_type
-   use axijoint_base_kinds, only : wp, i8, pi
-   use axijoint_element_joint, only : lower_node, upper_node
+   use axijoint_base_kinds, only : wp, i8
    use axijoint_element_joint_law, only : xi, eta, theta
-   use axijoint_fe_mode, only : family_symmetric
-   use axijoint_fe_shape, only : shape_line
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_planes, only : planes_type, new_view
-   use axijoint_joints_states, only : increment_state_type
-   use axijoint_model_joint_points, only : joint_rule
    use axijoint_model_model, only : model_type
    use axijoint_output_hdf5_file, only : hdf5_file_type, kind_real, kind_long
    use axijoint_output_hdf5_series, only : hdf5_series_type
+   use axijoint_output_joint_surface, only : surface_type, make_surface
    use axijoint_output_run, only : run_type
-   use axijoint_output_swept_mesh, only : swept_mesh_type, new_swept_mesh, add_facet, n_points, n_cells
+   use axijoint_output_swept_mesh, only : swept_mesh_type, n_points, n_cells
+   use axijoint_output_swept_section, only : cartesian_vector
    use axijoint_output_totals, only : circle_type, new_circle, total_displacement
-   use axijoint_output_vtkhdf, only : sweep_planes, is_circle, write_frame, write_steps, &
-      write_cell_labels, point_group, cell_group
+   use axijoint_output_vtkhdf, only : write_frame, write_steps, write_cell_labels, point_group, cell_group
    implicit none
    private
    public :: write_joint_surfaces
@@ -36,20 +32,14 @@ module axijoint_output_vtkhdf_joints
       'slip', 'tau_xi', 'sigma', 'tau_theta']
    !> Names of the fields of the points: displacements of sides 1-2 and 4-3
    character(len=*), parameter :: vectors(2) = [character(len=21) :: 'displacement', 'displacement_opposite']
-   !> Lines closer than this share of a sector are one
-   real(wp), parameter :: same_line = 1.0e-6_wp
 
-   !> Points along the joints and planes of the sectors
-   type :: surface_type
-      !> Pairs of nodes of each point, on sides 1-2 and 4-3, shape (3, 2, points), and
-      !> their shape functions, shape (3, points); zeros beyond
-      integer, allocatable :: nodes(:, :, :)
-      real(wp), allocatable :: shape(:, :)
-      !> Plane of each sector, 0 if the job is linear, and 1 or -1 if it is its mirror image
-      integer, allocatable :: plane(:), sign(:)
-      !> Angle in the middle of each sector [radian]
-      real(wp), allocatable :: middle(:)
-   end type surface_type
+   !> The datasets of the fields
+   type :: series_type
+      !> Of the points
+      type(hdf5_series_type) :: vector(size(vectors))
+      !> Of the cells
+      type(hdf5_series_type) :: scalar(size(scalars)), state
+   end type series_type
 
 contains
 
@@ -81,175 +71,11 @@ contains
                                 "Joint point, as in the results file")
       end associate
       call write_planes(file, surface, mesh)
-      if (.not. allocated(error)) call write_point_fields(file, model, structure, results, surface, mesh, error)
-      if (.not. allocated(error)) call write_cell_fields(file, model, structure, results, surface, mesh, error)
+      call write_fields(file, model, structure, results, surface, mesh, error)
       call write_steps(file, mesh, results%states, vectors, [character(len=9) :: scalars, 'state'], &
                        [character(len=1) ::], &
                        [character(len=11) :: 'joint', 'law', 'joint_point', 'plane', 'mirrored'])
    end subroutine write_joint_surfaces
-
-   !> Divide the joints along xi so that each of their points has a part of its own, and
-   !> the range of theta so that each sector belongs to one plane
-   pure subroutine make_surface(model, structure, results, surface, mesh)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The structure, for the joint points and planes
-      type(structure_type), intent(in) :: structure
-      !> Results at the end, for their modes
-      type(results_type), intent(in) :: results
-      !> The points and planes
-      type(surface_type), intent(out) :: surface
-      !> The mesh
-      type(swept_mesh_type), intent(out) :: mesh
-
-      real(wp), allocatable :: angle(:), position(:, :)
-      real(wp) :: ends(4)
-      integer :: joint, n_pairs, n, k, point, owner, most
-
-      angle = sector_lines(model, structure, results)
-      most = 3*size(model%mesh%joint_label)
-      allocate (surface%nodes(3, 2, most + most/3), surface%shape(3, most + most/3))
-      allocate (position(2, most + most/3))
-      point = 0
-      do joint = 1, size(model%mesh%joint_label)
-         call joint_ends(model, joint, n_pairs, n, ends)
-         do k = 1, n + 1
-            point = point + 1
-            call place_point(model, joint, n_pairs, ends(k), surface, point, position(:, point))
-         end do
-      end do
-      mesh = new_swept_mesh(angle, is_circle(model%sweep), position(:, :point), &
-                            .not. position(1, :point) > 0.0_wp, most)
-      point = 0
-      owner = 0
-      do joint = 1, size(model%mesh%joint_label)
-         call joint_ends(model, joint, n_pairs, n, ends)
-         do k = 1, n
-            owner = owner + 1
-            call add_facet(mesh, owner, point + k, point + k + 1)
-         end do
-         point = point + n + 1
-      end do
-      call assign_planes(structure, results, angle, is_circle(model%sweep), surface)
-   end subroutine make_surface
-
-   !> Natural coordinates of the ends of the parts of a joint: as long as the weights of
-   !> its points
-   pure subroutine joint_ends(model, joint, n_pairs, n, ends)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The joint
-      integer, intent(in) :: joint
-      !> Pairs of nodes, and points
-      integer, intent(out) :: n_pairs, n
-      !> The coordinates, the first n + 1
-      real(wp), intent(out) :: ends(4)
-
-      real(wp) :: x(3), w(3)
-      integer :: k
-
-      n_pairs = model%mesh%joint_size(joint)/2
-      call joint_rule(model%joint_materials(model%mesh%joint_material(joint))%rule, n_pairs, n, x, w)
-      ends(1) = -1.0_wp
-      do k = 1, n - 1
-         ends(k + 1) = ends(k) + w(k)
-      end do
-      ends(n + 1) = 1.0_wp
-   end subroutine joint_ends
-
-   !> Place a point on a joint
-   pure subroutine place_point(model, joint, n_pairs, x, surface, point, position)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The joint, and its pairs of nodes
-      integer, intent(in) :: joint, n_pairs
-      !> Natural coordinate
-      real(wp), intent(in) :: x
-      !> Takes nodes and shape functions
-      type(surface_type), intent(inout) :: surface
-      !> The point
-      integer, intent(in) :: point
-      !> r and z
-      real(wp), intent(out) :: position(2)
-
-      real(wp) :: derivative(3)
-
-      surface%nodes(:, :, point) = 1
-      surface%shape(:, point) = 0.0_wp
-      associate (nodes => model%mesh%joint_nodes(:, joint))
-         surface%nodes(:n_pairs, 1, point) = nodes(lower_node(:n_pairs))
-         surface%nodes(:n_pairs, 2, point) = nodes(upper_node(:n_pairs))
-      end associate
-      call shape_line(n_pairs, x, surface%shape(:n_pairs, point), derivative(:n_pairs))
-      position = matmul(model%mesh%coordinates(:, surface%nodes(:n_pairs, 1, point)), &
-                        surface%shape(:n_pairs, point))
-   end subroutine place_point
-
-   !> Planes between the sectors: those of the swept bodies, and those half-way between
-   !> the planes of the joint law
-   pure function sector_lines(model, structure, results) result(angle)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The structure, for the planes
-      type(structure_type), intent(in) :: structure
-      !> Results at the end, for their modes
-      type(results_type), intent(in) :: results
-      !> Angles, ascending; without the last one of a whole circle [radian]
-      real(wp), allocatable :: angle(:)
-
-      real(wp), allocatable :: all(:)
-      real(wp) :: step, line
-      integer :: k, j
-
-      angle = sweep_planes(model%sweep, results%modes)
-      if (size(structure%yielding) == 0) return
-      step = structure%scene%planes%angle(2) - structure%scene%planes%angle(1)
-      all = angle
-      do k = ceiling(model%sweep%from/step - 0.5_wp), floor(model%sweep%to/step - 0.5_wp)
-         line = (k + 0.5_wp)*step
-         if (any(abs(all - line) < same_line*step)) cycle
-         if (model%sweep%to - line < same_line*step) cycle
-         if (line < all(1)) cycle
-         j = count(all < line)
-         all = [all(:j), line, all(j + 1:)]
-      end do
-      angle = all
-   end function sector_lines
-
-   !> Find the plane of the joint law that each sector belongs to
-   pure subroutine assign_planes(structure, results, angle, closed, surface)
-      !> The structure, for the planes
-      type(structure_type), intent(in) :: structure
-      !> Results at the end, for their modes
-      type(results_type), intent(in) :: results
-      !> Planes between the sectors [radian]
-      real(wp), intent(in) :: angle(:)
-      !> Whether they make a whole circle
-      logical, intent(in) :: closed
-      !> Takes planes and middles
-      type(surface_type), intent(inout) :: surface
-
-      real(wp) :: step
-      integer :: j, n, round
-
-      n = size(angle)
-      surface%middle = 0.5_wp*(angle(:n - 1) + angle(2:))
-      if (closed) surface%middle = [surface%middle, 0.5_wp*(angle(n) + angle(1)) + pi]
-      allocate (surface%plane(size(surface%middle)), source=0)
-      allocate (surface%sign(size(surface%middle)), source=1)
-      if (size(structure%yielding) == 0) return
-      associate (planes => structure%scene%planes%angle)
-         step = planes(2) - planes(1)
-         round = nint(2.0_wp*pi/step)
-         do j = 1, size(surface%middle)
-            surface%plane(j) = modulo(nint(surface%middle(j)/step), round) + 1
-            if (surface%plane(j) <= size(planes)) cycle
-            surface%plane(j) = round + 2 - surface%plane(j)  ! symmetric: planes to pi alone
-            surface%sign(j) = -1
-         end do
-      end associate
-      if (any(results%modes%family /= family_symmetric)) surface%sign = 1
-   end subroutine assign_planes
 
    !> Planes of the cells, the same in all steps
    subroutine write_planes(file, surface, mesh)
@@ -275,8 +101,8 @@ contains
       call file%end(mirrored)
    end subroutine write_planes
 
-   !> Displacements of both sides, step by step
-   subroutine write_point_fields(file, model, structure, results, surface, mesh, error)
+   !> All fields, step by step
+   subroutine write_fields(file, model, structure, results, surface, mesh, error)
       !> The file
       class(hdf5_file_type), intent(inout) :: file
       !> The job
@@ -285,180 +111,200 @@ contains
       type(structure_type), intent(inout) :: structure
       !> Results at the end
       type(results_type), intent(in) :: results
-      !> The points
+      !> Points and planes
       type(surface_type), intent(in) :: surface
       !> The mesh
       type(swept_mesh_type), intent(in) :: mesh
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      type(hdf5_series_type) :: series(2)
+      type(series_type) :: series
       type(results_type) :: earlier
-      integer :: i, side
-
-      do side = 1, 2
-         call file%begin(series(side), point_group//trim(vectors(side)), kind_real, &
-                         [3_i8, size(results%states)*n_points(mesh)], "x, y, z; (3, point) [length]")
-      end do
-      do i = 1, size(results%states) - 1
-         call solve_increment(model, structure, results%states(i), results, earlier, error)
-         if (allocated(error)) exit
-         call put_step(earlier)
-      end do
-      if (.not. allocated(error)) call put_step(results)
-      do side = 1, 2
-         call file%end(series(side))
-      end do
-
-   contains
-
-      !> One step: points on the axis, then those of each plane
-      subroutine put_step(now)
-         !> Results of the step
-         type(results_type), intent(in) :: now
-
-         integer :: j, side
-
-         do side = 1, 2
-            call file%append(series(side), moved(now, side, mesh%angle(1), mesh%axis))
-            do j = 1, size(mesh%angle)
-               call file%append(series(side), moved(now, side, mesh%angle(j), .not. mesh%axis))
-            end do
-         end do
-      end subroutine put_step
-
-      !> Cartesian displacements of some points of a plane
-      function moved(now, side, angle, some) result(x)
-         !> Results of the step
-         type(results_type), intent(in) :: now
-         !> 1 for side 1-2, 2 for side 4-3
-         integer, intent(in) :: side
-         !> Angle [radian]
-         real(wp), intent(in) :: angle
-         !> Which points
-         logical, intent(in) :: some(:)
-         !> x, y, z
-         real(wp) :: x(3, count(some))
-
-         type(circle_type) :: circle
-         real(wp) :: u(3)
-         integer :: k, pair, n
-
-         circle = new_circle(now%modes, angle)
-         n = 0
-         do k = 1, size(some)
-            if (.not. some(k)) cycle
-            u = 0.0_wp
-            do pair = 1, 3
-               u = u + surface%shape(pair, k) &
-                  *total_displacement(now%displacement(:, surface%nodes(pair, side, k), :), circle)
-            end do
-            n = n + 1
-            x(:, n) = [u(1)*cos(angle) - u(3)*sin(angle), u(1)*sin(angle) + u(3)*cos(angle), u(2)]
-         end do
-      end function moved
-
-   end subroutine write_point_fields
-
-   !> Relative displacements, stresses and states, step by step
-   subroutine write_cell_fields(file, model, structure, results, surface, mesh, error)
-      !> The file
-      class(hdf5_file_type), intent(inout) :: file
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The structure, assembled
-      type(structure_type), intent(inout) :: structure
-      !> Results at the end
-      type(results_type), intent(in) :: results
-      !> The planes
-      type(surface_type), intent(in) :: surface
-      !> The mesh
-      type(swept_mesh_type), intent(in) :: mesh
-      !> Out of memory
-      type(error_type), allocatable, intent(out) :: error
-
-      type(hdf5_series_type) :: scalar(size(scalars)), state
-      type(results_type) :: earlier
+      type(joint_field_type) :: field
       type(planes_type) :: planes
-      real(wp) :: gap(mesh%n_cells)
-      integer :: i, k
+      integer :: i
 
-      associate (n => size(results%states)*n_cells(mesh))
-         do k = 1, size(scalars)
-            call file%begin(scalar(k), cell_group//trim(scalars(k)), kind_real, [n], &
-                            "Of relative displacement or stress; (cell) [length or stress]")
-         end do
-         call file%begin(state, cell_group//"state", kind_long, [n], "0 stick, 1 slip, 2 open; (cell)")
-      end associate
-      gap = model%joint_materials(structure%joint_points(mesh%owner(:mesh%n_cells))%material)%law%gap
+      call begin_series(file, size(results%states), mesh, series)
       planes = structure%scene%planes
       if (size(structure%yielding) == 0) planes = new_view(surface%middle, results%modes)
       do i = 1, size(results%states) - 1
          call solve_increment(model, structure, results%states(i), results, earlier, error)
          if (allocated(error)) exit
-         call put_step(field_of(results%states(i), earlier))
+         call view_joints(model, structure, results%states(i), planes, earlier%displacement, field)
+         call put_displacements(file, earlier, surface, mesh, series)
+         call put_joints(file, model, structure, field, surface, mesh, series)
       end do
-      if (.not. allocated(error)) call put_step(last_field())
+      if (.not. allocated(error)) then
+         call last_field(model, structure, results, planes, field)
+         call put_displacements(file, results, surface, mesh, series)
+         call put_joints(file, model, structure, field, surface, mesh, series)
+      end if
+      call end_series(file, series)
+   end subroutine write_fields
+
+   !> State of the joints at the end of the run
+   subroutine last_field(model, structure, results, planes, field)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> Results at the end
+      type(results_type), intent(in) :: results
+      !> Planes
+      type(planes_type), intent(in) :: planes
+      !> The state
+      type(joint_field_type), intent(out) :: field
+
+      if (size(structure%yielding) > 0) then
+         field%jump = results%joint_jump
+         field%stress = results%joint_stress
+         field%state = results%joint_state
+      else
+         call view_joints(model, structure, results%states(size(results%states)), planes, &
+                          results%displacement, field)
+      end if
+   end subroutine last_field
+
+   !> Make the datasets
+   subroutine begin_series(file, n_steps, mesh, series)
+      !> The file
+      class(hdf5_file_type), intent(inout) :: file
+      !> Number of steps
+      integer, intent(in) :: n_steps
+      !> The mesh
+      type(swept_mesh_type), intent(in) :: mesh
+      !> The datasets
+      type(series_type), intent(out) :: series
+
+      integer :: k
+
+      do k = 1, size(vectors)
+         call file%begin(series%vector(k), point_group//trim(vectors(k)), kind_real, &
+                         [3_i8, n_steps*n_points(mesh)], "x, y, z; (3, point) [length]")
+      end do
       do k = 1, size(scalars)
-         call file%end(scalar(k))
+         call file%begin(series%scalar(k), cell_group//trim(scalars(k)), kind_real, &
+                         [n_steps*n_cells(mesh)], &
+                         "Of relative displacement or stress; (cell) [length or stress]")
       end do
-      call file%end(state)
+      call file%begin(series%state, cell_group//"state", kind_long, [n_steps*n_cells(mesh)], &
+                      "0 stick, 1 slip, 2 open; (cell)")
+   end subroutine begin_series
 
-   contains
+   !> Close the datasets
+   subroutine end_series(file, series)
+      !> The file
+      class(hdf5_file_type), intent(inout) :: file
+      !> The datasets
+      type(series_type), intent(inout) :: series
 
-      !> State of the joints at the end of an increment
-      function field_of(kept, now) result(field)
-         !> What was kept of it
-         type(increment_state_type), intent(in) :: kept
-         !> Its results
-         type(results_type), intent(in) :: now
-         !> The state
-         type(joint_field_type) :: field
+      integer :: k
 
-         call view_joints(model, structure, kept, planes, now%displacement, field)
-      end function field_of
+      do k = 1, size(vectors)
+         call file%end(series%vector(k))
+      end do
+      do k = 1, size(scalars)
+         call file%end(series%scalar(k))
+      end do
+      call file%end(series%state)
+   end subroutine end_series
 
-      !> State of the joints at the end of the run
-      function last_field() result(field)
-         !> The state
-         type(joint_field_type) :: field
+   !> Displacements of both sides in a step: points on the axis, then those of each plane
+   subroutine put_displacements(file, now, surface, mesh, series)
+      !> The file
+      class(hdf5_file_type), intent(inout) :: file
+      !> Results of the step
+      type(results_type), intent(in) :: now
+      !> The points
+      type(surface_type), intent(in) :: surface
+      !> The mesh
+      type(swept_mesh_type), intent(in) :: mesh
+      !> The datasets
+      type(series_type), intent(inout) :: series
 
-         if (size(structure%yielding) > 0) then
-            field%jump = results%joint_jump
-            field%stress = results%joint_stress
-            field%state = results%joint_state
-         else
-            field = field_of(results%states(size(results%states)), results)
-         end if
-      end function last_field
+      integer :: j, side
 
-      !> One step, sector by sector
-      subroutine put_step(field)
-         !> State of the joints on the planes
-         type(joint_field_type), intent(in) :: field
+      do side = 1, 2
+         call file%append(series%vector(side), moved(now, surface, side, mesh%angle(1), mesh%axis))
+         do j = 1, size(mesh%angle)
+            call file%append(series%vector(side), moved(now, surface, side, mesh%angle(j), .not. mesh%axis))
+         end do
+      end do
+   end subroutine put_displacements
 
-         real(wp) :: jump(3, mesh%n_cells), stress(3, mesh%n_cells), mirror
-         integer :: j, plane
+   !> Cartesian displacements of some points of a plane
+   pure function moved(now, surface, side, angle, some) result(x)
+      !> Results of the step
+      type(results_type), intent(in) :: now
+      !> The points
+      type(surface_type), intent(in) :: surface
+      !> 1 for side 1-2, 2 for side 4-3
+      integer, intent(in) :: side
+      !> Angle [radian]
+      real(wp), intent(in) :: angle
+      !> Which points
+      logical, intent(in) :: some(:)
+      !> x, y, z
+      real(wp) :: x(3, count(some))
 
-         associate (owner => mesh%owner(:mesh%n_cells))
-            do j = 1, mesh%n_sectors
-               plane = merge(j, surface%plane(j), size(structure%yielding) == 0)
-               mirror = real(surface%sign(j), wp)
-               jump = field%jump(:, owner, plane)
-               stress = field%stress(:, owner, plane)
-               call file%append(scalar(1), (jump(xi, :)))
-               call file%append(scalar(2), (jump(eta, :)))
-               call file%append(scalar(3), mirror*jump(theta, :))
-               call file%append(scalar(4), max(0.0_wp, jump(eta, :) + gap))
-               call file%append(scalar(5), norm2(jump([xi, theta], :), 1))
-               call file%append(scalar(6), (stress(xi, :)))
-               call file%append(scalar(7), (stress(eta, :)))
-               call file%append(scalar(8), mirror*stress(theta, :))
-               call file%append(state, int(field%state(owner, plane), i8))
+      type(circle_type) :: circle
+      real(wp) :: u(3)
+      integer :: k, pair, n
+
+      circle = new_circle(now%modes, angle)
+      n = 0
+      do k = 1, size(some)
+         if (.not. some(k)) cycle
+         u = 0.0_wp
+         do pair = 1, 3
+            u = u + surface%shape(pair, k) &
+               *total_displacement(now%displacement(:, surface%nodes(pair, side, k), :), circle)
+         end do
+         n = n + 1
+         x(:, n) = cartesian_vector(u, angle)
+      end do
+   end function moved
+
+   !> Relative displacements, stresses and states of a step, sector by sector
+   subroutine put_joints(file, model, structure, field, surface, mesh, series)
+      !> The file
+      class(hdf5_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, for the joint points
+      type(structure_type), intent(in) :: structure
+      !> State of the joints on the planes
+      type(joint_field_type), intent(in) :: field
+      !> The sectors
+      type(surface_type), intent(in) :: surface
+      !> The mesh
+      type(swept_mesh_type), intent(in) :: mesh
+      !> The datasets
+      type(series_type), intent(inout) :: series
+
+      real(wp), dimension(mesh%n_cells, size(scalars)) :: values
+      real(wp) :: gap(mesh%n_cells), mirror
+      integer :: j, k, plane
+
+      associate (owner => mesh%owner(:mesh%n_cells))
+         gap = model%joint_materials(structure%joint_points(owner)%material)%law%gap
+         do j = 1, mesh%n_sectors
+            plane = merge(j, surface%plane(j), size(structure%yielding) == 0)
+            mirror = real(surface%sign(j), wp)
+            values(:, 1) = field%jump(xi, owner, plane)
+            values(:, 2) = field%jump(eta, owner, plane)
+            values(:, 3) = mirror*field%jump(theta, owner, plane)
+            values(:, 4) = max(0.0_wp, values(:, 2) + gap)
+            values(:, 5) = hypot(values(:, 1), values(:, 3))
+            values(:, 6) = field%stress(xi, owner, plane)
+            values(:, 7) = field%stress(eta, owner, plane)
+            values(:, 8) = mirror*field%stress(theta, owner, plane)
+            do k = 1, size(scalars)
+               call file%append(series%scalar(k), values(:, k))
             end do
-         end associate
-      end subroutine put_step
-
-   end subroutine write_cell_fields
+            call file%append(series%state, int(field%state(owner, plane), i8))
+         end do
+      end associate
+   end subroutine put_joints
 
 end module axijoint_output_vtkhdf_joints
