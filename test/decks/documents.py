@@ -1,0 +1,135 @@
+"""The documents against what they speak of: links, named files, decks, keywords, folders and their uses"""
+import os
+import re
+
+from support import HERE, INPUTS, Test, expected, read_text, write
+
+ROOT = os.path.realpath(os.path.join(HERE, '..', '..'))
+SKIPPED = ('build', 'bench_results')
+LINK = re.compile(r'!?\[[^\]]*\]\(([^()\s]+)\)')
+FENCE = re.compile(r'^(```|~~~).*?^\1[^\n]*$', re.MULTILINE | re.DOTALL)
+# A name in backticks that begins with a folder of the repository
+NAMED = re.compile(r'`((?:app|bench|doc|inputs|python|scripts|src|test|verification)/[\w./-]*)`')
+# A deck: from a TITLE card to an END card, in a fence or indented by four blanks
+FENCED_DECK = re.compile(r'^```\w*\n(TITLE\n.*?^END)\n```$', re.MULTILINE | re.DOTALL)
+INDENTED_DECK = re.compile(r'^    TITLE\n(?:(?:    .*)?\n)*?    END$', re.MULTILINE)
+# Documents whose decks are meant to be run
+RUNNABLE = ('README.md', 'doc/deck.md')
+USE = re.compile(r'^\s*use axijoint_([a-z0-9]+)_', re.MULTILINE)
+
+
+def tests(program):
+    """One test a document and one each for keywords and folders"""
+    found = [Test(f'documents/{name}', lambda folder, name=name: document_faults(name))
+             for name in documents()]
+    found += [Test(f'documents/decks of {name}', lambda folder, name=name: deck_faults(program, name, folder))
+              for name in RUNNABLE]
+    return found + [Test('documents/keywords', keyword_faults), Test('documents/folders', folder_faults)]
+
+
+def documents():
+    """Paths of all documents"""
+    names = []
+    for folder, folders, files in os.walk(ROOT):
+        folders[:] = sorted(name for name in folders if not name.startswith('.') and name not in SKIPPED)
+        names += [os.path.relpath(os.path.join(folder, file), ROOT) for file in sorted(files)
+                  if file.endswith('.md')]
+    return names
+
+
+def text_of(name):
+    """A document"""
+    return read_text(os.path.join(ROOT, name))
+
+
+def document_faults(name):
+    """Links to nothing, and names of files that are not there"""
+    text = FENCE.sub('', text_of(name))
+    faults = []
+    for link in LINK.findall(text):
+        if re.match(r'[a-z]+:', link):
+            continue
+        path, _, anchor = link.partition('#')
+        target = os.path.normpath(os.path.join(os.path.dirname(name), path)) if path else name
+        if not os.path.exists(os.path.join(ROOT, target)):
+            faults.append(f'{link} leads to no file')
+        elif anchor and anchor not in anchors(target):
+            faults.append(f'{link} leads to no heading of {target}')
+    for path in NAMED.findall(text):
+        if not os.path.exists(os.path.join(ROOT, path)):
+            faults.append(f'there is no {path}')
+    return faults
+
+
+def anchors(name):
+    """What links to the headings of a document end with"""
+    headings = re.findall(r'^#+ +(.*?) *$', FENCE.sub('', text_of(name)), re.MULTILINE)
+    return {re.sub(r'[^\w\- ]', '', heading.lower()).replace(' ', '-') for heading in headings}
+
+
+def decks(name):
+    """Decks of a document"""
+    text = text_of(name)
+    indented = [re.sub(r'^    ', '', deck, flags=re.MULTILINE) for deck in INDENTED_DECK.findall(text)]
+    return [deck + '\n' for deck in FENCED_DECK.findall(text) + indented]
+
+
+def deck_faults(program, name, folder):
+    """Decks that are neither a file of `inputs` nor run without a message"""
+    if not decks(name):
+        return ['found no deck']
+    known = [read_text(os.path.join(INPUTS, file)) for file in os.listdir(INPUTS) if file.endswith('.dat')]
+    faults = []
+    for number, deck in enumerate(decks(name), 1):
+        if deck in known:
+            continue
+        ran = program.run('run', write(folder, f'deck{number}.dat', deck), '-o', folder)
+        faults += [f'deck {number}: {fault}' for fault in
+                   ran.ended_with(0) + expected('messages', '', ran.err)]
+    return faults
+
+
+def keyword_faults(folder):
+    """Keywords that doc/deck.md has no heading for"""
+    del folder
+    layout = read_text(os.path.join(ROOT, 'src', 'deck', 'layout.f90'))
+    names = re.search(r'section_names\(n_sections\) = &\n(.*?)\]\n', layout, re.DOTALL)[1]
+    keywords = re.findall(r"'([A-Z]+)'", names)
+    count = int(re.search(r'n_sections = (\d+)', layout)[1])
+    headings = ' '.join(re.findall(r'^#+ (.*)$', text_of('doc/deck.md'), re.MULTILINE))
+    bold = ' '.join(re.findall(r'\*\*(.*?)\*\*', text_of('doc/deck.md')))
+    # GMSH and GROUPS share a section, END stands among the rules of all cards
+    elsewhere = ('GMSH', 'GROUPS', 'END')
+    faults = expected('number of keywords', count, len(keywords))
+    for keyword in keywords:
+        place = text_of('doc/deck.md') if keyword in elsewhere else headings + ' ' + bold
+        if not re.search(rf'\b{keyword}\b', place):
+            faults.append(f'doc/deck.md has no section {keyword}')
+    return faults
+
+
+def folder_faults(folder):
+    """Where the table of doc/architecture.md differs from the folders of `src`"""
+    del folder
+    table = text_of('doc/architecture.md').partition('| folder |')[2].partition('\n\n')[0]
+    rows = re.findall(r'^\| `(\w+)` \|[^|]*\| ([\w ]*)\|$', table, re.MULTILINE)
+    told = {name: sorted(uses.split()) for name, uses in rows}
+    source = os.path.join(ROOT, 'src')
+    found = {name: sorted(used_by(os.path.join(source, name)) - {name}) for name in sorted(os.listdir(source))
+             if os.path.isdir(os.path.join(source, name))}
+    faults = expected('folders', sorted(found), sorted(told))
+    order = list(told)
+    for name in order:
+        faults += expected(f'folders that {name} uses', found.get(name), told[name])
+        faults += [f'{name} uses {used}, which stands below it' for used in told[name]
+                   if used in order and order.index(used) > order.index(name)]
+    return faults
+
+
+def used_by(folder):
+    """Folders whose modules the files of a folder use"""
+    used = set()
+    for file in os.listdir(folder):
+        if file.endswith('.f90'):
+            used |= set(USE.findall(read_text(os.path.join(folder, file))))
+    return used
