@@ -15,11 +15,12 @@ program solvers
    use axijoint_assembly_pattern, only : node_graph
    use axijoint_assembly_stiffness, only : stiffness_type, new_stiffness, assemble_parts
    use axijoint_assembly_support, only : support_point_type
-   use axijoint_bench_measure, only : product_rate, median, seconds, stop_on, fail
+   use axijoint_bench_measure, only : product_rate, seconds, stop_on, fail
    use axijoint_bench_square, only : square
    use axijoint_base_error, only : error_type
    use axijoint_fe_mode, only : mode_type
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_large_pages, only : use_large_pages
    use axijoint_base_memory, only : available_memory, no_limit
    use axijoint_base_text, only : to_text, lower
    use axijoint_linalg_lapack, only : use_one_blas_thread
@@ -58,7 +59,7 @@ program solvers
    type :: record_type
       integer :: n_side = 0, n_unknowns = 0, kind = 0, n_threads = 1, n_harmonics = 1
       real(wp) :: order = -1.0_wp, analysis = -1.0_wp, parts = -1.0_wp, matrix = -1.0_wp
-      real(wp) :: factorization = -1.0_wp, solution = -1.0_wp, operations = 0.0_wp
+      real(wp) :: factorization = -1.0_wp, repeated = -1.0_wp, solution = -1.0_wp, operations = 0.0_wp
       real(wp) :: rate = 0.0_wp, bytes = 0.0_wp, entries = 0.0_wp
       real(wp) :: backward_error = -1.0_wp, lapack_ratio = -1.0_wp, expected = 0.0_wp, share = -1.0_wp
       character(len=:), allocatable :: note
@@ -199,7 +200,7 @@ contains
       record%operations = solver%operations
       record%entries = real(solver%factor_entries, wp)
       record%bytes = real(solver%factor_bytes, wp)
-      record%expected = expected_seconds(solver, kind, rate)
+      record%expected = expected_seconds(solver, kind, rate, kept=.false.)
       record%note = ''
    end subroutine describe
 
@@ -228,28 +229,22 @@ contains
       type(record_type), intent(inout) :: record
 
       class(factor_type), allocatable :: factor
-      type(pivot_report_type) :: pivots
-      type(error_type), allocatable :: error
       real(wp), allocatable :: times(:), b(:), x(:, :), correction(:, :)
       real(wp) :: start, processor, processor_end, norm
 
       call cpu_time(processor)
-      allocate (times(0), x(matrix%n, 1), correction(matrix%n, 1))
-      do
-         if (allocated(factor)) deallocate (factor)  ! every factor takes fresh memory
-         start = seconds()
-         call solver%factorize(matrix, matrix%value, factor, pivots, error)
-         call stop_on(error)
-         times = [times, seconds() - start]
-         if (pivots%equation > 0) call fail('a pivot is not positive')
-         if (size(times) >= 3 .and. sum(times) > least_seconds) exit
-         if (sum(times) > patience*config%limit) exit
-      end do
+      allocate (x(matrix%n, 1), correction(matrix%n, 1))
+      call repeat_factorization(solver, matrix, .true., factor, times)
       call cpu_time(processor_end)
       record%share = (processor_end - processor)/sum(times)
-      record%factorization = median(times)
+      record%factorization = minval(times)
+      if (sum(times) < patience*config%limit) then
+         call repeat_factorization(solver, matrix, .false., factor, times)
+         record%repeated = minval(times)
+      end if
       allocate (b(matrix%n), source=1.0_wp)
-      times = [real(wp) ::]
+      deallocate (times)
+      allocate (times(0))
       do
          x(:, 1) = b
          start = seconds()
@@ -257,7 +252,7 @@ contains
          times = [times, seconds() - start]
          if (size(times) >= 3 .and. sum(times) > 0.3_wp*least_seconds) exit
       end do
-      record%solution = median(times)
+      record%solution = minval(times)
       norm = infinity_norm(matrix, matrix%value)
       correction(:, 1) = b - multiply(matrix, x(:, 1))
       record%lapack_ratio = maxval(abs(correction))/(norm*maxval(abs(x))*matrix%n*epsilon(norm))
@@ -266,6 +261,36 @@ contains
       record%backward_error = maxval(abs(b - multiply(matrix, x(:, 1)))) &
          /(norm*maxval(abs(x)) + maxval(abs(b)))
    end subroutine measure_factor
+
+   !> Factor a few times
+   subroutine repeat_factorization(solver, matrix, fresh, factor, times)
+      !> The plan
+      class(solver_type), intent(in) :: solver
+      !> The matrix
+      type(symmetric_matrix_type), intent(in) :: matrix
+      !> Whether each factor takes memory of its own, or that of the one before
+      logical, intent(in) :: fresh
+      !> The factor
+      class(factor_type), allocatable, intent(inout) :: factor
+      !> The times
+      real(wp), allocatable, intent(out) :: times(:)
+
+      type(pivot_report_type) :: pivots
+      type(error_type), allocatable :: error
+      real(wp) :: start
+
+      allocate (times(0))
+      do
+         if (fresh .and. allocated(factor)) deallocate (factor)
+         start = seconds()
+         call solver%factorize(matrix, matrix%value, factor, pivots, error, passing=.true.)
+         call stop_on(error)
+         times = [times, seconds() - start]
+         if (pivots%equation > 0) call fail('a pivot is not positive')
+         if (size(times) >= 3 .and. sum(times) > least_seconds) exit
+         if (sum(times) > patience*config%limit) exit
+      end do
+   end subroutine repeat_factorization
 
    !> Factorizations of harmonics 1, 2, ... as in a run of axijoint
    subroutine measure_threads(kind, n_threads, record)
@@ -345,6 +370,7 @@ contains
 
       !$omp parallel private(value)
       allocate (value(size(equations%classes(1)%pattern%column)))
+      call use_large_pages(value)
       !$omp do schedule(dynamic)
       do k = 1, size(equations%systems)
          call harmonic_values(equations%classes(1), equations%systems(k)%harmonic, value)
@@ -376,7 +402,7 @@ contains
    !> Names of the columns
    subroutine print_header()
       write (output_unit, '(a)') 'nodes_per_side,unknowns,solver,threads,harmonics,order_s,'// &
-         'analysis_s,assembly_parts_s,assembly_matrix_s,factorization_s,solve_s,operations,'// &
+         'analysis_s,assembly_parts_s,assembly_matrix_s,factorization_s,repeated_s,solve_s,operations,'// &
          'gflops,dgemm_gflops,dgemm_fraction,factor_mb,factor_entries,backward_error,'// &
          'lapack_ratio,expected_s,processor_share,note'
    end subroutine print_header
@@ -395,6 +421,7 @@ contains
              trim(lower(solver_names(record%kind)))//','//to_text(record%n_threads)//','// &
              to_text(record%n_harmonics)//','//cell(record%order)//','//cell(record%analysis)//','// &
              cell(record%parts)//','//cell(record%matrix)//','//cell(record%factorization)//','// &
+             cell(record%repeated)//','// &
              cell(record%solution)//','//cell(record%operations)//','//cell(speed/1.0e9_wp)//','// &
              cell(record%rate/1.0e9_wp)//','//cell(speed/record%rate)//','// &
              cell(record%bytes/2.0_wp**20)//','//cell(record%entries)//','// &

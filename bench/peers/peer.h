@@ -2,7 +2,7 @@
    comma-separated values that each prints:
    name,order,analysis_s,factorization_s,repeated_s,solve_s,operations,factor_mb,factor_entries,
    lapack_ratio,processor_share
-   `factorization_s` is the median of three in fresh memory, `repeated_s` of three into memory that
+   `factorization_s` is the least of three in fresh memory, `repeated_s` of three into memory that
    the solver kept, where it can; its share is the processor's time in the wall clock's. */
 #include <math.h>
 #include <stdint.h>
@@ -57,10 +57,7 @@ static double clock_of(clockid_t id) {
 static double seconds(void) { return clock_of(CLOCK_MONOTONIC); }
 static double processor_seconds(void) { return clock_of(CLOCK_PROCESS_CPUTIME_ID); }
 
-static double median3(const double *t) {
-   double least = fmin(t[0], fmin(t[1], t[2])), most = fmax(t[0], fmax(t[1], t[2]));
-   return t[0] + t[1] + t[2] - least - most;
-}
+static double least3(const double *t) { return fmin(t[0], fmin(t[1], t[2])); }
 
 static double *ones(int64_t n) {
    double *b = room(8 * (size_t)n);

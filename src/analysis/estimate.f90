@@ -10,7 +10,7 @@ module axijoint_analysis_estimate
    use axijoint_model_joint_points, only : new_joint_points
    use axijoint_model_model, only : model_type
    use axijoint_model_modes, only : used_modes
-   use axijoint_solver_choice, only : orders_type
+   use axijoint_solver_choice, only : orders_type, solver_sparse
    implicit none
    private
    public :: estimate_type, estimate_job
@@ -33,8 +33,11 @@ module axijoint_analysis_estimate
       real(wp) :: seconds = 0.0_wp
    end type estimate_type
 
-   !> Program and libraries without any data [byte]
-   integer(i8), parameter :: program_bytes = 22000000_i8
+   !> Program and libraries without any data while it solves; what the sparse solver's libraries
+   !> and what the output's add once they are used [byte]; measured
+   integer(i8), parameter :: program_bytes = 16500000_i8
+   integer(i8), parameter :: sparse_bytes = 2500000_i8
+   integer(i8), parameter :: output_bytes = 5500000_i8
 
 contains
 
@@ -67,7 +70,7 @@ contains
             estimate%operations = estimate%operations + solver%operations
          end associate
       end do
-      estimate%seconds = planned_seconds(equations, rate)
+      estimate%seconds = planned_seconds(equations, reuses_factors(model), rate)
       others = data_footprint(model, size(equations%modes), size(equations%systems), &
                               new_joint_points(model))
       call plan_factors(equations, reuses_factors(model), others%coming(), model%memory_limit, error)
@@ -78,7 +81,8 @@ contains
       estimate%bytes = program_bytes + others%mesh + standing_bytes(equations) + parts_bytes(equations) &
          + kept_bytes(equations) + others%joints &
          + max(passing_bytes(equations) + others%loads, others%joint_work*equations%n_workers, &
-               others%loads + others%stresses)
+               output_bytes + others%loads + others%stresses)
+      if (kind == solver_sparse) estimate%bytes = estimate%bytes + sparse_bytes
    end subroutine estimate_job
 
 end module axijoint_analysis_estimate

@@ -14,6 +14,8 @@ module axijoint_analysis_footprint
    !> Numbers of a joint point on a plane: jumps, stresses, states, slip, slopes, and copies
    integer(i8), parameter :: plane_numbers = 60
 
+   !> Vectors that the iteration of Newton's method keeps at most
+   integer(i8), parameter :: newton_vectors = 400
    !> Bytes of a node in the mesh, its elements, graph, orders and equations, as measured
    integer(i8), parameter :: mesh_bytes = 520
 
@@ -60,7 +62,8 @@ contains
       jumps = 3*count(can_yield_at(model, joint_points%material), kind=i8)
       unknowns = 3*count(yielding_nodes(model), kind=i8)
       footprint%joints = real_bytes*(n_systems*jumps**2 &
-                                     + plane_numbers*jumps/3*max(model%n_planes, n_modes))
+                                     + plane_numbers*jumps/3*max(model%n_planes, n_modes) &
+                                     + jumps*n_modes*min(newton_vectors, jumps*n_modes))
       if (model%sweep%wanted .and. size(model%increments) > 1) then
          ! jumps, stresses and states are kept; one earlier increment at a time is solved again
          footprint%joints = footprint%joints + real_bytes*(size(model%increments, kind=i8) - 1) &

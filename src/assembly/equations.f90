@@ -98,7 +98,7 @@ contains
       if (bandwidth(orders%graph, orders%cuthill_mckee) > widest_band) return
       call plan_solver(banded, model, modes, orders, solver_band, error)
       if (allocated(error)) return
-      if (planned_seconds(banded) < planned_seconds(equations)) then
+      if (planned_seconds(banded, kept=.true.) < planned_seconds(equations, kept=.true.)) then
          call move_alloc(banded, equations)
       end if
    end subroutine plan_equations
@@ -179,9 +179,11 @@ contains
    end function worth_threads
 
    !> Expected time of all factorizations, one after the other
-   pure function planned_seconds(equations, rate) result(seconds)
+   pure function planned_seconds(equations, kept, rate) result(seconds)
       !> The equations, planned
       type(equations_type), intent(in) :: equations
+      !> Whether factors are kept
+      logical, intent(in) :: kept
       !> Operations a second of a large matrix product
       real(wp), intent(in), optional :: rate
       !> The time
@@ -195,7 +197,7 @@ contains
       seconds = 0.0_wp
       do k = 1, size(equations%systems)
          seconds = seconds + expected_seconds(equations%plans(equations%systems(k)%class)%solver, &
-                                              equations%solver, speed)
+                                              equations%solver, speed, kept)
       end do
    end function planned_seconds
 

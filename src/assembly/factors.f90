@@ -201,7 +201,7 @@ contains
                deallocate (space%spare)
             end if
          end if
-         call factorize_system(equations, system, space%value)
+         call factorize_system(equations, system, s > equations%n_kept, space%value)
          system%failed = allocated(system%failure) .or. system%pivots%equation > 0
          if (system%failed .and. allocated(system%factor)) deallocate (system%factor)
       end associate
@@ -224,11 +224,13 @@ contains
    end subroutine release_factor
 
    !> Form and factor the matrix of one system
-   subroutine factorize_system(equations, system, value)
+   subroutine factorize_system(equations, system, passing, value)
       !> The equations, assembled
       type(equations_type), intent(in) :: equations
       !> The system
       type(system_type), intent(inout) :: system
+      !> Whether the memory of the factor will be used again
+      logical, intent(in) :: passing
       !> Values of a matrix: memory to be used again
       real(wp), allocatable, intent(inout) :: value(:)
 
@@ -243,7 +245,7 @@ contains
          call harmonic_values(class, system%harmonic, value)
          system%norm = infinity_norm(class%pattern, value)
          call equations%plans(system%class)%solver%factorize(class%pattern, value, system%factor, &
-                                                             system%pivots, system%failure)
+                                                             system%pivots, system%failure, passing)
       end associate
    end subroutine factorize_system
 

@@ -2,6 +2,7 @@
 module axijoint_solver_band
    use axijoint_base_error, only : error_type, fatal_error, exit_memory
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_large_pages, only : use_large_pages
    use axijoint_base_text, only : to_text
    use axijoint_linalg_band_solve, only : band_cholesky_solve
    use axijoint_linalg_lapack, only : band_cholesky
@@ -53,7 +54,7 @@ contains
    end subroutine analyse
 
    !> Copy the matrix into a band and factor it
-   subroutine factorize(self, pattern, value, factor, pivots, error)
+   subroutine factorize(self, pattern, value, factor, pivots, error, passing)
       !> The plan
       class(band_solver_type), intent(in) :: self
       !> The pattern analysed
@@ -66,6 +67,8 @@ contains
       type(pivot_report_type), intent(out) :: pivots
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
+      !> Whether other factors will follow in the memory of this one
+      logical, intent(in), optional :: passing
 
       type(band_factor_type), allocatable :: new
       real(wp) :: diagonal(self%n)
@@ -76,7 +79,12 @@ contains
       new%n = self%n
       stat = 0
       if (allocated(factor)) call take_memory(factor, new)
-      if (.not. allocated(new%band)) allocate (new%band(self%half_bandwidth + 1, self%n), stat=stat)
+      if (.not. allocated(new%band)) then
+         allocate (new%band(self%half_bandwidth + 1, self%n), stat=stat)
+         if (present(passing) .and. stat == 0) then
+            if (passing) call use_large_pages(new%band)
+         end if
+      end if
       if (stat /= 0) then
          call fatal_error(error, exit_memory, &
                           'out of memory: a band factor needs '//to_text(self%factor_bytes)//' bytes')

@@ -121,13 +121,15 @@ contains
    !> is memory taken, filled and written whatever the rate, and a time for each
    !> equation, whose row is formed and ordered anew. The constants are fitted to
    !> runs of decks; see doc/benchmarks.md.
-   pure function expected_seconds(solver, kind, rate) result(seconds)
+   pure function expected_seconds(solver, kind, rate, kept) result(seconds)
       !> The plan, analysed
       class(solver_type), intent(in) :: solver
       !> Its kind
       integer, intent(in) :: kind
       !> Operations a second of a large matrix product
       real(wp), intent(in) :: rate
+      !> Whether the factor is kept, so that it takes memory of its own
+      logical, intent(in) :: kept
       !> The time
       real(wp) :: seconds
 
@@ -136,7 +138,7 @@ contains
       select case (kind)
       case (solver_band)
          share = 0.83_wp
-         entry_seconds = 5.7e-9_wp
+         entry_seconds = merge(5.7e-9_wp, 3.0e-9_wp, kept)
          equation_seconds = 3.0e-7_wp
       case (solver_skyline)
          share = 0.14_wp
@@ -144,8 +146,8 @@ contains
          equation_seconds = 3.0e-7_wp
       case default
          share = 0.76_wp
-         entry_seconds = 1.7e-8_wp
-         equation_seconds = 3.8e-7_wp
+         entry_seconds = merge(1.55e-8_wp, 1.35e-8_wp, kept)
+         equation_seconds = 3.5e-7_wp
       end select
       seconds = solver%operations/(share*rate) + entry_seconds*real(solver%factor_entries, wp) &
          + equation_seconds*solver%n

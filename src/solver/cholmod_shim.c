@@ -19,9 +19,9 @@ typedef struct {
    int32_t *from;
 } handle_type;
 
-/* Memory of the values, which every factorization fills anew: large pages are cleared on first
-   touch with far fewer faults. Factors do without: many at once take memory that nobody used
-   before, and large pages of that were measured to cost more than small ones. */
+/* Memory that is used again and again: large pages are cleared on first touch with far fewer
+   faults, and are found faster. Factors that are kept do without: many at once take memory that
+   nobody used before, and large pages of that were measured to cost more than small ones. */
 static void *allocate(size_t bytes) {
 #ifdef MADV_HUGEPAGE
    const size_t page = (size_t)1 << 21;
@@ -171,13 +171,18 @@ void *axijoint_cholmod_analyse(int64_t n, const int64_t *start, const int32_t *c
    return plan;
 }
 
-/* A factor of the plan, without values; null if there is no memory */
-static handle_type *new_factor(const handle_type *plan) {
+/* A factor of the plan, without values, in large pages or not; null if there is no memory */
+static handle_type *new_factor(const handle_type *plan, int large) {
    handle_type *handle = calloc(1, sizeof *handle);
    if (!handle) return NULL;
    choose(&handle->common);
    handle->n = plan->n;
    handle->factor = cholmod_l_copy_factor(plan->factor, &handle->common);
+   if (handle->factor && large) { /* else CHOLMOD takes the memory, and frees it by free, too */
+      cholmod_factor *l = handle->factor;
+      l->x = allocate(sizeof(double) * l->xsize);
+      if (l->x) l->xtype = CHOLMOD_REAL;
+   }
    if (handle->factor) return handle;
    axijoint_cholmod_free(handle);
    return NULL;
@@ -201,13 +206,14 @@ static int factorize(const handle_type *plan, const double *value, handle_type *
 }
 
 /* Factor of a matrix of the pattern, given by its values: null if there is no memory. An old
-   factor of the plan, if not null, is overwritten and becomes the new one. `failed` is zero or the
+   factor of the plan, if not null, is overwritten and becomes the new one; else the new one takes
+   large pages if `large` is not zero. `failed` is zero or the
    equation, counted from one, whose pivot is not positive; `diagonal` takes the diagonal of the
    factor in the order of the equations. */
-void *axijoint_cholmod_factorize(const void *pointer, void *old, const double *value,
+void *axijoint_cholmod_factorize(const void *pointer, void *old, int large, const double *value,
                                  double *diagonal, int64_t *failed) {
    const handle_type *plan = pointer;
-   handle_type *handle = old ? old : new_factor(plan);
+   handle_type *handle = old ? old : new_factor(plan, large);
    *failed = 0;
    if (!handle) return NULL;
    if (!factorize(plan, value, handle)) {

@@ -2,6 +2,7 @@
 module axijoint_solver_skyline
    use axijoint_base_error, only : error_type, fatal_error, exit_memory
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_large_pages, only : use_large_pages
    use axijoint_base_text, only : to_text
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type, judge_pivots
@@ -64,7 +65,7 @@ contains
 
    !> Copy the matrix into the skyline and factor it row by row:
    !> l_ij = (a_ij - sum_k l_ik l_jk)/l_jj
-   subroutine factorize(self, pattern, value, factor, pivots, error)
+   subroutine factorize(self, pattern, value, factor, pivots, error, passing)
       !> The plan
       class(skyline_solver_type), intent(in) :: self
       !> The pattern analysed
@@ -77,6 +78,8 @@ contains
       type(pivot_report_type), intent(out) :: pivots
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
+      !> Whether other factors will follow in the memory of this one
+      logical, intent(in), optional :: passing
 
       type(skyline_factor_type), allocatable :: new
       integer(i8) :: k
@@ -85,7 +88,12 @@ contains
       allocate (new)
       stat = 0
       if (allocated(factor)) call take_memory(factor, new)
-      if (.not. allocated(new%entry)) allocate (new%entry(self%factor_entries), stat=stat)
+      if (.not. allocated(new%entry)) then
+         allocate (new%entry(self%factor_entries), stat=stat)
+         if (present(passing) .and. stat == 0) then
+            if (passing) call use_large_pages(new%entry)
+         end if
+      end if
       if (stat /= 0) then
          call fatal_error(error, exit_memory, 'out of memory: a skyline factor needs '// &
                           to_text(self%factor_bytes)//' bytes')

@@ -51,11 +51,13 @@ module axijoint_solver_sparse
          integer(c_int64_t), intent(out) :: bytes
          type(c_ptr) :: handle
       end function cholmod_analyse
-      !> Factor of a matrix, in the memory of an old one if that is not null
-      function cholmod_factorize(plan, old, value, diagonal, failed) result(handle) &
+      !> Factor of a matrix, in the memory of an old one if that is not null, or in new memory,
+      !> in large pages if `large` is not zero
+      function cholmod_factorize(plan, old, large, value, diagonal, failed) result(handle) &
          bind(c, name='axijoint_cholmod_factorize')
-         import :: c_ptr, c_int32_t, c_int64_t, c_double
+         import :: c_ptr, c_int, c_int64_t, c_double
          type(c_ptr), value :: plan, old
+         integer(c_int), value :: large
          real(c_double), intent(in) :: value(*)
          real(c_double), intent(out) :: diagonal(*)
          integer(c_int64_t), intent(out) :: failed
@@ -115,7 +117,7 @@ contains
    end subroutine analyse
 
    !> Factor a matrix
-   subroutine factorize(self, pattern, value, factor, pivots, error)
+   subroutine factorize(self, pattern, value, factor, pivots, error, passing)
       !> The plan
       class(sparse_solver_type), intent(in) :: self
       !> The pattern analysed
@@ -128,15 +130,20 @@ contains
       type(pivot_report_type), intent(out) :: pivots
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
+      !> Whether other factors will follow in the memory of this one
+      logical, intent(in), optional :: passing
 
       type(sparse_factor_type), allocatable :: new
       real(wp) :: root(self%n)
       integer(c_int64_t) :: failed
+      integer(c_int) :: large
 
+      large = 0
+      if (present(passing)) large = merge(1_c_int, 0_c_int, passing)
       allocate (new)
       new%n = self%n
       if (allocated(factor)) call take_memory(factor, new)
-      new%handle = cholmod_factorize(self%handle, new%handle, value, root, failed)
+      new%handle = cholmod_factorize(self%handle, new%handle, large, value, root, failed)
       pivots%equation = int(failed)
       if (c_associated(new%handle)) then
          if (failed == 0) call judge_pivots(value(pattern%row_start(2:) - 1), root, pivots)

@@ -71,7 +71,7 @@ module axijoint_solver_type
       end subroutine analyse_interface
 
       !> Factor a matrix
-      subroutine factorize_interface(self, pattern, value, factor, pivots, error)
+      subroutine factorize_interface(self, pattern, value, factor, pivots, error, passing)
          import :: solver_type, symmetric_matrix_type, factor_type, pivot_report_type, error_type, wp
          !> The plan
          class(solver_type), intent(in) :: self
@@ -86,6 +86,9 @@ module axijoint_solver_type
          type(pivot_report_type), intent(out) :: pivots
          !> Out of memory
          type(error_type), allocatable, intent(out) :: error
+         !> Whether other factors will follow in the memory of this one. Large pages pay
+         !> for such memory; for that of many factors at once they were measured to cost time
+         logical, intent(in), optional :: passing
       end subroutine factorize_interface
 
       !> Solve
