@@ -92,7 +92,7 @@ contains
       call new_solver(solver, kind)
       call solver%analyse(stiffness(1)%pattern, error)
       call stop_on(error)
-      if (expected_seconds(solver, kind, rate) > limit) return
+      if (expected_seconds(solver, kind, rate, kept=.true.) > limit) return
       call assemble_parts(stiffness, model, [model_joint_point_type ::], [support_point_type ::])
       matrix = stiffness(1)%pattern
       allocate (matrix%value(size(matrix%column)))
