@@ -10,11 +10,13 @@ LINK = re.compile(r'!?\[[^\]]*\]\(([^()\s]+)\)')
 FENCE = re.compile(r'^(```|~~~).*?^\1[^\n]*$', re.MULTILINE | re.DOTALL)
 # A name in backticks that begins with a folder of the repository
 NAMED = re.compile(r'`((?:app|bench|doc|inputs|python|scripts|src|test|verification)/[\w./-]*)`')
-# A deck: from a TITLE card to an END card, in a fence or indented by four blanks
-FENCED_DECK = re.compile(r'^```\w*\n(TITLE\n.*?^END)\n```$', re.MULTILINE | re.DOTALL)
-INDENTED_DECK = re.compile(r'^    TITLE\n(?:(?:    .*)?\n)*?    END$', re.MULTILINE)
+# A deck: from a TITLE card to an END card, in a fence or indented by four blanks; before it, the exit
+# code that it is there to show
+EXIT = r'(?:^<!-- exit code (\d+) -->\n\n)?'
+FENCED_DECK = re.compile(EXIT + r'^```\w*\n(TITLE\n.*?^END)\n```$', re.MULTILINE | re.DOTALL)
+INDENTED_DECK = re.compile(EXIT + r'^(    TITLE\n(?:(?:    .*)?\n)*?    END)$', re.MULTILINE)
 # Documents whose decks are meant to be run
-RUNNABLE = ('README.md', 'doc/deck.md')
+RUNNABLE = ('README.md', 'doc/user.md', 'doc/deck.md')
 USE = re.compile(r'^\s*use axijoint_([a-z0-9]+)_', re.MULTILINE)
 
 
@@ -68,24 +70,25 @@ def anchors(name):
 
 
 def decks(name):
-    """Decks of a document"""
+    """Decks of a document, each with the exit code that is told"""
     text = text_of(name)
-    indented = [re.sub(r'^    ', '', deck, flags=re.MULTILINE) for deck in INDENTED_DECK.findall(text)]
-    return [deck + '\n' for deck in FENCED_DECK.findall(text) + indented]
+    indented = [(code, re.sub(r'^    ', '', deck, flags=re.MULTILINE))
+                for code, deck in INDENTED_DECK.findall(text)]
+    return [(int(code or 0), deck + '\n') for code, deck in FENCED_DECK.findall(text) + indented]
 
 
 def deck_faults(program, name, folder):
-    """Decks that are neither a file of `inputs` nor run without a message"""
+    """Decks that are no file of `inputs` and end with another exit code, or with messages if it is 0"""
     if not decks(name):
         return ['found no deck']
     known = [read_text(os.path.join(INPUTS, file)) for file in os.listdir(INPUTS) if file.endswith('.dat')]
     faults = []
-    for number, deck in enumerate(decks(name), 1):
+    for number, (code, deck) in enumerate(decks(name), 1):
         if deck in known:
             continue
         ran = program.run('run', write(folder, f'deck{number}.dat', deck), '-o', folder)
-        faults += [f'deck {number}: {fault}' for fault in
-                   ran.ended_with(0) + expected('messages', '', ran.err)]
+        found = ran.ended_with(code) + (expected('messages', '', ran.err) if code == 0 else [])
+        faults += [f'deck {number}: {fault}' for fault in found]
     return faults
 
 
