@@ -102,7 +102,7 @@ contains
       real(wp), intent(in) :: position(:, :)
       !> Indices of the points
       integer, intent(inout) :: order(:)
-      !> 1: r, 2: z
+      !> Axis, 1 for r and 2 for z
       integer, intent(in) :: axis
 
       integer :: middle

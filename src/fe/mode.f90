@@ -9,8 +9,8 @@ module axijoint_fe_mode
 
    !> Symmetric to theta = 0: u, v ~ cos(m theta), w ~ sin(m theta)
    integer, parameter :: family_symmetric = 1
-   !> Antisymmetric: u, v ~ sin(m theta), w ~ -cos(m theta). With that sign of w
-   !> both families have the same stiffness
+   !> Antisymmetric to theta = 0: u, v ~ sin(m theta), w ~ -cos(m theta). With that
+   !> sign of w both families have the same stiffness
    integer, parameter :: family_antisymmetric = 2
 
    !> A harmonic of one family

@@ -25,8 +25,8 @@ module axijoint_joints_balance
    !> Joints much stiffer than the bodies: the laws see a share of their stiffness
    !> first, this many times more whenever the residual ratio has fallen so far
    real(wp), parameter :: stage_factor = 10.0_wp, stage_tolerance = 0.1_wp
-   !> Newton: tolerances of the linear solution far from and near to equilibrium,
-   !> and the ratio that divides them
+   !> Tolerances of the linear solution of Newton's method far from and near to
+   !> equilibrium, and the ratio that divides them
    real(wp), parameter :: loose = 1.0e-3_wp, strict = 1.0e-9_wp, near = 1.0e-2_wp
    !> If Newton's step runs away, so many steps of Anderson's mix go before the next
    integer, parameter :: detour = 8
