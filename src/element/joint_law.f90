@@ -104,7 +104,8 @@ contains
 
    !> Stress admitted for a trial stress, and its derivatives. Tension releases all
    !> stress unless a bond holds it; otherwise shear is cut to the yield stress
-   !> C - sigma tan(phi) (Eq. 16), C under tension.
+   !> C - sigma tan(phi) (Eq. 16), C under tension. Dilation may press a point whose
+   !> trial stress is tension: it slides up on its asperities.
    pure subroutine admit(law, memory, trial, stress, tangent)
       !> Properties of the joint
       type(joint_law_type), intent(in) :: law
@@ -118,20 +119,40 @@ contains
       real(wp), intent(out) :: tangent(3, 3)
 
       real(wp) :: friction, cohesion
+      logical :: tension
+
+      call strength(law, memory, cohesion, friction)
+      tension = trial(eta) > 0.0_wp
+      if (tension .and. law%dilation > 0.0_wp) then
+         call cut(law, cohesion, friction, trial, stress, tangent)
+         tension = stress(eta) > 0.0_wp
+      end if
+      if (law%kind == law_elastic .or. .not. tension) then
+         call cut(law, cohesion, friction, trial, stress, tangent)
+      else if (law%opening == opening_reversible .or. memory%broken) then
+         stress = 0.0_wp
+         tangent = 0.0_wp
+      else
+         call cut(law, cohesion, 0.0_wp, trial, stress, tangent)  ! the bond in tension
+      end if
+   end subroutine admit
+
+   !> Cut the shear stress to the yield stress, by the rule of the law
+   pure subroutine cut(law, cohesion, friction, trial, stress, tangent)
+      !> Properties of the joint
+      type(joint_law_type), intent(in) :: law
+      !> C and tan(phi)
+      real(wp), intent(in) :: cohesion, friction
+      !> Trial stress
+      real(wp), intent(in) :: trial(3)
+      !> Stress and derivatives
+      real(wp), intent(out) :: stress(3), tangent(3, 3)
+
       integer :: i
 
       stress = trial
       tangent = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
       if (law%kind == law_elastic) return
-      call strength(law, memory, cohesion, friction)
-      if (trial(eta) > 0.0_wp) then
-         if (law%opening == opening_reversible .or. memory%broken) then
-            stress = 0.0_wp
-            tangent = 0.0_wp
-            return
-         end if
-         friction = 0.0_wp  ! the bond in tension
-      end if
       if (law%slip == slip_resultant) then
          call cut_resultant(law, cohesion, friction, trial, stress, tangent)
       else
@@ -139,7 +160,7 @@ contains
             call cut_component(i, cohesion, friction, trial, stress, tangent)
          end do
       end if
-   end subroutine admit
+   end subroutine cut
 
    !> Cohesion and tangent of the friction angle that are left to a point
    pure subroutine strength(law, memory, cohesion, friction)
@@ -197,15 +218,18 @@ contains
       integer, parameter :: shear(2) = [xi, theta]
 
       resultant = norm2(trial(shear))
-      if (resultant <= cohesion - trial(eta)*friction) return
+      if (resultant <= max(0.0_wp, cohesion - trial(eta)*friction)) return
       direction = trial/resultant
       direction(eta) = 0.0_wp
       slip = 0.0_wp
       slip_by = 0.0_wp
       widening = law%stiffness(eta)*law%dilation
       if (widening > 0.0_wp) then
-         slip = norm2(trial(shear)/law%stiffness(shear))
-         slip_by(shear) = trial(shear)/(law%stiffness(shear)**2*slip)
+         where (law%stiffness(shear) > 0.0_wp)  ! along others there is no stress
+            slip_by(shear) = trial(shear)/law%stiffness(shear)**2
+         end where
+         slip = sqrt(dot_product(slip_by, trial))
+         if (slip > 0.0_wp) slip_by = slip_by/slip
       end if
       denominator = resultant + widening*friction*slip
       l = (cohesion - trial(eta)*friction + widening*friction*slip)/denominator

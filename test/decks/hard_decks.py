@@ -110,6 +110,17 @@ def ground_stress(program, folder):
                else [f'states: {summary["joint_states"]}']))
 
 
+def slides_up(program, folder):
+    """Dilation lifts a disc that slides, by the slip times tan(psi), and presses it on all the way"""
+    faults = []
+    for psi, load in ((10.0, 0.7), (10.0, 2.0), (25.0, 5.0)):
+        deck, sideways, up = scenes.slide_up(psi, load)
+        _, tables = solved(program, folder, 'up', deck)
+        faults += close('sideways', sideways, at(tables['m = 1'], 0.0, 0.1)['u'], 1e-4*sideways)
+        faults += close('up', up, at(tables['m = 0'], 0.0, 0.1)['v'], 1e-4*sideways)
+    return faults
+
+
 def open_everywhere(program, folder):
     """A gap that never closes is as good as no joint"""
     steps = [(1, 1), (1, 2)]
@@ -193,4 +204,5 @@ def tests(program):
                                        + [20 if number == 3 else 60])]
             + [test(f'inputs/hard/{name}', hard_input, name, text) for name, text in scenes.hard_inputs().items()]
             + [test('slide exactly', sliding_exactly), test('gaps close', gapping), test('slip stays', slip_stays),
-               test('stress of the ground', ground_stress), test('open everywhere', open_everywhere)])
+               test('stress of the ground', ground_stress), test('open everywhere', open_everywhere),
+               test('slides up', slides_up)])

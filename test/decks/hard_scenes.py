@@ -176,6 +176,17 @@ def slide_dilating(share, units=METRE, method='NEWTON'):
     return slide(share, {'slip': 'RESULTANT', 'dilation': 10.0}, units, method)
 
 
+def slide_up(psi, load, method='NEWTON'):
+    """A pressed disc on a dilating joint pushed against springs, far enough to stand above where it stood:
+    deck, and the exact displacements sideways and upwards"""
+    k, spring = 10.0, 0.2
+    deck = disc('A disc slides up', k=k, young=1e6, details={'slip': 'RESULTANT', 'dilation': psi}, method=method)
+    deck.add('SPRINGS', (2, 0.0, (spring, STIFFNESS), (spring, STIFFNESS)))
+    deck.resultants((2, 'AXIAL', -1.0), (2, 'LATERAL', load), (2, 'MOMENT', 0.1*MU))
+    sideways = (load - MU)/(math.pi*spring)
+    return deck.text(), sideways, (sideways - MU/(math.pi*k))*math.tan(math.radians(psi)) - 1/(math.pi*k)
+
+
 def twist(share, units=METRE, method='NEWTON', young=1e4):
     """A pressed disc is twisted: 2/3 mu N R"""
     deck = disc('A pressed disc is twisted', details=RESULTANT, units=units, method=method, young=young)
