@@ -39,7 +39,7 @@ contains
       allocate (remarks(0))
       if (size(results%path) > 0) then
          call remark_on_end(model, structure, history, results, remarks)
-         call remark_on_accuracy(model, field, results, remarks)
+         call remark_on_accuracy(model, structure, field, results, remarks)
       else if (.not. results%converged) then
          call add(remarks, 'the equations are ill-conditioned (condition number '// &
                   to_text(maxval(results%solves%condition))//', residual '// &
@@ -149,9 +149,11 @@ contains
    end function restless_text
 
    !> How far results that are there can be trusted
-   subroutine remark_on_accuracy(model, field, results, remarks)
+   subroutine remark_on_accuracy(model, structure, field, results, remarks)
       !> The job
       type(model_type), intent(in) :: model
+      !> The structure, for its joint points
+      type(structure_type), intent(in) :: structure
       !> State of the joints
       type(joint_field_type), intent(in) :: field
       !> The results
@@ -163,10 +165,13 @@ contains
       integer :: n
 
       if (model%method == method_transfer) then
-         call n_across_gaps(field, n, widest)
+         call n_across_gaps(model, structure%joint_points, field, n, widest)
          if (n > 0) call add(remarks, 'pressure across an open gap at '//to_text(n)// &
             ' joint points on planes (widest '//to_text(widest)// &
             '): stress accumulated, as in the paper')
+         if (any(model%joint_materials%law%gap > 0.0_wp)) then
+            call add(remarks, 'the loop of TRANSFER knows no gap before loading: those of LAWDETAILS are left out')
+         end if
       end if
       if (results%tolerance > coarse_tolerance) then
          call add(remarks, 'a tolerance of '//to_text(results%tolerance)// &

@@ -107,6 +107,11 @@ contains
                           'the angle of dilation exceeds the friction angle', &
                           allowed='at most the friction angle: more would give energy')
       end if
+      if (law%gap > 0.0_wp .and. law%initial_stress < 0.0_wp) then
+         call field_error(diagnostics, source, table, entry, field_stress, &
+                          'a joint that stands open carries no stress', allowed='0 with a gap', &
+                          mend='leave the gap or the initial stress blank')
+      end if
    end subroutine check_details
 
 end module axijoint_deck_law_details

@@ -298,7 +298,11 @@ contains
 
    !> Points times planes that carry pressure across an open gap, and the widest
    !> of these gaps: the accumulated stress of step 3 may leave some
-   pure subroutine n_across_gaps(field, n, widest)
+   pure subroutine n_across_gaps(model, points, field, n, widest)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Joint points of the field
+      type(model_joint_point_type), intent(in) :: points(:)
       !> The field
       type(joint_field_type), intent(in) :: field
       !> The number
@@ -307,8 +311,14 @@ contains
       real(wp), intent(out) :: widest
 
       logical :: across(size(field%state, 1), size(field%state, 2))
+      real(wp) :: gap(size(field%state, 1), size(field%state, 2))
+      integer :: k
 
-      associate (gap => field%jump(eta, :, :), stress => field%stress(eta, :, :))
+      do k = 1, size(points)  ! what is pressed before loading opens later
+         gap(k, :) = field%jump(eta, k, :) &
+            + field%initial(eta, k)/model%joint_materials(points(k)%material)%law%stiffness(eta)
+      end do
+      associate (stress => field%stress(eta, :, :))
          across = gap > 1.0e-3_wp*maxval([0.0_wp, abs(gap)]) &
             .and. stress < -1.0e-3_wp*maxval([0.0_wp, abs(stress)])
          n = count(across)

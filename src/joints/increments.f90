@@ -220,6 +220,7 @@ contains
 
       difference = -1.0_wp
       if (.not. history%verdict%converged .or. size(scene%model%increments) > 1) return
+      if (any(scene%model%joint_materials%law%gap > 0.0_wp)) return  ! the paper's loop knows none
       allocate (path(0))
       allocate (other)
       other = new_joint_field(size(scene%points), size(scene%planes%angle), size(scene%equations%modes))

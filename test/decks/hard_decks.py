@@ -121,6 +121,18 @@ def slides_up(program, folder):
     return faults
 
 
+def gap_and_transfer(program, folder):
+    """The paper's loop says that it leaves gaps out, and pressure before loading is not across a gap"""
+
+    def remarks(force, **details):
+        deck = scenes.disc('Transfer', k=100.0, method='TRANSFER', details={'slip': 'RESULTANT', **details})
+        deck.resultants((2, 'AXIAL', force))
+        return ' '.join(solved(program, folder, 'loop', deck.text())[0]['messages'])
+
+    return (expected('pressure across a gap', False, 'across an open gap' in remarks(0.1, initial=-0.5))
+            + expected('gap left out', True, 'knows no gap' in remarks(-0.1, gap=1e-3)))
+
+
 def open_everywhere(program, folder):
     """A gap that never closes is as good as no joint"""
     steps = [(1, 1), (1, 2)]
@@ -205,4 +217,5 @@ def tests(program):
             + [test(f'inputs/hard/{name}', hard_input, name, text) for name, text in scenes.hard_inputs().items()]
             + [test('slide exactly', sliding_exactly), test('gaps close', gapping), test('slip stays', slip_stays),
                test('stress of the ground', ground_stress), test('open everywhere', open_everywhere),
-               test('slides up', slides_up)])
+               test('slides up', slides_up),
+               test('gap and transfer', gap_and_transfer)])
