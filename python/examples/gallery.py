@@ -50,7 +50,9 @@ def from_above(result, folder):
     moved = result.displacement(r, (low[1] + high[1])/2, theta, outside="nan", cartesian=True)
     figure, axes = plt.subplots(figsize=(4.6, 4), subplot_kw={"projection": "polar"})
     shown = axes.pcolormesh(np.radians(theta), r, moved[..., 0], cmap="cividis", shading="gouraud")
-    figure.colorbar(shown, label="displacement along theta = 0")
+    axes.set_yticks([])
+    axes.grid(False)
+    figure.colorbar(shown, pad=0.1, label="displacement along theta = 0")
     figure.savefig(folder/"from_above.png", dpi=200, bbox_inches="tight")
 
 
