@@ -45,7 +45,7 @@ def main():
     for one in statements:
         print(f"{mark(one):9}  {label(one)}{one.says}\n{'':11}{one.numbers}")
     missing = sum(not one.shown for one in statements)
-    print(f"{missing} statements not shown" if missing else "all statements shown")
+    print(f"{len(statements) - missing} of {len(statements)} statements shown")
     if not options.check:
         print(f"figures: {folder/'index.html'}")
     return 1 if missing and options.check else 0
