@@ -48,7 +48,8 @@ class Case:
         headings = ["element", "cells", "error of displacements", "order", "error of stresses", "order"]
         return [report.table(headings, rows)], misses
 
-    def _errors(self, program, kind, n):
+    def errors(self, program, kind, n):
+        """Relative errors of displacements and stresses on one mesh"""
         deck = self.build(kind, n)
         results = program.run(f"{self.name}_{kind.name.replace(' ', '_')}_{n}", deck.text())
         displacement = stress = 0.0
@@ -64,7 +65,7 @@ class Case:
 
     def _patch_row(self, program, kind):
         n = self.sizes[kind.degree][0]
-        errors = self._errors(program, kind, n)
+        errors = self.errors(program, kind, n)
         missed = [f"{what} off by {error:.1e}, allowed {PATCH_ALLOWED:.0e}" for what, error in
                   zip(("displacements", "stresses"), errors) if not error <= PATCH_ALLOWED]
         displacement, stress = map(report.rounding, errors)
@@ -72,7 +73,7 @@ class Case:
 
     def _order_row(self, program, kind):
         sizes = self.sizes[kind.degree]
-        errors = list(zip(*(self._errors(program, kind, n) for n in sizes)))
+        errors = list(zip(*(self.errors(program, kind, n) for n in sizes)))
         orders = [order(values, sizes) for values in errors]
         missed = []
         highest = math.inf if self.contains(kind) else kind.degree + 1 + ORDER_TOLERANCE

@@ -102,11 +102,13 @@ def disc(title, *, k=1.0, shear=None, cohesion=0.0, friction=30.0, details=None,
     return deck.add('INTERFACES', (1, 3, 1)).add('FIXEDFACES', (3, '111'), (4, '111'))
 
 
-def eccentric_disc(ratio, *, n=32, planes=65, harmonic=4, units=METRE, method='NEWTON', k=1.0, young=1e7):
+def eccentric_disc(ratio, *, n=32, planes=65, harmonic=4, units=METRE, method='NEWTON', k=1.0, young=1e7, nodes=4,
+                   tolerance=None):
     """A disc of radius 1 pressed by 1 at an eccentricity"""
     deck = disc(f'Disc pressed at e/R = {ratio:g}', k=k, n=n, planes=planes, harmonic=harmonic, units=units,
-                method=method, young=young)
-    return deck.resultants((2, 'AXIAL', -1.0), (2, 'MOMENT', ratio)).text()
+                method=method, young=young, nodes=nodes)
+    deck.resultants((2, 'AXIAL', -1.0), (2, 'MOMENT', ratio))
+    return (deck if tolerance is None else deck.add('INCREMENTS', (1.0, float(tolerance), 500))).text()
 
 
 def eccentric_exact(ratio, k=1.0):
@@ -306,9 +308,9 @@ CAPACITIES = {
 
 
 def example(number, *, factor=1.0, method='NEWTON', tolerance=1e-10, most=500, harmonic=8, planes=33, bond=True,
-            refined=1, units=METRE):
+            refined=1, nodes=4, units=METRE):
     """The example of the paper (inputs/case1.dat to case3.dat): joint stiffness times a factor, and
-    the bond law in cases 1 and 2"""
+    the bond law in cases 1 and 2; elements of so many nodes"""
     cohesion, friction = {1: (2.0, 30.0), 2: (0.5, 30.0), 3: (0.0, 0.0)}[number]
     deck = Deck(f'Case {number}, joint stiffness x {factor:g}', harmonic, planes, method, units)
     deck.material(1, 2e4, 0.17).material(2, 2e4, 0.17)
@@ -318,7 +320,7 @@ def example(number, *, factor=1.0, method='NEWTON', tolerance=1e-10, most=500, h
         deck.details(1, 'COMPONENTS', 'BOND')
     for body, n1, n2, *corners in ((1, 4, 2, 0, -0.5, 0.5, 0), (1, 4, 8, 0, 0, 0.5, 1), (2, 6, 8, 0.5, 0, 2, 1),
                                    (2, 6, 4, 0.5, 1, 2, 2), (2, 4, 4, 0, 1, 0.5, 2)):
-        deck.block(body, body, 4, n1*refined, n2*refined, *corners)
+        deck.block(body, body, nodes, round(n1*refined), round(n2*refined), *corners)
     deck.faces((1, 1, 0, -0.5, 0.5, -0.5), (2, 1, 0.5, 0, 0.5, 1), (3, 2, 0.5, 0, 0.5, 1),
                (4, 1, 0, 1, 0.5, 1), (5, 2, 0, 1, 0.5, 1), (6, 2, 0, 2, 2, 2))
     deck.add('INTERFACES', (1, 2, 3), (2, 4, 5)).add('FIXEDFACES', (6, '111'))
