@@ -3,11 +3,12 @@ module axijoint_analysis_results
    use axijoint_base_kinds, only : wp, i8
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_field, only : iteration_type
+   use axijoint_joints_joint_errors, only : joint_errors_type
    use axijoint_joints_states, only : increment_state_type
    implicit none
    private
    public :: results_type, iteration_type, mode_solve_type, ordering_type, remark_type, &
-             nodal_stress_type
+             nodal_stress_type, error_share_type
    public :: axial, lateral, moment, torque, lateral_90, moment_90, n_resultants
 
    !> Index of a resultant: force along z
@@ -59,6 +60,25 @@ module axijoint_analysis_results
       !> The sentence
       character(len=:), allocatable :: text
    end type remark_type
+
+   !> What one approximation leaves of the error, estimated. Relative values; negative
+   !> if not known
+   type :: error_share_type
+      !> The approximation
+      character(len=14) :: source = ''
+      !> Of the stresses, in the energy norm
+      real(wp) :: energy = -1.0_wp
+      !> Of the displacements
+      real(wp) :: displacement = -1.0_wp
+      !> Of the joint stress, over the largest
+      real(wp) :: joint_stress = -1.0_wp
+      !> Of a load given as a function of theta: root mean square that is left out
+      real(wp) :: load = -1.0_wp
+      !> Time that the estimate took [second]
+      real(wp) :: seconds = 0.0_wp
+      !> What would halve it
+      character(len=:), allocatable :: remedy
+   end type error_share_type
 
    !> Stresses smoothed to the nodes. A node has a value for each material that it
    !> touches: stresses jump from one to the other. Joints have nodes of their own
@@ -143,6 +163,10 @@ module axijoint_analysis_results
       !> Largest unbalance of a part, over the resultants of the loads. Joint
       !> forces out of balance cancel in the whole, but not on the parts
       real(wp) :: part_error = 0.0_wp
+      !> Errors that iteration, planes and harmonics leave in joints that yield
+      type(joint_errors_type) :: joint_errors
+      !> What the approximations leave of the error, side by side
+      type(error_share_type), allocatable :: budget(:)
       !> What the user should know about the results
       type(remark_type), allocatable :: remarks(:)
    end type results_type

@@ -1,6 +1,7 @@
 !> Static analysis of a structure under its loads, told in order
 module axijoint_analysis_static
    use axijoint_analysis_cuts, only : cut_resultants
+   use axijoint_analysis_error_budget, only : new_budget
    use axijoint_analysis_nodal_stress, only : smooth_stress
    use axijoint_analysis_recovery, only : recover
    use axijoint_analysis_remarks, only : remarks_on, mechanism_text, out_of_proportion
@@ -15,12 +16,13 @@ module axijoint_analysis_static
    use axijoint_base_timer, only : timer_type, phase_factor, phase_joints, phase_recover
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_increments, only : history_type, run_increments, final_factors, &
-                                          loads_of_increments, other_loop_difference
+                                          loads_of_increments, compare_loops
+   use axijoint_joints_joint_errors, only : measure_type, estimate_joint_errors, change_of_displacement
    use axijoint_joints_planes, only : planes_type, new_view
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, method_transfer
    implicit none
    private
    public :: analyse_model, analyse_combination
@@ -92,6 +94,7 @@ contains
       call smooth_stress(model, results)
       call cut_resultants(model, structure, history%loading, field, results)
       results%converged = results%converged .and. results%residual_ratio <= results%tolerance + rounding(results)
+      results%budget = new_budget(model, results)
       results%remarks = remarks_on(model, structure, history, field, results)
       call timer%pop()
    end subroutine analyse_combination
@@ -127,6 +130,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(joint_field_type) :: yielding
+      type(joint_field_type), allocatable :: other
       real(wp) :: factor_share
 
       structure%scene%model => model
@@ -139,7 +143,7 @@ contains
          return
       end if
       results%converged = history%verdict%converged
-      results%other_loop = other_loop_difference(structure%scene, history, yielding)
+      call compare_loops(structure%scene, history, yielding, results%other_loop, other)
       results%path = history%path
       results%states = [history%states, last_state(history)]
       results%tolerance = model%increments(size(model%increments))%tolerance
@@ -157,6 +161,7 @@ contains
                                yielding%excess, results%displacement, results%solves, factor_share, &
                                error)
       if (allocated(error)) return
+      if (results%converged) call estimate_errors(structure, history, yielding, other, results)
       results%plane_angles = structure%scene%planes%angle
       call elastic_field(model, structure, structure%scene%planes, history%loading%case_factor, &
                          results%displacement, field)
@@ -167,6 +172,36 @@ contains
          field%excess(:, yield, :) = yielding%excess + yielding%pending
       end associate
    end subroutine solve_joints
+
+   !> Errors that iteration, planes and harmonics leave. The paper's loop is another
+   !> approximation: its errors are the difference to equilibrium on total jumps, if
+   !> that was found, and the errors of that.
+   subroutine estimate_errors(structure, history, yielding, other, results)
+      !> The structure, condensed
+      type(structure_type), intent(inout) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> State of the joints that yield, and that of the other kind of loop
+      type(joint_field_type), intent(in) :: yielding
+      type(joint_field_type), allocatable, intent(in) :: other
+      !> Results with displacements; take the errors
+      type(results_type), intent(inout) :: results
+
+      type(measure_type) :: measure
+
+      measure%work = sum(history%loading%right*results%displacement)
+      measure%displacement = maxval(abs(results%displacement))
+      associate (scene => structure%scene, errors => results%joint_errors)
+         if (scene%method /= method_transfer) then
+            call estimate_joint_errors(scene, yielding, history%memory, measure, errors)
+         else if (allocated(other)) then
+            call estimate_joint_errors(scene, other, other%memory, measure, errors)
+            errors%iteration%stress = results%other_loop
+            errors%iteration%displacement = change_of_displacement( &
+               scene, other%excess - yielding%excess, measure=measure)
+         end if
+      end associate
+   end subroutine estimate_errors
 
    !> Joints that stay elastic: one solution
    subroutine solve_linear(model, structure, combination, history, field, results, timer, error)

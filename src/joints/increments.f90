@@ -7,6 +7,7 @@ module axijoint_joints_increments
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : progress_type, show_progress
    use axijoint_base_text, only : to_text
+   use axijoint_element_joint_law, only : memory_type
    use axijoint_joints_balance, only : verdict_type, balance_step
    use axijoint_joints_field, only : joint_field_type, iteration_type, new_joint_field, commit_field, &
                                      set_initial_stress
@@ -19,7 +20,7 @@ module axijoint_joints_increments
    use axijoint_model_model, only : model_type, method_newton, method_transfer
    implicit none
    private
-   public :: history_type, run_increments, final_factors, loads_of_increments, other_loop_difference
+   public :: history_type, run_increments, final_factors, loads_of_increments, compare_loops
 
    !> A step that finds no equilibrium is halved so many times at most
    integer, parameter :: most_halvings = 6
@@ -41,6 +42,9 @@ module axijoint_joints_increments
       !> States at the ends of the increments before the last; none unless the job
       !> wants its bodies swept
       type(increment_state_type), allocatable :: states(:)
+      !> What the points remembered in the last step, before its slip was added, shape
+      !> (points, planes)
+      type(memory_type), allocatable :: memory(:, :)
       !> Convergence path
       type(iteration_type), allocatable :: path(:)
       !> What ended the increments before their time: too little memory
@@ -176,6 +180,7 @@ contains
             call balance_step(scene, control%tolerance, control%max_iterations, peak_norm, now, field, &
                               history%path, history%verdict)
             if (.not. history%verdict%converged) return
+            history%memory = field%memory
             if (scene%method /= method_transfer) then
                call commit_field(scene%model, scene%points, field)
             end if
@@ -201,7 +206,7 @@ contains
    !> largest joint stress: of the paper's loop at its tolerance of 3 % for the
    !> methods on total jumps, and of Newton's method for the paper's loop. For a
    !> job of one increment; negative if that loop does not get there in a few sweeps.
-   function other_loop_difference(scene, history, field) result(difference)
+   subroutine compare_loops(scene, history, field, difference, other)
       !> What does not change; the loads of the job are in its response
       type(scene_type), intent(inout) :: scene
       !> What the increments came to
@@ -209,11 +214,12 @@ contains
       !> State of the joints
       type(joint_field_type), intent(in) :: field
       !> The difference
-      real(wp) :: difference
+      real(wp), intent(out) :: difference
+      !> The state of the other loop; allocated if it got there
+      type(joint_field_type), allocatable, intent(out) :: other
 
       real(wp), parameter :: paper_tolerance = 0.03_wp, strict = 1.0e-8_wp
       integer, parameter :: most_sweeps = 40
-      type(joint_field_type), allocatable :: other
       type(iteration_type), allocatable :: path(:)
       type(verdict_type) :: verdict
       integer :: method
@@ -230,9 +236,12 @@ contains
       call balance_step(scene, merge(strict, paper_tolerance, method == method_transfer), most_sweeps, &
                         load_norm(scene%equations, history%peak), iteration_type(), other, path, verdict)
       scene%method = method
-      if (.not. verdict%converged) return
+      if (.not. verdict%converged) then
+         deallocate (other)
+         return
+      end if
       difference = ratio(maxval(abs(other%stress - field%stress)), maxval(abs(field%stress)))
-   end function other_loop_difference
+   end subroutine compare_loops
 
    !> No load
    pure function first_step(combination) result(step)

@@ -19,7 +19,7 @@ module axijoint_joints_newton
    use axijoint_linalg_gmres, only : operator_type, gmres
    implicit none
    private
-   public :: newton_type, new_newton, newton_step
+   public :: newton_type, new_newton, newton_step, correction, at_points
 
    !> Most products of a linear solution
    integer, parameter :: most_products = 400
@@ -177,28 +177,20 @@ contains
       end do
    end function merit_of
 
-   !> One step, shortened until what is missing falls, but not below a part of it:
-   !> the shortest is made even if it does not help. A step to jumps that are no
-   !> state is not made.
-   subroutine newton_step(scene, tolerance, largest, newton, field, residual, made, ran)
+   !> Change of the excess stress that would balance the residual were the laws linear
+   function correction(scene, newton, tolerance) result(change)
       !> What does not change
       type(scene_type), intent(in), target :: scene
+      !> Laws about the iterate, and its residual
+      type(newton_type), intent(in), target :: newton
       !> Tolerance of the linear solution
       real(wp), intent(in) :: tolerance
-      !> Jumps beyond which there is no state
-      real(wp), intent(in) :: largest
-      !> Laws about the iterate; about the new one on return
-      type(newton_type), intent(inout), target :: newton
-      !> State of the joints
-      type(joint_field_type), intent(inout) :: field
-      !> Excess stress not transferred
-      real(wp), intent(inout) :: residual(:, :, :)
-      !> Whether a step was made, and whether the whole step ran away
-      logical, intent(out) :: made, ran
+      !> The change, shape (3, points, modes)
+      real(wp), allocatable :: change(:, :, :)
 
       type(derivative_type) :: derivative
-      real(wp), allocatable :: start(:, :, :), carried(:, :, :), change(:, :, :), change_carried(:, :, :), x(:)
-      real(wp) :: length, before, reduction
+      real(wp), allocatable :: x(:)
+      real(wp) :: reduction
       integer :: n_products
 
       derivative%response => scene%response
@@ -208,6 +200,31 @@ contains
       call gmres(derivative, reshape(newton%residual, [size(x)]), tolerance, min(most_products, size(x)), x, &
                  n_products, reduction)
       change = reshape(x, shape(newton%residual))
+   end function correction
+
+   !> One step, shortened until what is missing falls, but not below a part of it:
+   !> the shortest is made even if it does not help. A step to jumps that are no
+   !> state is not made.
+   subroutine newton_step(scene, tolerance, largest, newton, field, residual, made, ran)
+      !> What does not change
+      type(scene_type), intent(in) :: scene
+      !> Tolerance of the linear solution
+      real(wp), intent(in) :: tolerance
+      !> Jumps beyond which there is no state
+      real(wp), intent(in) :: largest
+      !> Laws about the iterate; about the new one on return
+      type(newton_type), intent(inout) :: newton
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> Excess stress not transferred
+      real(wp), intent(inout) :: residual(:, :, :)
+      !> Whether a step was made, and whether the whole step ran away
+      logical, intent(out) :: made, ran
+
+      real(wp), allocatable :: start(:, :, :), carried(:, :, :), change(:, :, :), change_carried(:, :, :)
+      real(wp) :: length, before
+
+      change = correction(scene, newton, tolerance)
       change_carried = newton%rest + at_points(newton%by_jump, &
          synthesize(scene%planes, jumps(scene%response, change, free=.false.)))
       start = field%excess

@@ -9,6 +9,7 @@ module axijoint_output_brief
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type
    use axijoint_output_headings, only : mark_not_converged
+   use axijoint_output_listing_budget, only : largest_error_text
    use axijoint_output_pending, only : join_path
    use axijoint_output_totals, only : peak_type, largest_displacement, largest_pressure, &
       count_states, n_unknowns
@@ -53,7 +54,9 @@ contains
       text = text//line("residual ratio", to_text(results%residual_ratio))// &
          line("equilibrium error", to_text(results%equilibrium_error)//" on the whole, "// &
          to_text(results%part_error)//" on the worst part")// &
-         displacement_line(model, results)// &
+         displacement_line(model, results)
+      if (allocated(results%budget)) text = text//line("error estimates", largest_error_text(results%budget))
+      text = text// &
          line("time, peak memory", seconds_text(timer%seconds(phase_total))//" s, "// &
          to_text(nint(peak_memory_mb()))//" MB")// &
          line("files", join_path(directory, name)//".lis .json .h5"//picture_endings(model))

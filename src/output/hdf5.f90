@@ -49,6 +49,7 @@ contains
       call write_load_group(file, model, results)
       call write_spring_group(file, model)
       call write_solution(file, results)
+      call write_errors(file, results)
       call write_stress(file, results)
       call write_joints(file, results)
       call write_section_groups(file, model, results)
@@ -202,6 +203,35 @@ contains
       call file%attribute("/resultants", "equilibrium_error", results%equilibrium_error)
       call file%attribute("/resultants", "part_equilibrium_error", results%part_error)
    end subroutine write_solution
+
+   !> Estimates of the errors
+   subroutine write_errors(file, results)
+      !> The file
+      class(hdf5_file_type), intent(inout) :: file
+      !> Results
+      type(results_type), intent(in) :: results
+
+      character(len=:), allocatable :: sources
+      integer :: i
+
+      if (.not. allocated(results%budget)) return
+      associate (budget => results%budget)
+         sources = trim(budget(1)%source)
+         do i = 2, size(budget)
+            sources = sources//', '//trim(budget(i)%source)
+         end do
+         call file%group("/errors")
+         call file%attribute("/errors", "sources", sources)
+         call file%write("/errors/energy", (budget%energy), "Of the stresses in the energy norm; "// &
+            "(source), relative, negative if not known")
+         call file%write("/errors/displacement", (budget%displacement), &
+            "Of displacements; (source), relative, negative if not known")
+         call file%write("/errors/joint_stress", (budget%joint_stress), &
+            "Of the largest joint stress; (source), relative, negative if not known")
+         call file%write("/errors/load", (budget%load), &
+            "Of loads given as functions of theta; (source), relative, negative if not known")
+      end associate
+   end subroutine write_errors
 
    !> Stresses of the solids
    subroutine write_stress(file, results)

@@ -10,6 +10,7 @@ module axijoint_output_summary
    use axijoint_fe_mode, only : family_symmetric, family_antisymmetric
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type, method_names
+   use axijoint_output_listing_budget, only : largest_error_text
    use axijoint_output_json, only : json_string, json_number, json_integers, json_strings
    use axijoint_output_run, only : run_type, status_name, status_error
    use axijoint_output_text_file, only : text_file_type
@@ -63,9 +64,47 @@ contains
       call put_pair(file, "joint_states", states_text(results))
       call put_pair(file, "equilibrium_error", json_number(results%equilibrium_error))
       call put_pair(file, "part_equilibrium_error", json_number(results%part_error))
+      call put_pair(file, "errors", errors_text(results))
       call put_pair(file, "seconds", seconds_text(timer))
       call put_last(file)
    end subroutine write_summary
+
+   !> Estimates of the errors by what leaves them
+   pure function errors_text(results) result(json)
+      !> Results
+      type(results_type), intent(in) :: results
+      !> A JSON object
+      character(len=:), allocatable :: json
+
+      integer :: i
+
+      json = "null"
+      if (.not. allocated(results%budget)) return
+      json = "{"
+      do i = 1, size(results%budget)
+         associate (share => results%budget(i))
+            json = json//'"'//trim(share%source)//'": {"energy": '//known(share%energy)// &
+               ', "displacement": '//known(share%displacement)//', "joint_stress": '// &
+               known(share%joint_stress)//', "load": '//known(share%load)//', "seconds": '// &
+               json_number(share%seconds)//'}, '
+         end associate
+      end do
+      json = json//'"largest": '//json_string(largest_error_text(results%budget))//'}'
+
+   contains
+
+      !> A share; null if it is not known
+      pure function known(value) result(json)
+         !> The share
+         real(wp), intent(in) :: value
+         !> JSON
+         character(len=:), allocatable :: json
+
+         json = "null"
+         if (value >= 0.0_wp) json = json_number(value)
+      end function known
+
+   end function errors_text
 
    !> Summary of a run that ended with an error; what is not known is null
    subroutine write_failure_summary(file, run, messages)

@@ -1,0 +1,86 @@
+!> What each approximation leaves of the error of a run, side by side, and what
+!> would halve the largest
+module axijoint_analysis_error_budget
+   use axijoint_analysis_results, only : results_type, error_share_type
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_text, only : to_text
+   use axijoint_joints_joint_errors, only : joint_error_type
+   use axijoint_model_model, only : model_type
+   implicit none
+   private
+   public :: new_budget, largest_share
+
+contains
+
+   !> Put the estimates of a run together
+   pure function new_budget(model, results) result(budget)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results with the estimates of their parts
+      type(results_type), intent(in) :: results
+      !> Harmonics, planes, iteration, solver
+      type(error_share_type), allocatable :: budget(:)
+
+      logical :: yields
+
+      yields = size(results%path) > 0
+      allocate (budget(4))
+      budget(1) = harmonics_share(model, results, yields)
+      budget(2) = error_share_type(source='planes', remedy='planes: '// &
+                                   to_text(nint(1.4142*(model%n_planes - 1)) + 1)//' in CONTROL')
+      budget(3) = error_share_type(source='iteration', remedy='half the tolerance in INCREMENTS')
+      if (yields) then
+         call take(results%joint_errors%planes, budget(2))
+         call take(results%joint_errors%iteration, budget(3))
+      else
+         budget(2:3)%displacement = 0.0_wp
+      end if
+      budget(4) = error_share_type(source='solver', remedy='less contrast of the stiffnesses')
+      ! a backward error is a relative change of the data, which the condition number passes on at most
+      budget(4)%displacement = maxval(results%solves%backward_error*results%solves%condition)
+   end function new_budget
+
+   !> Harmonics above M, of the loads and of joints that open and slip
+   pure function harmonics_share(model, results, yields) result(share)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> Whether joints yield
+      logical, intent(in) :: yields
+      !> Their share
+      type(error_share_type) :: share
+
+      share%source = 'harmonics'
+      share%remedy = 'harmonics: M = '//to_text(max(1, nint(1.4142*model%max_harmonic)))//' in CONTROL'
+      share%displacement = 0.0_wp
+      if (yields) call take(results%joint_errors%harmonics, share)
+      share%load = maxval([0.0_wp, model%truncations%left_out])
+   end function harmonics_share
+
+   !> Take an estimate of the joints
+   pure subroutine take(error, share)
+      !> The estimate
+      type(joint_error_type), intent(in) :: error
+      !> The share
+      type(error_share_type), intent(inout) :: share
+
+      share%displacement = error%displacement
+      share%joint_stress = error%stress
+      share%seconds = error%seconds
+   end subroutine take
+
+   !> Place of the share that leaves most of joint stress or, if no joints yield, of
+   !> displacement; 0 if all are zero or unknown
+   pure integer function largest_share(budget) result(place)
+      !> The budget
+      type(error_share_type), intent(in) :: budget(:)
+
+      real(wp) :: size_of(size(budget))
+
+      size_of = max(budget%displacement, budget%joint_stress, budget%load)
+      place = maxloc(size_of, 1)
+      if (.not. size_of(place) > 0.0_wp) place = 0
+   end function largest_share
+
+end module axijoint_analysis_error_budget

@@ -1,0 +1,88 @@
+!> The table of the listing that says what each approximation leaves of the error
+module axijoint_output_listing_budget
+   use axijoint_analysis_error_budget, only : largest_share
+   use axijoint_analysis_results, only : results_type, error_share_type
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_text, only : to_text
+   use axijoint_output_columns, only : columns
+   use axijoint_output_headings, only : write_result_heading
+   use axijoint_output_text_file, only : text_file_type
+   implicit none
+   private
+   public :: write_budget, largest_error_text
+
+   !> Columns of a value
+   integer, parameter :: wide = 15
+
+contains
+
+   !> Approximations side by side, and the largest
+   subroutine write_budget(file, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Results
+      type(results_type), intent(in) :: results
+
+      integer :: i
+
+      if (.not. allocated(results%budget)) return
+      call write_result_heading(file, "ERROR BUDGET (estimates; relative, - not known)", results%converged)
+      call file%put("  left by           energy norm   displacement   joint stress           load")
+      do i = 1, size(results%budget)
+         associate (share => results%budget(i))
+            call file%put("  "//share%source//value_text(share%energy)//value_text(share%displacement)// &
+               value_text(share%joint_stress)//value_text(share%load))
+         end associate
+      end do
+      call file%put("  "//largest_error_text(results%budget))
+   end subroutine write_budget
+
+   !> A value in its columns
+   pure function value_text(value) result(text)
+      !> Relative value, negative if not known
+      real(wp), intent(in) :: value
+      !> The text
+      character(len=wide) :: text
+
+      text = repeat(" ", wide - 1)//"-"
+      if (value >= 0.0_wp) text = columns([value], wide)
+   end function value_text
+
+   !> The largest share, and what would halve it
+   pure function largest_error_text(budget) result(text)
+      !> The budget
+      type(error_share_type), intent(in) :: budget(:)
+      !> A sentence
+      character(len=:), allocatable :: text
+
+      integer :: place
+
+      place = largest_share(budget)
+      if (place == 0) then
+         text = "nothing that is known leaves an error"
+         return
+      end if
+      associate (share => budget(place))
+         text = "largest: "//trim(share%source)
+         if (share%joint_stress >= 0.0_wp) text = text//", joint stress "//percent(share%joint_stress)
+         if (share%displacement >= 0.0_wp) text = text//", displacement "//percent(share%displacement)
+         if (share%load > 0.0_wp) text = text//", a load "//percent(share%load)
+         text = text//"; about half with "//share%remedy
+      end associate
+   end function largest_error_text
+
+   !> A share in per cent, two digits
+   pure function percent(value) result(text)
+      !> The share
+      real(wp), intent(in) :: value
+      !> Such as 0.12 %
+      character(len=:), allocatable :: text
+
+      character(len=12) :: number
+
+      write (number, '(es8.1)') 100.0_wp*value
+      if (100.0_wp*value >= 0.01_wp .and. value < 10.0_wp) write (number, '(f12.2)') 100.0_wp*value
+      text = trim(adjustl(number))//" %"
+   end function percent
+
+end module axijoint_output_listing_budget
