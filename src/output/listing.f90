@@ -79,7 +79,7 @@ contains
       call write_equilibrium(file, model, results)
       call write_budget(file, results)
       call write_pictures(file, size(results%states), pictures)
-      call write_times(file, timer)
+      call write_times(file, results, timer)
       call write_end(file, results)
    end subroutine write_listing
 

@@ -32,6 +32,8 @@ module axijoint_output_listing_solution
    character(len=*), parameter :: format_states = '(2i12)'
    !> Phase, its wall clock and processor time, its share
    character(len=*), parameter :: format_time = '(2x, a, t14, 2f14.3, f12.1)'
+   !> Time of the error estimates, part of the phases above
+   character(len=*), parameter :: format_estimates = '(2x, "estimates", t14, f14.3, "  (part of joints and recover)")'
    !> Memory
    character(len=*), parameter :: format_memory = '(2x, a, t14, f14.1, a)'
    !> Columns of coordinates and of results
@@ -250,9 +252,11 @@ contains
    end subroutine write_equilibrium
 
    !> Where the time went, and the memory
-   subroutine write_times(file, timer)
+   subroutine write_times(file, results, timer)
       !> The listing
       class(text_file_type), intent(inout) :: file
+      !> Results, with the times of their error estimates
+      type(results_type), intent(in) :: results
       !> Times of the run
       type(timer_type), intent(in) :: timer
 
@@ -269,6 +273,10 @@ contains
             timer%cpu_seconds(phase), 100.0_wp*seconds(phase)/total
          call file%put(line)
       end do
+      if (allocated(results%budget)) then
+         write (line, format_estimates) sum(results%budget%seconds)
+         call file%put(line)
+      end if
       write (line, format_memory) "peak memory", peak_memory_mb(), " MB"
       call file%put(line)
    end subroutine write_times
