@@ -17,7 +17,7 @@ module axijoint_joints_increments
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type, increment_type
-   use axijoint_model_model, only : model_type, method_newton, method_transfer
+   use axijoint_model_model, only : model_type, method_newton, method_anderson, method_transfer
    implicit none
    private
    public :: history_type, run_increments, final_factors, loads_of_increments, compare_loops
@@ -119,6 +119,14 @@ contains
          if (history%verdict%ran_away) history%runaway = field%excess
          if (halvings == 0) then
             if (.not. allocated(history%runaway)) return
+            if (scene%method == method_newton) then
+               ! Newton may run away where there is a state: no mechanism if the mix finds one
+               field = before
+               scene%method = method_anderson
+               call try_step(increment, to)
+               scene%method = method_newton
+               if (history%verdict%converged .or. allocated(history%failure)) return
+            end if
             field = before  ! what ran away is no state to show
             call put_loads(from)
             return

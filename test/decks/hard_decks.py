@@ -133,6 +133,13 @@ def gap_and_transfer(program, folder):
             + expected('gap left out', True, 'knows no gap' in remarks(-0.1, gap=1e-3)))
 
 
+def no_false_mechanism(program, folder):
+    """A scene whose Newton steps run away though ANDERSON finds its state"""
+    heads = [at(solved(program, folder, 'stiff', scenes.stiff_shaft(method))[1]['m = 1'], 0.0, 2.0)['u']
+             for method in ('NEWTON', 'ANDERSON')]
+    return close('head', heads[1], heads[0], 0.05*abs(heads[1]))
+
+
 def open_everywhere(program, folder):
     """A gap that never closes is as good as no joint"""
     steps = [(1, 1), (1, 2)]
@@ -218,4 +225,5 @@ def tests(program):
             + [test('slide exactly', sliding_exactly), test('gaps close', gapping), test('slip stays', slip_stays),
                test('stress of the ground', ground_stress), test('open everywhere', open_everywhere),
                test('slides up', slides_up),
-               test('gap and transfer', gap_and_transfer)])
+               test('gap and transfer', gap_and_transfer),
+               test('no false mechanism', no_false_mechanism)])

@@ -260,6 +260,14 @@ def pull_and_twist(share, units=METRE, method='NEWTON'):
     return deck.resultants((1, 'AXIAL', share*0.6*capacity), (1, 'TORQUE', share*0.8*capacity*0.5)).text()
 
 
+def stiff_shaft(method='NEWTON'):
+    """A clamped pile with a stiff shaft on a soft toe, where Newton's steps run away though it stands"""
+    deck = pile('A clamped pile, stiff shaft', friction=30.0, base=True, k=1e8, method=method,
+                details={'slip': 'RESULTANT', 'initial': -0.1})
+    deck.resultants((1, 'LATERAL', 0.2), (1, 'AXIAL', -0.3))
+    return deck.text().replace('2, 100000000, 100000000, 100000000', '2, 1, 1, 1')
+
+
 def push_through(share, units=METRE, method='NEWTON'):
     """Friction under an initial stress holds a pile: 2 pi R L mu sigma"""
     deck = pile('A clamped pile is pushed through', friction=30.0, units=units, method=method,
