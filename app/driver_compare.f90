@@ -7,6 +7,7 @@ module axijoint_driver_compare
    use axijoint_compare_compare, only : compare_listings
    use axijoint_compare_own_format, only : own_format_text
    use axijoint_compare_reader, only : read_file
+   use axijoint_compare_totals, only : add_totals
    use axijoint_compare_table, only : listing_type, words_type
    use axijoint_driver_run, only : print_error
    implicit none
@@ -50,6 +51,8 @@ contains
             return
          end if
       end do
+      call add_totals(listings(1), listings(2))
+      call add_totals(listings(2), listings(1))
       call compare_listings(output_unit, listings(1), listings(2), dictionary, compare%tolerances, same)
       exit_code = merge(exit_ok, exit_different, same)
    end subroutine compare_files

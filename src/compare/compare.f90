@@ -7,7 +7,7 @@ module axijoint_compare_compare
    use axijoint_compare_numbering, only : numbering_type
    use axijoint_compare_report, only : print_table, print_only
    use axijoint_compare_table, only : listing_type, table_type, words_type, find_column, &
-      kind_word, kind_names
+      kind_angle, kind_word, kind_names
    use axijoint_compare_tolerances, only : tolerances_type, is_skipped
    implicit none
    private
@@ -47,7 +47,7 @@ contains
       scales = min(largest_values(a), largest_values(b))
       write (unit, '(a)') 'A  '//a%path//': '//a%description, 'B  '//b%path//': '//b%description
       do k = 1, a%n_tables
-         if (is_skipped(tolerances, a%tables(k)%name)) cycle
+         if (a%tables(k)%left_out .or. is_skipped(tolerances, a%tables(k)%name)) cycle
          other = find_table(b, a%tables(k))
          if (other > 0) then
             call compare_tables(unit, a%tables(k), b%tables(other), words, scales, tolerances, &
@@ -58,7 +58,8 @@ contains
          end if
       end do
       do k = 1, b%n_tables
-         if (is_skipped(tolerances, b%tables(k)%name) .or. find_table(a, b%tables(k)) > 0) cycle
+         if (b%tables(k)%left_out .or. is_skipped(tolerances, b%tables(k)%name)) cycle
+         if (find_table(a, b%tables(k)) > 0) cycle
          call print_only(unit, 'B', b%tables(k))
          verdict%n_tables_only = verdict%n_tables_only + 1
       end do
@@ -131,7 +132,8 @@ contains
 
       do k = 1, size(table%columns)
          associate (column => table%columns(k))
-            if (column%kind < kind_word .or. find_column(other, column%name, column%kind) > 0) cycle
+            if (column%kind < kind_word .and. column%kind /= kind_angle) cycle
+            if (find_column(other, column%name, column%kind) > 0) cycle
             if (is_skipped(tolerances, column%name) .or. &
                 is_skipped(tolerances, trim(kind_names(column%kind)))) cycle
             write (unit, '(2x, a)') 'column '//column%name//' ('//trim(kind_names(column%kind))// &

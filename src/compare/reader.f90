@@ -45,6 +45,7 @@ contains
          else
             deallocate (bytes)
             listing%description = 'HDF5 file of axijoint'
+            listing%aligned = .true.
             call read_result_file(path, words, listing, error)
          end if
       else

@@ -55,6 +55,8 @@ module axijoint_compare_table
       character(len=:), allocatable :: parameters
       !> Columns
       type(column_type), allocatable :: columns(:)
+      !> Whether other tables stand for it
+      logical :: left_out = .false.
       !> Number of rows
       integer :: n_rows = 0
       !> Values, at least (columns, n_rows)
@@ -69,6 +71,8 @@ module axijoint_compare_table
       character(len=:), allocatable :: path
       !> What kind of file it is
       character(len=:), allocatable :: description
+      !> Whether all tables of amplitudes have the same rows in the same order
+      logical :: aligned = .false.
       !> Number of tables
       integer :: n_tables = 0
       !> The tables, at least n_tables
@@ -145,6 +149,7 @@ contains
       call move_alloc(from%columns, to%columns)
       call move_alloc(from%cells, to%cells)
       call move_alloc(from%line, to%line)
+      to%left_out = from%left_out
       to%n_rows = from%n_rows
    end subroutine move_table
 
