@@ -45,7 +45,7 @@ contains
       type(key_type), allocatable :: keys(:)
 
       logical :: by_place
-      integer :: k, other
+      integer :: k, other, best
 
       by_place = all([find_column(a, 'r', kind_coordinate), find_column(a, 'z', kind_coordinate), &
                       find_column(b, 'r', kind_coordinate), find_column(b, 'z', kind_coordinate)] > 0)
@@ -63,7 +63,26 @@ contains
             if (other > 0) keys = [keys, key_type(k, other)]
          end associate
       end do
+      if (size(keys) < 2) return
+      ! the key with most values comes first: rows are searched by it
+      best = maxloc([(n_values(a, keys(k)%a), k=1, size(keys))], 1)
+      keys([1, best]) = keys([best, 1])
    end function chosen_keys
+
+   !> How many different values a column has
+   integer function n_values(table, column)
+      !> The table
+      type(table_type), intent(in) :: table
+      !> The column
+      integer, intent(in) :: column
+
+      real(wp), allocatable :: values(:)
+      integer :: k
+
+      values = table%cells(column, :table%n_rows)%value
+      values = values(ascending_order(values))
+      n_values = min(1, size(values)) + count([(values(k) > values(k - 1), k=2, size(values))])
+   end function n_values
 
    !> Keys of all rows
    subroutine row_keys(table, columns, tolerance, keys)

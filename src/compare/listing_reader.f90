@@ -112,7 +112,13 @@ contains
       integer :: k
 
       if (.not. state%first_seen) state%first_seen = matches(text, format%first)
-      if (len(format%last) > 0) state%last_seen = state%last_seen .or. matches(text, format%last)
+      if (len(format%last) > 0) then
+         if (matches(text, format%last)) then
+            state%last_seen = .true.
+            state%table = 0
+            return
+         end if
+      end if
       do k = 1, size(format%lines)
          call match_pattern(text, format%lines(k)%text, state%of_lines, found)
          if (found) return

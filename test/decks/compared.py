@@ -537,11 +537,48 @@ def bad_formats(base, folder):
     return faults
 
 
+def damaged(base, folder, count=12):
+    """Files with random damage end with a verdict or a message, never with a crash"""
+    base.text(folder)
+    mixer = random.Random(1984)
+    whole = base.solve(os.path.join(INPUTS, 'case3.dat'), folder)
+    listings = Lines(whole['lis'].decode())
+    start = listings.find('NODES (')[0]
+    description = base.program.run('compare', '--print-format').out.encode()
+    write(folder, 'a.lis', whole['lis'])
+    write(folder, 'a.h5', whole['h5'])
+    faults = []
+    for k in range(count):
+        lines = list(listings.lines)
+        for _ in range(3):
+            place = mixer.randrange(start, len(lines) - 5)
+            lines[place] = hurt(lines[place].encode(), mixer).decode('latin-1')
+        write(folder, 'b.lis', '\n'.join(lines))
+        write(folder, 'b.fmt', hurt(description, mixer))
+        write(folder, 'b.h5', hurt(whole['h5'], mixer))
+        for words in (('a.lis', 'b.lis'), ('a.lis', 'a.lis', '--format-b', 'b.fmt'), ('a.h5', 'b.h5')):
+            ran = base.program.run('compare', *words, folder=folder)
+            found = ran.crash()
+            if ran.code not in (SAME, DIFFERENT, UNREADABLE):
+                found.append(f'exit code {ran.code}')
+            faults += [f'{k} {words}: {fault}\n{ran.err[-500:]}' for fault in found]
+    return faults
+
+
+def hurt(content, mixer):
+    """Bytes lost, doubled or replaced at a random place"""
+    first = mixer.randrange(len(content) + 1)
+    last = min(len(content), first + mixer.randrange(1, 12))
+    middle = mixer.choice((b'', 2*content[first:last], bytes(mixer.choices(b' .-+*E19nx{}=', k=last - first))))
+    return content[:first] + middle + content[last:]
+
+
 def tests(program):
     """One test a pair"""
     base = Base(program)
     functions = {'HDF5': result_files, 'combinations': combinations, 'mechanism': mechanism,
-                 'a program of the eighties': old_program, 'wrong formats': bad_formats}
+                 'a program of the eighties': old_program, 'wrong formats': bad_formats,
+                 'damaged files': damaged}
     return [Test(f'compare: {case[0]}', lambda folder, case=case: pair(base, folder, *case[1:]))
             for case in PAIRS] + [
         Test(f'compare with a format: {case[0]}',
