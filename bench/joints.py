@@ -66,7 +66,7 @@ def iterations(program):
             newton = Run(program, example(number, factor=factor))
             line = (f"{number:4} {factor:10g} {newton.code:4} {newton.summary.get('iterations', -1):10}"
                     f" {newton.summary.get('residual_ratio', -1):9.1e}")
-            if factor <= (100.0 if number == 3 else 10.0):
+            if factor <= 100.0:
                 loops = [Run(program, example(number, factor=factor, method=method, tolerance=tolerance,
                                               most=LOOP_MOST))
                          for method, tolerance in (("TOTAL", 1e-10), ("TRANSFER", 0.03), ("TRANSFER", 1e-10))]

@@ -3,12 +3,13 @@
 module axijoint_joints_balance
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use axijoint_base_kinds, only : wp
+   use axijoint_element_joint_law, only : opening_bond
    use axijoint_joints_anderson, only : anderson_type, new_anderson, anderson_step
    use axijoint_joints_field, only : joint_field_type, iteration_type, judge_states, break_bonds, soften, count_state
    use axijoint_joints_newton, only : newton_type, new_newton, newton_step
    use axijoint_joints_residual, only : residual_norm, ratio
    use axijoint_joints_scene, only : scene_type, evaluate
-   use axijoint_model_model, only : method_newton, method_anderson
+   use axijoint_model_model, only : method_newton, method_total, method_anderson
    implicit none
    private
    public :: verdict_type, balance_step
@@ -74,9 +75,9 @@ module axijoint_joints_balance
 contains
 
    !> Iterate a load step to equilibrium
-   subroutine balance_step(scene, tolerance, most, norm, now, field, path, verdict)
-      !> What does not change
-      type(scene_type), intent(in) :: scene
+   recursive subroutine balance_step(scene, tolerance, most, norm, now, field, path, verdict)
+      !> What does not change, but for a while the method
+      type(scene_type), intent(inout) :: scene
       !> Tolerance on the residual ratio, and most iterations
       real(wp), intent(in) :: tolerance
       integer, intent(in) :: most
@@ -102,6 +103,9 @@ contains
       allocate (residual, mold=field%excess)
       allocate (steps(0))
       if (scene%method == method_newton) field%share = scene%first_share
+      if (scene%proportion > stiff .and. any(scene%method == [method_total, method_anderson])) then
+         call break_as_newton(scene, tolerance, most, norm, field)
+      end if
       watch = new_watch(scene, field)
       call look_again(scene, field, residual, newton)
       do k = 1, most
@@ -130,6 +134,37 @@ contains
       transferred = residual_norm(scene%equations, scene%points, field%excess)
       verdict%at_rounding = watch%best <= rounding*ratio(transferred, norm)
    end subroutine balance_step
+
+   !> Break the bonds that Newton's iteration breaks. In loosely balanced states the order
+   !> of breaking belongs to the iterates; so all methods on total jumps take it from
+   !> Newton's, and end in the same state.
+   recursive subroutine break_as_newton(scene, tolerance, most, norm, field)
+      !> What does not change, but for a while the method
+      type(scene_type), intent(inout) :: scene
+      !> Tolerance on the residual ratio, and most iterations
+      real(wp), intent(in) :: tolerance
+      integer, intent(in) :: most
+      !> Norm of the largest load so far
+      real(wp), intent(in) :: norm
+      !> State of the joints; its bonds break
+      type(joint_field_type), intent(inout) :: field
+
+      type(joint_field_type), allocatable :: torn
+      type(iteration_type), allocatable :: path(:)
+      type(verdict_type) :: verdict
+      integer :: k, method
+
+      if (all([(scene%model%joint_materials(scene%points(k)%material)%law%opening /= opening_bond, &
+                k=1, size(scene%points))])) return
+      allocate (torn)
+      allocate (path(0))
+      torn = field
+      method = scene%method
+      scene%method = method_newton
+      call balance_step(scene, tolerance, most, norm, iteration_type(), torn, path, verdict)
+      scene%method = method
+      if (verdict%converged) field%memory%broken = torn%memory%broken
+   end subroutine break_as_newton
 
    !> Room for one more line of a path, which grows by doubling
    subroutine append(steps, k, step)
@@ -215,7 +250,7 @@ contains
       if (again) then
          field%share = min(1.0_wp, stage_factor*field%share)
       else if (field%share >= 1.0_wp) then
-         if (scene%proportion > stiff .and. ratio <= loose_pass) then
+         if (scene%method == method_newton .and. scene%proportion > stiff .and. ratio <= loose_pass) then
             call break_bonds(scene%model, scene%points, field, n_broken)
             again = n_broken > 0
          end if
