@@ -1,4 +1,4 @@
-"""One case of scripts/verify, and its check of solutions; only where NumPy and h5py are installed"""
+"""One case of scripts/verify, its check of solutions, a case of scripts/bench stability; only where NumPy and h5py are installed"""
 import os
 import subprocess
 
@@ -34,13 +34,20 @@ def tests(program):
     if probe.returncode:
         return []
     return [Test('verification/shaft', lambda folder: case_faults(program, folder)),
-            Test('verification/wrong solution', wrong_solution_faults)]
+            Test('verification/wrong solution', wrong_solution_faults),
+            Test('bench/stability', lambda folder: stability_faults(program, folder))]
 
 
 def case_faults(program, folder):
     """Faults of one case"""
     return faults_of([os.path.join(FOLDER, 'main.py'), '--program', program.path, '--check',
                       '-o', folder, 'shaft'])
+
+
+def stability_faults(program, folder):
+    """Faults of a row of the stability table"""
+    return faults_of([os.path.join(HERE, '..', '..', 'bench', 'stability.py'), '--program', program.path,
+                      '--only', 'joints in a T', '-o', folder])
 
 
 def wrong_solution_faults(folder):

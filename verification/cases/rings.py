@@ -100,10 +100,9 @@ def kirsch():
     return Case("hole", [parts], build, sizes=dict(SLICES))
 
 
-def two_rings(m):
-    """Two rings with an elastic joint between them"""
+def two_rings(m, normal=4.0e5, tangent=1.5e5):
+    """Two rings with an elastic joint between them: normal and circumferential stiffness"""
     radii, soft = (1.0, 1.5, 2.0), Isotropic(1.0e5, 0.2)
-    normal, tangent = 4.0e5, 1.5e5
     conditions = [("sigma_r", 2.0, -1.0), ("tau", 2.0, 0.0), ("u", 1.0, 0.0), ("w", 1.0, 0.0)]
     solutions = joined_rings(f"joined rings, m = {m}", (STEEL, soft), m, radii, (normal, tangent),
                              conditions)

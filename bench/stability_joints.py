@@ -1,0 +1,342 @@
+"""Hard cases of joints: soft and rigid, open, at their capacities, cycling, in other units, in a T"""
+import os
+
+import h5py
+import hard_decks
+import hard_scenes as scenes
+import numpy as np
+from cases.rings import STEEL, ring_mesh, two_rings
+from deck import Deck
+from mesh import ELEMENT_TYPES
+from solution import SYMMETRIC
+from solutions.plane_strain import ring_solution
+from stability_case import EPSILON, EXPECTED, FAILED, LIMITED, OK, Case, Finding, judged, worst
+from stability_solids import CEA, ENERGY, against_interpolant
+from support import HERE, read_text
+
+# k h / E of joints
+PROPORTIONS = [10.0**k for k in range(-6, 7)]
+TOLERANCE = 1e-6
+
+
+def elastic_joints(name):
+    """Two rings with an elastic joint of any stiffness between them"""
+    kind, cells = ELEMENT_TYPES[name], 16
+
+    def one(runs, proportion, m):
+        stiffness = proportion*STEEL.young/(0.5/cells)
+        case = two_rings(m, stiffness, stiffness/2)
+        deck = case.build(kind, cells)
+        results = runs.run(f"elastic_{name}_{proportion:g}_{m}", deck.text())
+        solutions = [solution for body in case.bodies for solution in body]
+        found = [results.nodal((m, SYMMETRIC), len(mesh.coordinates), deck.offsets[id(mesh)])
+                 for mesh in deck.meshes]
+        return against_interpolant(deck.meshes, solutions, found)
+
+    def check(runs):
+        return worst([(*one(runs, proportion, m), f"k h/E = {proportion:g}, m = {m}")
+                      for proportion in PROPORTIONS for m in (0, 2, 5)])
+
+    return Case(f"elastic joints, {name}", "k h/E = 1e-6 … 1e6; m = 0, 2, 5", ENERGY, CEA, check)
+
+
+def difference(one, other):
+    """Largest difference of displacements and joint stresses, over the largest of the other"""
+    modes = one.displacement.keys() | other.displacement.keys()
+    if one.displacement.keys() != other.displacement.keys():
+        return float("nan") if modes else 0.0
+    size = max(np.abs(values).max() for values in other.displacement.values())
+    moved = max(np.abs(one.displacement[mode] - other.displacement[mode]).max() for mode in modes)
+    stress = np.abs(one.joints["stress"] - other.joints["stress"]).max()
+    return max(moved/size, stress/np.abs(other.joints["stress"]).max())
+
+
+def stiff_and_soft(runs):
+    """The paper's case 3 to 1E-6, against the same to 1E-10"""
+    found = []
+    for proportion in PROPORTIONS[:-2]:
+        one, other = (runs.run(f"case_3_{proportion:g}_{tolerance:g}",
+                               scenes.example(3, factor=proportion/0.125, tolerance=tolerance))
+                      for tolerance in (TOLERANCE, 1e-10))
+        found.append((difference(one, other), 100*TOLERANCE, f"k h/E = {proportion:g}"))
+    return worst(found)
+
+
+def rigid(runs):
+    """Case 3 with joints as good as rigid: displacements as with k h/E = 1E3"""
+    wanted = runs.run("case_3_rigid", scenes.example(3, factor=1e3/0.125, tolerance=TOLERANCE)).displacement
+    size = max(np.abs(values).max() for values in wanted.values())
+    found, ends = [], []
+    for proportion in PROPORTIONS[-3:]:
+        ran = runs.attempt("rigid", scenes.example(3, factor=proportion/0.125, tolerance=TOLERANCE))
+        if ran.code == 3 and "stiff out of proportion" in ran.messages:
+            ends.append(f"k h/E = {proportion:g}: no equilibrium found, exit code 3; the program says that "
+                        "such joints are stiff out of proportion and that 10 E/h is as good as rigid")
+        elif ran.code:
+            return Finding(FAILED, words=f"k h/E = {proportion:g}: exit code {ran.code}: {ran.messages[:200]}")
+        else:
+            moved = runs.results("rigid").displacement
+            found.append((max(np.abs(moved[mode] - wanted[mode]).max() for mode in wanted)/size, 0.01,
+                          f"k h/E = {proportion:g}"))
+    finding = worst(found)
+    if ends and finding.verdict == OK:
+        return Finding(LIMITED, finding.error, finding.bar, "; ".join(ends))
+    return finding
+
+
+def law_kept(runs):
+    """The paper's case 3: joint stress against the law, worked out anew from the relative displacement"""
+    found = []
+    for proportion in PROPORTIONS[:-1]:
+        factor = proportion/0.125
+        runs.run("law", scenes.example(3, factor=factor, tolerance=TOLERANCE))
+        with h5py.File(runs.directory/"law.h5") as file:
+            yields = file["mesh/joint_material"][()][file["joints/joint"][()] - 1] == 1
+            jump, stress = (file[f"joints/{name}"][()][:, yields] for name in ("jump", "stress"))
+        wanted = np.zeros_like(stress)
+        wanted[..., 1] = 2e4*factor*np.minimum(jump[..., 1], 0.0)
+        found.append((np.abs(stress - wanted).max()/np.abs(stress).max(), TOLERANCE, f"k h/E = {proportion:g}"))
+    return worst(found)
+
+
+def rings_apart(name, proportions):
+    """A ring drawn off another by sigma_r = 1 + 0.03 cos 2 theta: the joint is open all round"""
+    kind, cells, radii = ELEMENT_TYPES[name], 16, (1.0, 1.5, 2.0)
+    loads = {0: 1.0, 2: 0.03}
+
+    def deck_of(stiffness):
+        deck = Deck("A ring drawn off another", kind, 4)
+        deck.material(STEEL)
+        meshes = [ring_mesh(kind, cells, radii[:2], 1.0), ring_mesh(kind, cells, radii[1:], 1.0)]
+        for mesh in meshes:
+            deck.mesh(mesh)
+            deck.fix(mesh, mesh.nodes_of("bottom", "top"), "010")
+        deck.fix(meshes[0], meshes[0].nodes_of("inner"), "101")
+        for m, load in loads.items():
+            deck.traction(meshes[1], "outer", (m, SYMMETRIC), (load, 0.0, 0.0))
+        deck.add("LAWS", [(1, stiffness, stiffness, stiffness, 0.0, 0.0)])
+        deck.add("INTERFACES", [(1, deck.face(meshes[0], meshes[0].sides["outer"]),
+                                 deck.face(meshes[1], meshes[1].sides["inner"]))])
+        return deck, meshes[1]
+
+    def check(runs):
+        found = []
+        for proportion in proportions:
+            deck, outer = deck_of(proportion*STEEL.young/(0.5/cells))
+            results = runs.run(f"apart_{name}_{proportion:g}", deck.text())
+            remarks = " ".join(runs.summary(f"apart_{name}_{proportion:g}")["messages"])
+            sign = "" if "stiff out of proportion" in remarks else " (no remark)"
+            for m, load in loads.items():
+                exact = ring_solution("", STEEL, m, radii[1:], [
+                    ("sigma_r", 2.0, load), ("tau", 2.0, 0.0), ("sigma_r", 1.5, 0.0), ("tau", 1.5, 0.0)])
+                nodal = results.nodal((m, SYMMETRIC), len(outer.coordinates), deck.offsets[id(outer)])
+                error, bar = against_interpolant([outer], [exact], [nodal])
+                found.append((error, bar + TOLERANCE, f"k h/E = {proportion:g}{sign}, m = {m}"))
+        return worst(found)
+
+    return Case(f"open all round, {name}", f"k h/E = {proportions[0]:.0e} … {proportions[-1]:.0e}; m = 0 and 2",
+                ENERGY, CEA + " + tolerance 1e-6", check)
+
+
+def pile_without_joint(runs):
+    """A pile shaft whose gap never closes, against the same deck without that interface"""
+    steps = [(1, 1), (1, 2)]
+    text = scenes.soil_pile("Open", steps, friction=0.0, details={"slip": "COMPONENTS", "gap": 5.0})
+    one = runs.run("open", text)
+    two = runs.run("none", scenes.soil_pile("None", steps, friction=0.0).replace("INTERFACES\n1, 2, 3\n",
+                                                                               "INTERFACES\n"))
+    size = max(np.abs(values).max() for values in two.displacement.values())
+    error = max(np.abs(one.displacement[mode] - two.displacement[mode]).max() for mode in two.displacement)
+    return judged(error/size, TOLERANCE)
+
+
+def below(make):
+    """99 % of a capacity is carried"""
+    def check(runs):
+        ran = runs.attempt("below", make(0.99))
+        if ran.code != 0:
+            return Finding(FAILED, words=f"exit code {ran.code} at 99 %: {ran.messages[:200]}")
+        return judged(ran.summary["part_equilibrium_error"], 10*TOLERANCE)
+
+    return check
+
+
+def beyond(make, motion):
+    """101 % of a capacity: a mechanism that is named, within a 64th of the increment below the capacity"""
+    def check(runs):
+        text = make(1.01)
+        ran = runs.attempt("beyond", text)
+        said = "no equilibrium beyond the load factor" in ran.messages and motion in ran.messages
+        if ran.code != 4 or not said:
+            return Finding(FAILED, words=f"exit code {ran.code}: {ran.messages[:200]}")
+        reached = float(ran.messages.split("beyond the load factor ")[1].split(":")[0])
+        share = reached - 1 if "INCREMENTS" in text else 1.01*reached
+        error, bar = abs(1 - share), 0.01 + 1.01/64
+        return Finding(EXPECTED if error <= bar else FAILED, error, bar,
+                       f"exit code 4, a part {motion or 'moves'}")
+
+    return check
+
+
+def capacities():
+    """Two rows a capacity"""
+    for name, (make, motion) in scenes.CAPACITIES.items():
+        yield Case(f"capacity: {name}", "99 % of the load", "exact capacity; forces out of balance",
+                   "10 × tolerance 1e-6", below(make))
+        yield Case(f"capacity: {name}", "101 % of the load", "exact capacity; load carried last",
+                   "1 % + last halving of the increment, 1/64", beyond(make, motion))
+
+
+def cycles(runs):
+    """The reversible law finds no state, and the program says so"""
+    ran = runs.attempt("cycle", scenes.example(2, factor=10.0, bond=False, tolerance=TOLERANCE))
+    good = ran.code == 3 and "for ever, alike every" in ran.messages and "try BOND" in ran.messages
+    if not good:
+        return Finding(FAILED, words=f"exit code {ran.code}: {ran.messages[:200]}")
+    return Finding(EXPECTED, words="exit code 3, says that points change their state for ever, names BOND")
+
+
+def bonds(runs):
+    """The same scene with the bond law has a state, by Newton and by the loop"""
+    found = []
+    for method in ("NEWTON", "TOTAL"):
+        runs.run(f"bond_{method}", scenes.example(2, factor=10.0, tolerance=1e-10, most=20000, method=method))
+        found.append(runs.results(f"bond_{method}"))
+    return judged(difference(*found), 1e-8)
+
+
+def in_units(make):
+    """One scene in three systems of units: results in the first, and the same iterations"""
+    def check(runs):
+        found, counts, condition = [], [], 0.0
+        for units in scenes.UNITS:
+            results = runs.run(units.name, make(units))
+            counts.append(runs.tally.iterations[-1])
+            condition = max(condition, runs.condition(units.name))
+            found.append([np.array(list(results.displacement.values()))/units.length,
+                          results.joints["jump"]/units.length,
+                          results.joints["stress"]/units.of(1.0, *scenes.STRESS)])
+        error = max(np.abs(a - b).max()/np.abs(b).max() for one in found[1:] for a, b in zip(one, found[0]))
+        rounding = 100*EPSILON*condition
+        finding = judged(error, 1e-10, f"{error:.1e} instead of 1e-10, within what rounding may leave: 100 ε × "
+                         f"condition = {rounding:.0e}")
+        if len(set(counts)) > 1:
+            finding = Finding(FAILED, error, 1e-10, f"iterations differ: {counts}")
+        elif finding.verdict == LIMITED and error > rounding:
+            finding = Finding(FAILED, error, 1e-10, f"more than 100 ε × condition = {rounding:.0e}")
+        return finding
+
+    return check
+
+
+def units():
+    """A row a scene"""
+    for name, make in hard_decks.IN_UNITS.items():
+        yield Case(f"units: {name}", "m-MN, mm-N, ft-kip", "the scene in m-MN; same iterations", "1e-10",
+                   in_units(make))
+
+
+PRESSURE, TILT, YOUNG = 1.0, 0.3, 1e4
+
+
+def tee_deck(nodes, stiffness):
+    """A pile and a ring round it on a slab, joints between all three: they meet at r = 0.5, z = 0. Pressure
+    and bending on top; without Poisson's effect the shaft carries nothing beyond its initial stress"""
+    deck = scenes.Deck("Joints in a T", 2, 9).material(1, YOUNG, 0.0)
+    deck.law(1, (stiffness,)*3, 0.0, 30.0).law(2, (stiffness,)*3, 0.0, 30.0).details(2, initial=-0.2)
+    for body, *corners in ((1, 0, 0, 0.5, 1), (2, 0.5, 0, 1, 1), (3, 0, -0.5, 0.5, 0), (3, 0.5, -0.5, 1, 0)):
+        deck.block(body, 1, nodes, 2, 2, *corners)
+    deck.faces((1, 1, 0.5, 0, 0.5, 1), (2, 2, 0.5, 0, 0.5, 1), (3, 1, 0, 0, 0.5, 0), (4, 3, 0, 0, 0.5, 0),
+               (5, 2, 0.5, 0, 1, 0), (6, 3, 0.5, 0, 1, 0), (7, 1, 0, 1, 0.5, 1), (8, 2, 0.5, 1, 1, 1),
+               (9, 3, 0, -0.5, 1, -0.5))
+    deck.add("INTERFACES", (2, 1, 2), (1, 3, 4), (1, 5, 6)).add("FIXEDFACES", (9, "111"))
+    deck.add("TRACTIONS", *((face, 0, None, -PRESSURE) for face in (7, 8)),
+             (7, 1, None, 0.0, None, None, 0.5*TILT), (8, 1, None, 0.5*TILT, None, None, TILT))
+    return deck.text()
+
+
+def tee_exact(r, z, above, stiffness):
+    """u, v, w of harmonics 0 and 1: sigma_z = -p + c x in all bodies, and its jump over k"""
+    s, none = z + 0.5, 0*r
+    rotation = TILT/stiffness*above
+    bend = TILT*s**2/(2*YOUNG) + rotation*z
+    return {0: np.array([none, -PRESSURE*s/YOUNG - PRESSURE/stiffness*above, none]).T,
+            1: np.array([-bend, TILT*r*s/YOUNG + rotation*r, bend]).T}
+
+
+def tee(runs):
+    """8-node elements hold the exact field: what is left is rounding"""
+    found = []
+    for proportion in PROPORTIONS:
+        stiffness = proportion*YOUNG/0.25
+        results = runs.run("tee", tee_deck(8, float(f"{stiffness:.12G}")))
+        above = np.ones(len(results.coordinates))
+        for body, nodes in zip(results.element_body, results.element_nodes):
+            if body == 3:
+                above[nodes[nodes > 0] - 1] = 0.0
+        exact = tee_exact(*results.coordinates.T, above, stiffness)
+        size = max(np.abs(values).max() for values in exact.values())
+        error = max(np.abs(values - (exact.get(m, 0.0) if family == SYMMETRIC else 0.0)).max()
+                    for (m, family), values in results.displacement.items())
+        found.append((error/size, 100*EPSILON*runs.condition("tee"), f"k h/E = {proportion:g}"))
+    return worst(found)
+
+
+def no_load(runs):
+    """Loads of zero, and no loads at all: nothing moves"""
+    decks = []
+    for number in (1, 3):
+        text = scenes.example(number)
+        decks.append(text.replace("LATERAL, 0.4", "LATERAL, 0.0").replace("MOMENT, 0.8", "MOMENT, 0.0"))
+        decks.append(text[:text.index("RESULTANTS")] + text[text.index("INCREMENTS"):])
+    error = 0.0
+    for i, deck in enumerate(decks):
+        results = runs.run(f"zero_{i}", deck)
+        error = max([error, *(np.abs(values).max() for values in results.displacement.values()),
+                     np.abs(results.joints["stress"]).max()])
+    return judged(error, 0.0)
+
+
+def free_body(path):
+    """A deck that lacks a support: exit code 4, the free motion in words, no results"""
+    text = read_text(path)
+    said = [line.split("says: ")[1] for line in text.splitlines() if line.startswith("! says: ")]
+
+    def check(runs):
+        ran = runs.attempt("free", text)
+        good = (ran.code == 4 and all(words in ran.messages for words in said)
+                and not (runs.directory/"free.h5").exists())
+        return Finding(EXPECTED if good else FAILED, words=f"exit code {ran.code}; {said[0]}")
+
+    lines = text.splitlines()
+    return Case(f"unrestrained: {lines[lines.index('TITLE') + 1]}", "", "",
+                "exit code 4, the motion named, no results", check)
+
+
+def unrestrained():
+    """A row a deck of test/decks/unsolved"""
+    folder = os.path.join(HERE, "unsolved")
+    return [free_body(os.path.join(folder, name)) for name in sorted(os.listdir(folder))
+            if name.startswith("free_")]
+
+
+CASES = [*[elastic_joints(name) for name in ("4-node", "8-node")],
+         Case("case 3, tolerance 1e-6", "k h/E = 1e-6 … 1e4", "self-consistent: tolerance 1e-10",
+              "100 × tolerance", stiff_and_soft),
+         Case("case 3, rigid joints", "k h/E = 1e4, 1e5, 1e6", "self-consistent: displacements at k h/E = 1e3",
+              "1 %: ten times E/(k h) of the reference", rigid),
+         Case("case 3, law of the joints", "k h/E = 1e-6 … 1e5", "σ = k min(d, 0), τ = 0 from the relative "
+              "displacement", "tolerance 1e-6", law_kept),
+         Case("joints in a T", "k h/E = 1e-6 … 1e6", "exact, displacements", "100 ε × condition", tee),
+         *[rings_apart(name, proportions) for name in ("4-node", "8-node")
+           for proportions in (PROPORTIONS[:9], PROPORTIONS[9:])],
+         Case("open shaft of a pile", "gap never closes", "self-consistent: no interface", "tolerance 1e-6",
+              pile_without_joint),
+         *capacities(),
+         Case("reversible law that cycles", "case 2, joints × 10", "", "exit code 3, the cycle said, BOND named",
+              cycles),
+         Case("the same with BOND", "case 2, joints × 10", "self-consistent: method TOTAL",
+              "100 × tolerance 1e-10", bonds),
+         *units(),
+         Case("zero load", "loads of 0, and none; cases 1 and 3", "exact: 0", "exactly 0", no_load),
+         *unrestrained()]
