@@ -8,13 +8,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT/"python"), str(ROOT/"test/decks")]
 
 
-def run(folder, name, text):
-    """Run a deck; returns the path of the results without ending."""
+def run(folder, name, text, exit_code=0):
+    """Run a deck that ends with an exit code; returns the path of the results without ending."""
     deck = pathlib.Path(folder)/f"{name}.dat"
     deck.write_text(text)
     done = subprocess.run([os.environ["AXIJOINT"], "run", deck, "-o", folder], capture_output=True,
                           text=True, check=False)
-    if done.returncode:
+    if done.returncode != exit_code:
         raise RuntimeError(f"{deck}: exit code {done.returncode}\n{done.stderr}{done.stdout}")
     return pathlib.Path(folder)/name
 

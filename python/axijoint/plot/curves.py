@@ -86,9 +86,12 @@ def broken(section, values):
 
 @style.styled
 def draw_convergence(result):
-    """Residual ratio against iterations, points that slip or are open below: a Figure; None if linear."""
+    """Residual ratio against iterations, points that slip or are open below: a Figure.
+
+    None if there is no residual to show: of a linear job, or where no joint slips or opens.
+    """
     path = result.convergence()
-    if not path.rows:
+    if not (path["ratio"] > 0).any():
         return None
     figure, (above, below) = plt.subplots(2, 1, figsize=(4.6, 4.2), sharex=True, height_ratios=(3, 2))
     step = np.arange(1, path.rows + 1)
@@ -104,7 +107,7 @@ def draw_convergence(result):
         below.plot(step, path[name], color=colour, ls=dashes, **(marker | {"marker": shape}), label=label)
     below.set_ylabel("points × planes")
     below.set_xlabel("iteration")
-    below.set_ylim(bottom=0)
+    below.set_ylim(0, max(1, 1.05*max(path["n_open"].max(), path["n_slip"].max())))
     below.legend()
     for change in np.flatnonzero(np.diff(path["increment"])):
         for one in (above, below):

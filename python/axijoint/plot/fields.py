@@ -56,8 +56,9 @@ def draw_deformed(result):
         axes.add_collection(LineCollection(edges, colors="0.45", lw=0.35))
         shape = [mirrored(line, plane) for line in pieces.outlines(mesh, positions)]
         axes.add_collection(LineCollection(shape, colors="black", lw=1.0))
-    _finish(axes, units, f"displacements {scale:,.0f} times enlarged, the largest "
-            f"{largest:.3g} {units.length}".rstrip() if largest > 0 else "no displacement")
+    enlarged = f"displacements {f'{scale:,.0f}' if scale >= 1 else f'{scale:g}'} times enlarged"
+    _finish(axes, units, f"{enlarged}, the largest {largest:.3g} {units.length}".rstrip() if largest > 0
+            else "no displacement")
     return figure
 
 

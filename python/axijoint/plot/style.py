@@ -1,8 +1,8 @@
 """How figures look: sizes, line styles and maps that a grey print keeps apart, labels with units."""
-import re
-
 import matplotlib
 import numpy as np
+
+from .. import units
 
 matplotlib.use("Agg", force=False)
 import matplotlib.pyplot as plt  # noqa: E402
@@ -28,42 +28,17 @@ SYMBOLS = {"sigma_r": r"\sigma_r", "sigma_z": r"\sigma_z", "sigma_theta": r"\sig
            "tau_rz": r"\tau_{rz}", "tau_rtheta": r"\tau_{r\theta}", "tau_ztheta": r"\tau_{z\theta}",
            "sigma": r"\sigma", "tau": r"\tau", "tau_xi": r"\tau_\xi", "tau_eta": r"\tau_\eta",
            "displacement": r"|u|"}
-FORCES = {"N", "kN", "MN", "GN", "kgf", "tf", "t", "lbf", "lb", "kip", "kips"}
-LENGTHS = {"m", "cm", "mm", "in", "ft"}
 
 
-class Units:
-    """Units that the deck names: in its title, or in a comment `Units: force, length, stress`.
-
-    force, length, stress: their names; empty where the deck names none.
-    """
+class Units(units.Units):
+    """Units of a result, as labels of axes."""
 
     def __init__(self, result):
-        self.force = self.length = self.stress = ""
-        texts = re.findall(r"\(([^()]*)\)", result.title)
-        texts += re.findall(r"^[!$]\s*Units?:\s*([^.\n]*)", result.deck, re.MULTILINE | re.IGNORECASE)
-        for text in texts:
-            names = [name.strip() for name in text.split(",")]
-            if len(names) == 3 and names[0] in FORCES and names[1] in LENGTHS:
-                self.force, self.length, self.stress = names
-                return
-
-    def label(self, name, unit=""):
-        """An axis label: a name or a symbol of mathematics, and the unit in brackets."""
-        return f"{name} [{unit}]" if unit else name
+        super().__init__(result.title, result.deck)
 
     def of_stress(self, name):
         """Label of a stress component."""
         return self.label(f"${SYMBOLS[name]}$", self.stress)
-
-    def of_length(self, name):
-        """Label of a length."""
-        return self.label(name, self.length)
-
-    @property
-    def moment(self):
-        """Unit of moments."""
-        return f"{self.force} {self.length}" if self.force else ""
 
 
 def styled(draw):

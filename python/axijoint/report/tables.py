@@ -1,0 +1,245 @@
+"""Tables of a job: what it is made of, what acts on it, what came out."""
+import numpy as np
+
+from ..circle import SYMMETRIC
+from ..result import DISPLACEMENTS, STATES, STRESSES
+from .extremes import STEP, extremes, joint_peaks
+from .markup import Markup, number, table
+
+SYMBOLS = {name: Markup(text) for name, text in {
+    "sigma_r": "σ<sub>r</sub>", "sigma_z": "σ<sub>z</sub>", "sigma_theta": "σ<sub>θ</sub>",
+    "tau_rz": "τ<sub>rz</sub>", "tau_rtheta": "τ<sub>rθ</sub>", "tau_ztheta": "τ<sub>zθ</sub>", "u": "u", "v": "v",
+    "w": "w", "length": "length of the displacement"}.items()}
+RULES = {1: "centroid", 2: "Gauss", 3: "Lobatto"}
+RESULTANTS = ("axial force", "lateral force", "moment", "torque", "lateral force at 90°", "moment at 90°")
+FAMILIES = {SYMMETRIC: "symmetric", 2: "antisymmetric"}
+
+
+def with_unit(name, unit):
+    """A title of a column or a row, and its unit."""
+    return Markup(f"{name} [{unit}]") if unit else name
+
+
+def per(unit, length):
+    """One unit over another; empty if one is not known."""
+    return f"{unit}/{length}" if unit and length else ""
+
+
+def materials(job):
+    """Isotropic and orthotropic materials."""
+    read, units = job.result.read, job.units
+    labels, turned = read("materials/label"), read("materials/orthotropic") != 0
+    expansion = read("materials/expansion").reshape(-1, 3)
+    elements = [int((job.result.mesh.element_material == k).sum()) for k in range(len(labels))]
+    columns = {"number": labels, "elements": elements, with_unit("E", units.stress): read("materials/young"),
+               "ν": read("materials/poisson"), "density": read("materials/density"),
+               "expansion": expansion[:, 0]}
+    plain = [row for row, skip in zip(zip(*columns.values()), turned) if not skip]
+    if plain:
+        yield table("Isotropic materials", columns, plain)
+    if turned.any():
+        yield table("Orthotropic materials", *_orthotropic(job, turned, expansion))
+
+
+def _orthotropic(job, chosen, expansion):
+    read, units = job.result.read, job.units
+    head = ["number", "angle [°]", *(Markup(f"E<sub>{k}</sub>") for k in (1, 2, 3)),
+            *(Markup(f"ν<sub>{k}</sub>") for k in (12, 23, 13)),
+            *(Markup(f"G<sub>{k}</sub>") for k in (12, 23, 13)), "density",
+            *(Markup(f"α<sub>{k}</sub>") for k in (1, 2, 3))]
+    rows = [[label, np.degrees(angle), *moduli, *ratios, *shears, density, *alpha]
+            for label, angle, moduli, ratios, shears, density, alpha, keep in
+            zip(read("materials/label"), read("materials/angle"), read("materials/moduli"), read("materials/ratios"),
+                read("materials/shears"), read("materials/density"), expansion, chosen) if keep]
+    note = f"Moduli in {units.stress}." if units.stress else None
+    return head, rows, note
+
+
+def laws(job):
+    """Laws of the joints."""
+    read, units, mesh = job.result.read, job.units, job.result.mesh
+    labels = read("joint_materials/label")
+    if not len(labels):
+        return
+    stiffness = read("joint_materials/stiffness").reshape(-1, 3)
+    unit = per(units.stress, units.length)
+    head = ["number", "joints", "rule", "law", *(with_unit(Markup(f"k<sub>{k}</sub>"), unit) for k in "ξηθ"),
+            with_unit("C", units.stress), "φ [°]"]
+    elastic = read("joint_materials/kind") == 0
+    cohesion, friction = read("joint_materials/cohesion"), read("joint_materials/friction")
+    rule = read("joint_materials/rule")
+    rows = [[labels[k], int((mesh.joint_material == k).sum()), RULES.get(int(rule[k]), str(rule[k])),
+             "elastic" if elastic[k] else "opens and slips", *stiffness[k],
+             None if elastic[k] else cohesion[k], None if elastic[k] else np.degrees(np.arctan(friction[k]))]
+            for k in range(len(labels))]
+    yield table("Laws of the joints", head, rows)
+    details = [k for k in range(len(labels)) if not elastic[k]]
+    if details:
+        yield table("Laws that yield, in detail", *_law_details(job, details))
+
+
+def _law_details(job, chosen):
+    read, units = job.result.read, job.units
+    head = ["number", "slip by", "opening", with_unit("residual C", units.stress), "residual φ [°]", "dilation [°]",
+            with_unit("gap", units.length), with_unit("initial stress", units.stress)]
+    columns = {name: read(f"joint_materials/{name}") for name in
+               ("label", "slip", "opening", "residual_cohesion", "residual_friction", "dilation", "gap",
+                "initial_stress")}
+    rows = []
+    for k in chosen:
+        one = {name: values[k] for name, values in columns.items()}
+        rows.append([one["label"], {1: "components", 2: "resultant"}.get(int(one["slip"]), "–"),
+                     {1: "reversible", 2: "bond"}.get(int(one["opening"]), "–"), one["residual_cohesion"],
+                     *(np.degrees(np.arctan(one[name])) for name in ("residual_friction", "dilation")),
+                     one["gap"], one["initial_stress"]])
+    return head, rows
+
+
+def loads(job):
+    """Load cases with their factors, loads of each kind, springs."""
+    read = job.result.read
+    labels, factors = read("loads/case_label"), read("loads/case_factor")
+    yield table("Load cases of this combination", ["load case", "factor"], zip(labels, factors))
+    rows = [row for kind in ("edge", "ring", "body", "prescribed") for row in _loads_of(read, kind, labels)]
+    if rows:
+        yield table("Loads, without the factors of their cases",
+                    ["kind", "load case", "m", "family", "number", "largest along r", "along z", "along θ"], rows,
+                    "Amplitudes of each harmonic: tractions of edges, generalized forces of rings, accelerations of "
+                    "bodies, given displacements. Temperature and stress of the ground are in the deck.")
+    stiffness = read("springs/stiffness").reshape(-1, 3)
+    if len(stiffness):
+        distinct, count = np.unique(stiffness, axis=0, return_counts=True)
+        yield table("Springs to the ground", ["edges", "normal", "along the edge", "along θ"],
+                    [[int(n), *values] for n, values in zip(count, distinct)])
+
+
+def _loads_of(read, kind, labels):
+    """Rows for the loads of a kind that have case, harmonic and family in common."""
+    case, harmonic, family = (read(f"loads/{kind}/{name}") for name in ("case", "harmonic", "family"))
+    if not len(case):
+        return
+    name = {"edge": "tractions", "ring": "rings", "body": "accelerations", "prescribed": "displacements"}[kind]
+    values = _load_values(read, kind, len(case))
+    spin = np.sqrt(read("loads/body/spin_squared")) if kind == "body" else np.zeros(len(case))
+    for key in sorted(set(zip(case.tolist(), harmonic.tolist(), family.tolist()))):
+        rows = (case == key[0]) & (harmonic == key[1]) & (family == key[2])
+        here = values[rows]
+        largest = [here[abs(here[:, k]).argmax(), k] for k in range(3)]
+        words = f"{name}, {number(spin[rows].max())} rad per time" if spin[rows].any() else name
+        yield [words, labels[key[0] - 1], key[1], FAMILIES.get(key[2], "–"), int(rows.sum()), *largest]
+
+
+def _load_values(read, kind, count):
+    """Values along r, z, theta, (rows, 3); of edges, the largest of their three nodes."""
+    if kind == "edge":
+        traction = read("loads/edge/traction").reshape(count, 3, 3)
+        largest = abs(traction).argmax(axis=1)
+        return np.take_along_axis(traction, largest[:, None], 1)[:, 0]
+    if kind == "prescribed":
+        values = np.zeros((count, 3))
+        values[np.arange(count), read("loads/prescribed/component") - 1] = read("loads/prescribed/value")
+        return values
+    return read({"ring": "loads/ring/force", "body": "loads/body/acceleration"}[kind]).reshape(count, 3)
+
+
+def increments(job):
+    """Load increments, and the convergence path."""
+    read = job.result.read
+    factor = read("increments/factor")
+    if len(factor):
+        yield table("Load increments", ["increment", "factor", "tolerance", "most iterations"],
+                    zip(range(1, len(factor) + 1), factor, read("increments/tolerance"),
+                        read("increments/max_iterations")))
+    path = job.result.convergence()
+    if path.rows:
+        yield table("Convergence path", ["increment", "iteration", "load factor", "residual ratio", "slip", "open"],
+                    zip(*path.values()), "slip, open: joint points times planes.")
+
+
+def equilibrium(job):
+    """Resultants of loads and reactions, their sum; cuts."""
+    read, units = job.result.read, job.units
+    kinds = (units.force, units.force, units.moment, units.moment, units.force, units.moment)
+    head = [with_unit(name, unit) for name, unit in zip(RESULTANTS, kinds)]
+    applied, reacted = read("resultants/applied"), read("resultants/reacted")
+    faces, by_face = read("supports/face"), read("supports/reacted").reshape(-1, 6)
+    rows = [["loads", *applied], ["reactions", *reacted], ["sum", *(applied + reacted)]]
+    rows += [[f"reactions of face {face}" if face else "reactions of nodes of no face", *values]
+             for face, values in zip(faces, by_face)]
+    errors = job.result.attributes_of("resultants")
+    yield table("Resultants", ["of", *head], rows, "Moments about the line θ = 90° through the origin. "
+                f"Equilibrium error: {number(errors['equilibrium_error'])} on the whole, "
+                f"{number(errors['part_equilibrium_error'])} on the worst part, of the largest resultant of the loads.",
+                named_rows=True)
+    labels = read("cuts/label") if job.result.has("cuts") else []
+    if len(labels):
+        rows = [[label, z, body or "all", *values] for label, z, body, values in
+                zip(labels, read("cuts/z"), read("cuts/body"), read("cuts/resultants").reshape(-1, 6))]
+        names = ("axial force", "shear force", *RESULTANTS[2:4], "shear force at 90°", "moment at 90°")
+        yield table("Cuts", ["cut", "z", "body", *(with_unit(name, unit) for name, unit in zip(names, kinds))], rows,
+                    "What the part above exerts on the part below; tension is positive.")
+
+
+def largest(job):
+    """Largest values of displacements, stresses and joints."""
+    found, units = extremes(job.result), job.units
+    rows = []
+    for name, pair in found.items():
+        unit = units.stress if name in STRESSES else units.length
+        for word, peak in zip(("smallest", "largest"), pair):
+            if name == "length" and word == "smallest" or name != "length" and pair[0].value == pair[1].value == 0:
+                continue
+            rows.append([with_unit(SYMBOLS[name], unit), word, *peak.cells()])
+    head = ["quantity", "end", "value", "r", "z", "θ [°]", "where"]
+    yield table("Nodes", head, rows, f"Stresses are smoothed to the nodes; angles looked at are {STEP:g}° apart. "
+                "What is zero is left out.",
+                named_rows=True)
+    joints = job.result.joints()
+    if joints.rows:
+        yield table("Joints", *_joint_rows(job, joints), named_rows=True)
+        yield table("States (points × planes)", ["law", *STATES],
+                    [[int(law), *(int(((joints["law"] == law) & (joints["state"] == state)).sum())
+                                  for state in STATES)] for law in np.unique(joints["law"])])
+
+
+def _joint_rows(job, joints):
+    units, rows = job.units, []
+    for law in np.unique(joints["law"]):
+        for name, peak in joint_peaks(joints.where(joints["law"] == law)).items():
+            unit = units.length if name in ("gap", "slip") else units.stress
+            cells = peak.cells() if peak.value > 0 else [None, None, None, None, "none"]
+            rows.append([with_unit(name, unit), int(law), *cells])
+    return ["largest", "law", "value", "r", "z", "θ [°]", "where"], rows
+
+
+def sections(job):
+    """Values along the sections of the deck, angle by angle; components that are zero are left out."""
+    for name in job.result.section_numbers:
+        section = job.result.section(name)
+        if not len(section.point):
+            continue
+        titles = [*(with_unit(name, job.units.length) for name in DISPLACEMENTS),
+                  *(with_unit(SYMBOLS[name], job.units.stress) for name in STRESSES)]
+        for k, theta in enumerate(section.theta):
+            values = np.hstack([without_rounding(section.displacement[k]), without_rounding(section.stress[k])])
+            shown = [j for j in range(len(titles)) if values[:, j].any()]
+            rows = [[point, distance, *place, body, *here] for point, distance, place, body, here in
+                    zip(section.point, section.distance, section.position, section.body, values[:, shown])]
+            yield table(f"Section {name}, θ = {number(theta)}°",
+                        ["point", "distance", "r", "z", "body", *(titles[j] for j in shown)], rows)
+
+
+def without_rounding(values):
+    """Values that are nothing but rounding beside the largest are zero."""
+    return np.where(abs(values) > 1e-13*abs(values).max(initial=0), values, 0.0)
+
+
+def equations(job):
+    """Equations of each harmonic, and what it contributes."""
+    read, spectrum = job.result.read, job.result.spectrum()
+    names = ("number", "factor_entries", "smallest_pivot", "backward_error", "condition")
+    columns = [read(f"equations/{name}") for name in names]
+    yield table("Harmonics", ["m", "family", with_unit("largest displacement", job.units.length),
+                              with_unit("largest stress", job.units.stress), "equations", "entries of the factor",
+                              "smallest pivot", "backward error", "condition"],
+                zip(spectrum["harmonic"], spectrum["family"], spectrum["displacement"], spectrum["stress"], *columns))

@@ -1,0 +1,193 @@
+"""The page about a run: well-formed, of one file, true; its figures only where matplotlib is installed"""
+import base64
+import contextlib
+import html.parser
+import io
+import json
+import pathlib
+import re
+import tempfile
+import unittest
+import unittest.mock
+
+import jobs
+
+import axijoint
+from axijoint import report
+from axijoint.report import __main__ as command
+from axijoint.report import budget, markup
+
+try:
+    from axijoint import plot
+except ImportError:
+    plot = None
+
+EMPTY = {"meta", "img", "br"}
+NASTY = '<script>alert("x")</script> &amp; "Größe" </title> 45° (MN, m, MPa)'
+
+
+class Page(html.parser.HTMLParser):
+    """What a page holds; elements must close in order, addresses stay inside it."""
+
+    def __init__(self, text):
+        super().__init__(convert_charrefs=True)
+        self.open, self.faults, self.images, self.identifiers, self.targets = [], [], [], [], []
+        self.texts, self.tags = {}, []
+        self.feed(text)
+        self.close()
+        self.faults += [f"{name} stays open" for name in self.open]
+        self.faults += [f"no {target}" for target in self.targets if target not in self.identifiers]
+        if len(set(self.identifiers)) < len(self.identifiers):
+            self.faults.append("an identifier twice")
+
+    def handle_starttag(self, name, attributes):
+        found = dict(attributes)
+        self.tags.append(name)
+        if name not in EMPTY:
+            self.open.append(name)
+        if "id" in found:
+            self.identifiers.append(found["id"])
+        for key, value in attributes:
+            if key.startswith("on") or value is None or key == "src" and not value.startswith("data:image/") \
+                    or key == "href" and not value.startswith("#"):
+                self.faults.append(f"<{name} {key}={value!r:.60}>")
+        if name == "a":
+            self.targets.append(found["href"][1:])
+        if name == "img":
+            self.images.append(found)
+        if name in ("script", "link", "iframe", "object", "base"):
+            self.faults.append(f"<{name}>")
+
+    def handle_endtag(self, name):
+        if not self.open or self.open.pop() != name:
+            self.faults.append(f"</{name}> at {self.getpos()}")
+
+    def handle_data(self, data):
+        for name in set(self.open):
+            self.texts[name] = self.texts.get(name, "") + data
+
+
+class Reports(unittest.TestCase):
+    """Pages of some runs"""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def page(self, name, figures=False):
+        """A page about results, checked."""
+        text = report.page(report.jobs_of(self.folder/name), figures)
+        self.assertNotRegex(re.sub(r'"data:[^"]*"', "", text), r"https?:|url\(|@import")
+        found = Page(text)
+        self.assertEqual(found.faults, [])
+        self.assertTrue(all(image["alt"].strip() for image in found.images))
+        return found
+
+    def mechanism(self, name, title):
+        """Run a disc that is pushed more than its friction holds."""
+        deck = (jobs.ROOT/"inputs/hard/sliding_disc.dat").read_text(encoding="utf-8")
+        self.assertIn("0.99, , , 2", deck)
+        deck = deck.replace("0.99, , , 2", "1.01, , , 2").replace("A pressed disc slides (m-MN)", title)
+        return jobs.run(self.folder, name, deck, exit_code=4)
+
+    def test_numbers_are_those_of_the_run(self):
+        path = jobs.run(self.folder, "case3", jobs.input_deck("case3"))
+        page, result = self.page("case3"), axijoint.open(f"{path}.h5")
+        largest = max(abs(complex(*map(abs, row[:2]))) for row in result.nodal_displacement(180).tolist())
+        self.assertIn(f"{largest:.6g} m at node 5, r = 0.5, z = -0.5, θ = 180°", page.texts["td"])
+        summary = json.loads(pathlib.Path(f"{path}.json").read_text(encoding="utf-8"))
+        self.assertIn(f"{summary['unknowns']} of all harmonics", page.texts["td"])
+        self.assertIn("48 slip, 32 open", page.texts["td"])
+        for message in summary["messages"]:
+            self.assertIn(message, page.texts["li"])
+        self.assertIn("Converged in 17 iterations", page.texts["div"])
+        self.assertEqual(page.texts["pre"].strip(), result.deck.strip())
+
+    def test_a_mechanism_is_said_first_and_a_title_cannot_break_the_page(self):
+        self.mechanism("disc", NASTY)
+        page = self.page("disc")
+        self.assertEqual(page.texts["h1"], NASTY)
+        self.assertEqual(page.texts["title"], f"NOT CONVERGED: MECHANISM: {NASTY}")
+        self.assertIn("no equilibrium beyond the load factor", page.texts["div"])
+        self.assertEqual(page.texts["h2"].count("last equilibrium before a mechanism"), page.tags.count("h2") - 1)
+
+    def test_not_converged(self):
+        deck = jobs.input_deck("case3").replace("0.03  500", "0.03    3")
+        jobs.run(self.folder, "case3", deck, exit_code=3)
+        page = self.page("case3")
+        self.assertTrue(page.texts["title"].startswith("NOT CONVERGED: "))
+        self.assertIn("Do not use these numbers", page.texts["div"])
+
+    def test_combinations(self):
+        jobs.run(self.folder, "chimney", jobs.input_deck("chimney"))
+        page = self.page("chimney")
+        self.assertEqual(page.tags.count("pre"), 1)
+        self.assertEqual(page.tags.count("article"), 2)
+        for words in ("All 2 runs converged", "Combination 1", "Combination 2", "Section 1, θ = 180°"):
+            self.assertIn(words, page.texts["main"])
+        self.assertEqual(page.texts["nav"].count("Sections"), 2)
+
+    def test_an_error_and_files_of_two_runs(self):
+        jobs.run(self.folder, "wrong", "TITLE\nNothing & <nobody>\nCONTROL\n    x\nEND\n", exit_code=2)
+        self.assertIn("ERROR: NO RESULTS", self.page("wrong").texts["div"])
+        path = jobs.run(self.folder, "first", jobs.input_deck("first"))
+        file = pathlib.Path(f"{path}.json")
+        file.write_text(file.read_text(encoding="utf-8").replace('"run": "', '"run": "1'), encoding="utf-8")
+        page = self.page("first")
+        self.assertIn("are of different runs", page.texts["div"])
+        self.assertNotIn("peak memory", page.texts["th"])
+        file.unlink()
+        self.assertIn("first.json is missing", self.page("first").texts["div"])
+
+    def test_error_budget(self):
+        job = unittest.mock.Mock(summary={"errors": {
+            "mesh": {"displacement": 0.0123, "seconds": 1e-3}, "planes": {"displacement": None, "note": "a < b"},
+            "largest_contributor": "mesh", "modes": [{"harmonic": 0, "relative": 0.5}]}})
+        page = Page(report.markup.joined([budget.errors(job)]))
+        self.assertEqual(page.faults, [])
+        for words in ("0.0123", "a < b", "largest contributor", "relative"):
+            self.assertIn(words, page.texts["table"])
+
+    def test_numbers(self):
+        for value, words in ((-0.0, "0"), (1.5e-7, "1.5E-7"), (float("nan"), "–"), (None, "–"), (12, "12"),
+                             (-2.5e12, "-2.5E12")):
+            self.assertEqual(markup.number(value), words)
+        self.assertEqual(markup.escaped("a\x00\x1b\ud800<'\""), "a\ufffd\ufffd\ufffd&lt;&#x27;&quot;")
+
+    def test_command(self):
+        path = jobs.run(self.folder, "first", jobs.input_deck("first"))
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            self.assertEqual(command.main([f"{path}.h5", "--no-figures"]), 0)
+            self.assertEqual(command.main([str(path), "--no-figures", "-o", f"{path}_2.html"]), 0)
+        self.assertEqual(said.getvalue(), f"{path}.html\n{path}_2.html\n")
+        self.assertEqual(*(pathlib.Path(f"{path}{end}.html").read_bytes() for end in ("", "_2")))
+        for words, cause in (([f"{path}.dat"], "scripts/run"), ([f"{path}3"], "there is no"),
+                             ([str(path)]*2, "-o FILE"), ([f"{path}.lis.h5"], "there is no file")):
+            with contextlib.redirect_stderr(io.StringIO()) as said:
+                self.assertEqual(command.main(words), 2)
+            self.assertIn(cause, said.getvalue())
+
+    @unittest.skipIf(plot is None, "matplotlib is not installed")
+    def test_figures(self):
+        self.mechanism("disc", NASTY)
+        page, result = self.page("disc", figures=True), axijoint.open(self.folder/"disc.h5")
+        self.assertEqual(len(page.images), len(list(plot.figures(result))))
+        for image in page.images:
+            kind, data = re.fullmatch(r"data:image/(svg\+xml|png);base64,(.*)", image["src"]).groups()
+            begin = base64.b64decode(data, validate=True)[:200]
+            self.assertTrue(begin.startswith(b"\x89PNG") if kind == "png" else b"<?xml" in begin)
+            self.assertTrue(int(image["width"]) > 0 and int(image["height"]) > 0)
+            self.assertTrue(image["alt"].startswith("LAST EQUILIBRIUM BEFORE A MECHANISM: "))
+
+    @unittest.skipIf(plot is None, "matplotlib is not installed")
+    def test_large_figures_become_pixels(self):
+        jobs.run(self.folder, "first", jobs.input_deck("first"))
+        with unittest.mock.patch("axijoint.report.pictures.LARGEST_SVG", 0):
+            page = self.page("first", figures=True)
+        self.assertTrue(all(image["src"].startswith("data:image/png;") for image in page.images))
+        self.assertTrue(all(200 < int(image["width"]) < 900 for image in page.images))
+
+
+if __name__ == "__main__":
+    unittest.main()
