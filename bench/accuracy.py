@@ -43,6 +43,11 @@ class Setting:
         return (f"{self.nodes} nodes, M = {self.harmonic}, {self.planes} planes, {self.method} "
                 f"{self.tolerance:.0e}")
 
+    def series(self):
+        """Everything but mesh and harmonics; planes by their rule"""
+        rule = "M + 1" if self.planes == self.harmonic + 1 else "4 M + 1"
+        return f"{self.nodes} nodes, {rule} planes, {self.method} {self.tolerance:.0e}"
+
 
 def settings(meshes, harmonics, quick):
     """Meshes x elements x harmonics x planes, then methods x tolerances with 8-node elements"""
@@ -133,8 +138,10 @@ def nonlinear_points(problem, program, folder, quick):
             print(f"{setting.family()}, mesh {setting.mesh:g}: {str(error).splitlines()[0].split(': ')[-1]}")
             continue
         values = problem.values(results)
-        yield Point("axijoint", setting.family(), setting.mesh, 1, results.summary["unknowns"], cost, values,
-                    {name: values[name]/exact[name] - 1.0 for name in exact}, problem=problem.name)
+        yield Point("axijoint", setting.family(), (setting.mesh, setting.harmonic), 1,
+                    results.summary["unknowns"], cost, values,
+                    {name: values[name]/exact[name] - 1.0 for name in exact}, problem=problem.name,
+                    series=setting.series())
 
 
 class MeasuredProgram:
@@ -160,7 +167,7 @@ def exact_points(case, program, folder, quick):
     for kind, cells in itertools.product(KINDS, CELLS[:-1] if quick else CELLS):
         displacement, stress = case.errors(measured, ELEMENT_TYPES[kind], cells)
         errors = {"displacements": displacement, "stresses": stress}
-        yield Point("axijoint", kind, cells, 1, measured.unknowns, measured.cost, {}, errors, problem=case.name)
+        yield Point("axijoint", kind, (cells,), 1, measured.unknowns, measured.cost, {}, errors, problem=case.name)
 
 
 def show(p):
@@ -169,15 +176,23 @@ def show(p):
           + "".join(f" {error:10.2e}" for error in p.errors.values()), flush=True)
 
 
-def recommend(points):
-    """Lines that name the setting of least processor time for each bar; it must keep it on finer meshes, too"""
+def recommend(points, step):
+    """Lines that name the setting of least processor time for each bar; it must keep it on finer meshes and with
+    more harmonics, too, so series of one number of harmonics are no candidates where others have several. Bars
+    that the step to the reference does not clear by far are not judged"""
     lines = []
+    highest = {p.series: {q.size[1:] for q in points if q.series == p.series} for p in points}
+    most = max(map(len, highest.values()))
+    points = [p for p in points if len(highest[p.series]) == most]
     for name, bar in itertools.product(points[0].errors, BARS):
         best = cheapest(points, {name: bar}, lambda p: p.cost.processor)
-        lines.append(f"{points[0].problem}: for {100*bar:g} % of {name} " + (
-            "no setting tried" if best is None else
-            f"use {best.family}, mesh {best.mesh}: {best.cost.processor:.3f} s of processor time, "
-            f"{best.cost.memory:.0f} MB, error {100*abs(best.errors[name]):.2g} %"))
+        words = "no setting tried"
+        if step and bar < 3*step[name]:
+            words = f"the reference is not known well enough (step {100*step[name]:.2g} %)"
+        elif best is not None:
+            words = (f"use {best.family}, mesh {best.mesh}: {best.cost.processor:.3f} s of processor time, "
+                     f"{best.cost.memory:.0f} MB, error {100*abs(best.errors[name]):.2g} %")
+        lines.append(f"{points[0].problem}: for {100*bar:g} % of {name} {words}")
     return lines
 
 
@@ -206,7 +221,7 @@ def main():
                 show(found)
         work_precision.draw(os.path.join(args.output, "accuracy_" + name.replace(" ", "_")), own,
                             list(own[0].errors), kind_of, f"{name}; one thread")
-        advice += recommend(own)
+        advice += recommend(own, getattr(problem, "step", None))
         points += own
     print("", *advice, sep="\n")
     path = os.path.join(args.output, "accuracy.csv")

@@ -69,7 +69,7 @@ def calculix_points(folder, exact, threads, quick):
 
 def point(program, family, size, threads, unknowns, cost, values, exact):
     """A point of the curves, with its errors"""
-    return Point(program, family, size, threads, unknowns, cost, values,
+    return Point(program, family, (size,), threads, unknowns, cost, values,
                  {name: values[name]/exact[name] - 1.0 for name in exact})
 
 

@@ -12,9 +12,11 @@ import numpy as np
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.ticker import LogLocator, NullFormatter
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 COLORS = ["#1b6ca8", "#c77d1e", "#2f8f4e", "#8d4fa8", "#b03a48", "#5f6b6d", "#a39a1c", "#222222", "#d86f9e"]
+PRICES = {"wall": "wall-clock time of the program (s)", "memory": "largest memory of the program (MB)"}
 MARKERS = ["o", "s", "^", "D", "v", "P", "X", "<", ">"]
 
 
@@ -103,11 +105,12 @@ def cost_of_deck(program, folder, deck, threads=1, runs=5, long=5.0):
 class Point:
     """One setting of a program on a problem: its cost, the values it found and their relative errors by name
 
-    Settings of one family differ by the mesh alone; `size` orders them, `mesh` names it.
+    Settings of one series differ in what `size` holds, larger being finer: the mesh, perhaps the harmonics.
+    `mesh` names the mesh.
     """
     program: str
     family: str
-    size: float
+    size: tuple
     threads: int
     unknowns: int
     cost: Cost
@@ -115,9 +118,16 @@ class Point:
     errors: dict
     mesh: str = ""
     problem: str = ""
+    series: str = ""
 
     def __post_init__(self):
-        self.mesh = self.mesh or f"{self.size:g}"
+        self.mesh = self.mesh or f"{self.size[0]:g}"
+        self.series = self.series or self.family
+
+    def finer(self, other):
+        """Whether this is the other setting or a finer one of its series"""
+        return ((self.program, self.series, self.threads) == (other.program, other.series, other.threads)
+                and all(a >= b for a, b in zip(self.size, other.size)))
 
     def row(self):
         """As a row of a table"""
@@ -139,11 +149,9 @@ def write_table(path, points):
 
 
 def keeps(points, point, name, bar):
-    """Whether a point meets a bar, and every finer mesh of its family too: errors that change their sign may be
+    """Whether a point meets a bar, and every finer one of its series too: errors that change their sign may be
     small by chance"""
-    finer = [p for p in points if (p.program, p.family, p.threads) == (point.program, point.family, point.threads)
-             and p.size >= point.size]
-    return all(abs(p.errors[name]) <= bar for p in finer)
+    return all(abs(p.errors[name]) <= bar for p in points if p.finer(point))
 
 
 def cheapest(points, bars, price):
@@ -152,30 +160,34 @@ def cheapest(points, bars, price):
     return min(fit, key=price, default=None)
 
 
-def front(points, name):
+def front(points, name, price):
     """Points that no other point beats in both price and error, the cheapest first"""
     kept = []
-    for p in sorted(points, key=lambda p: (p.cost.wall, abs(p.errors[name]))):
+    for p in sorted(points, key=lambda p: (getattr(p.cost, price), abs(p.errors[name]))):
         if not kept or abs(p.errors[name]) < abs(kept[-1].errors[name]):
             kept.append(p)
     return kept
 
 
 def draw(path, points, names, group, title):
-    """Errors against wall-clock seconds, a panel for each name, a colour for each group; lines are the fronts"""
+    """Errors against time and memory, a column for each name, a colour for each group; lines are the fronts"""
     groups = list(dict.fromkeys(group(p) for p in points))
-    figure, panels = plt.subplots(1, len(names), figsize=(5.2*len(names), 4.2), squeeze=False, layout="constrained")
-    for panel, name in zip(panels[0], names):
-        for number, label in enumerate(groups):
-            own = [p for p in points if group(p) == label and p.errors[name] != 0.0]
-            style = {"color": COLORS[number % len(COLORS)]}
-            panel.plot([p.cost.wall for p in own], [abs(100*p.errors[name]) for p in own],
-                       MARKERS[number % len(MARKERS)], markersize=4, alpha=0.6, label=label, **style)
-            best = front(own, name)
-            panel.plot([p.cost.wall for p in best], [abs(100*p.errors[name]) for p in best], linewidth=1.2, **style)
-        panel.set(xscale="log", yscale="log", xlabel="wall-clock time of the program (s)",
-                  ylabel=f"error of {name} (%)")
-        panel.grid(True, which="major", linewidth=0.4, color="0.8")
+    figure, panels = plt.subplots(2, len(names), figsize=(5.2*len(names), 7.6), squeeze=False, layout="constrained")
+    for row, (price, words) in zip(panels, PRICES.items()):
+        for panel, name in zip(row, names):
+            for number, label in enumerate(groups):
+                own = [p for p in points if group(p) == label and p.errors[name] != 0.0]
+                style = {"color": COLORS[number % len(COLORS)]}
+                panel.plot([getattr(p.cost, price) for p in own], [abs(100*p.errors[name]) for p in own],
+                           MARKERS[number % len(MARKERS)], markersize=4, alpha=0.6, label=label, **style)
+                best = front(own, name, price)
+                panel.plot([getattr(p.cost, price) for p in best], [abs(100*p.errors[name]) for p in best],
+                           linewidth=1.2, **style)
+            panel.set(xscale="log", yscale="log", xlabel=words, ylabel=f"error of {name} (%)")
+            panel.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+            panel.xaxis.set_major_formatter("{x:g}")
+            panel.xaxis.set_minor_formatter(NullFormatter())
+            panel.grid(True, which="major", linewidth=0.4, color="0.8")
     panels[0][0].legend(frameon=False, fontsize=8)
     figure.suptitle(title, fontsize=10)
     for ending in ("png", "svg"):
