@@ -24,6 +24,8 @@ class Results:
             self.element = file["stress/element"][()] - 1
             self.element_body = file["mesh/element_body"][()]
             self.element_nodes = file["mesh/element_nodes"][()]
+            error = file["error/discretization"]
+            self.discretization = {**error.attrs, "error_energy": error["error_energy"][()]}
             self.joints = {name: values[()] for name, values in file["joints"].items()}
 
     def nodal(self, mode, count, first=0):

@@ -1,5 +1,6 @@
 !> Everything that a run computes and the output reports
 module axijoint_analysis_results
+   use axijoint_analysis_discretization_error, only : discretization_error_type
    use axijoint_base_kinds, only : wp, i8
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_field, only : iteration_type
@@ -8,7 +9,7 @@ module axijoint_analysis_results
    implicit none
    private
    public :: results_type, iteration_type, mode_solve_type, ordering_type, remark_type, &
-             nodal_stress_type, error_share_type
+             nodal_stress_type, error_share_type, discretization_error_type
    public :: axial, lateral, moment, torque, lateral_90, moment_90, n_resultants
 
    !> Index of a resultant: force along z
@@ -167,6 +168,8 @@ module axijoint_analysis_results
       type(joint_errors_type) :: joint_errors
       !> What the approximations leave of the error, side by side
       type(error_share_type), allocatable :: budget(:)
+      !> What the mesh leaves of the error
+      type(discretization_error_type) :: discretization
       !> What the user should know about the results
       type(remark_type), allocatable :: remarks(:)
    end type results_type

@@ -1,6 +1,7 @@
 !> Displacements of the whole body, harmonic by harmonic
 module axijoint_analysis_solution
    use omp_lib, only : omp_get_wtime
+   use axijoint_analysis_interpolation_error, only : interpolation_type, interpolation_force
    use axijoint_analysis_results, only : mode_solve_type
    use axijoint_assembly_equations, only : equations_type, solve_mode, refine_mode, &
                                            backward_error, condition_estimate
@@ -21,7 +22,8 @@ contains
    !> Displacements under loads and excess joint stress, a step of refinement in them. A factor
    !> that is not kept is made, used for all that needs it, and given up.
    subroutine solve_displacements(equations, model, loading, points, excess, displacement, solves, &
-                                  factor_share, error)
+                                  factor_share, error, interpolation, correction, &
+                                  seconds)
       !> Equations of all modes, assembled
       type(equations_type), intent(inout) :: equations
       !> The job, for the words of an error
@@ -39,16 +41,23 @@ contains
       real(wp), intent(out) :: factor_share
       !> Singular stiffness, or out of memory
       type(error_type), allocatable, intent(out) :: error
+      !> What elements cannot interpolate, and errors of the nodes from that, excess stress fixed,
+      !> shape (3, nodes, modes)
+      type(interpolation_type), intent(in), optional :: interpolation
+      real(wp), intent(inout), optional :: correction(:, :, :)
+      !> Time of a thread that these errors took [second]
+      real(wp), intent(inout), optional :: seconds
 
       type(workspace_type), allocatable :: spaces(:)
       real(wp), allocatable :: force(:, :)  ! threads have small stacks
-      real(wp) :: times(3, size(equations%systems))
+      real(wp) :: times(4, size(equations%systems))
+      real(wp) :: before_errors
       integer :: s, i, k
 
       allocate (solves(size(equations%modes)))
       call new_workspaces(equations, spaces)
       times = 0.0_wp
-      !$omp parallel do schedule(dynamic) private(i, k, force) num_threads(size(spaces))
+      !$omp parallel do schedule(dynamic) private(i, k, force, before_errors) num_threads(size(spaces))
       do s = 1, size(equations%systems)
          times(1, s) = omp_get_wtime()
          call hold_factor(equations, s, spaces(own()))
@@ -63,16 +72,28 @@ contains
                   call solve_mode(equations, k, force, displacement(:, :, k))
                   call refine_mode(equations, k, force, displacement(:, :, k))
                   call report_solve(equations, k, force, displacement(:, :, k), solves(k))
+                  if (allocated(loading%held)) then
+                     displacement(:, :, k) = displacement(:, :, k) + loading%held(:, :, k)
+                  end if
                end do
+               before_errors = omp_get_wtime()
+               if (present(interpolation)) then
+                  do i = 1, size(modes)
+                     k = modes(i)
+                     call solve_mode(equations, k, interpolation_force(model, interpolation, &
+                        equations%modes(k)%harmonic, displacement(:, :, k)), correction(:, :, k))
+                  end do
+               end if
+               times(3, s) = omp_get_wtime() - before_errors
             end associate
             call release_factor(equations, s, spaces(own()))
          end if
-         times(3, s) = omp_get_wtime()
+         times(4, s) = omp_get_wtime()
       end do
       !$omp end parallel do
-      factor_share = sum(times(2, :) - times(1, :))/max(tiny(1.0_wp), sum(times(3, :) - times(1, :)))
+      factor_share = sum(times(2, :) - times(1, :))/max(tiny(1.0_wp), sum(times(4, :) - times(1, :)))
+      if (present(seconds)) seconds = seconds + sum(times(3, :))/size(spaces)
       call report_failure(equations, model, error)
-      if (allocated(loading%held)) displacement = displacement + loading%held
    end subroutine solve_displacements
 
    !> How well the equations of one mode are solved

@@ -1,7 +1,10 @@
 !> Static analysis of a structure under its loads, told in order
 module axijoint_analysis_static
+   use omp_lib, only : omp_get_wtime
    use axijoint_analysis_cuts, only : cut_resultants
+   use axijoint_analysis_discretization, only : estimate_discretization
    use axijoint_analysis_error_budget, only : new_budget
+   use axijoint_analysis_joint_error, only : nodal_error_type, new_nodal_error, answer_of_joints
    use axijoint_analysis_nodal_stress, only : smooth_stress
    use axijoint_analysis_recovery, only : recover
    use axijoint_analysis_remarks, only : remarks_on, mechanism_text, out_of_proportion
@@ -72,15 +75,17 @@ contains
 
       type(joint_field_type) :: field
       type(history_type) :: history
+      type(nodal_error_type) :: nodal
 
       results%modes = structure%modes
       results%orderings = structure%orderings
       results%solver = structure%equations%solver
       call timer%push(phase_joints)
+      call new_nodal_error(model, size(results%modes), nodal)
       if (size(structure%yielding) > 0) then
-         call solve_joints(model, structure, combination, history, field, results, progress, error)
+         call solve_joints(model, structure, combination, history, field, nodal, results, progress, error)
       else
-         call solve_linear(model, structure, combination, history, field, results, timer, error)
+         call solve_linear(model, structure, combination, history, field, nodal, results, timer, error)
       end if
       if (allocated(error)) then
          call timer%pop()
@@ -92,6 +97,7 @@ contains
       call timer%push(phase_recover)
       call recover(model, structure, history%loading, history%peak, field, results)
       call smooth_stress(model, results)
+      call estimate_discretization(model, structure, history%loading, field, nodal, results)
       call cut_resultants(model, structure, history%loading, field, results)
       results%converged = results%converged .and. results%residual_ratio <= results%tolerance + rounding(results)
       results%budget = new_budget(model, results)
@@ -111,7 +117,7 @@ contains
 
    !> Joints that yield: the increments on the condensed structure, then the
    !> displacements of the whole
-   subroutine solve_joints(model, structure, combination, history, field, results, progress, error)
+   subroutine solve_joints(model, structure, combination, history, field, nodal, results, progress, error)
       !> The job
       type(model_type), intent(in), target :: model
       !> The structure, factored and condensed
@@ -122,6 +128,8 @@ contains
       type(history_type), intent(out) :: history
       !> State of all joints
       type(joint_field_type), intent(out) :: field
+      !> Takes errors of the nodes and of joint stresses
+      type(nodal_error_type), intent(inout) :: nodal
       !> Results that take displacements and convergence
       type(results_type), intent(inout) :: results
       !> Where to show progress
@@ -131,7 +139,7 @@ contains
 
       type(joint_field_type) :: yielding
       type(joint_field_type), allocatable :: other
-      real(wp) :: factor_share
+      real(wp) :: factor_share, start
 
       structure%scene%model => model
       structure%scene%equations => structure%equations
@@ -159,9 +167,12 @@ contains
       end if
       call solve_displacements(structure%equations, model, history%loading, structure%scene%points, &
                                yielding%excess, results%displacement, results%solves, factor_share, &
-                               error)
+                               error, nodal%interpolation, nodal%displacement, nodal%seconds)
       if (allocated(error)) return
       if (results%converged) call estimate_errors(structure, history, yielding, other, results)
+      start = omp_get_wtime()
+      call answer_of_joints(structure%scene, history, yielding, nodal%displacement, nodal%joint_stress)
+      nodal%seconds = nodal%seconds + omp_get_wtime() - start
       results%plane_angles = structure%scene%planes%angle
       call elastic_field(model, structure, structure%scene%planes, history%loading%case_factor, &
                          results%displacement, field)
@@ -204,7 +215,7 @@ contains
    end subroutine estimate_errors
 
    !> Joints that stay elastic: one solution
-   subroutine solve_linear(model, structure, combination, history, field, results, timer, error)
+   subroutine solve_linear(model, structure, combination, history, field, nodal, results, timer, error)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure, assembled
@@ -215,6 +226,8 @@ contains
       type(history_type), intent(out) :: history
       !> State of all joints
       type(joint_field_type), intent(out) :: field
+      !> Takes errors of the nodes and of joint stresses
+      type(nodal_error_type), intent(inout) :: nodal
       !> Results that take displacements and convergence
       type(results_type), intent(inout) :: results
       !> Times of the phases
@@ -237,7 +250,8 @@ contains
       call timer%push(phase_joints)
       call solve_displacements(structure%equations, model, history%loading, &
                                structure%joint_points(:0), none, results%displacement, &
-                               results%solves, factor_share, error)
+                               results%solves, factor_share, error, nodal%interpolation, &
+                               nodal%displacement, nodal%seconds)
       call timer%pop(phase_factor, factor_share)
       if (allocated(error)) return
       results%converged = .true.  ! if the residual says so, too

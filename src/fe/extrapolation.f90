@@ -4,7 +4,7 @@ module axijoint_fe_extrapolation
    use axijoint_fe_shape, only : n_corners, natural_positions
    implicit none
    private
-   public :: extrapolation_matrix
+   public :: extrapolation_matrix, projection_matrix
 
    !> Most functions of a fit: 1, x, y, x y
    integer, parameter :: max_functions = 4
@@ -27,29 +27,46 @@ contains
       !> The matrix, shape (nodes, points)
       real(wp) :: matrix(n_nodes, size(weight))
 
-      real(wp) :: at_points(size(weight), max_functions), at_nodes(n_nodes, max_functions)
-      integer :: i, j, n
+      matrix = projection_matrix(n_functions(n_nodes, size(weight)), position, weight, &
+                                 natural_positions(n_nodes))
+   end function extrapolation_matrix
 
-      n = n_functions(n_nodes, size(weight))
+   !> Matrix that takes values at the points to values at other places: the function of least
+   !> weighted squares
+   pure function projection_matrix(n, position, weight, places) result(matrix)
+      !> Number of functions: 1 (constant), 3 (linear) or 4 (bilinear)
+      integer, intent(in) :: n
+      !> Natural coordinates of the points, shape (2, points)
+      real(wp), intent(in) :: position(:, :)
+      !> Weights of the points
+      real(wp), intent(in) :: weight(:)
+      !> Natural coordinates of the places, shape (2, places)
+      real(wp), intent(in) :: places(:, :)
+      !> The matrix, shape (places, points)
+      real(wp) :: matrix(size(places, 2), size(weight))
+
+      real(wp) :: at_points(size(weight), max_functions), at_places(size(places, 2), max_functions)
+      integer :: i, j
+
       at_points = fit_functions(position)
-      at_nodes = fit_functions(natural_positions(n_nodes))
+      at_places = fit_functions(places)
       matrix = 0.0_wp
       do j = 1, n  ! functions orthonormal on the points
          do i = 1, j - 1
             associate (share => sum(weight*at_points(:, i)*at_points(:, j)))
-               at_nodes(:, j) = at_nodes(:, j) - share*at_nodes(:, i)
+               at_places(:, j) = at_places(:, j) - share*at_places(:, i)
                at_points(:, j) = at_points(:, j) - share*at_points(:, i)
             end associate
          end do
          associate (length => sqrt(sum(weight*at_points(:, j)**2)))
-            at_nodes(:, j) = at_nodes(:, j)/length
+            at_places(:, j) = at_places(:, j)/length
             at_points(:, j) = at_points(:, j)/length
          end associate
          do i = 1, size(weight)
-            matrix(:, i) = matrix(:, i) + at_nodes(:, j)*weight(i)*at_points(i, j)
+            matrix(:, i) = matrix(:, i) + at_places(:, j)*weight(i)*at_points(i, j)
          end do
       end do
-   end function extrapolation_matrix
+   end function projection_matrix
 
    !> Functions that the points of an element determine
    pure integer function n_functions(n_nodes, n_points)

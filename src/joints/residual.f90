@@ -63,7 +63,7 @@ contains
    end function load_norm
 
    !> Quotient of two sizes; zero over zero is zero
-   pure function ratio(part, whole)
+   elemental function ratio(part, whole)
       !> Sizes, not negative
       real(wp), intent(in) :: part, whole
       !> part/whole; the largest number if only the whole is zero

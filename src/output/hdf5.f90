@@ -51,6 +51,7 @@ contains
       call write_solution(file, results)
       call write_errors(file, results)
       call write_stress(file, results)
+      call write_discretization(file, results)
       call write_joints(file, results)
       call write_section_groups(file, model, results)
       call write_cut_group(file, model, results)
@@ -252,6 +253,31 @@ contains
       call file%write("/stress/nodal", results%nodal%amplitude, "Amplitudes smoothed to the "// &
          "nodes, averaged within each material; (6, value, mode) [stress]")
    end subroutine write_stress
+
+   !> What the mesh leaves of the error
+   subroutine write_discretization(file, results)
+      !> The file
+      class(hdf5_file_type), intent(inout) :: file
+      !> Results
+      type(results_type), intent(in) :: results
+
+      call file%group("/error")
+      call file%group("/error/discretization")
+      associate (estimate => results%discretization)
+         call file%write("/error/discretization/error_energy", estimate%error_energy, &
+            "Estimated energy of the error; (mode) [force length]")
+         call file%write("/error/discretization/energy", estimate%energy, &
+            "Energy of the solution: solids, joints, springs; (mode) [force length]")
+         call file%write("/error/discretization/relative", estimate%mode_relative, &
+            "Error over solution in the energy norm; (mode)")
+         call file%write("/error/discretization/element", estimate%element, &
+            "Energy of the error of all modes over the energy of the whole solution; (element)")
+         call file%attribute("/error/discretization", "relative", estimate%relative)
+         call file%attribute("/error/discretization", "displacement", estimate%displacement)
+         call file%attribute("/error/discretization", "joint_stress", estimate%joint_stress)
+         call file%attribute("/error/discretization", "seconds", estimate%seconds)
+      end associate
+   end subroutine write_discretization
 
    !> Joints on the planes
    subroutine write_joints(file, results)

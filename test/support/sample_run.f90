@@ -76,6 +76,10 @@ contains
       results%nodal%material = [(1, k=1, n_nodes)]
       results%nodal%value_of = reshape([1, 2, 3, 4, 0, 0, 0, 0, 0], [9, 1])
       results%nodal%amplitude = reshape(numbers(6*n_nodes*2, 11.0_wp), [6, n_nodes, 2])
+      results%discretization%error_energy = [0.01_wp, 0.02_wp]
+      results%discretization%energy = [1.0_wp, 2.0_wp]
+      results%discretization%mode_relative = [0.1_wp, 0.1_wp]
+      results%discretization%element = [0.01_wp]
       results%plane_angles = [0.0_wp, 0.5_wp*pi, pi]
       results%joint_point_joint = [1, 1]
       results%joint_point_position = reshape(numbers(2*n_joint_points, 0.3_wp), &

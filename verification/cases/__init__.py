@@ -3,5 +3,6 @@
 
 def all_cases():
     """All cases, in the order of the manual"""
-    from cases import gmsh, hard, rings, shapes, solids
-    return [*solids.CASES, *rings.CASES, *hard.CASES, *shapes.CASES, *gmsh.CASES]
+    from cases import effectivity, gmsh, hard, rings, shapes, solids
+    return [*solids.CASES, *rings.CASES, *hard.CASES, *shapes.CASES, *gmsh.CASES,
+            *effectivity.CASES]

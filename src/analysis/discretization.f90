@@ -1,0 +1,156 @@
+!> The discretization error of a run: energy norm, displacements, joint stresses
+module axijoint_analysis_discretization
+   use omp_lib, only : omp_get_wtime
+   use axijoint_analysis_joint_error, only : nodal_error_type, elastic_joint_error
+   use axijoint_analysis_results, only : results_type
+   use axijoint_analysis_solid_error, only : solid_errors
+   use axijoint_analysis_structure, only : structure_type
+   use axijoint_assembly_loading, only : loading_type
+   use axijoint_assembly_support, only : add_support_force
+   use axijoint_base_kinds, only : wp, pi
+   use axijoint_fe_mode, only : mode_type, mode_integral, meridional, circumferential
+   use axijoint_joints_field, only : joint_field_type, stress_amplitude
+   use axijoint_joints_planes, only : new_view
+   use axijoint_joints_residual, only : ratio
+   use axijoint_model_model, only : model_type, can_yield_at
+   implicit none
+   private
+   public :: estimate_discretization
+
+   !> Most angles at which the largest displacement is looked for
+   integer, parameter :: most_angles = 64
+
+contains
+
+   !> Estimate the discretization error
+   subroutine estimate_discretization(model, structure, loading, field, nodal, results)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Joints and springs
+      type(structure_type), intent(in) :: structure
+      !> The loads
+      type(loading_type), intent(in) :: loading
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> Errors of the displacements of nodes, and of joints that yield
+      type(nodal_error_type), intent(in) :: nodal
+      !> Results, stresses and all; takes the estimate
+      type(results_type), intent(inout) :: results
+
+      real(wp), allocatable :: error(:, :), energy(:, :)
+      real(wp) :: start
+      integer :: k
+
+      start = omp_get_wtime()
+      call solid_errors(model, loading%initial, results%modes, results%displacement, results%stress, &
+                        error, energy)
+      associate (estimate => results%discretization)
+         estimate%error_energy = sum(error, 2)
+         estimate%energy = sum(energy, 2) + [(joint_energy(k) + spring_energy(k), &
+                                              k=1, size(results%modes))]
+         estimate%mode_relative = sqrt(ratio(estimate%error_energy, estimate%energy))
+         estimate%relative = sqrt(ratio(sum(estimate%error_energy), sum(estimate%energy)))
+         estimate%element = ratio(sum(error, 1), sum(estimate%energy))
+         estimate%displacement = ratio(largest_vector(results%modes, nodal%displacement), &
+                                       largest_vector(results%modes, results%displacement))
+         estimate%joint_stress = joint_stress_error()
+         estimate%seconds = nodal%seconds + omp_get_wtime() - start
+      end associate
+
+   contains
+
+      !> Error of joint stresses, relative; negative if there are no joints or if it is not known
+      real(wp) function joint_stress_error() result(error)
+         real(wp) :: largest
+         integer, allocatable :: elastic(:)
+
+         error = -1.0_wp
+         if (size(structure%joint_points) == 0) return
+         largest = nodal%joint_stress
+         if (size(structure%yielding) > 0 .and. largest < 0.0_wp) return
+         elastic = pack([(k, k=1, size(structure%joint_points))], &
+                        .not. can_yield_at(model, structure%joint_points%material))
+         largest = max(0.0_wp, largest, elastic_joint_error( &
+            model, structure%joint_points(elastic), new_view(results%plane_angles, results%modes), &
+            nodal%displacement))
+         error = ratio(largest, maxval(abs(results%joint_stress)))
+      end function joint_stress_error
+
+      !> Energy of the joints in one mode
+      real(wp) function joint_energy(k)
+         !> Place of the mode
+         integer, intent(in) :: k
+
+         real(wp), allocatable :: stress(:, :)
+         integer :: i
+
+         allocate (stress, source=stress_amplitude(model, structure%joint_points, results%modes(k), &
+                                                   results%displacement(:, :, k), field, k))
+         joint_energy = 0.0_wp
+         do i = 1, size(structure%joint_points)
+            associate (point => structure%joint_points(i))
+               joint_energy = joint_energy + 0.5_wp*point%weight*energy_density( &
+                  stress(:, i), model%joint_materials(point%material)%law%stiffness)
+            end associate
+         end do
+         joint_energy = mode_integral(results%modes(k))*joint_energy
+      end function joint_energy
+
+      !> Energy of the springs in one mode
+      real(wp) function spring_energy(k)
+         !> Place of the mode
+         integer, intent(in) :: k
+
+         real(wp), allocatable :: force(:, :)
+
+         allocate (force, mold=results%displacement(:, :, k))
+         force = 0.0_wp
+         call add_support_force(structure%support_points, results%modes(k)%harmonic, &
+                                results%displacement(:, :, k), force)
+         spring_energy = 0.5_wp*sum(force*results%displacement(:, :, k))
+      end function spring_energy
+
+   end subroutine estimate_discretization
+
+   !> Largest displacement vector at any node and angle
+   pure real(wp) function largest_vector(modes, amplitude) result(largest)
+      !> The modes
+      type(mode_type), intent(in) :: modes(:)
+      !> Displacement amplitudes, shape (3, nodes, modes)
+      real(wp), intent(in) :: amplitude(:, :, :)
+
+      real(wp), allocatable :: total(:, :)
+      real(wp) :: angle
+      integer :: j, k, n
+
+      allocate (total(3, size(amplitude, 2)))
+      n = min(4*(maxval(modes%harmonic) + 1), most_angles)
+      largest = 0.0_wp
+      do j = 0, n - 1
+         angle = 2.0_wp*pi*j/n
+         total = 0.0_wp
+         do k = 1, size(modes)
+            total(:2, :) = total(:2, :) + meridional(modes(k), angle)*amplitude(:2, :, k)
+            total(3, :) = total(3, :) + circumferential(modes(k), angle)*amplitude(3, :, k)
+         end do
+         largest = max(largest, maxval(sum(total**2, 1)))
+      end do
+      largest = sqrt(largest)
+   end function largest_vector
+
+   !> Twice the energy of a joint per area; a direction without stiffness has none
+   pure real(wp) function energy_density(stress, stiffness) result(density)
+      !> tau_xi, sigma, tau_theta
+      real(wp), intent(in) :: stress(3)
+      !> k_xi, k_eta, k_theta
+      real(wp), intent(in) :: stiffness(3)
+
+      integer :: i
+
+      density = 0.0_wp
+      do i = 1, 3
+         if (stiffness(i) > 0.0_wp) density = density + stress(i)**2/stiffness(i)
+      end do
+   end function energy_density
+
+end module axijoint_analysis_discretization
