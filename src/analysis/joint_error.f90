@@ -2,6 +2,7 @@
 module axijoint_analysis_joint_error
    use omp_lib, only : omp_get_wtime
    use axijoint_analysis_interpolation_error, only : interpolation_type, new_interpolation
+   use axijoint_analysis_joint_quadrature, only : missed_stress
    use axijoint_analysis_patch_recovery, only : patches_type, new_patches, new_samplings
    use axijoint_assembly_equations, only : solve_mode
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, release_factor
@@ -13,6 +14,7 @@ module axijoint_analysis_joint_error
    use axijoint_joints_newton, only : newton_type, new_newton, newton_step
    use axijoint_joints_planes, only : planes_type, synthesize
    use axijoint_joints_residual, only : load_norm
+   use axijoint_joints_response, only : jumps
    use axijoint_joints_scene, only : scene_type, evaluate
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_mesh, only : n_nodes
@@ -91,7 +93,7 @@ contains
    end function elastic_joint_error
 
    !> The answer of joints that yield to a change of displacements at fixed stress of theirs:
-   !> the state that they find under the changed jumps. Changes the displacements with it.
+   !> the state that they find under the changed jumps, and with what their rule misses. Changes the displacements with it.
    !> Negative if a state is not found, or the paper's loop went on over several increments
    subroutine answer_of_joints(scene, history, field, change, largest)
       !> Joint points that can yield; the jumps from the loads are in its response
@@ -106,7 +108,7 @@ contains
       real(wp), intent(out) :: largest
 
       type(joint_field_type), allocatable :: before, after
-      real(wp), allocatable :: free(:, :, :), changed(:, :, :)
+      real(wp), allocatable :: free(:, :, :), changed(:, :, :), missed(:, :, :)
       real(wp) :: goal
       logical :: found, moved
       integer :: k, method
@@ -124,8 +126,12 @@ contains
          allocate (after, source=before)
          allocate (free, source=scene%response%free)
          goal = huge(goal)
+         before%share = 1.0_wp
+         missed = missed_stress(scene, before)
+         scene%response%free = free - jumps(scene%response, missed, free=.false.)
          do k = 1, size(change, 3)
-            scene%response%free(:, :, k) = free(:, :, k) + joint_jump(scene%points, change(:, :, k))
+            scene%response%free(:, :, k) = scene%response%free(:, :, k) &
+               + joint_jump(scene%points, change(:, :, k))
          end do
          call find_state(scene, goal, after, found)
          call move_alloc(scene%response%free, changed)
@@ -141,7 +147,7 @@ contains
       scene%method = method
       if (.not. found) return
       largest = maxval(abs(after%stress - before%stress))
-      call add_excess(scene, after%excess - before%excess, change)
+      call add_excess(scene, after%excess - before%excess - missed, change)
    end subroutine answer_of_joints
 
    !> The state by Newton's method, from nothing: the paper's loop keeps no slip to go on from

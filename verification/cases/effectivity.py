@@ -1,11 +1,16 @@
 """Estimated over true error of the mesh, on problems of the other tables"""
 import dataclasses
+import pathlib
+import sys
 
 import numpy as np
 
 import report
 from cases import rings, solids
 from energy import energies
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]/"test"/"decks"))
+from hard_scenes import eccentric_disc, eccentric_exact  # pylint: disable=wrong-import-position
 
 ENERGY_BAND = (0.5, 2.0)
 JOINT_BAND = (0.3, 3.0)
@@ -127,4 +132,42 @@ class Effectivity:
         return pairs
 
 
-CASES = [Effectivity("effectivity", PROBLEMS), Effectivity("effectivity_joints", JOINED, True)]
+@dataclasses.dataclass
+class Disc:
+    """Joint stress of a rigid disc on a joint without tension under an eccentric load"""
+    name: str = "effectivity_disc"
+    solutions: tuple = ()
+    ratios: tuple = (0.3, 0.4, 0.5)
+    sizes: tuple = (8, 16, 32)
+    nodes: tuple = (4, 8, 9)
+    planes: int = 257  # so that their share of the error is small
+
+    def run(self, program):
+        """Rows: eccentricities and element types"""
+        rows, misses = [], []
+        for ratio in self.ratios:
+            for nodes in self.nodes:
+                found = [self._pair(program, ratio, nodes, n) for n in self.sizes]
+                words = f"e = {ratio} R, {nodes}-node"
+                rows.append([f"{ratio}", f"{nodes}-node", ", ".join(map(str, self.sizes)),
+                             report.errors(true for true, _ in found),
+                             ", ".join(f"{estimate:.2f}" for _, estimate in found)])
+                misses += judged(f"{self.name}, {words}", [estimate for _, estimate in found], JOINT_BAND)
+        headings = ["e/R", "element", "elements along R", "joint stress: true", "estimated / true"]
+        return [report.table(headings, rows)], misses
+
+    def _pair(self, program, ratio, nodes, n):
+        """True error of the joint stress, and estimated over true error"""
+        text = eccentric_disc(ratio, n=n, planes=self.planes, young=1e8, nodes=nodes)
+        results = program.run(f"{self.name}_{ratio}_{nodes}_{n}", text)
+        rotation, depth, largest = eccentric_exact(ratio)
+        joints = results.joints
+        x = np.outer(np.cos(joints["planes"]), joints["position"][:, 0])
+        exact = -np.maximum(rotation*x + depth, 0.0)
+        if np.vdot(x, exact)*np.vdot(x, joints["stress"][..., 1]) < 0.0:  # pressed at theta = 180
+            exact = -np.maximum(depth - rotation*x, 0.0)
+        true = np.abs(joints["stress"][..., 1] - exact).max()/largest
+        return true, results.discretization["joint_stress"]/true
+
+
+CASES = [Effectivity("effectivity", PROBLEMS), Effectivity("effectivity_joints", JOINED, True), Disc()]
