@@ -56,8 +56,14 @@ contains
       nodes = n_nodes(model%mesh)
       footprint%mesh = mesh_bytes*nodes
       footprint%loads = 15*nodes*n_modes*real_bytes  ! displacements, two kinds of loads twice
+      footprint%loads = footprint%loads + 3*nodes*n_modes*real_bytes &  ! errors of nodes
+         + sum(interpolation_bytes(model%mesh%element_size, references(model%mesh%element_size)%n_points))
       footprint%stresses = 3*nodes + 6*sum(int(references(model%mesh%element_size)%n_points, i8)) &
-         + 6*nodes  ! smoothed to nodes
+         + 6*nodes &  ! smoothed to nodes
+         + 6*sum(merge(1_i8, 4_i8, model%mesh%element_size <= 4))  ! at samples
+      if (model%gauss_quadratic < 3) then  ! by the full rule
+         footprint%stresses = footprint%stresses + 6*9*count(model%mesh%element_size > 4, kind=i8)
+      end if
       footprint%stresses = footprint%stresses*n_modes*real_bytes
       jumps = 3*count(can_yield_at(model, joint_points%material), kind=i8)
       unknowns = 3*count(yielding_nodes(model), kind=i8)
@@ -73,6 +79,36 @@ contains
       footprint%joint_work = real_bytes*(unknowns**2 + 2*unknowns*jumps + 2*jumps**2)
       if (jumps == 0) footprint%joint_work = 0
    end function data_footprint
+
+   !> Memory of the polynomials that are fitted round an element, in a grid
+   elemental integer(i8) function interpolation_bytes(n_nodes, n_points) result(bytes)
+      !> Nodes and points of the element
+      integer, intent(in) :: n_nodes, n_points
+
+      !> Bytes of the descriptors
+      integer(i8), parameter :: overhead = 700
+      integer(i8) :: functions, patch
+
+      select case (n_nodes)
+      case (3)
+         functions = 6
+         patch = 12
+      case (4)
+         functions = 10
+         patch = 16
+      case (6)
+         functions = 10
+         patch = 37
+      case (8)
+         functions = 15
+         patch = 40
+      case default
+         functions = 15
+         patch = 49
+      end select
+      bytes = overhead + 4*patch + real_bytes*functions*(patch + 3*n_points)
+      if (n_nodes > 4 .and. n_points < 7) bytes = bytes + real_bytes*functions*3*(n_points + 9)
+   end function interpolation_bytes
 
    !> All that comes after planning, were none given back
    elemental integer(i8) function coming(self)

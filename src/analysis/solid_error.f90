@@ -29,9 +29,10 @@ module axijoint_analysis_solid_error
       type(patches_type) :: patches
       !> Point before the first of each element, shape (elements)
       integer, allocatable :: before(:)
-      !> Stress amplitudes at the integration points, shape (6, modes, points)
+      !> Stress amplitudes at the points of the full rule, shape (6, points, modes); allocated if
+      !> there are elements with the reduced rule
       real(wp), allocatable :: stress(:, :, :)
-      !> The same at the samples, shape (6, modes, samples)
+      !> Stress amplitudes at the samples, shape (6, modes, samples)
       real(wp), allocatable :: sampled(:, :, :)
       !> D^-1 of each material, shape (6, 6, materials)
       real(wp), allocatable :: compliance(:, :, :)
@@ -64,7 +65,11 @@ contains
       allocate (work)
       !$omp do schedule(dynamic, 16)
       do element = 1, n_elements(model%mesh)
-         call element_error(model, fields, element, work, error(:, element), energy(:, element))
+         if (allocated(fields%stress)) then
+            call element_error(model, fields, fields%stress, element, work, error(:, element), energy(:, element))
+         else
+            call element_error(model, fields, stress, element, work, error(:, element), energy(:, element))
+         end if
          error(:, element) = mode_integral(modes)*error(:, element)
          energy(:, element) = mode_integral(modes)*energy(:, element)
       end do
@@ -93,10 +98,6 @@ contains
          call full_stress(model, initial, modes, displacement, fields)
       else
          fields%references = element_references(model)
-         allocate (fields%stress(6, size(modes), size(stress, 2)))
-         do k = 1, size(modes)
-            fields%stress(:, k, :) = stress(:, :, k)
-         end do
       end if
       fields%samplings = new_samplings(fields%references)
       call new_patches(model%mesh, fields%samplings, fields%patches)
@@ -109,7 +110,11 @@ contains
       allocate (fields%sampled(6, size(modes), size(fields%patches%position, 2)))
       !$omp parallel do
       do element = 1, n_elements(model%mesh)
-         call take_samples(model, fields, element)
+         if (allocated(fields%stress)) then
+            call take_samples(model, fields, fields%stress, element)
+         else
+            call take_samples(model, fields, stress, element)
+         end if
       end do
       !$omp end parallel do
       allocate (fields%compliance(6, 6, size(model%materials)))
@@ -140,31 +145,31 @@ contains
       type(fields_type), intent(inout) :: fields
 
       type(model_type), allocatable :: full
-      real(wp), allocatable :: force(:, :), stress(:, :)
+      real(wp), allocatable :: force(:, :)
       integer :: k, n
 
       allocate (full, source=model)
       full%gauss_quadratic = full_order
       fields%references = element_references(full)
       n = sum(fields%references(model%mesh%element_size)%n_points)
-      allocate (fields%stress(6, size(modes), n))
-      !$omp parallel do schedule(dynamic) private(force, stress)
+      allocate (fields%stress(6, n, size(modes)))
+      !$omp parallel do schedule(dynamic) private(force)
       do k = 1, size(modes)
          allocate (force, mold=displacement(:, :, k))
-         allocate (stress(6, n))
-         call solid_force(full, initial, k, modes(k), displacement(:, :, k), force, stress)
-         fields%stress(:, k, :) = stress
-         deallocate (force, stress)
+         call solid_force(full, initial, k, modes(k), displacement(:, :, k), force, fields%stress(:, :, k))
+         deallocate (force)
       end do
       !$omp end parallel do
    end subroutine full_stress
 
    !> Stresses at the samples of an element
-   pure subroutine take_samples(model, fields, element)
+   pure subroutine take_samples(model, fields, stress, element)
       !> The job
       type(model_type), intent(in) :: model
-      !> Stresses; takes those of the samples
+      !> Takes the stresses of the samples
       type(fields_type), intent(inout) :: fields
+      !> Stress amplitudes at the points, shape (6, points, modes)
+      real(wp), intent(in) :: stress(:, :, :)
       !> The element
       integer, intent(in) :: element
 
@@ -176,18 +181,20 @@ contains
             fields%sampled(:, :, first + s) = 0.0_wp
             do i = 1, fields%references(n)%n_points
                fields%sampled(:, :, first + s) = fields%sampled(:, :, first + s) &
-                  + fields%samplings(n)%matrix(s, i)*fields%stress(:, :, before + i)
+                  + fields%samplings(n)%matrix(s, i)*stress(:, before + i, :)
             end do
          end do
       end associate
    end subroutine take_samples
 
    !> Energies of one element, but for the factor c_m
-   subroutine element_error(model, fields, element, work, error, energy)
+   subroutine element_error(model, fields, stress, element, work, error, energy)
       !> The job
       type(model_type), intent(in) :: model
-      !> Stresses
+      !> Samples, and what belongs to them
       type(fields_type), intent(in) :: fields
+      !> Stress amplitudes at the points, shape (6, points, modes)
+      real(wp), intent(in) :: stress(:, :, :)
       !> The element
       integer, intent(in) :: element
       !> Room for the patch
@@ -219,12 +226,10 @@ contains
             do s = 1, work%n_samples
                recovered = recovered + work%matrix(i, s)*fields%sampled(:, :, work%samples(s))
             end do
-            associate (stress => fields%stress(:, :, fields%before(element) + i), &
-                       weight => 0.5_wp*points(i)%weight)
-               recovered = recovered - stress
+            associate (point => fields%before(element) + i, weight => 0.5_wp*points(i)%weight)
                do k = 1, size(error)
-                  error(k) = error(k) + weight*square(compliance, recovered(:, k))
-                  energy(k) = energy(k) + weight*square(compliance, stress(:, k))
+                  error(k) = error(k) + weight*square(compliance, recovered(:, k) - stress(:, point, k))
+                  energy(k) = energy(k) + weight*square(compliance, stress(:, point, k))
                end do
             end associate
          end do

@@ -168,6 +168,7 @@ contains
       call solve_displacements(structure%equations, model, history%loading, structure%scene%points, &
                                yielding%excess, results%displacement, results%solves, factor_share, &
                                error, nodal%interpolation, nodal%displacement, nodal%seconds)
+      deallocate (nodal%interpolation%pieces)
       if (allocated(error)) return
       if (results%converged) call estimate_errors(structure, history, yielding, other, results)
       start = omp_get_wtime()
@@ -252,6 +253,7 @@ contains
                                structure%joint_points(:0), none, results%displacement, &
                                results%solves, factor_share, error, nodal%interpolation, &
                                nodal%displacement, nodal%seconds)
+      deallocate (nodal%interpolation%pieces)
       call timer%pop(phase_factor, factor_share)
       if (allocated(error)) return
       results%converged = .true.  ! if the residual says so, too
