@@ -170,6 +170,8 @@ module axijoint_analysis_results
       type(error_share_type), allocatable :: budget(:)
       !> What the mesh leaves of the error
       type(discretization_error_type) :: discretization
+      !> What was not modelled because it is zero or like something else
+      type(remark_type), allocatable :: left_out(:)
       !> What the user should know about the results
       type(remark_type), allocatable :: remarks(:)
    end type results_type

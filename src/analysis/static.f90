@@ -5,6 +5,7 @@ module axijoint_analysis_static
    use axijoint_analysis_discretization, only : estimate_discretization
    use axijoint_analysis_error_budget, only : new_budget
    use axijoint_analysis_joint_error, only : nodal_error_type, new_nodal_error, answer_of_joints
+   use axijoint_analysis_left_out, only : what_was_left_out
    use axijoint_analysis_nodal_stress, only : smooth_stress
    use axijoint_analysis_recovery, only : recover
    use axijoint_analysis_remarks, only : remarks_on, mechanism_text, out_of_proportion
@@ -21,7 +22,7 @@ module axijoint_analysis_static
    use axijoint_joints_increments, only : history_type, run_increments, final_factors, &
                                           loads_of_increments, compare_loops
    use axijoint_joints_joint_errors, only : measure_type, estimate_joint_errors, change_of_displacement
-   use axijoint_joints_planes, only : planes_type, new_view
+   use axijoint_joints_planes, only : planes_type, new_view, on_all
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type
@@ -79,6 +80,7 @@ contains
 
       results%modes = structure%modes
       results%orderings = structure%orderings
+      results%left_out = what_was_left_out(model, structure)
       results%solver = structure%equations%solver
       call timer%push(phase_joints)
       call new_nodal_error(model, size(results%modes), nodal)
@@ -174,13 +176,13 @@ contains
       start = omp_get_wtime()
       call answer_of_joints(structure%scene, history, yielding, nodal%displacement, nodal%joint_stress)
       nodal%seconds = nodal%seconds + omp_get_wtime() - start
-      results%plane_angles = structure%scene%planes%angle
-      call elastic_field(model, structure, structure%scene%planes, history%loading%case_factor, &
+      results%plane_angles = structure%planes%angle
+      call elastic_field(model, structure, structure%planes, history%loading%case_factor, &
                          results%displacement, field)
-      associate (yield => structure%yielding)
-         field%jump(:, yield, :) = yielding%jump
-         field%stress(:, yield, :) = yielding%stress
-         field%state(yield, :) = yielding%state
+      associate (yield => structure%yielding, planes => structure%scene%planes)
+         field%jump(:, yield, :) = on_all(planes, yielding%jump)
+         field%stress(:, yield, :) = on_all(planes, yielding%stress)
+         field%state(yield, :) = yielding%state(:, planes%place)
          field%excess(:, yield, :) = yielding%excess + yielding%pending
       end associate
    end subroutine solve_joints

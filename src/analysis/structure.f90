@@ -14,7 +14,7 @@ module axijoint_analysis_structure
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type, phase_assemble, phase_factor, phase_joints
    use axijoint_fe_mode, only : mode_type
-   use axijoint_joints_planes, only : new_planes
+   use axijoint_joints_planes, only : planes_type, new_planes
    use axijoint_joints_response, only : new_response
    use axijoint_joints_scene, only : scene_type
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points, stiffness_ratio
@@ -39,6 +39,9 @@ module axijoint_analysis_structure
       type(scene_type) :: scene
       !> Their places among all joint points
       integer, allocatable :: yielding(:)
+      !> Planes that joint results are shown on: all, while the scene leaves out those
+      !> that are like others
+      type(planes_type) :: planes
       !> Orders of the nodes side by side
       type(ordering_type), allocatable :: orderings(:)
    end type structure_type
@@ -79,6 +82,7 @@ contains
       if (size(structure%yielding) > 0) then
          call show_progress(progress, 'condensing to '//to_text(size(structure%yielding))//' joint points')
          structure%scene%planes = new_planes(model%n_planes, structure%modes)
+         structure%planes = new_planes(model%n_planes, structure%modes, whole=.true.)
          structure%scene%proportion = stiffness_ratio(model, structure%scene%points)
          structure%scene%first_share = share_seen_first(model, structure%scene)
          call new_response(structure%equations, structure%scene%points, structure%scene%response, error)

@@ -113,7 +113,7 @@ contains
          steps(k)%iteration = now%iteration + k
          steps(k)%ratio = ratio(residual_norm(scene%equations, scene%points, residual), norm)
          call judge_states(scene%model, scene%points, field)
-         call count_state(field, steps(k)%n_slip, steps(k)%n_open)
+         call count_state(field, scene%planes%place, steps(k)%n_slip, steps(k)%n_open)
          call look(scene, k, steps(k)%ratio, field, watch, verdict)
          if (verdict%ran_away) exit
          call go_on(scene, tolerance, steps(k)%ratio, field, watch, verdict, again)

@@ -327,14 +327,16 @@ contains
    end subroutine n_across_gaps
 
    !> Number of points times planes that slip and that are open
-   pure subroutine count_state(field, n_slip, n_open)
+   pure subroutine count_state(field, place, n_slip, n_open)
       !> The field
       type(joint_field_type), intent(in) :: field
+      !> For all planes, the plane of the field that is like it
+      integer, intent(in) :: place(:)
       !> The numbers
       integer, intent(out) :: n_slip, n_open
 
-      n_slip = count(field%state == state_slip)
-      n_open = count(field%state == state_open)
+      n_slip = count(field%state(:, place) == state_slip)
+      n_open = count(field%state(:, place) == state_open)
    end subroutine count_state
 
 end module axijoint_joints_field

@@ -11,6 +11,7 @@ module axijoint_joints_increments
    use axijoint_joints_balance, only : verdict_type, balance_step
    use axijoint_joints_field, only : joint_field_type, iteration_type, new_joint_field, commit_field, &
                                      set_initial_stress
+   use axijoint_joints_planes, only : on_all
    use axijoint_joints_residual, only : load_norm, ratio
    use axijoint_joints_response, only : load_response
    use axijoint_joints_scene, only : scene_type
@@ -152,9 +153,9 @@ contains
          state%increment = increment
          state%load_factor = step%load_factor
          state%case_factor = step%case_factor
-         state%jump = field%jump
-         state%stress = field%stress
-         state%state = field%state
+         state%jump = on_all(scene%planes, field%jump)
+         state%stress = on_all(scene%planes, field%stress)
+         state%state = field%state(:, scene%planes%place)
          state%excess = field%excess
          history%states = [history%states, state]
       end subroutine keep_state

@@ -74,7 +74,7 @@ contains
       call iteration_error(scene, state, newton, measure, errors%iteration)
       planes = scene%planes
       step = max(2, (4*maxval(scene%equations%modes%harmonic) + n - 1)/n)  ! for products of harmonics up to 2 M
-      scene%planes = new_planes(step*n + 1, scene%equations%modes)
+      scene%planes = new_planes(step*n + 1, scene%equations%modes, whole=planes%folds == 1)
       state = on_planes(field, memory, step, size(scene%planes%angle))
       call planes_error(scene, state, newton, measure, errors%planes)
       call harmonics_error(scene, state, newton, step*n + 1, measure, errors%harmonics)
@@ -189,8 +189,7 @@ contains
          error = joint_error_type(0.0_wp, 0.0_wp, 0.0_wp)
          return
       end if
-      planes = new_planes(n_planes, modes)
-      if (size(planes%angle) /= size(state%jump, 3)) return
+      planes = planes_above(scene, modes, n_planes)
       allocate (other)
       other = state
       excess = state%jump  ! for its shape
@@ -204,6 +203,26 @@ contains
       call effect(scene, state, newton, measure, error, high)
       error%seconds = omp_get_wtime() - clock
    end subroutine harmonics_error
+
+   !> The planes of the scene for the modes above M
+   pure function planes_above(scene, modes, n_planes) result(planes)
+      !> What does not change
+      type(scene_type), intent(in) :: scene
+      !> Modes above M
+      type(mode_type), intent(in) :: modes(:)
+      !> Planes from 0 to pi
+      integer, intent(in) :: n_planes
+      !> The planes, for these modes alone
+      type(planes_type) :: planes
+
+      associate (below => scene%equations%modes)
+         planes = new_planes(n_planes, [below, modes], whole=scene%planes%folds == 1)
+         planes%meridional = planes%meridional(size(below) + 1:, :)
+         planes%circumferential = planes%circumferential(size(below) + 1:, :)
+         planes%meridional_back = planes%meridional_back(:, size(below) + 1:)
+         planes%circumferential_back = planes%circumferential_back(:, size(below) + 1:)
+      end associate
+   end function planes_above
 
    !> Modes that follow those of a job, up to 2 M
    pure function modes_above(modes) result(above)

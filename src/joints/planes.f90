@@ -3,9 +3,10 @@ module axijoint_joints_planes
    use axijoint_base_kinds, only : wp, pi
    use axijoint_fe_fourier, only : cosine_of_fraction, sine_of_fraction
    use axijoint_fe_mode, only : mode_type, family_symmetric, meridional, circumferential
+   use axijoint_model_modes, only : greatest_divisor
    implicit none
    private
-   public :: planes_type, new_planes, new_view, synthesize, analyse
+   public :: planes_type, new_planes, new_view, synthesize, analyse, on_all
 
    !> Planes and the matrices between them and the modes
    type :: planes_type
@@ -16,6 +17,12 @@ module axijoint_joints_planes
       real(wp), allocatable :: meridional(:, :), circumferential(:, :)
       !> Fourier coefficients from values on the planes, shape (planes, modes)
       real(wp), allocatable :: meridional_back(:, :), circumferential_back(:, :)
+      !> How often all repeats round the circle, so that one such part is enough; 1 if
+      !> none was left out, 0 if there is harmonic 0 alone
+      integer :: folds = 1
+      !> For all planes, those that were left out too: the plane that is like it, and
+      !> the sign of theta components there
+      integer, allocatable :: place(:), sign(:)
    end type planes_type
 
 contains
@@ -25,43 +32,122 @@ contains
    !> harmonics up to n - 1 together below 2 (n - 1). At the sampling limit
    !> m = n - 1, cos^2(m theta) is 1 on every plane and sums to 2 pi instead of
    !> pi, so its weight is halved; sin(m theta) is zero on every plane, so
-   !> nothing comes back from it.
-   pure function new_planes(n, modes) result(planes)
+   !> nothing comes back from it. What repeats g times round the circle needs one
+   !> g-th of the planes: those of harmonics m/g on an interval of theta/g.
+   pure function new_planes(n, modes, whole) result(planes)
       !> Number of planes from 0 to pi, > maximum harmonic
       integer, intent(in) :: n
       !> The modes
       type(mode_type), intent(in) :: modes(:)
+      !> Whether no plane is left out; false if absent
+      logical, intent(in), optional :: whole
       !> The planes
       type(planes_type) :: planes
 
       real(wp) :: weight
       logical :: half
-      integer :: j, k, count
+      integer :: intervals, m(size(modes)), j, k, count
 
       half = all(modes%family == family_symmetric)
-      count = merge(n, 2*(n - 1), half)
-      planes%angle = [(pi*j/(n - 1), j = 0, count - 1)]
+      intervals = n - 1
+      m = modes%harmonic
+      if (present(whole)) then
+         if (.not. whole) call fold(modes%harmonic, intervals, m, planes%folds)
+      else
+         call fold(modes%harmonic, intervals, m, planes%folds)
+      end if
+      count = merge(intervals + 1, 2*intervals, half)
+      planes%angle = [(pi*j/(intervals*max(1, planes%folds)), j = 0, count - 1)]
       allocate (planes%meridional(size(modes), count), planes%circumferential(size(modes), count))
       do j = 1, count
-         associate (p => modes%harmonic*(j - 1))
-            planes%meridional(:, j) = merge(cosine_of_fraction(p, n - 1), &
-               sine_of_fraction(p, n - 1), modes%family == family_symmetric)
-            planes%circumferential(:, j) = merge(sine_of_fraction(p, n - 1), &
-               -cosine_of_fraction(p, n - 1), modes%family == family_symmetric)
+         associate (p => m*(j - 1))
+            planes%meridional(:, j) = merge(cosine_of_fraction(p, intervals), &
+               sine_of_fraction(p, intervals), modes%family == family_symmetric)
+            planes%circumferential(:, j) = merge(sine_of_fraction(p, intervals), &
+               -cosine_of_fraction(p, intervals), modes%family == family_symmetric)
          end associate
       end do
       allocate (planes%meridional_back(count, size(modes)))
       allocate (planes%circumferential_back(count, size(modes)))
       do k = 1, size(modes)
          do j = 1, count
-            weight = merge(2.0_wp, 1.0_wp, half)/(n - 1)
-            if (half .and. (j == 1 .or. j == n)) weight = 0.5_wp*weight
-            if (modes(k)%harmonic == 0 .or. modes(k)%harmonic == n - 1) weight = 0.5_wp*weight
+            weight = merge(2.0_wp, 1.0_wp, half)/intervals
+            if (half .and. (j == 1 .or. j == count)) weight = 0.5_wp*weight
+            if (m(k) == 0 .or. m(k) == intervals) weight = 0.5_wp*weight
             planes%meridional_back(j, k) = weight*planes%meridional(k, j)
             planes%circumferential_back(j, k) = weight*planes%circumferential(k, j)
          end do
       end do
+      call place_all(n, half, intervals, planes)
    end function new_planes
+
+   !> Fold the circle where all repeats: harmonics and intervals of one part
+   pure subroutine fold(harmonics, intervals, m, folds)
+      !> Harmonics of the modes
+      integer, intent(in) :: harmonics(:)
+      !> Intervals between planes from 0 to pi, of the circle and of a part
+      integer, intent(inout) :: intervals
+      !> Harmonics of a part
+      integer, intent(inout) :: m(:)
+      !> How often all repeats, as in `planes_type`
+      integer, intent(inout) :: folds
+
+      integer :: g, k
+
+      g = 0
+      do k = 1, size(harmonics)
+         g = greatest_divisor(g, harmonics(k))
+      end do
+      if (g == 0) then
+         intervals = 1
+         folds = 0
+      else if (g > 1 .and. mod(intervals, g) == 0) then
+         intervals = intervals/g
+         m = harmonics/g
+         folds = g
+      end if
+   end subroutine fold
+
+   !> Find for all planes those that are like them
+   pure subroutine place_all(n, half, intervals, planes)
+      !> Number of planes from 0 to pi
+      integer, intent(in) :: n
+      !> Whether they go to pi only, all modes being symmetric
+      logical, intent(in) :: half
+      !> Intervals from 0 to pi of a part
+      integer, intent(in) :: intervals
+      !> The planes
+      type(planes_type), intent(inout) :: planes
+
+      integer :: j, count
+
+      count = merge(n, 2*(n - 1), half)
+      allocate (planes%sign(count), source=1)
+      planes%place = [(1 + modulo(j - 1, 2*intervals), j=1, count)]
+      if (.not. half) return
+      do j = 1, count
+         if (planes%place(j) <= intervals + 1) cycle
+         planes%place(j) = 2*intervals + 2 - planes%place(j)  ! symmetric about pi/g
+         planes%sign(j) = -1
+      end do
+   end subroutine place_all
+
+   !> Joint quantities on all planes, from those on the planes of one part
+   pure function on_all(planes, values) result(all)
+      !> The planes
+      type(planes_type), intent(in) :: planes
+      !> Values xi, eta, theta, shape (3, points, planes)
+      real(wp), intent(in) :: values(:, :, :)
+      !> The same on all planes
+      real(wp) :: all(3, size(values, 2), size(planes%place))
+
+      integer :: j
+
+      do j = 1, size(planes%place)
+         all(:, :, j) = values(:, :, planes%place(j))
+         all(3, :, j) = planes%sign(j)*all(3, :, j)
+      end do
+   end function on_all
 
    !> Planes at any angles, to look at sums but not to go back
    pure function new_view(angles, modes) result(planes)

@@ -4,7 +4,7 @@ module axijoint_model_modes
    use axijoint_model_model, only : model_type, can_yield
    implicit none
    private
-   public :: used_modes
+   public :: used_modes, greatest_divisor
 
 contains
 

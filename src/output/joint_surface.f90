@@ -147,7 +147,7 @@ contains
 
       angle = sweep_planes(model%sweep, results%modes)
       if (size(structure%yielding) == 0) return
-      step = structure%scene%planes%angle(2) - structure%scene%planes%angle(1)
+      step = structure%planes%angle(2) - structure%planes%angle(1)
       all = angle
       do k = ceiling(model%sweep%from/step - 0.5_wp), floor(model%sweep%to/step - 0.5_wp)
          line = (k + 0.5_wp)*step
@@ -182,7 +182,7 @@ contains
       allocate (surface%plane(size(surface%middle)), source=0)
       allocate (surface%sign(size(surface%middle)), source=1)
       if (size(structure%yielding) == 0) return
-      associate (planes => structure%scene%planes%angle)
+      associate (planes => structure%planes%angle)
          step = planes(2) - planes(1)
          round = nint(2.0_wp*pi/step)
          do j = 1, size(surface%middle)

@@ -1,20 +1,38 @@
-!> The table of the listing that says what each approximation leaves of the error
+!> What the listing says about approximations: what was left out without any error, and
+!> the error that each of the others leaves
 module axijoint_output_listing_budget
    use axijoint_analysis_error_budget, only : largest_share
    use axijoint_analysis_results, only : results_type, error_share_type
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
    use axijoint_output_columns, only : columns
-   use axijoint_output_headings, only : write_result_heading
+   use axijoint_output_headings, only : write_heading, write_result_heading
    use axijoint_output_text_file, only : text_file_type
    implicit none
    private
-   public :: write_budget, largest_error_text
+   public :: write_left_out, write_budget, largest_error_text
 
    !> Columns of a value
    integer, parameter :: wide = 15
 
 contains
+
+   !> What was not modelled
+   subroutine write_left_out(file, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Results
+      type(results_type), intent(in) :: results
+
+      integer :: i
+
+      if (.not. allocated(results%left_out)) return
+      if (size(results%left_out) == 0) return
+      call write_heading(file, "LEFT OUT (exact: zero, or like something else)")
+      do i = 1, size(results%left_out)
+         call file%put("  "//results%left_out(i)%text)
+      end do
+   end subroutine write_left_out
 
    !> Approximations side by side, and the largest
    subroutine write_budget(file, results)

@@ -64,11 +64,31 @@ contains
       call put_pair(file, "joint_states", states_text(results))
       call put_pair(file, "equilibrium_error", json_number(results%equilibrium_error))
       call put_pair(file, "part_equilibrium_error", json_number(results%part_error))
+      call put_pair(file, "left_out", left_out_text(results))
       call put_pair(file, "errors", errors_text(results))
       call put_pair(file, "error_seconds", error_seconds_text(results))
       call put_pair(file, "seconds", seconds_text(timer))
       call put_last(file)
    end subroutine write_summary
+
+   !> What was not modelled
+   pure function left_out_text(results) result(json)
+      !> Results
+      type(results_type), intent(in) :: results
+      !> A JSON array of sentences
+      character(len=:), allocatable :: json
+
+      integer :: i
+
+      json = "["
+      if (allocated(results%left_out)) then
+         do i = 1, size(results%left_out)
+            if (i > 1) json = json//", "
+            json = json//json_string(results%left_out(i)%text)
+         end do
+      end if
+      json = json//"]"
+   end function left_out_text
 
    !> Times that the estimates of the errors took
    pure function error_seconds_text(results) result(json)

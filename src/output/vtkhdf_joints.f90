@@ -125,7 +125,7 @@ contains
       integer :: i
 
       call begin_series(file, size(results%states), mesh, series)
-      planes = structure%scene%planes
+      planes = structure%planes
       if (size(structure%yielding) == 0) planes = new_view(surface%middle, results%modes)
       do i = 1, size(results%states) - 1
          call solve_increment(model, structure, results%states(i), results, earlier, error)

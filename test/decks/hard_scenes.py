@@ -366,6 +366,19 @@ def soil_pile(title, increments, *, friction=25.0, cohesion=0.0, gravity=0.0, de
     return deck.add('INCREMENTS', *((float(f), tolerance, None, case) for f, case in increments)).text()
 
 
+def waves(harmonic, beside=None):
+    """A pile in a socket whose free face is pressed by cos(m theta), and next to nothing of another harmonic"""
+    deck = Deck(f'Pressed by cos({harmonic} theta)', 12, 13).material(1, 2e4, 0.17)
+    deck.law(1, (1e4, 2e4, 1e4), 0.0, 30.0)
+    deck.block(1, 1, 4, 4, 12, 0, -0.5, 0.5, 1).block(2, 1, 4, 6, 8, 0.5, 0, 2, 1)
+    deck.faces((1, 1, 0.5, 0, 0.5, 1), (2, 2, 0.5, 0, 0.5, 1), (3, 2, 0.5, 1, 2, 1), (4, 1, 0.5, -0.5, 0.5, 0))
+    deck.add('INTERFACES', (1, 1, 2)).add('FIXEDFACES', (3, '111'))
+    loads = [(4, harmonic, 0.4, 0.4), (4, 0, -0.1, -0.1)]
+    if beside is not None:
+        loads.append((4, beside, 1e-28, 1e-28))
+    return deck.add('PRESSURES', *loads).add('INCREMENTS', (1.0, 1e-10)).text()
+
+
 def with_reference(deck, *lines):
     """A deck with comments above its first card"""
     return ''.join(f'! {line}\n' for line in lines) + deck
