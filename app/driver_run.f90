@@ -1,7 +1,8 @@
 !> `axijoint run`: decks to results
 module axijoint_driver_run
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
-   use axijoint_analysis_results, only : results_type, remark_type
+   use axijoint_analysis_results, only : results_type, remark_type, round_type
+   use axijoint_analysis_remarks, only : remark_on_goal
    use axijoint_analysis_static, only : analyse_combination
    use axijoint_analysis_structure, only : structure_type, build_structure
    use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_not_converged, exit_singular
@@ -9,6 +10,7 @@ module axijoint_driver_run
    use axijoint_base_system, only : error_output_is_terminal
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type, phase_read, phase_write
+   use axijoint_driver_goal, only : refine_to_goal
    use axijoint_cli, only : command_type, word_type
    use axijoint_deck_diagnostics, only : diagnostics_type, render, warning_texts
    use axijoint_deck_reader, only : read_deck
@@ -97,6 +99,11 @@ contains
          call check_output(command%directory, result_name(deck, model, k), source, model, error)
          if (allocated(error)) return
       end do
+      if (model%error_goal%wanted) then
+         call run_to_goal(deck, command, model, structure, source, diagnostics, timer, progress, exit_code, error)
+         call clear_progress(progress)
+         return
+      end if
       call build_structure(model, structure, timer, progress, error)
       do k = 1, size(model%combinations)
          if (allocated(error)) exit
@@ -134,13 +141,43 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(results_type) :: results
-      character(len=:), allocatable :: name
 
-      name = result_name(deck, model, k)
       call analyse_combination(model, structure, model%combinations(k), results, timer, progress, error)
       call clear_progress(progress)
       exit_code = exit_ok
       if (allocated(error)) return
+      call write_combination(deck, command, model, structure, k, source, warnings, results, timer, exit_code, error)
+   end subroutine run_combination
+
+   !> Write the results of a combination
+   subroutine write_combination(deck, command, model, structure, k, source, warnings, results, timer, &
+                                exit_code, error)
+      !> The deck
+      character(len=*), intent(in) :: deck
+      !> Directory for results and other options
+      type(command_type), intent(in) :: command
+      !> The job
+      type(model_type), intent(in), target :: model
+      !> Its structure, factored
+      type(structure_type), intent(inout), target :: structure
+      !> Place of the combination
+      integer, intent(in) :: k
+      !> Cards of the deck
+      type(source_type), intent(in) :: source
+      !> Warnings about the deck
+      character(len=*), intent(in) :: warnings(:)
+      !> The results
+      type(results_type), intent(inout) :: results
+      !> Times of the run
+      type(timer_type), intent(inout) :: timer
+      !> 0, 3 if the results are not converged, 4 if they end in a mechanism
+      integer, intent(out) :: exit_code
+      !> The results cannot be written
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: name
+
+      name = result_name(deck, model, k)
       if (size(model%combinations) > 1) results%combination = model%combinations(k)%label
       exit_code = merge(exit_ok, exit_not_converged, results%converged)
       if (allocated(results%mechanism)) exit_code = exit_singular
@@ -150,7 +187,48 @@ contains
       call timer%pop()
       if (allocated(error)) return
       write (output_unit, '(a)') brief_text(command%directory, name, deck, model, results, timer)
-   end subroutine run_combination
+   end subroutine write_combination
+
+   !> Solve a job again and again, refined, until its error is below its target; write
+   !> the results of the last round
+   subroutine run_to_goal(deck, command, model, structure, source, diagnostics, timer, progress, exit_code, error)
+      !> The deck
+      character(len=*), intent(in) :: deck
+      !> Directory for results and other options
+      type(command_type), intent(in) :: command
+      !> The job; refined on return
+      type(model_type), intent(inout), target :: model
+      !> Takes its structure
+      type(structure_type), intent(inout), target :: structure
+      !> Cards of the deck, and warnings about them
+      type(source_type), intent(inout) :: source
+      type(diagnostics_type), intent(inout) :: diagnostics
+      !> Times of the run
+      type(timer_type), intent(inout) :: timer
+      !> Where to show progress
+      type(progress_type), intent(inout) :: progress
+      !> Largest of the combinations
+      integer, intent(out) :: exit_code
+      !> Anything that went wrong
+      type(error_type), allocatable, intent(out) :: error
+
+      type(results_type), allocatable :: results(:)
+      type(round_type), allocatable :: rounds(:)
+      integer :: k, code
+
+      exit_code = exit_ok
+      call refine_to_goal(deck, command, model, structure, results, rounds, source, diagnostics, timer, progress, &
+                          error)
+      if (allocated(error)) return
+      do k = 1, size(model%combinations)
+         results(k)%rounds = rounds
+         call remark_on_goal(model, results(k))
+         call write_combination(deck, command, model, structure, k, source, warning_texts(diagnostics, source), &
+                                results(k), timer, code, error)
+         exit_code = max(exit_code, code)
+         if (allocated(error)) return
+      end do
+   end subroutine run_to_goal
 
    !> Name of the result files: that of the deck, with the number of the
    !> combination if there are several

@@ -10,9 +10,10 @@ module axijoint_analysis_remarks
    use axijoint_joints_increments, only : history_type
    use axijoint_model_joint_points, only : stiffness_ratio
    use axijoint_model_model, only : model_type, method_transfer
+   use axijoint_model_request, only : goal_names
    implicit none
    private
-   public :: remarks_on, mechanism_text, out_of_proportion
+   public :: remarks_on, remark_on_goal, mechanism_text, out_of_proportion
 
    !> Joints whose k h/E is above these: of a doubtful, and of no sensible proportion
    real(wp), parameter :: stiff = 100.0_wp, stiffest = 1.0e4_wp
@@ -192,6 +193,32 @@ contains
             'nothing of it is transferred (M + 2 planes avoid that)')
       end if
    end subroutine remark_on_accuracy
+
+   !> Whether the rounds of refinement met the target, and if not, why
+   subroutine remark_on_goal(model, results)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The results, with their rounds
+      type(results_type), intent(inout) :: results
+
+      character(len=:), allocatable :: why
+
+      if (.not. results%converged) return
+      associate (last => results%rounds(size(results%rounds)), goal => model%error_goal)
+         if (last%error >= 0.0_wp .and. last%error <= goal%target) return
+         if (last%error < 0.0_wp) then
+            why = 'the error of '//trim(goal_names(goal%quantity))//' is not known'
+         else if (size(results%rounds) >= goal%most_rounds) then
+            why = 'so many rounds are allowed'
+         else if (goal%mesh_too) then
+            why = 'more unknowns are not allowed'
+         else
+            why = 'its mesh is not of BLOCKS alone, or cards call nodes by number'
+         end if
+         call add(results%remarks, 'the error target of '//to_text(100.0_wp*goal%target)//' % was not met in '// &
+                  to_text(size(results%rounds))//' rounds: '//why)
+      end associate
+   end subroutine remark_on_goal
 
    !> Add a sentence
    subroutine add(remarks, text)

@@ -9,7 +9,7 @@ module axijoint_analysis_results
    implicit none
    private
    public :: results_type, iteration_type, mode_solve_type, ordering_type, remark_type, &
-             nodal_stress_type, error_share_type, discretization_error_type
+             nodal_stress_type, error_share_type, discretization_error_type, round_type
    public :: axial, lateral, moment, torque, lateral_90, moment_90, n_resultants
 
    !> Index of a resultant: force along z
@@ -80,6 +80,16 @@ module axijoint_analysis_results
       !> What would halve it
       character(len=:), allocatable :: remedy
    end type error_share_type
+
+   !> A round of a job that is refined until its error is below a target
+   type :: round_type
+      !> Elements of BLOCKS along each side, times so many; M; planes; unknowns in all
+      integer :: mesh = 1, harmonic = 0, planes = 0, n_unknowns = 0
+      !> Estimate of the error that the target is about
+      real(wp) :: error = 0.0_wp
+      !> Time of the round [second]
+      real(wp) :: seconds = 0.0_wp
+   end type round_type
 
    !> Stresses smoothed to the nodes. A node has a value for each material that it
    !> touches: stresses jump from one to the other. Joints have nodes of their own
@@ -170,6 +180,8 @@ module axijoint_analysis_results
       type(error_share_type), allocatable :: budget(:)
       !> What the mesh leaves of the error
       type(discretization_error_type) :: discretization
+      !> Rounds of refinement; allocated if the job has a target
+      type(round_type), allocatable :: rounds(:)
       !> What was not modelled because it is zero or like something else
       type(remark_type), allocatable :: left_out(:)
       !> What the user should know about the results

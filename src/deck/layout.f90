@@ -9,6 +9,7 @@ module axijoint_deck_layout
       text_field, largest_number
    use axijoint_deck_load_fields, only : load_fields
    use axijoint_model_model, only : method_names
+   use axijoint_model_request, only : goal_names, goal_displacement
    use axijoint_solver_choice, only : solver_names
    implicit none
    private
@@ -21,7 +22,7 @@ module axijoint_deck_layout
    integer, parameter, public :: keyword_length = 12
 
    !> Number of keywords
-   integer, parameter, public :: n_sections = 42
+   integer, parameter, public :: n_sections = 43
    integer, parameter, public :: section_title = 1, section_control = 2, section_nodes = 3, &
       section_lines = 4, section_elements = 5, section_blocks = 6, section_materials = 7, &
       section_laws = 8, section_joints = 9, section_faces = 10, section_chains = 11, &
@@ -34,7 +35,8 @@ module axijoint_deck_layout
       section_temperatures = 31, section_node_temps = 32, section_moved_nodes = 33, &
       section_moved_faces = 34, section_springs = 35, section_in_situ = 36, &
       section_case = 37, section_combine = 38, &
-      section_sections = 39, section_cuts = 40, section_law_details = 41, section_sweep = 42
+      section_sections = 39, section_cuts = 40, section_law_details = 41, section_sweep = 42, &
+      section_error = 43
 
    !> The keywords
    character(len=keyword_length), parameter :: section_names(n_sections) = &
@@ -45,7 +47,7 @@ module axijoint_deck_layout
       'SHAPES', 'PRESSURES', 'POINTLOADS', 'HARMONICS', 'ORTHOTROPIC', &
       'GMSH', 'GROUPS', 'GRAVITY', 'ROTATION', 'TEMPERATURES', 'NODETEMPS', 'MOVEDNODES', &
       'MOVEDFACES', 'SPRINGS', 'INSITU', 'CASE', 'COMBINE', 'SECTIONS', 'CUTS', &
-      'LAWDETAILS', 'SWEEP']
+      'LAWDETAILS', 'SWEEP', 'ERROR']
 
    !> Kinds of groups on the cards of GROUPS
    character(len=5), parameter, public :: group_kinds(3) = [character(len=5) :: 'BODY', 'FACE', 'JOINT']
@@ -114,7 +116,7 @@ contains
                    last_number('the last node', 11), step(16)]
       case (section_groups)
          fields = group_fields()
-      case (section_sections, section_cuts, section_sweep)
+      case (section_sections, section_cuts, section_sweep, section_error)
          fields = request_fields(section)
       case (section_fixed_faces)
          fields = [number('the face', 1), code_field('the code', 6, 10)]
@@ -199,6 +201,11 @@ contains
                    real_field('the last angle', 11, 20, from=-360.0_wp, to=360.0_wp, default=360.0_wp, &
                               symbol='theta'), &
                    integer_field('the number of sectors', 21, 25, 1, largest_division, default=0)]
+      else if (section == section_error) then
+         fields = [real_field('the target', 1, 10, above=0.0_wp, to=100.0_wp), &
+                   word_field('the quantity', 11, 20, goal_names, goal_displacement), &
+                   integer_field('the most rounds', 21, 25, 1, 99, default=8), &
+                   integer_field('the most unknowns', 26, 35, 1, huge(1)/2, default=1000000)]
       else
          fields = [number('the cut', 1), length('z', 6), body(16)]
       end if

@@ -26,11 +26,12 @@ module axijoint_deck_reader
    use axijoint_deck_layout, only : section_law_details, section_control, section_nodes, section_lines, section_elements, &
       section_blocks, section_groups, section_materials, section_laws, section_joints, section_faces, &
       section_chains, section_interfaces, section_increments, section_output, section_orthotropic, &
-      section_sections, section_cuts, section_sweep, section_fixed_faces, section_moved_faces, section_springs
+      section_sections, section_cuts, section_sweep, section_fixed_faces, section_moved_faces, section_springs, section_error
    use axijoint_deck_loads, only : read_loads, check_properties
    use axijoint_deck_places, only : group_places, new_point_tree, point_tree_type, same_place
    use axijoint_deck_locking, only : warn_of_locking
    use axijoint_deck_properties, only : properties_type, read_properties
+   use axijoint_deck_refinement, only : refine_sections, read_error_goal, can_refine_mesh
    use axijoint_deck_requests, only : read_lines, read_cuts, place_lines, place_cuts, &
       gather_supported_faces
    use axijoint_deck_sections, only : sections_type, read_sections
@@ -38,6 +39,7 @@ module axijoint_deck_reader
    use axijoint_deck_source_reader, only : read_source
    use axijoint_deck_sweep, only : read_sweep
    use axijoint_model_model, only : model_type, element_references
+   use axijoint_model_request, only : refinement_type
    implicit none
    private
    public :: read_deck
@@ -46,7 +48,7 @@ contains
 
    !> Read a deck with all that it includes. The model is valid only if there are
    !> no errors among the messages
-   subroutine read_deck(path, source, model, diagnostics)
+   subroutine read_deck(path, source, model, diagnostics, refinement)
       !> The deck
       character(len=*), intent(in) :: path
       !> Its cards, for the echo and the messages
@@ -55,6 +57,8 @@ contains
       type(model_type), intent(out) :: model
       !> Errors and warnings
       type(diagnostics_type), intent(out) :: diagnostics
+      !> Refinement of what the deck says; none if absent
+      type(refinement_type), intent(in), optional :: refinement
 
       type(sections_type) :: sections
       type(properties_type) :: properties
@@ -65,6 +69,7 @@ contains
       if (source%n_cards == 0) return
       call read_sections(source, sections, diagnostics)
       if (.not. sections%complete) return
+      if (present(refinement)) call refine_sections(refinement, sections)
       associate (tables => sections%tables)
          model%title = sections%title
          call read_control(tables(section_control), tables(section_increments), &
@@ -81,6 +86,8 @@ contains
          call read_loads(source, sections, draft, model, diagnostics)
          call read_requests(source, sections, draft, model, diagnostics)
          call read_sweep(source, tables(section_sweep), model%sweep, diagnostics)
+         call read_error_goal(tables(section_error), model%error_goal, diagnostics)
+         model%error_goal%mesh_too = can_refine_mesh(sections)
          if (diagnostics%n_errors > 0) return
          call take_model(draft, properties, model)
          call check_properties(sections, model, diagnostics)

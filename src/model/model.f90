@@ -9,7 +9,7 @@ module axijoint_model_model
       load_case_type, combination_type, increment_type, truncation_type
    use axijoint_model_material, only : solid_material_type, joint_material_type
    use axijoint_model_mesh, only : mesh_type
-   use axijoint_model_request, only : line_type, cut_type, supported_face_type, sweep_type
+   use axijoint_model_request, only : line_type, cut_type, supported_face_type, sweep_type, error_goal_type
    implicit none
    private
    public :: model_type, can_yield, can_yield_at, yielding_nodes, element_references, on_axis
@@ -84,6 +84,8 @@ module axijoint_model_model
       type(cut_type), allocatable :: cuts(:)
       !> Range of theta that the bodies are swept through
       type(sweep_type) :: sweep
+      !> The error that the job may have
+      type(error_goal_type) :: error_goal
       !> Faces whose reactions are listed
       type(supported_face_type), allocatable :: supported_faces(:)
    end type model_type

@@ -4,7 +4,14 @@ module axijoint_model_request
    use axijoint_base_kinds, only : wp, pi
    implicit none
    private
-   public :: line_type, line_point_type, cut_type, supported_face_type, sweep_type
+   public :: line_type, line_point_type, cut_type, supported_face_type, sweep_type, error_goal_type, refinement_type
+   public :: goal_joints, goal_displacement, goal_energy, goal_names
+
+   !> What the error of a job may be asked of: of joint stress, of displacements, of the
+   !> stresses in the energy norm
+   integer, parameter :: goal_joints = 1, goal_displacement = 2, goal_energy = 3
+   !> Their names on the card
+   character(len=6), parameter :: goal_names(3) = [character(len=6) :: 'JOINTS', 'DISPL', 'ENERGY']
 
    !> A point of a line in an element
    type :: line_point_type
@@ -51,6 +58,30 @@ module axijoint_model_request
       !> Number of sectors; 0 if the highest harmonic is to tell
       integer :: n_sectors = 0
    end type sweep_type
+
+   !> The error that a job may have, and how far it may be refined for that
+   type :: error_goal_type
+      !> Whether there is one
+      logical :: wanted = .false.
+      !> Largest sum of the error budget, relative
+      real(wp) :: target = 0.0_wp
+      !> Of what, one of the `goal_` parameters
+      integer :: quantity = 0
+      !> Most rounds, and most unknowns in all
+      integer :: most_rounds = 0, most_unknowns = 0
+      !> Whether the mesh can be refined, too
+      logical :: mesh_too = .false.
+   end type error_goal_type
+
+   !> How a job is refined beyond what its deck says
+   type :: refinement_type
+      !> Elements of BLOCKS along each side, times so many
+      integer :: mesh = 1
+      !> M and the planes of CONTROL; zero for those of the deck
+      integer :: harmonic = 0, planes = 0
+      !> Factor on the tolerances of INCREMENTS
+      real(wp) :: tolerance = 1.0_wp
+   end type refinement_type
 
    !> A face that restraints, given displacements or springs hold
    type :: supported_face_type

@@ -8,7 +8,7 @@ module axijoint_output_listing
    use axijoint_output_echo, only : write_echo
    use axijoint_output_face_reactions, only : write_face_reactions
    use axijoint_output_headings, only : write_lines, rule, mark_not_converged
-   use axijoint_output_listing_budget, only : write_left_out, write_budget
+   use axijoint_output_listing_budget, only : write_left_out, write_budget, write_rounds
    use axijoint_output_listing_mesh, only : write_nodes, write_elements, write_joints
    use axijoint_output_listing_loads, only : write_loads, write_truncations, write_supports, &
       write_combinations
@@ -79,6 +79,7 @@ contains
       call write_face_reactions(file, model, results)
       call write_equilibrium(file, model, results)
       call write_budget(file, results)
+      call write_rounds(file, results)
       call write_pictures(file, size(results%states), pictures)
       call write_times(file, results, timer)
       call write_end(file, results)

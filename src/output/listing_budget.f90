@@ -10,7 +10,7 @@ module axijoint_output_listing_budget
    use axijoint_output_text_file, only : text_file_type
    implicit none
    private
-   public :: write_left_out, write_budget, largest_error_text
+   public :: write_left_out, write_budget, write_rounds, largest_error_text
 
    !> Columns of a value
    integer, parameter :: wide = 15
@@ -54,6 +54,28 @@ contains
       end do
       call file%put("  "//largest_error_text(results%budget))
    end subroutine write_budget
+
+   !> Rounds of refinement; no times, which differ from run to run
+   subroutine write_rounds(file, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Results
+      type(results_type), intent(in) :: results
+
+      character(len=*), parameter :: format_round = "(i10, i12, i12, i10, i14)"
+      character(len=58) :: line
+      integer :: i
+
+      if (.not. allocated(results%rounds)) return
+      call write_heading(file, "ROUNDS OF REFINEMENT")
+      call file%put("     round   elements x           M    planes      unknowns          error")
+      do i = 1, size(results%rounds)
+         associate (round => results%rounds(i))
+            write (line, format_round) i, round%mesh, round%harmonic, round%planes, round%n_unknowns
+            call file%put(line//value_text(round%error))
+         end associate
+      end do
+   end subroutine write_rounds
 
    !> A value in its columns
    pure function value_text(value) result(text)
