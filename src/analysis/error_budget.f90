@@ -18,27 +18,49 @@ contains
       type(model_type), intent(in) :: model
       !> Results with the estimates of their parts
       type(results_type), intent(in) :: results
-      !> Harmonics, planes, iteration, solver
+      !> Discretization, harmonics, planes, iteration, solver
       type(error_share_type), allocatable :: budget(:)
 
       logical :: yields
 
       yields = size(results%path) > 0
-      allocate (budget(4))
-      budget(1) = harmonics_share(model, results, yields)
-      budget(2) = error_share_type(source='planes', remedy='planes: '// &
+      allocate (budget(5))
+      budget(1) = discretization_share(model, results)
+      budget(2) = harmonics_share(model, results, yields)
+      budget(3) = error_share_type(source='planes', remedy='planes: '// &
                                    to_text(nint(1.4142*(model%n_planes - 1)) + 1)//' in CONTROL')
-      budget(3) = error_share_type(source='iteration', remedy='half the tolerance in INCREMENTS')
+      budget(4) = error_share_type(source='iteration', remedy='half the tolerance in INCREMENTS')
       if (yields) then
-         call take(results%joint_errors%planes, budget(2))
-         call take(results%joint_errors%iteration, budget(3))
+         call take(results%joint_errors%planes, budget(3))
+         call take(results%joint_errors%iteration, budget(4))
       else
-         budget(2:3)%displacement = 0.0_wp
+         budget(3:4)%displacement = 0.0_wp
       end if
-      budget(4) = error_share_type(source='solver', remedy='less contrast of the stiffnesses')
+      budget(5) = error_share_type(source='solver', remedy='less contrast of the stiffnesses')
       ! a backward error is a relative change of the data, which the condition number passes on at most
-      budget(4)%displacement = maxval(results%solves%backward_error*results%solves%condition)
+      budget(5)%displacement = maxval(results%solves%backward_error*results%solves%condition)
    end function new_budget
+
+   !> Elements too large or of too low an order
+   pure function discretization_share(model, results) result(share)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> Their share
+      type(error_share_type) :: share
+
+      share%source = 'discretization'
+      share%energy = results%discretization%relative
+      share%displacement = results%discretization%displacement
+      share%joint_stress = results%discretization%joint_stress
+      share%seconds = results%discretization%seconds
+      if (any(model%mesh%element_size < 5)) then
+         share%remedy = 'elements 0.7 times as large (displacement; half as large for stresses)'
+      else
+         share%remedy = 'elements 0.7 times as large'
+      end if
+   end function discretization_share
 
    !> Harmonics above M, of the loads and of joints that open and slip
    pure function harmonics_share(model, results, yields) result(share)

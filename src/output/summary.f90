@@ -67,9 +67,31 @@ contains
       call put_pair(file, "left_out", left_out_text(results))
       call put_pair(file, "errors", errors_text(results))
       call put_pair(file, "error_seconds", error_seconds_text(results))
+      if (allocated(results%rounds)) call put_pair(file, "rounds", rounds_text(results))
       call put_pair(file, "seconds", seconds_text(timer))
       call put_last(file)
    end subroutine write_summary
+
+   !> Rounds of refinement
+   pure function rounds_text(results) result(json)
+      !> Results
+      type(results_type), intent(in) :: results
+      !> A JSON array
+      character(len=:), allocatable :: json
+
+      integer :: i
+
+      json = "["
+      do i = 1, size(results%rounds)
+         if (i > 1) json = json//", "
+         associate (round => results%rounds(i))
+            json = json//'{"mesh": '//json_number(round%mesh)//', "max_harmonic": '//json_number(round%harmonic)// &
+               ', "planes": '//json_number(round%planes)//', "unknowns": '//json_number(round%n_unknowns)// &
+               ', "error": '//json_number(round%error)//', "seconds": '//json_number(round%seconds)//'}'
+         end associate
+      end do
+      json = json//"]"
+   end function rounds_text
 
    !> What was not modelled
    pure function left_out_text(results) result(json)
