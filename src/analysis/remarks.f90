@@ -80,8 +80,21 @@ contains
                   'stiff is large; a tolerance of '//to_text(10.0_wp*results%residual_ratio)//' can be reached')
          return
       end if
-      if (.not. history%verdict%stalled .or. results%converged .or. allocated(results%mechanism)) return
-      if (.not. any(history%verdict%restless)) return
+      if (results%converged .or. allocated(results%mechanism)) return
+      if (history%verdict%converged) then
+         call add(remarks, 'the joints are balanced to the tolerance, the whole structure is not: rounding; '// &
+                  'a tolerance of '//to_text(10.0_wp*results%residual_ratio)//' can be reached')
+         return
+      end if
+      if (.not. history%verdict%stalled) then
+         call add(remarks, 'INCREMENTS allows no more iterations')
+         return
+      end if
+      if (.not. any(history%verdict%restless)) then
+         call add(remarks, 'the residual ratio does not fall any more, though no joint point changes its state'// &
+                  advice(model, structure))
+         return
+      end if
       call add(remarks, to_text(count(history%verdict%restless))//' joint points on '// &
          'planes change their state for ever'//period_text(results%path)// &
          restless_text(model, structure, history, results)//advice(model, structure))
