@@ -205,7 +205,7 @@ contains
          fields = [real_field('the target', 1, 10, above=0.0_wp, to=100.0_wp), &
                    word_field('the quantity', 11, 20, goal_names, goal_displacement), &
                    integer_field('the most rounds', 21, 25, 1, 99, default=8), &
-                   integer_field('the most unknowns', 26, 35, 1, huge(1)/2, default=1000000)]
+                   integer_field('the most unknowns', 26, 35, 1, 1000000000, default=1000000)]
       else
          fields = [number('the cut', 1), length('z', 6), body(16)]
       end if
