@@ -70,6 +70,11 @@ class Attempt:
     summary: dict
 
 
+def stem(name):
+    """A name as that of a file"""
+    return "".join(c if c.isalnum() or c in "._-" else "_" for c in name)
+
+
 class Runs(Program):
     """The program, with a tally of its runs"""
 
@@ -79,8 +84,7 @@ class Runs(Program):
 
     def run(self, name, text):
         """Runs a deck that must be solved; its results"""
-        name = "".join(c if c.isalnum() or c in "._-" else "_" for c in name)
-        results = super().run(name, text)
+        results = super().run(stem(name), text)
         self._count(name)
         return results
 
@@ -99,21 +103,21 @@ class Runs(Program):
 
     def summary(self, name):
         """The summary of a run, empty if there is none"""
-        path = self.directory/f"{name}.json"
+        path = self.directory/f"{stem(name)}.json"
         return json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
 
     def results(self, name):
         """All arrays that the tables need"""
-        return Results(self.directory/f"{name}.h5")
+        return Results(self.directory/f"{stem(name)}.h5")
 
     def condition(self, name):
         """Largest condition of an equation system of a run"""
-        with h5py.File(self.directory/f"{name}.h5") as file:
+        with h5py.File(self.directory/f"{stem(name)}.h5") as file:
             return float(file["equations/condition"][()].max())
 
     def _count(self, name):
         summary = self.summary(name)
-        with h5py.File(self.directory/f"{name}.h5") as file:
+        with h5py.File(self.directory/f"{stem(name)}.h5") as file:
             self.tally.backward.append(float(file["equations/backward_error"][()].max(initial=0.0)))
         self.tally.iterations.append(summary["iterations"])
         if summary["residual_ratio"] is not None:
@@ -129,8 +133,8 @@ def row(case, runs):
     runs.tally = Tally()
     try:
         found = case.check(runs)
-    except (ProgramError, subprocess.TimeoutExpired) as error:
-        found = Finding(FAILED, words=str(error).splitlines()[-1])
+    except (ProgramError, LookupError, OSError, ValueError) as error:
+        found = Finding(FAILED, words=f"{type(error).__name__}: {str(error).splitlines()[-1]}")
     if found.verdict not in VERDICTS or (found.verdict == OK and (not case.reference or found.error is None)):
         found = Finding(FAILED, words="every row needs a verdict, and a verdict ok a reference")
     tally = runs.tally
