@@ -12,6 +12,7 @@ sys.path[1:1] = [str(ROOT/"verification"), str(ROOT/"test"/"decks")]
 # pylint: disable=wrong-import-position
 import report
 import stability_joints
+import stability_limits
 import stability_solids
 from stability_case import FAILED, HEADINGS, VERDICTS, Runs, row
 
@@ -70,7 +71,8 @@ def arguments():
 def main():
     """Run, print, write; exit code 1 if a row has FAILED"""
     args = arguments()
-    cases = [case for case in [*stability_solids.CASES, *stability_joints.CASES] if args.only in case.name]
+    everything = [*stability_solids.CASES, *stability_joints.CASES, *stability_limits.CASES]
+    cases = [case for case in everything if args.only in case.name]
     rows = []
     with tempfile.TemporaryDirectory() as folder, \
             open(args.output/"stability.csv", "w", encoding="utf-8", newline="") as file:
