@@ -8,15 +8,17 @@ module axijoint_analysis_goal
    private
    public :: goal_error, refine_further
 
+   !> Estimates may be half of the error: the target is compared with this many times their sum
+   real(wp), parameter :: safety = 2.0_wp
    !> A share that is to fall gets this part of the target
-   real(wp), parameter :: part = 0.3_wp
+   real(wp), parameter :: part = 0.15_wp
    !> Most that a number is raised by in a round
    real(wp), parameter :: most = 2.0_wp
 
 contains
 
-   !> Sum of the shares of the quantity that the goal is about; negative if a share that
-   !> there must be is not known
+   !> The error that a target is compared with, on the safe side: twice the sum of the shares of
+   !> the quantity that it is about; negative if a share that there must be is not known
    pure real(wp) function goal_error(budget, goal) result(error)
       !> The budget
       type(error_share_type), intent(in) :: budget(:)
@@ -32,7 +34,7 @@ contains
                error = -1.0_wp
                return
             end if
-            error = error + max(0.0_wp, value)
+            error = error + safety*max(0.0_wp, value)
          end associate
       end do
    end function goal_error

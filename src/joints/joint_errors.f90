@@ -25,7 +25,7 @@ module axijoint_joints_joint_errors
    type :: joint_error_type
       !> Of the joint stress, over the largest; negative if it is not known
       real(wp) :: stress = -1.0_wp
-      !> Of displacements: of the jumps, over the largest displacement, or of the work of
+      !> Of displacements: root mean square of the jumps, over the largest displacement, or of the work of
       !> the loads, over that, whichever is more
       real(wp) :: displacement = -1.0_wp
       !> Time that the estimate took [second]
@@ -332,7 +332,12 @@ contains
                *dot_product(change(:, p, k), scene%response%free(:, p, k))
          end do
       end do
-      changed = max(maxval(abs(jump))/max(tiny(1.0_wp), measure%displacement), &
+      changed = 0.0_wp
+      do p = 1, size(jump, 2)
+         changed = changed + scene%points(p)%weight*sum(jump(:, p, :)**2)
+      end do
+      changed = sqrt(changed/(sum(scene%points%weight)*size(jump, 3)))
+      changed = max(changed/max(tiny(1.0_wp), measure%displacement), &
                     abs(work)/max(tiny(1.0_wp), abs(measure%work)))
    end function change_of_displacement
 

@@ -52,9 +52,9 @@ contains
       intervals = n - 1
       m = modes%harmonic
       if (present(whole)) then
-         if (.not. whole) call fold(modes%harmonic, intervals, m, planes%folds)
+         if (.not. whole) call fold((modes%harmonic), intervals, m, planes%folds)
       else
-         call fold(modes%harmonic, intervals, m, planes%folds)
+         call fold((modes%harmonic), intervals, m, planes%folds)
       end if
       count = merge(intervals + 1, 2*intervals, half)
       planes%angle = [(pi*j/(intervals*max(1, planes%folds)), j = 0, count - 1)]
