@@ -127,6 +127,12 @@ class Reports(unittest.TestCase):
         for words in ("All 2 runs converged", "Combination 1", "Combination 2", "Section 1, θ = 180°"):
             self.assertIn(words, page.texts["main"])
         self.assertEqual(page.texts["nav"].count("Sections"), 2)
+        cards = jobs.input_deck("chimney").replace("    1    1       1.0\n", "")
+        jobs.run(self.folder, "chimney", cards)
+        self.assertEqual([job.name for job in report.jobs_of(self.folder/"chimney")], ["chimney"])
+        (self.folder/"chimney.h5").replace(self.folder/"chimney.2.h5")
+        (self.folder/"chimney.json").unlink()
+        self.assertIn("The deck of chimney.1 is not that of chimney.2", self.page("chimney").texts["div"])
 
     def test_an_error_and_files_of_two_runs(self):
         jobs.run(self.folder, "wrong", "TITLE\nNothing & <nobody>\nCONTROL\n    x\nEND\n", exit_code=2)
@@ -141,13 +147,26 @@ class Reports(unittest.TestCase):
         self.assertIn("first.json is missing", self.page("first").texts["div"])
 
     def test_error_budget(self):
+        path = jobs.run(self.folder, "case3", jobs.input_deck("case3"))
+        summary = json.loads(pathlib.Path(f"{path}.json").read_text(encoding="utf-8"))
+        page = self.page("case3")
+        for source, share in summary["errors"].items():
+            if source != "largest":
+                self.assertIn(source, page.texts["th"])
+                for value in share.values():
+                    self.assertIn(markup.number(value), page.texts["td"])
+        largest = summary["errors"]["largest"].removeprefix("largest: ")
+        self.assertIn(f"Largest: {largest}", page.texts["p"].replace("\u00a0", " "))
+        self.assertIn(largest, page.texts["td"])
+
+    def test_error_budget_of_other_sources(self):
         job = unittest.mock.Mock(summary={"errors": {
-            "mesh": {"displacement": 0.0123, "seconds": 1e-3}, "planes": {"displacement": None, "note": "a < b"},
-            "largest_contributor": "mesh", "modes": [{"harmonic": 0, "relative": 0.5}]}})
-        page = Page(report.markup.joined([budget.errors(job)]))
+            "mesh": {"displacement": 0.0123}, "planes": {"displacement": None, "note": "a < b"}, "largest": "mesh"}})
+        page = Page(budget.errors(job))
         self.assertEqual(page.faults, [])
-        for words in ("0.0123", "a < b", "largest contributor", "relative"):
+        for words in ("0.0123", "a < b", "mesh"):
             self.assertIn(words, page.texts["table"])
+        self.assertFalse(budget.known(unittest.mock.Mock(summary={"errors": None})))
 
     def test_numbers(self):
         for value, words in ((-0.0, "0"), (1.5e-7, "1.5E-7"), (float("nan"), "–"), (None, "–"), (12, "12"),

@@ -1,58 +1,41 @@
-"""What each approximation of a run leaves, as the summary says it: key `errors`."""
-from .markup import joined, number, table, tag
+"""What each approximation of a run leaves of the error, as its summary says it: key `errors`."""
+from .markup import is_number, joined, number, running, table, tag
+
+COLUMNS = {"energy": "energy", "displacement": "displacement", "joint_stress": "joint stress", "load": "load"}
 
 
 def known(job):
     """Whether the summary of a run says it."""
-    return bool(job.summary.get("errors"))
+    return isinstance(job.summary.get("errors"), dict)
 
 
 def errors(job):
-    """The error budget as tables, whatever quantities it has."""
-    return joined(_tables("Estimated errors", job.summary["errors"]))
+    """The largest contribution in words, then all of them as a table."""
+    budget, seconds = job.summary["errors"], job.summary.get("error_seconds")
+    seconds = seconds if isinstance(seconds, dict) else {}
+    shares = {source: share for source, share in budget.items() if isinstance(share, dict)}
+    said = [_sentence(key, value) for key, value in budget.items() if not isinstance(value, dict)]
+    keys = list(dict.fromkeys([*COLUMNS, *(key for share in shares.values() for key in share)]))
+    rows = [[words(source), *(_cell(share.get(key)) for key in keys), seconds.get(source)]
+            for source, share in shares.items()]
+    return joined([*said, table("Left by each approximation",
+                                ["of", *(COLUMNS.get(key, words(key)) for key in keys), "seconds"], rows,
+                                "Estimates, relative; – is not known.", named_rows=True)])
 
 
-def _tables(caption, value):
-    """Tables of a value of JSON: of objects in an object or a list, of single values beside them."""
-    if isinstance(value, list) and all(isinstance(one, dict) for one in value):
-        yield _rows(caption, [("", one) for one in value])
-        return
-    if not isinstance(value, dict):
-        yield tag("p", f"{caption}: {_cell(value)}")
-        return
-    groups = [(words(name), one) for name, one in value.items() if isinstance(one, dict) and _flat(one)]
-    singles = [(words(name), one) for name, one in value.items() if not isinstance(one, (dict, list))
-               or isinstance(one, list) and not any(isinstance(x, dict) for x in one)]
-    if groups:
-        yield _rows(caption, groups)
-    if singles:
-        yield table("" if groups else caption, ["", ""], [[name, _cell(one)] for name, one in singles],
-                    named_rows=True)
-    for name, one in value.items():
-        nested = isinstance(one, dict) and not _flat(one) or isinstance(one, list) and any(
-            isinstance(x, dict) for x in one)
-        if nested:
-            yield from _tables(words(name), one)
+def line(job):
+    """The largest contribution in words; None if it is not known."""
+    largest = job.summary["errors"].get("largest") if known(job) else None
+    return largest.removeprefix("largest: ") if isinstance(largest, str) else None
 
 
-def _rows(caption, groups):
-    """A row for each object, a column for each key."""
-    keys = list(dict.fromkeys(key for _, one in groups for key in one))
-    named = any(name for name, _ in groups)
-    rows = [[*([name] if named else []), *(_cell(one.get(key)) for key in keys)] for name, one in groups]
-    return table(caption, [*([""] if named else []), *map(words, keys)], rows, named_rows=named)
-
-
-def _flat(one):
-    return not any(isinstance(value, (dict, list)) for value in one.values())
+def _sentence(key, value):
+    text = value.removeprefix(f"{key}: ") if isinstance(value, str) else number(value) if is_number(value) else str(value)
+    return tag("p", f"{words(key).capitalize()}: ", tag("strong", running(text)))
 
 
 def _cell(value):
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, list):
-        return ", ".join(number(x) if isinstance(x, (int, float)) else str(x) for x in value)
-    return value
+    return value if is_number(value) else str(value)
 
 
 def words(name):

@@ -103,7 +103,9 @@ def jobs_of(word):
         return [Job(path.with_suffix(""))]
     stems = found_stems(path)
     if stems:
-        return [Job(stem) for stem in stems]
+        jobs = [Job(stem) for stem in stems]
+        note_other_decks(jobs)
+        return jobs
     if path.is_file():
         raise Failure(f"{path} is no result. If it is a deck, run it first:\n"
                       f"  scripts/run {path} -o out\n  scripts/report out/{path.stem}")
@@ -112,11 +114,27 @@ def jobs_of(word):
 
 
 def found_stems(path):
-    """NAME, or NAME.1, NAME.2, ... in the order of their numbers: those that there are files of."""
-    alone = [path] if any(with_ending(path, ending).is_file() for ending in (".h5", ".json")) else []
-    if with_ending(path, ".h5").is_file() or not path.parent.is_dir():
-        return alone
+    """NAME, or NAME.1, NAME.2, ... in the order of their numbers: those written last, if there are both."""
+    if not path.parent.is_dir():
+        return []
     pattern = re.compile(re.escape(path.name) + r"\.(\d+)\.(h5|json)")
     numbers = {int(match[1]) for match in map(pattern.fullmatch, (one.name for one in path.parent.iterdir()))
                if match}
-    return [with_ending(path, f".{k}") for k in sorted(numbers)] or alone
+    several = [with_ending(path, f".{k}") for k in sorted(numbers)]
+    return max([[path], several], key=lambda stems: max(map(time_of, stems), default=-1.0)) \
+        if several or time_of(path) >= 0 else []
+
+
+def time_of(path):
+    """When the files of a run were written; -1 if there are none."""
+    files = [with_ending(path, ending) for ending in (".h5", ".json")]
+    return max((file.stat().st_mtime for file in files if file.is_file()), default=-1.0)
+
+
+def note_other_decks(jobs):
+    """Say of combinations whose deck is not that of the one written last that they are older."""
+    newest = max(jobs, key=lambda job: time_of(job.path))
+    for job in jobs:
+        if job.result and newest.result and job.result.deck != newest.result.deck:
+            job.notes.append(f"The deck of {job.name} is not that of {newest.name}, which was written later: these may be "
+                             "results of an earlier run.")

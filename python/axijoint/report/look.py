@@ -24,7 +24,7 @@ table { border-collapse: collapse; font-size: 0.875rem; font-variant-numeric: ta
 caption { text-align: left; font-weight: bold; padding: 0.2rem 0; white-space: nowrap; }
 th, td { text-align: left; vertical-align: top; padding: 0.14rem 0.7rem 0.14rem 0; border-bottom: 1px solid #bbb; }
 thead th { border-bottom: 1.5px solid #111; vertical-align: bottom; }
-tbody th { font-weight: normal; }
+tbody th { font-weight: normal; white-space: nowrap; }
 .number { text-align: right; }
 td.number { white-space: nowrap; }
 .many th, .many td { padding-right: 0.5rem; }
@@ -49,9 +49,9 @@ footer { margin-top: 2.5rem; border-top: 1px solid #111; font-size: 0.875rem; co
    thead { display: table-header-group; }
    .wide { overflow: visible; }
    .many table { font-size: 6.5pt; } .many th, .many td { padding-right: 0.35rem; }
-   .job + .job { break-before: page; }
+   .job[id] { break-before: page; }
    figure img { max-height: 22cm; width: auto; }
-   figure.narrow img { max-height: 10.5cm; }
+   figure.narrow img { max-height: 9.5cm; }
    figure.narrow { min-width: 0; }
    figcaption { font-size: 0.8rem; }
    a { text-decoration: none; }

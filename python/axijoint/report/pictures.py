@@ -101,7 +101,7 @@ def _along(section):
     """Ends and angles of a section in words, and between which values each stress is."""
     ends = " to ".join(f"r = {number(r)}, z = {number(z)}" for r, z in (section.first, section.last))
     angles = ", ".join(f"{number(theta)}°" for theta in section.theta)
-    stress = without_rounding(section.stress)[..., 1]
+    stress = without_rounding(section.stress, 1e-9)[..., 1]
     return (f"From {ends} at θ = {angles}; displacements and stresses that are not zero. σ_z is between "
             f"{number(stress.min())} and {number(stress.max())}, the displacement v between "
             f"{number(section.displacement[..., 1].min())} and {number(section.displacement[..., 1].max())}.")

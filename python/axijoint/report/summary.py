@@ -1,4 +1,5 @@
 """How a run ended, in large letters if it failed; its main numbers; its messages."""
+from . import budget
 from .extremes import extremes, joint_peaks
 from .markup import Markup, joined, number, running, table, tag
 
@@ -119,6 +120,7 @@ def _outcome(job):
         words = "from Newton's method" if job.summary.get("method") == "transfer" else \
             "that the transfer of stresses to 3 % would leave"
         rows.append(("joint stress, difference", f"{number(other)} of the largest, {words}"))
+    rows.append(("largest error", budget.line(job)))
     rows.append(("largest displacement", _at(extremes(result)["length"][1], job.units.length)))
     joints = result.joints()
     if joints.rows:

@@ -4,12 +4,13 @@ import numpy as np
 from ..circle import SYMMETRIC
 from ..result import DISPLACEMENTS, STATES, STRESSES
 from .extremes import STEP, extremes, joint_peaks
-from .markup import Markup, number, table
+from .markup import Markup, escaped, number, table
 
 SYMBOLS = {name: Markup(text) for name, text in {
     "sigma_r": "σ<sub>r</sub>", "sigma_z": "σ<sub>z</sub>", "sigma_theta": "σ<sub>θ</sub>",
     "tau_rz": "τ<sub>rz</sub>", "tau_rtheta": "τ<sub>rθ</sub>", "tau_ztheta": "τ<sub>zθ</sub>", "u": "u", "v": "v",
     "w": "w", "length": "length of the displacement"}.items()}
+NO_BREAK = "\u00a0"
 RULES = {1: "centroid", 2: "Gauss", 3: "Lobatto"}
 RESULTANTS = ("axial force", "lateral force", "moment", "torque", "lateral force at 90°", "moment at 90°")
 FAMILIES = {SYMMETRIC: "symmetric", 2: "antisymmetric"}
@@ -17,7 +18,7 @@ FAMILIES = {SYMMETRIC: "symmetric", 2: "antisymmetric"}
 
 def with_unit(name, unit):
     """A title of a column or a row, and its unit."""
-    return Markup(f"{name} [{unit}]") if unit else name
+    return Markup(f"{escaped(name)} [{escaped(unit).replace(' ', NO_BREAK)}]") if unit else name
 
 
 def per(unit, length):
@@ -229,9 +230,9 @@ def sections(job):
                         ["point", "distance", "r", "z", "body", *(titles[j] for j in shown)], rows)
 
 
-def without_rounding(values):
-    """Values that are nothing but rounding beside the largest are zero."""
-    return np.where(abs(values) > 1e-13*abs(values).max(initial=0), values, 0.0)
+def without_rounding(values, share=1e-13):
+    """Values that are nothing but rounding beside the largest are zero: at most a share of it."""
+    return np.where(abs(values) > share*abs(values).max(initial=0), values, 0.0)
 
 
 def equations(job):
