@@ -118,6 +118,7 @@ class Reports(unittest.TestCase):
         page = self.page("case3")
         self.assertTrue(page.texts["title"].startswith("NOT CONVERGED: "))
         self.assertIn("Do not use these numbers", page.texts["div"])
+        self.assertNotIn("Error budget", page.texts["main"])
 
     def test_combinations(self):
         jobs.run(self.folder, "chimney", jobs.input_deck("chimney"))
@@ -136,7 +137,9 @@ class Reports(unittest.TestCase):
 
     def test_an_error_and_files_of_two_runs(self):
         jobs.run(self.folder, "wrong", "TITLE\nNothing & <nobody>\nCONTROL\n    x\nEND\n", exit_code=2)
-        self.assertIn("ERROR: NO RESULTS", self.page("wrong").texts["div"])
+        page = self.page("wrong")
+        self.assertIn("ERROR: NO RESULTS", page.texts["div"])
+        self.assertIn("    4 |     x\n      | ^^^^^\n", page.texts["pre"])
         path = jobs.run(self.folder, "first", jobs.input_deck("first"))
         file = pathlib.Path(f"{path}.json")
         file.write_text(file.read_text(encoding="utf-8").replace('"run": "', '"run": "1'), encoding="utf-8")
@@ -160,13 +163,14 @@ class Reports(unittest.TestCase):
         self.assertIn(largest, page.texts["td"])
 
     def test_error_budget_of_other_sources(self):
-        job = unittest.mock.Mock(summary={"errors": {
+        job = unittest.mock.Mock(verdict="converged", summary={"errors": {
             "mesh": {"displacement": 0.0123}, "planes": {"displacement": None, "note": "a < b"}, "largest": "mesh"}})
         page = Page(budget.errors(job))
         self.assertEqual(page.faults, [])
         for words in ("0.0123", "a < b", "mesh"):
             self.assertIn(words, page.texts["table"])
-        self.assertFalse(budget.known(unittest.mock.Mock(summary={"errors": None})))
+        job.summary["errors"] = None
+        self.assertFalse(budget.known(job))
 
     def test_numbers(self):
         for value, words in ((-0.0, "0"), (1.5e-7, "1.5E-7"), (float("nan"), "–"), (None, "–"), (12, "12"),

@@ -11,10 +11,12 @@ FLAGS = ("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-
          "--host-resolver-rules=MAP * ~NOTFOUND")
 # Put at the end of a copy of the page: it counts what the browser could show
 PROBE = """<script>
-Promise.all([...document.images].map(image => image.decode().then(() => 1, () => 0))).then(shown =>
-   document.documentElement.dataset.found = [shown.length, shown.reduce((a, b) => a + b, 0),
-      document.documentElement.scrollWidth - document.documentElement.clientWidth,
-      performance.getEntriesByType("resource").length].join(" "));
+addEventListener("load", () => {
+   const page = document.documentElement, images = [...document.images];
+   const shown = images.filter(image => image.complete && image.naturalWidth > 0 && image.naturalHeight > 0);
+   page.dataset.found = [images.length, shown.length, page.scrollWidth - page.clientWidth,
+      performance.getEntriesByType("resource").length].join(" ");
+});
 </script>
 </body>"""
 
@@ -32,7 +34,7 @@ def _check(program, text, folder):
     page, probed, printed = (folder/name for name in ("page.html", "probed.html", "page.pdf"))
     page.write_text(text, encoding="utf-8")
     probed.write_text(text.replace("</body>", PROBE), encoding="utf-8")
-    dom = _run(program, folder, "--virtual-time-budget=20000", "--dump-dom", probed.as_uri())
+    dom = _run(program, folder, "--dump-dom", probed.as_uri())
     _run(program, folder, "--no-pdf-header-footer", f"--print-to-pdf={printed}", page.as_uri())
     found = re.search(r'data-found="(\d+) (\d+) (-?\d+) (\d+)"', dom)
     if not found:

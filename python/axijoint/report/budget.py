@@ -5,8 +5,8 @@ COLUMNS = {"energy": "energy", "displacement": "displacement", "joint_stress": "
 
 
 def known(job):
-    """Whether the summary of a run says it."""
-    return isinstance(job.summary.get("errors"), dict)
+    """Whether the summary of a run says it. Without an equilibrium it means nothing."""
+    return job.verdict == "converged" and isinstance(job.summary.get("errors"), dict)
 
 
 def errors(job):

@@ -33,6 +33,9 @@ def verdict(job):
         parts.append(tag("p", means, class_="means"))
     if job.verdict in ("mechanism", "not_converged"):
         parts += [tag("p", running(message)) for message in job.messages[:2]]
+    if job.verdict == "error":
+        parts.append(tag("p", "Deck ", tag("code", job.tags.get("deck") or ""), f", run of {job.tags.get('date')}, exit code "
+                         f"{job.tags.get('exit_code')}."))
     parts += [tag("p", running(f"Warning: {note}")) for note in job.notes]
     warnings = len(job.messages)
     if warnings and not failed:
@@ -147,8 +150,13 @@ def _cost(job):
             ("peak memory", f"{memory:.0f} MB" if isinstance(memory, (int, float)) else None)]
 
 
+def _message(text):
+    """A message; one of several lines keeps its columns, as carets point at cards."""
+    return tag("pre", text) if "\n" in text else running(text)
+
+
 def messages(job):
     """Warnings, remarks, how the iteration ended; after an error its causes."""
     if not job.messages:
         return tag("p", "None.")
-    return Markup(f'<ul class="messages">\n{joined(tag("li", running(message)) for message in job.messages)}\n</ul>')
+    return Markup(f'<ul class="messages">\n{joined(tag("li", _message(message)) for message in job.messages)}\n</ul>')
