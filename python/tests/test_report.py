@@ -4,8 +4,10 @@ import contextlib
 import html.parser
 import io
 import json
+import os
 import pathlib
 import re
+import subprocess
 import tempfile
 import unittest
 import unittest.mock
@@ -24,6 +26,9 @@ except ImportError:
 
 EMPTY = {"meta", "img", "br"}
 NASTY = '<script>alert("x")</script> &amp; "Größe" </title> 45° (MN, m, MPa)'
+SORTS = ["all_fixed", "cases", "cuts", "gravity", "in_situ", "joint_cone_6", "joint_cylinders_elastic", "moved_face",
+         "not_converged", "orthotropic_bending_8", "orthotropic_tension_4", "ring_loads", "sections", "springs",
+         "supported_faces", "tension_mixed", "thermal_gradient", "torque", "unload_to_zero", "zero_load"]
 
 
 class Page(html.parser.HTMLParser):
@@ -171,6 +176,15 @@ class Reports(unittest.TestCase):
             self.assertIn(words, page.texts["table"])
         job.summary["errors"] = None
         self.assertFalse(budget.known(job))
+
+    def test_pages_of_decks_of_all_sorts(self):
+        decks = [jobs.ROOT/f"test/decks/good/{name}.dat" for name in SORTS]
+        done = subprocess.run([os.environ["AXIJOINT"], "run", *decks, "-o", self.folder], capture_output=True,
+                              check=False)
+        self.assertIn(done.returncode, (0, 3, 4))
+        for deck in decks:
+            with self.subTest(deck.stem):
+                self.assertIn("Resultants", self.page(deck.stem).texts["caption"])
 
     def test_numbers(self):
         for value, words in ((-0.0, "0"), (1.5e-7, "1.5E-7"), (float("nan"), "–"), (None, "–"), (12, "12"),

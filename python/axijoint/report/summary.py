@@ -54,7 +54,7 @@ def _converged(job):
 def overview(jobs, names):
     """Several runs: which failed, and their main numbers in one table."""
     failed = [(job, name) for job, name in zip(jobs, names) if job.verdict != "converged"]
-    parts = [tag("p", VERDICTS[job.verdict][0], f": {name}", class_="word") for job, name in failed] or \
+    parts = [tag("p", f"{name}: {VERDICTS[job.verdict][0]}", class_="word") for job, name in failed] or \
         [tag("p", f"All {len(jobs)} runs converged", class_="word")]
     box = tag("div", *parts, class_="status failed" if failed else "status")
     head = ["run", "status", "iterations", "residual ratio", "part equilibrium error", "largest displacement",

@@ -163,10 +163,10 @@ def equilibrium(job):
     kinds = (units.force, units.force, units.moment, units.moment, units.force, units.moment)
     head = [with_unit(name, unit) for name, unit in zip(RESULTANTS, kinds)]
     applied, reacted = read("resultants/applied"), read("resultants/reacted")
-    faces, by_face = read("supports/face"), read("supports/reacted").reshape(-1, 6)
     rows = [["loads", *applied], ["reactions", *reacted], ["sum", *(applied + reacted)]]
-    rows += [[f"reactions of face {face}" if face else "reactions of nodes of no face", *values]
-             for face, values in zip(faces, by_face)]
+    if job.result.has("supports/face"):
+        rows += [[f"reactions of face {face}" if face else "reactions of nodes of no face", *values]
+                 for face, values in zip(read("supports/face"), read("supports/reacted").reshape(-1, 6))]
     errors = job.result.attributes_of("resultants")
     yield table("Resultants", ["of", *head], rows, "Moments about the line θ = 90° through the origin. "
                 f"Equilibrium error: {number(errors['equilibrium_error'])} on the whole, "
