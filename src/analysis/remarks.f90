@@ -83,7 +83,7 @@ contains
       if (results%converged .or. allocated(results%mechanism)) return
       if (history%verdict%converged) then
          call add(remarks, 'the joints are balanced to the tolerance, the whole structure is not: rounding; '// &
-                  'a tolerance of '//to_text(10.0_wp*results%residual_ratio)//' can be reached')
+                  'a tolerance of '//to_text(10.0_wp*max(results%residual_ratio, results%mismatch))//' can be reached')
          return
       end if
       if (.not. history%verdict%stalled) then

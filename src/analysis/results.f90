@@ -158,6 +158,9 @@ module axijoint_analysis_results
       type(iteration_type), allocatable :: path(:)
       !> Residual-force ratio at the end (Eq. 17), from the whole structure
       real(wp) :: residual_ratio = 0.0_wp
+      !> Forces of the joint stress that belongs to the bodies' relative displacements but not to
+      !> those that the laws saw, over the loads: rounding of very stiff joints
+      real(wp) :: mismatch = 0.0_wp
       !> Tolerance on the residual-force ratio
       real(wp) :: tolerance = 0.0_wp
       !> Resultants of the applied loads and of the reactions

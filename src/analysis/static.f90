@@ -20,9 +20,11 @@ module axijoint_analysis_static
    use axijoint_base_timer, only : timer_type, phase_factor, phase_joints, phase_recover
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_increments, only : history_type, run_increments, final_factors, &
-                                          loads_of_increments, compare_loops
+                                          loads_of_increments, compare_loops, balance_again
    use axijoint_joints_joint_errors, only : measure_type, estimate_joint_errors, change_of_displacement
    use axijoint_joints_planes, only : planes_type, new_view, on_all
+   use axijoint_joints_residual, only : residual_norm, load_norm, ratio
+   use axijoint_joints_scene, only : mismatch_of, elastic_stress
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type
@@ -101,7 +103,8 @@ contains
       call smooth_stress(model, results)
       call estimate_discretization(model, structure, history%loading, field, nodal, results)
       call cut_resultants(model, structure, history%loading, field, results)
-      results%converged = results%converged .and. results%residual_ratio <= results%tolerance + rounding(results)
+      results%converged = results%converged .and. max(results%residual_ratio, results%mismatch) &
+         <= results%tolerance + rounding(results)
       results%budget = new_budget(model, results)
       results%remarks = remarks_on(model, structure, history, field, results)
       call timer%pop()
@@ -172,6 +175,8 @@ contains
                                error, nodal%interpolation, nodal%displacement, nodal%seconds)
       deallocate (nodal%interpolation%pieces)
       if (allocated(error)) return
+      call mend_mismatch(model, structure, history, yielding, results, error)
+      if (allocated(error)) return
       if (results%converged) call estimate_errors(structure, history, yielding, other, results)
       start = omp_get_wtime()
       call answer_of_joints(structure%scene, history, yielding, nodal%displacement, nodal%joint_stress)
@@ -186,6 +191,47 @@ contains
          field%excess(:, yield, :) = yielding%excess + yielding%pending
       end associate
    end subroutine solve_joints
+
+   !> See how far the relative displacements of the bodies are from those that the laws saw;
+   !> where that matters, correct the response by the difference and balance the joints again
+   subroutine mend_mismatch(model, structure, history, yielding, results, error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, condensed
+      type(structure_type), intent(inout) :: structure
+      !> What the increments came to; takes further iterations
+      type(history_type), intent(inout) :: history
+      !> State of the joints that yield
+      type(joint_field_type), intent(inout) :: yielding
+      !> Results with displacements; take those of the corrected state, and the mismatch
+      type(results_type), intent(inout) :: results
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      integer, parameter :: most_corrections = 4
+      !> Part of the tolerance that is no matter
+      real(wp), parameter :: part = 0.1_wp
+      real(wp), allocatable :: jump(:, :, :)
+      real(wp) :: factor_share
+      integer :: k
+
+      associate (scene => structure%scene)
+         do k = 0, most_corrections
+            jump = mismatch_of(scene, yielding, results%displacement)
+            results%mismatch = ratio(residual_norm(structure%equations, scene%points, elastic_stress(scene, jump)), &
+                                     load_norm(structure%equations, history%peak))
+            if (.not. results%converged .or. scene%method == method_transfer) return
+            if (results%mismatch <= part*results%tolerance .or. k == most_corrections) return
+            scene%response%free = scene%response%free + jump
+            call balance_again(scene, yielding, history)
+            results%converged = history%verdict%converged
+            results%path = history%path
+            call solve_displacements(structure%equations, model, history%loading, scene%points, &
+                                     yielding%excess, results%displacement, results%solves, factor_share, error)
+            if (allocated(error)) return
+         end do
+      end associate
+   end subroutine mend_mismatch
 
    !> Errors that iteration, planes and harmonics leave. The paper's loop is another
    !> approximation: its errors are the difference to equilibrium on total jumps, if

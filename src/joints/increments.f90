@@ -21,7 +21,7 @@ module axijoint_joints_increments
    use axijoint_model_model, only : model_type, method_newton, method_anderson, method_transfer
    implicit none
    private
-   public :: history_type, run_increments, final_factors, loads_of_increments, compare_loops
+   public :: history_type, run_increments, final_factors, loads_of_increments, compare_loops, balance_again
 
    !> A step that finds no equilibrium is halved so many times at most
    integer, parameter :: most_halvings = 6
@@ -210,6 +210,25 @@ contains
       end subroutine put_loads
 
    end subroutine run_increments
+
+   !> Balance the last step again, after the response of the structure was corrected
+   subroutine balance_again(scene, field, history)
+      !> Joint points, their corrected response, planes
+      type(scene_type), intent(inout) :: scene
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> What the increments came to; its path goes on
+      type(history_type), intent(inout) :: history
+
+      field%memory = history%memory
+      associate (last => history%path(size(history%path)), &
+                 control => scene%model%increments(size(scene%model%increments)))
+         call balance_step(scene, control%tolerance, control%max_iterations, &
+                           load_norm(scene%equations, history%peak), last, field, history%path, history%verdict)
+      end associate
+      history%memory = field%memory
+      if (history%verdict%converged) call commit_field(scene%model, scene%points, field)
+   end subroutine balance_again
 
    !> Largest difference of joint stress that the other kind of loop leaves, over the
    !> largest joint stress: of the paper's loop at its tolerance of 3 % for the

@@ -2,6 +2,7 @@
 !> the stress that an iterate leaves without equilibrium
 module axijoint_joints_scene
    use axijoint_assembly_equations, only : equations_type
+   use axijoint_assembly_force, only : joint_jump
    use axijoint_base_kinds, only : wp
    use axijoint_joints_field, only : joint_field_type, admit_jump, admit_trial
    use axijoint_joints_planes, only : planes_type, synthesize, analyse
@@ -10,7 +11,7 @@ module axijoint_joints_scene
    use axijoint_model_model, only : model_type, method_newton, method_transfer
    implicit none
    private
-   public :: scene_type, evaluate
+   public :: scene_type, evaluate, mismatch_of, elastic_stress
 
    !> All that an iteration needs to know and does not change
    type :: scene_type
@@ -55,6 +56,45 @@ contains
          residual = analyse(scene%planes, excess) - field%excess
       end if
    end subroutine evaluate
+
+   !> Relative displacements of the bodies, less those that the laws saw: rounding of the
+   !> condensed structure. It grows with k h/E, because the structure is condensed with its joints
+   !> closed
+   function mismatch_of(scene, field, displacement) result(jump)
+      !> What does not change
+      type(scene_type), intent(in) :: scene
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> Displacement amplitudes of the bodies, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
+      !> Amplitudes, shape (3, points, modes)
+      real(wp) :: jump(3, size(scene%points), size(displacement, 3))
+
+      integer :: k
+
+      jump = -jumps(scene%response, field%excess, free=.true.)
+      do k = 1, size(displacement, 3)
+         jump(:, :, k) = jump(:, :, k) + joint_jump(scene%points, displacement(:, :, k))
+      end do
+   end function mismatch_of
+
+   !> Stress of elastic joints
+   function elastic_stress(scene, jump) result(stress)
+      !> What does not change
+      type(scene_type), intent(in) :: scene
+      !> Amplitudes of the jumps, shape (3, points, modes)
+      real(wp), intent(in) :: jump(:, :, :)
+      !> Amplitudes, same shape
+      real(wp) :: stress(3, size(jump, 2), size(jump, 3))
+
+      integer :: k, p
+
+      do k = 1, size(jump, 3)
+         do p = 1, size(jump, 2)
+            stress(:, p, k) = scene%model%joint_materials(scene%points(p)%material)%law%stiffness*jump(:, p, k)
+         end do
+      end do
+   end function elastic_stress
 
    !> Steps 2 to 4 of the paper: the stress is accumulated over the iterations,
    !> and what the law cuts off goes to the next residual

@@ -54,6 +54,7 @@ contains
       call put_pair(file, "planes", json_number(model%n_planes))
       call put_pair(file, "iterations", json_number(size(results%path)))
       call put_pair(file, "residual_ratio", json_number(results%residual_ratio))
+      call put_pair(file, "mismatch", json_number(results%mismatch))
       call put_pair(file, "tolerance", json_number(results%tolerance))
       call put_pair(file, "method", json_string(lower(trim(method_names(model%method)))))
       if (results%other_loop >= 0.0_wp) then
