@@ -64,7 +64,8 @@ contains
          call solve_round(model, structure, results, worst, timer, progress, error)
          if (allocated(error)) return
          round = round_type(refinement%mesh, model%max_harmonic, model%n_planes, n_unknowns(results(worst)), &
-                            goal_error(results(worst)%budget, model%error_goal), omp_get_wtime() - start)
+                            -1.0_wp, omp_get_wtime() - start)
+         if (results(worst)%converged) round%error = goal_error(results(worst)%budget, model%error_goal)
          rounds = [rounds, round]
          if (.not. results(worst)%converged) return
          if (round%error >= 0.0_wp .and. round%error <= model%error_goal%target) return

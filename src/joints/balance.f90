@@ -75,7 +75,7 @@ module axijoint_joints_balance
 contains
 
    !> Iterate a load step to equilibrium
-   recursive subroutine balance_step(scene, tolerance, most, norm, now, field, path, verdict)
+   recursive subroutine balance_step(scene, tolerance, most, norm, now, field, path, verdict, warm)
       !> What does not change, but for a while the method
       type(scene_type), intent(inout) :: scene
       !> Tolerance on the residual ratio, and most iterations
@@ -91,18 +91,23 @@ contains
       type(iteration_type), allocatable, intent(inout) :: path(:)
       !> How it ended
       type(verdict_type), intent(out) :: verdict
+      !> Whether the field is about in equilibrium already, so that the laws see the whole
+      !> stiffness at once; false if absent
+      logical, intent(in), optional :: warm
 
       type(iteration_type), allocatable :: steps(:)
       type(watch_type) :: watch
       type(newton_type) :: newton
       real(wp), allocatable :: residual(:, :, :)
       real(wp) :: transferred
-      logical :: again
+      logical :: again, soft
       integer :: k
 
       allocate (residual, mold=field%excess)
       allocate (steps(0))
-      if (scene%method == method_newton) field%share = scene%first_share
+      soft = scene%method == method_newton
+      if (present(warm)) soft = soft .and. .not. warm
+      if (soft) field%share = scene%first_share
       if (scene%proportion > stiff .and. any(scene%method == [method_total, method_anderson])) then
          call break_as_newton(scene, tolerance, most, norm, field)
       end if

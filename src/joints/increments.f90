@@ -224,7 +224,7 @@ contains
       associate (last => history%path(size(history%path)), &
                  control => scene%model%increments(size(scene%model%increments)))
          call balance_step(scene, control%tolerance, control%max_iterations, &
-                           load_norm(scene%equations, history%peak), last, field, history%path, history%verdict)
+                           load_norm(scene%equations, history%peak), last, field, history%path, history%verdict, warm=.true.)
       end associate
       history%memory = field%memory
       if (history%verdict%converged) call commit_field(scene%model, scene%points, field)
