@@ -8,7 +8,8 @@
 !> are the least of so many runs of each, one after the other in turn.
 program classical
    use, intrinsic :: iso_fortran_env, only : output_unit
-   use axijoint_analysis_results, only : results_type
+   use axijoint_analysis_results, only : results_type, mode_solve_type
+   use axijoint_analysis_solution, only : solve_displacements
    use axijoint_analysis_static, only : analyse_model
    use axijoint_analysis_structure, only : structure_type, build_structure
    use axijoint_assembly_equations, only : solve_mode, worth_threads
@@ -24,6 +25,7 @@ program classical
    use axijoint_deck_reader, only : read_deck
    use axijoint_deck_source, only : source_type
    use axijoint_joints_field, only : joint_field_type, new_joint_field, admit_jump
+   use axijoint_joints_increments, only : history_type, run_increments
    use axijoint_joints_planes, only : synthesize, analyse
    use axijoint_joints_residual, only : residual_norm, load_norm, ratio
    use axijoint_linalg_lapack, only : use_one_blas_thread
@@ -35,7 +37,7 @@ program classical
 
    type(model_type), target :: elastic, model
    type(timer_type) :: timer, elastic_timer
-   real(wp) :: best(2), loop, displacement_difference
+   real(wp) :: best(2), alone(2), loop, displacement_difference
    type(results_type) :: results
    real(wp), allocatable :: field_of_loop(:, :, :)
    character(len=:), allocatable :: word
@@ -48,19 +50,21 @@ program classical
    read (word, *, iostat=stat) runs
    if (stat /= 0) call fail('the third argument is the number of runs')
    best = huge(1.0_wp)
+   alone = huge(1.0_wp)
    do k = 1, runs
+      alone = min(alone, [solution_time(elastic), solution_time(model)])
       call time_analysis(elastic, best(1), elastic_timer)
       call time_analysis(model, best(2), timer)
    end do
    call run_loop()
    displacement_difference = maxval(abs(field_of_loop - results%displacement))/maxval(abs(results%displacement))
    write (output_unit, '(a)') 'elastic_s,elastic_assemble_factor_s,joints_s,all_s,joints_phase_s,iterations,'// &
-      'residual,sweeps,loop_s,difference'
+      'residual,sweeps,loop_s,difference,elastic_alone_s,joints_alone_s'
    write (output_unit, '(a)') to_text(best(1))//','// &
       to_text(elastic_timer%seconds(phase_assemble) + elastic_timer%seconds(phase_factor))//','// &
       to_text(best(2) - best(1))//','//to_text(best(2))//','//to_text(timer%seconds(phase_joints))//','// &
       to_text(size(results%path))//','//to_text(results%residual_ratio)//','//to_text(n_sweeps)//','// &
-      to_text(loop)//','//to_text(displacement_difference)
+      to_text(loop)//','//to_text(displacement_difference)//','//to_text(alone(1))//','//to_text(alone(2))
 
 contains
 
@@ -114,6 +118,49 @@ contains
       best = time
       best_timer = timer
    end subroutine time_analysis
+
+   !> Time of the solution alone: assembly, factorization, joints, displacements; no recovery of
+   !> stresses, no estimates of errors [second]
+   real(wp) function solution_time(model) result(time)
+      !> The job
+      type(model_type), intent(in), target :: model
+
+      type(structure_type), target :: structure
+      type(timer_type) :: timer
+      type(progress_type) :: progress
+      type(error_type), allocatable :: error
+      type(joint_field_type) :: field
+      type(history_type) :: history
+      type(mode_solve_type), allocatable :: solves(:)
+      real(wp), allocatable :: displacement(:, :, :), none(:, :, :)
+      real(wp) :: start, share
+
+      call timer%start()
+      start = seconds()
+      call build_structure(model, structure, timer, progress, error)
+      call stop_on(error)
+      associate (scene => structure%scene)
+         if (size(structure%yielding) > 0) then
+            scene%model => model
+            scene%equations => structure%equations
+            scene%method = model%method
+            call run_increments(scene, structure%joint_points, structure%support_points, &
+                                model%combinations(1), field, history, progress)
+            displacement = history%loading%right
+            call solve_displacements(structure%equations, model, history%loading, scene%points, field%excess, &
+                                     displacement, solves, share, error)
+         else
+            call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
+                             model%combinations(1), history%loading)
+            displacement = history%loading%right
+            allocate (none(3, 0, size(structure%modes)))
+            call solve_displacements(structure%equations, model, history%loading, structure%joint_points(:0), none, &
+                                     displacement, solves, share, error)
+         end if
+      end associate
+      call stop_on(error)
+      time = seconds() - start
+   end function solution_time
 
    !> The loop on total jumps with the structure's factors, to Newton's residual
    subroutine run_loop()

@@ -26,9 +26,9 @@ module axijoint_joints_balance
    !> Joints much stiffer than the bodies: the laws see a share of their stiffness
    !> first, this many times more whenever the residual ratio has fallen so far
    real(wp), parameter :: stage_factor = 10.0_wp, stage_tolerance = 0.1_wp
-   !> Tolerances of the linear solution of Newton's method far from and near to
-   !> equilibrium, and the ratio that divides them
-   real(wp), parameter :: loose = 1.0e-3_wp, strict = 1.0e-9_wp, near = 1.0e-2_wp
+   !> Newton: tolerance of the linear solution far from equilibrium, the ratio from which on it
+   !> is near, the least tolerance there, and the part of the tolerance that is left to it
+   real(wp), parameter :: loose = 1.0e-3_wp, near = 1.0e-2_wp, strict = 1.0e-9_wp, part = 0.01_wp
    !> If Newton's step runs away, so many steps of Anderson's mix go before the next
    integer, parameter :: detour = 8
    !> Rounding of the forces of the excess stress
@@ -128,7 +128,7 @@ contains
             cycle
          end if
          if (verdict%stalled .or. k == most) exit
-         call take_step(scene, k, steps(k)%ratio, field, residual, newton, watch)
+         call take_step(scene, k, tolerance, steps(k)%ratio, field, residual, newton, watch)
       end do
       field%pending = residual
       k = min(k, most)
@@ -273,12 +273,13 @@ contains
    end subroutine go_on
 
    !> One step of the method; where Newton's runs away, some of Anderson's mix
-   subroutine take_step(scene, k, ratio, field, residual, newton, watch)
+   subroutine take_step(scene, k, tolerance, ratio, field, residual, newton, watch)
       !> What does not change
       type(scene_type), intent(in) :: scene
-      !> Iteration, and its residual ratio
+      !> Iteration
       integer, intent(in) :: k
-      real(wp), intent(in) :: ratio
+      !> Tolerance on the residual ratio, and the ratio
+      real(wp), intent(in) :: tolerance, ratio
       !> State of the joints
       type(joint_field_type), intent(inout) :: field
       !> Excess stress not transferred; of the new state on return
@@ -289,10 +290,13 @@ contains
       type(watch_type), intent(inout) :: watch
 
       real(wp), allocatable :: x(:)
+      real(wp) :: accuracy
       logical :: made, ran
 
       if (scene%method == method_newton .and. watch%mixes == 0) then
-         call newton_step(scene, merge(strict, loose, ratio < near), watch%largest, newton, field, residual, &
+         ! near to equilibrium, so exactly that one step can reach the tolerance
+         accuracy = merge(min(loose, max(strict, part*tolerance/max(tiny(ratio), ratio))), loose, ratio < near)
+         call newton_step(scene, accuracy, watch%largest, newton, field, residual, &
                           made, ran)
          if (ran) watch%ran_at = k
          if (made) return

@@ -204,8 +204,10 @@ contains
          if (equations%systems(s)%failed) cycle
          do i = 1, size(equations%systems(s)%modes)
             k = equations%systems(s)%modes(i)
-            displacement = loading%right(:, :, k)  ! for its shape
-            call solve_mode(equations, k, loading%right(:, :, k), displacement)
+            displacement = loading%right(:, :, k)
+            if (any(abs(displacement) > 0.0_wp)) then  ! most harmonics of most jobs are not loaded
+               call solve_mode(equations, k, loading%right(:, :, k), displacement)
+            end if
             if (allocated(loading%held)) displacement = displacement + loading%held(:, :, k)
             response%free(:, :, k) = joint_jump(points, displacement)
             response%largest(k) = maxval(abs(displacement))
