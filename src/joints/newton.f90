@@ -25,6 +25,8 @@ module axijoint_joints_newton
    integer, parameter :: most_products = 400
    !> gamma k, in stiffnesses of the bodies
    real(wp), parameter :: augmentation = 10.0_wp
+   !> Values on the planes from which on threads are worth their start
+   integer, parameter :: worth_threads = 5000
    !> Shortest part of a step
    real(wp), parameter :: shortest = 1.0_wp/8.0_wp
 
@@ -107,6 +109,7 @@ contains
       allocate (newton%by_jump(3, 3, size(field%jump, 2), size(field%jump, 3)))
       allocate (newton%slope, mold=newton%by_jump)
       allocate (newton%rest, excess, missing, mold=field%jump)
+      !$omp parallel do private(i, k, trial, admitted, tangent, inverse) if (size(field%jump) >= worth_threads)
       do j = 1, size(field%jump, 3)
          do k = 1, size(field%jump, 2)
             associate (law => scene%model%joint_materials(scene%points(k)%material)%law, &
@@ -126,6 +129,7 @@ contains
             end associate
          end do
       end do
+      !$omp end parallel do
       newton%residual = analyse(scene%planes, excess) - field%excess
       newton%merit = merit_of(scene, newton%residual, missing)
       newton%residual = newton%residual - analyse(scene%planes, newton%rest)

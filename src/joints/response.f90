@@ -17,6 +17,9 @@ module axijoint_joints_response
    private
    public :: response_type, new_response, load_response, jumps
 
+   !> Joint points from which on products of the harmonics are worth threads
+   integer, parameter :: worth_points = 64
+
    !> Flexibility of one harmonic
    type :: flexibility_type
       !> Jumps that unit amplitudes of excess stress give: N K_m^-1 N^T c_m w,
@@ -230,10 +233,12 @@ contains
 
       integer :: k
 
+      !$omp parallel do schedule(static, 1) if (size(excess, 2) >= worth_points)
       do k = 1, size(excess, 3)
          call matrix_vector(response%flexibilities(response%system(k))%matrix, excess(:, :, k), &
                              jump(:, :, k))
       end do
+      !$omp end parallel do
       if (free) jump = jump + response%free
    end function jumps
 
