@@ -92,7 +92,7 @@ def memory_changes_nothing(program, folder):
     decks = {'linear': (fine, 2, 1),
              'combined': (fine.replace('TRACTIONS', 'CASE\n1, all\nTRACTIONS').replace(
                  'END', 'COMBINE\n1, 1, 1\n2, 1, 2\nEND'), 4, 1),
-             'joints': (example(3, refined=7, harmonic=4, planes=17), 5, 2)}
+             'joints': (example(3, refined=7, harmonic=4, planes=17), 5, 1)}
     faults = []
     for name, (text, most, least) in decks.items():
         deck = write(folder, name + '.dat', text)
