@@ -142,6 +142,44 @@ def times(classical, runs):
           f"beyond the elastic solution {found['loop_s']/found['joints_s']:.0f}")
 
 
+def estimates(program):
+    """Estimates that harmonics and planes leave of joint stress, over the difference to twice the harmonics and
+    to four times as many intervals between planes"""
+    print("\nEstimated over found error of joint stress (all but bonds): harmonics against 2 M (6 for 2), planes against "
+          "four\ntimes the intervals")
+    scenes = [(f"case 3 x {factor:g}", lambda m, n, factor=factor: example(3, factor=factor, harmonic=m, planes=n),
+               ((2, 9), (4, 17), (8, 33))) for factor in (0.1, 1.0, 10.0, 100.0)]
+    scenes += [(f"disc {ratio}", lambda m, n, ratio=ratio: eccentric_disc(ratio, n=8, harmonic=m, planes=n, young=1e4),
+                ((2, 9), (4, 17), (4, 65))) for ratio in (0.3, 0.5, 0.7)]
+    ratios = []
+    for name, make, settings in scenes:
+        found = []
+        for m, n in settings:
+            run = Run(program, make(m, n))
+            errors = run.summary["errors"]
+            more = Run(program, make(6 if m == 2 and name.startswith("case") else 2*m, n)).stress
+            finer = Run(program, make(m, 4*(n - 1) + 1)).stress[::4]
+            for source, other in (("harmonics", more), ("planes", finer)):
+                true = abs(other - run.stress).max()/abs(run.stress).max()
+                found.append(errors[source]["joint_stress"]/true)
+        ratios += found
+        print(f"{name:14}", " ".join(f"{ratio:6.2f}" for ratio in found), flush=True)
+    good = sum(0.3 <= ratio <= 3.0 for ratio in ratios)
+    print(f"{good} of {len(ratios)} between 0.3 and 3; all between {min(ratios):.2f} and {max(ratios):.1f}")
+
+
+def increments(program):
+    """What the order in which bonds break changes: few load increments against a hundred"""
+    print("\nBonds: displacement and largest joint stress after 1 and 5 increments against 100; iterations")
+    for number in (1, 2):
+        for factor in (1.0, 10.0, 100.0, 1000.0):
+            deck = example(number, factor=factor)
+            head, _, _ = deck.partition("INCREMENTS\n")
+            runs = [Run(program, head + "INCREMENTS\n" + f"{1/n:.12g}, 1E-10, 500\n"*n + "END\n") for n in (1, 5, 100)]
+            print(f"{number:4} {factor:6g}", "  ".join(f"{run.differs(runs[-1])} {run.summary['iterations']:5}"
+                                                    for run in runs[:-1]), flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--program", required=True)
@@ -151,6 +189,8 @@ def main():
     times(args.classical, 3 if args.quick else 15)
     discs(args.program)
     proportions(args.program)
+    estimates(args.program)
+    increments(args.program)
     iterations(args.program)
 
 

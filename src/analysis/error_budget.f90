@@ -56,7 +56,7 @@ contains
       share%joint_stress = results%discretization%joint_stress
       share%seconds = results%discretization%seconds
       if (any(model%mesh%element_size < 5)) then
-         share%remedy = 'elements 0.7 times as large (displacement; half as large for stresses)'
+         share%remedy = 'elements 0.7 (for stresses 0.5) times as large'
       else
          share%remedy = 'elements 0.7 times as large'
       end if

@@ -17,6 +17,10 @@ FENCED_DECK = re.compile(EXIT + r'^```\w*\n(TITLE\n.*?^END)\n```$', re.MULTILINE
 INDENTED_DECK = re.compile(EXIT + r'^(    TITLE\n(?:(?:    .*)?\n)*?    END)$', re.MULTILINE)
 # Documents whose decks are meant to be run
 RUNNABLE = ('README.md', 'doc/user.md', 'doc/deck.md')
+# Documents that show the output of a run below its deck, and lines of it that differ from run to run
+SHOWING = ('README.md', 'doc/user.md')
+CHANGING = ('deck', 'residual ratio', 'equilibrium error', 'time, peak memory', 'files')
+INDENTED = re.compile(r'^    \S.*(?:\n    .*)*', re.MULTILINE)
 USE = re.compile(r'^\s*use axijoint_([a-z0-9]+)_', re.MULTILINE)
 
 
@@ -26,6 +30,8 @@ def tests(program):
              for name in documents()]
     found += [Test(f'documents/decks of {name}', lambda folder, name=name: deck_faults(program, name, folder))
               for name in RUNNABLE]
+    found += [Test(f'documents/outputs of {name}', lambda folder, name=name: output_faults(program, name, folder))
+              for name in SHOWING]
     return found + [Test('documents/keywords', keyword_faults), Test('documents/folders', folder_faults)]
 
 
@@ -89,6 +95,34 @@ def deck_faults(program, name, folder):
         ran = program.run('run', write(folder, f'deck{number}.dat', deck), '-o', folder)
         found = ran.ended_with(code) + (expected('messages', '', ran.err) if code == 0 else [])
         faults += [f'deck {number}: {fault}' for fault in found]
+    return faults
+
+
+def shown_runs(name):
+    """Decks of a document and the output that is shown below them, of runs that converge. Cards between a
+    deck and the run belong to it"""
+    deck, runs = '', []
+    for block in INDENTED.findall(text_of(name)):
+        block = re.sub(r'^    ', '', block, flags=re.MULTILINE) + '\n'
+        if block.startswith('TITLE\n'):
+            deck = block
+        elif re.match(r'[A-Z]{4,}\b', block) and deck:
+            deck = deck.replace('\nEND\n', f'\n{block}END\n')
+        elif block.startswith('$ scripts/run ') and '\nstatus ' in block and ' converged ' in block:
+            runs.append((deck, block.splitlines()[1:]))
+    return runs
+
+
+def output_faults(program, name, folder):
+    """Lines of a shown output that the program does not print"""
+    if not shown_runs(name):
+        return ['found no output']
+    faults = []
+    for number, (deck, lines) in enumerate(shown_runs(name), 1):
+        ran = program.run('run', write(folder, f'shown{number}.dat', deck), '-o', folder)
+        wanted, found = ([line for line in text if line and not line.startswith(CHANGING)]
+                         for text in (lines, ran.out.splitlines()))
+        faults += expected(f'output {number}', wanted, found)
     return faults
 
 
