@@ -10,8 +10,7 @@ module axijoint_cli
    implicit none
    private
    public :: command_type, word_type, read_command, help_text
-   public :: command_run, command_check, command_estimate, command_compare, command_help, &
-             command_version
+   public :: command_run, command_check, command_estimate, command_compare, command_help
 
    !> Solve decks
    integer, parameter :: command_run = 1

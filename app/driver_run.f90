@@ -21,7 +21,7 @@ module axijoint_driver_run
    use omp_lib, only : omp_set_num_threads
    implicit none
    private
-   public :: run_decks, print_error, job_name
+   public :: run_decks, print_error
 
 contains
 

@@ -6,7 +6,7 @@ module axijoint_bench_measure
    use axijoint_linalg_lapack, only : dgemm
    implicit none
    private
-   public :: product_rate, median, seconds, stop_on, fail
+   public :: product_rate, seconds, stop_on, fail
 
    !> Unknowns of the products that the machine's rate is measured with
    integer, parameter :: product_size = 2000

@@ -8,8 +8,8 @@ module axijoint_analysis_results
    use axijoint_joints_states, only : increment_state_type
    implicit none
    private
-   public :: results_type, iteration_type, mode_solve_type, ordering_type, remark_type, &
-             nodal_stress_type, error_share_type, discretization_error_type, round_type
+   public :: results_type, mode_solve_type, ordering_type, remark_type, nodal_stress_type, &
+             error_share_type, round_type
    public :: axial, lateral, moment, torque, lateral_90, moment_90, n_resultants
 
    !> Index of a resultant: force along z

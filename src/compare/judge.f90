@@ -8,7 +8,7 @@ module axijoint_compare_judge
       is_skipped
    implicit none
    private
-   public :: column_result_type, table_result_type, difference_type, judge_tables, largest_values
+   public :: column_result_type, table_result_type, judge_tables, largest_values
 
    !> Two values that differ
    type :: difference_type

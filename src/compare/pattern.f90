@@ -2,7 +2,7 @@
 module axijoint_compare_pattern
    implicit none
    private
-   public :: captures_type, match_pattern, capture, clear_captures, find_capture, next_word
+   public :: captures_type, match_pattern, find_capture, next_word
 
    !> Most parameters that are kept
    integer, parameter :: most = 32
@@ -136,14 +136,6 @@ contains
       captures%name(k) = name
       captures%text(k) = text
    end subroutine capture
-
-   !> Forget all parameters
-   pure subroutine clear_captures(captures)
-      !> Parameters
-      type(captures_type), intent(inout) :: captures
-
-      captures%n = 0
-   end subroutine clear_captures
 
    !> Index of a parameter; 0 if it is not there
    pure integer function find_capture(captures, name) result(found)

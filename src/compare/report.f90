@@ -10,7 +10,7 @@ module axijoint_compare_report
       find_column
    implicit none
    private
-   public :: print_table, print_only, print_rows_only, row_place
+   public :: print_table, print_only
 
    !> Name, quantity, values, different, worst absolute and relative difference
    character(len=*), parameter :: format_column = '(4x, a14, a14, i9, i11, 2es14.2)'

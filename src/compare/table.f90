@@ -8,8 +8,7 @@ module axijoint_compare_table
    public :: column_type, table_type, listing_type, words_type
    public :: open_table, add_row, find_column, word_index, table_title, append_columns
    public :: kind_names, kind_label, kind_key, kind_coordinate, kind_angle, kind_parameter, &
-      kind_skip, kind_word, kind_displacement, kind_jump, kind_stress, kind_force, kind_moment, &
-      kind_other
+      kind_skip, kind_word, kind_displacement, kind_jump, kind_stress, kind_force, kind_moment
 
    !> Number of a node, element, joint or point, which differs between programs
    integer, parameter :: kind_label = 1

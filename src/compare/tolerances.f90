@@ -4,8 +4,7 @@ module axijoint_compare_tolerances
    use axijoint_compare_cell, only : cell_type
    implicit none
    private
-   public :: tolerances_type, special_type, allowed_difference, floor_difference, is_skipped, &
-      relative_of
+   public :: tolerances_type, special_type, allowed_difference, floor_difference, is_skipped
 
    !> Tolerances of one quantity or column
    type :: special_type

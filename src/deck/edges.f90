@@ -7,7 +7,7 @@ module axijoint_deck_edges
    use axijoint_fe_shape, only : n_corners
    implicit none
    private
-   public :: edge_table_type, new_edge_table, check_edges, find_edge, outer_edge, shared
+   public :: edge_table_type, new_edge_table, check_edges, find_edge, outer_edge
 
    !> Edges of all elements; an edge inside a body is there once for each element
    type :: edge_table_type

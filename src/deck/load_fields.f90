@@ -8,7 +8,7 @@ module axijoint_deck_load_fields
    implicit none
    private
    public :: load_fields
-   public :: name_harmonic, name_family, name_shape, name_last, name_step, shape_kinds, resultant_kinds
+   public :: name_harmonic, name_family, name_shape, name_last, name_step
 
    !> Names by which the fields of the distribution round the circle are found
    character(len=*), parameter :: name_harmonic = 'the harmonic', name_family = 'the family', &

@@ -4,7 +4,7 @@ module axijoint_deck_source
    private
    public :: source_type, add_file, add_card
    public :: card_text, card_content, card_file, card_line, card_position, printable, tab
-   public :: card_ignored, card_title, card_data, card_keyword
+   public :: card_title, card_data, card_keyword
 
    !> Blank card, comment card, or a card that was already found at fault
    integer, parameter :: card_ignored = 0

@@ -5,8 +5,8 @@ module axijoint_gmsh_mesh
    use axijoint_base_text, only : to_text
    implicit none
    private
-   public :: gmsh_mesh_type, gmsh_group_type, gmsh_set_type, nodes_of_type, dimension_of_type, &
-      type_name, find_group, group_index, set_index, group_text, most_nodes
+   public :: gmsh_mesh_type, nodes_of_type, dimension_of_type, type_name, &
+      find_group, group_index, set_index, group_text, most_nodes
 
    !> Most nodes of an element that can be used
    integer, parameter :: most_nodes = 9

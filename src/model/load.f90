@@ -1,13 +1,12 @@
 !> Loads as Fourier amplitudes, supports that yield, load cases and increments
 module axijoint_model_load
    use axijoint_base_kinds, only : wp
-   use axijoint_fe_mode, only : mode_type, family_symmetric, family_antisymmetric
+   use axijoint_fe_mode, only : mode_type
    implicit none
    private
    public :: edge_load_type, ring_load_type, body_load_type, thermal_load_type, prescribed_type, &
       initial_stress_type, edge_support_type, load_case_type, combination_type, increment_type, &
       truncation_type
-   public :: family_symmetric, family_antisymmetric
 
    !> Traction on one edge of a solid element
    type :: edge_load_type

@@ -4,7 +4,7 @@ module axijoint_model_mesh
    implicit none
    private
    public :: mesh_type, n_nodes, n_elements, n_joints
-   public :: max_element_nodes, max_joint_nodes
+   public :: max_element_nodes
 
    !> Nodes of the largest solid element
    integer, parameter :: max_element_nodes = 9

@@ -11,7 +11,7 @@ module axijoint_output_listing_stress
    use axijoint_output_totals, only : circle_type, new_circle, total_stress
    implicit none
    private
-   public :: write_stresses, write_nodal_stresses, write_joint_results, state_name
+   public :: write_stresses, write_nodal_stresses, write_joint_results
 
    !> Element or joint, and its point
    character(len=*), parameter :: format_point = '(i10, i3)'

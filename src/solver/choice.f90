@@ -12,7 +12,7 @@ module axijoint_solver_choice
    use axijoint_solver_type, only : solver_type
    implicit none
    private
-   public :: solver_auto, solver_band, solver_skyline, solver_sparse, solver_names
+   public :: solver_auto, solver_band, solver_sparse, solver_names
    public :: orders_type, new_orders, order_for, new_solver, order_name, expected_seconds
 
    !> The solver with the least expected time

@@ -5,7 +5,7 @@ module axijoint_test_rings
    implicit none
    private
    public :: ring_type, new_ring, ring_displacement, ring_stress, ring_all_stresses, ring_unbalance
-   public :: solve_joined_rings, solve_dense
+   public :: solve_joined_rings
 
    interface
       !> LAPACK: solution of a general system
