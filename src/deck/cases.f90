@@ -4,7 +4,8 @@ module axijoint_deck_cases
    use axijoint_base_number_map, only : number_map_type, find_number, insert_number
    use axijoint_base_text, only : to_text
    use axijoint_deck_diagnostics, only : diagnostics_type, add_warning
-   use axijoint_deck_source, only : source_type, card_position
+   use axijoint_deck_labels, only : repeated_label
+   use axijoint_deck_source, only : source_type
    use axijoint_deck_table, only : table_type, integer_value, text_value, field_error, entry_error
    use axijoint_model_load, only : load_case_type, combination_type, increment_type
    implicit none
@@ -58,10 +59,8 @@ contains
          label = integer_value(table, field_label, entry)
          known = findloc(nint(table%values(field_label, :entry - 1)), label, 1)
          if (known > 0) then
-            call field_error(diagnostics, source, table, entry, field_label, &
-                             'load case '//to_text(label)//' is given twice, first on '// &
-                             card_position(source, table%cards(1, known), table%cards(1, entry)), &
-                             allowed='a number of its own for each load case')
+            call repeated_label(source, table, entry, field_label, 'load case', table%cards(1, known), &
+                                diagnostics, allowed='a number of its own for each load case')
          end if
          if (find_number(cases%index_of, label) == 0) call add_case(cases, label, '')
          cases%case_of(entry) = find_number(cases%index_of, label)

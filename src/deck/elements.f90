@@ -1,10 +1,11 @@
 !> Elements given by cards, and the mid-side and centre nodes that they imply
 module axijoint_deck_elements
    use axijoint_base_kinds, only : wp
-   use axijoint_base_number_map, only : number_map_type, find_number, insert_number
+   use axijoint_base_number_map, only : number_map_type, find_number
    use axijoint_base_text, only : to_text
    use axijoint_deck_diagnostics, only : diagnostics_type
    use axijoint_deck_draft, only : draft_type, add_node, add_element
+   use axijoint_deck_labels, only : check_label
    use axijoint_deck_properties, only : properties_type, find_property
    use axijoint_deck_source, only : source_type, card_position
    use axijoint_deck_table, only : table_type, integer_value, field_error, entry_error
@@ -38,7 +39,7 @@ contains
 
       n_given = draft%n_nodes
       do entry = 1, table%n
-         call check_label(source, table, entry, seen, diagnostics)
+         call check_label(source, table, entry, 'element', seen, diagnostics)
          call find_property(source, table, entry, field_material, properties%material_of, &
                             properties%materials_complete, 'material', material, diagnostics)
          n = count_nodes(table, entry)
@@ -59,33 +60,6 @@ contains
          call claim_nodes(table, entry, nodes(:n), draft, diagnostics)
       end do
    end subroutine draft_elements
-
-   !> Report an element number that was given before
-   subroutine check_label(source, table, entry, seen, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
-      !> ELEMENTS
-      type(table_type), intent(in) :: table
-      !> The entry
-      integer, intent(in) :: entry
-      !> Entries by number
-      type(number_map_type), intent(inout) :: seen
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
-
-      integer :: label, known
-
-      if (.not. table%given(field_label, entry)) return
-      label = integer_value(table, field_label, entry)
-      known = find_number(seen, label)
-      if (known > 0) then
-         call field_error(diagnostics, source, table, entry, field_label, &
-                          'element '//to_text(label)//' is given twice, first on '// &
-                          card_position(source, table%cards(1, known), table%cards(1, entry)))
-      else
-         call insert_number(seen, label, entry)
-      end if
-   end subroutine check_label
 
    !> Number of nodes of an element: 3, 4, 6, 8 or 9; 0 if it is another or there are gaps
    pure integer function count_nodes(table, entry) result(n)

@@ -6,7 +6,8 @@ module axijoint_deck_faces
    use axijoint_deck_diagnostics, only : diagnostics_type
    use axijoint_deck_draft, only : draft_type, face_type, place_text
    use axijoint_deck_edges, only : edge_table_type, find_edge, outer_edge
-   use axijoint_deck_source, only : source_type, card_position
+   use axijoint_deck_labels, only : repeated_label
+   use axijoint_deck_source, only : source_type
    use axijoint_deck_straight_face, only : outer_edges, lay_straight_face
    use axijoint_deck_table, only : table_type, integer_value, field_error
    implicit none
@@ -79,9 +80,7 @@ contains
       else if (is_chain .and. draft%faces(known)%is_chain) then
          draft%faces(known)%good = draft%faces(known)%good .and. table%good(entry)
       else
-         call field_error(diagnostics, source, table, entry, field_label, &
-                          'face '//to_text(label)//' is given twice, first on '// &
-                          card_position(source, draft%faces(known)%card, table%cards(1, entry)))
+         call repeated_label(source, table, entry, field_label, 'face', draft%faces(known)%card, diagnostics)
       end if
    end subroutine number_face
 

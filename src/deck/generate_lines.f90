@@ -5,6 +5,7 @@ module axijoint_deck_generate_lines
    use axijoint_base_text, only : to_text
    use axijoint_deck_diagnostics, only : diagnostics_type
    use axijoint_deck_draft, only : draft_type, add_node, most_nodes
+   use axijoint_deck_labels, only : repeated_label
    use axijoint_deck_source, only : source_type, card_position
    use axijoint_deck_table, only : table_type, integer_value, field_error, entry_error
    implicit none
@@ -37,9 +38,7 @@ contains
          label = integer_value(table, 1, entry)
          known = find_number(draft%node_of, label)
          if (known > 0) then
-            call field_error(diagnostics, source, table, entry, 1, &
-                             'node '//to_text(label)//' is given twice, first on '// &
-                             card_position(source, draft%node_card(known), table%cards(1, entry)))
+            call repeated_label(source, table, entry, 1, 'node', draft%node_card(known), diagnostics)
          else
             call add_node(draft, label, table%cards(1, entry), table%values(2:3, entry), &
                           table%good(entry))

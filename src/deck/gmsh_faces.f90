@@ -6,7 +6,8 @@ module axijoint_deck_gmsh_faces
    use axijoint_deck_draft, only : draft_type, edge_type, face_type, place_text
    use axijoint_deck_edges, only : edge_table_type, find_edge, outer_edge
    use axijoint_deck_gmsh_import, only : gmsh_import_type, use_face
-   use axijoint_deck_source, only : source_type, card_position
+   use axijoint_deck_labels, only : repeated_label
+   use axijoint_deck_source, only : source_type
    use axijoint_deck_table, only : table_type, field_error
    use axijoint_gmsh_mesh, only : dimension_of_type
    implicit none
@@ -40,9 +41,8 @@ contains
             if (.not. table%given(field_number, entry)) cycle
             known = find_number(draft%face_of, label)
             if (known > 0) then
-               call field_error(diagnostics, source, table, entry, field_number, &
-                                'face '//to_text(label)//' is given twice, first on '// &
-                                card_position(source, draft%faces(known)%card, table%cards(1, entry)))
+               call repeated_label(source, table, entry, field_number, 'face', draft%faces(known)%card, &
+                                   diagnostics)
                cycle
             end if
             face = face_type(label=label, card=table%cards(1, entry), is_chain=.true., good=import%sound)

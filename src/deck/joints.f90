@@ -1,11 +1,12 @@
 !> Joints given by cards
 module axijoint_deck_joints
-   use axijoint_base_number_map, only : number_map_type, find_number, insert_number
+   use axijoint_base_number_map, only : number_map_type, find_number
    use axijoint_base_text, only : to_text
    use axijoint_deck_diagnostics, only : diagnostics_type
    use axijoint_deck_draft, only : draft_type, add_joint
+   use axijoint_deck_labels, only : check_label
    use axijoint_deck_properties, only : properties_type, find_property
-   use axijoint_deck_source, only : source_type, card_position
+   use axijoint_deck_source, only : source_type
    use axijoint_deck_table, only : table_type, integer_value, field_error, entry_error
    implicit none
    private
@@ -33,7 +34,7 @@ contains
       integer :: entry, law, n, nodes(6)
 
       do entry = 1, table%n
-         call check_label(source, table, entry, seen, diagnostics)
+         call check_label(source, table, entry, 'joint', seen, diagnostics)
          call find_property(source, table, entry, field_law, properties%law_of, &
                             properties%laws_complete, 'law', law, diagnostics)
          if (.not. table%good(entry)) cycle
@@ -49,33 +50,6 @@ contains
                         law, nodes(:n))
       end do
    end subroutine draft_joints
-
-   !> Report a joint number that was given before
-   subroutine check_label(source, table, entry, seen, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
-      !> JOINTS
-      type(table_type), intent(in) :: table
-      !> The entry
-      integer, intent(in) :: entry
-      !> Entries by number
-      type(number_map_type), intent(inout) :: seen
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
-
-      integer :: label, known
-
-      if (.not. table%given(field_label, entry)) return
-      label = integer_value(table, field_label, entry)
-      known = find_number(seen, label)
-      if (known > 0) then
-         call field_error(diagnostics, source, table, entry, field_label, &
-                          'joint '//to_text(label)//' is given twice, first on '// &
-                          card_position(source, table%cards(1, known), table%cards(1, entry)))
-      else
-         call insert_number(seen, label, entry)
-      end if
-   end subroutine check_label
 
    !> Find the nodes of a joint; a node that is not defined or repeated is reported
    subroutine find_joint_nodes(source, table, entry, n, draft, nodes, diagnostics)

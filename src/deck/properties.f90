@@ -4,7 +4,8 @@ module axijoint_deck_properties
    use axijoint_base_number_map, only : number_map_type, find_number, insert_number
    use axijoint_base_text, only : to_text
    use axijoint_deck_diagnostics, only : diagnostics_type
-   use axijoint_deck_source, only : source_type, card_position
+   use axijoint_deck_labels, only : repeated_label
+   use axijoint_deck_source, only : source_type
    use axijoint_deck_table, only : table_type, integer_value, field_error
    use axijoint_element_elasticity, only : stable_ratios
    use axijoint_element_joint_law, only : law_elastic, law_paper
@@ -102,9 +103,7 @@ contains
          label = integer_value(table, 1, entry)
          known = find_number(index_of, label)
          if (known > 0) then
-            call field_error(diagnostics, source, table, entry, 1, &
-                             noun//' '//to_text(label)//' is given twice, first on '// &
-                             card_position(source, cards(known), table%cards(1, entry)))
+            call repeated_label(source, table, entry, 1, noun, cards(known), diagnostics)
          else
             call insert_number(index_of, label, n_before + entry)
          end if

@@ -1,12 +1,13 @@
 !> Where results are wanted: SECTIONS, CUTS, and faces that are held
 module axijoint_deck_requests
    use axijoint_base_kinds, only : wp, degree
-   use axijoint_base_number_map, only : find_number
+   use axijoint_base_number_map, only : number_map_type, find_number
    use axijoint_base_text, only : to_text
    use axijoint_deck_diagnostics, only : diagnostics_type, add_warning
    use axijoint_deck_draft, only : draft_type, place_text
+   use axijoint_deck_labels, only : check_label
    use axijoint_deck_places, only : same_place
-   use axijoint_deck_source, only : source_type, card_position
+   use axijoint_deck_source, only : source_type
    use axijoint_deck_table, only : table_type, integer_value, field_error, entry_error
    use axijoint_model_locate, only : locate_points, line_position
    use axijoint_model_mesh, only : mesh_type
@@ -35,11 +36,13 @@ contains
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
+      type(number_map_type) :: seen
       integer :: entry
 
       allocate (lines(table%n))
       do entry = 1, table%n
-         call check_label(source, table, entry, 'section', diagnostics)
+         call check_label(source, table, entry, 'section', seen, diagnostics, &
+                          allowed='a number of its own for each section')
          associate (line => lines(entry), values => table%values(:, entry), given => table%given(:, entry))
             line%label = integer_value(table, field_label, entry)
             line%first = values(field_ends:field_ends + 1)
@@ -68,41 +71,18 @@ contains
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
+      type(number_map_type) :: seen
       integer :: entry
 
       allocate (cuts(table%n))
       do entry = 1, table%n
-         call check_label(source, table, entry, 'cut', diagnostics)
+         call check_label(source, table, entry, 'cut', seen, diagnostics, &
+                          allowed='a number of its own for each cut')
          cuts(entry)%label = integer_value(table, field_label, entry)
          cuts(entry)%z = table%values(field_z, entry)
          if (table%given(field_body, entry)) cuts(entry)%body = integer_value(table, field_body, entry)
       end do
    end subroutine read_cuts
-
-   !> Report a number that an earlier card has
-   subroutine check_label(source, table, entry, noun, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
-      !> The section
-      type(table_type), intent(in) :: table
-      !> The entry
-      integer, intent(in) :: entry
-      !> What it is
-      character(len=*), intent(in) :: noun
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
-
-      integer :: label, known
-
-      if (.not. table%given(field_label, entry)) return
-      label = integer_value(table, field_label, entry)
-      known = findloc(nint(table%values(field_label, :entry - 1)), label, 1)
-      if (known == 0) return
-      call field_error(diagnostics, source, table, entry, field_label, &
-                       noun//' '//to_text(label)//' is given twice, first on '// &
-                       card_position(source, table%cards(1, known), table%cards(1, entry)), &
-                       allowed='a number of its own for each '//noun)
-   end subroutine check_label
 
    !> Find the elements of the points of all lines; tell of points outside
    subroutine place_lines(table, mesh, lines, diagnostics)

@@ -4,7 +4,8 @@ module axijoint_deck_shapes
    use axijoint_base_number_map, only : number_map_type, find_number, insert_number
    use axijoint_base_text, only : to_text
    use axijoint_deck_diagnostics, only : diagnostics_type
-   use axijoint_deck_source, only : source_type, card_position
+   use axijoint_deck_labels, only : repeated_label
+   use axijoint_deck_source, only : source_type
    use axijoint_deck_table, only : table_type, integer_value, field_error, entry_error
    use axijoint_fe_circle_function, only : circle_function_type, new_patch, new_cosine, new_table
    implicit none
@@ -101,10 +102,8 @@ contains
       else if (all(nint(table%values(field_kind, [first_entry(known), entry])) == kind_table)) then
          shape_of_entry(entry) = known
       else if (all(table%given(field_kind, [first_entry(known), entry]))) then
-         call field_error(diagnostics, source, table, entry, field_label, &
-                          'shape '//to_text(label)//' is given twice, first on '// &
-                          card_position(source, table%cards(1, first_entry(known)), table%cards(1, entry)), &
-                          mend='only a TABLE goes on on further cards')
+         call repeated_label(source, table, entry, field_label, 'shape', table%cards(1, first_entry(known)), &
+                             diagnostics, mend='only a TABLE goes on on further cards')
       end if
    end subroutine number_shape
 
