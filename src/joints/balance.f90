@@ -26,8 +26,8 @@ module axijoint_joints_balance
    !> Joints much stiffer than the bodies: the laws see a share of their stiffness
    !> first, this many times more whenever the residual ratio has fallen so far
    real(wp), parameter :: stage_factor = 10.0_wp, stage_tolerance = 0.1_wp
-   !> Newton: tolerance of the linear solution far from equilibrium, the ratio from which on it
-   !> is near, the least tolerance there, and the part of the tolerance that is left to it
+   !> Tolerance of Newton's linear solution far from equilibrium, the ratio from which on it
+   !> is near, the least tolerance there, and the part of the step's tolerance that is left to it
    real(wp), parameter :: loose = 1.0e-3_wp, near = 1.0e-2_wp, strict = 1.0e-9_wp, part = 0.01_wp
    !> If Newton's step runs away, so many steps of Anderson's mix go before the next
    integer, parameter :: detour = 8
