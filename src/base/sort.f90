@@ -1,9 +1,9 @@
-!> Orders of reals and of small integers
+!> Orders of reals and of small integers; short lists
 module axijoint_base_sort
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: ascending_order, refine_order
+   public :: ascending_order, refine_order, sort_short
 
 contains
 
@@ -85,5 +85,30 @@ contains
       end do
       order = arranged
    end subroutine refine_order
+
+   !> Sort a short list by insertion; equals keep their order
+   pure subroutine sort_short(list, keys)
+      !> The list, ascending on return
+      integer, intent(inout) :: list(:)
+      !> What is compared: the list holds indices of these. Without them, its own values
+      integer, intent(in), optional :: keys(:)
+
+      integer :: i, j, entry
+
+      do i = 2, size(list)
+         entry = list(i)
+         j = i - 1
+         do while (j >= 1)
+            if (present(keys)) then
+               if (keys(list(j)) <= keys(entry)) exit
+            else
+               if (list(j) <= entry) exit
+            end if
+            list(j + 1) = list(j)
+            j = j - 1
+         end do
+         list(j + 1) = entry
+      end do
+   end subroutine sort_short
 
 end module axijoint_base_sort

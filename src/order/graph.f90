@@ -1,6 +1,7 @@
 !> Graph of the nodes: who shares an element or a joint with whom
 module axijoint_order_graph
    use axijoint_base_kinds, only : i8
+   use axijoint_base_sort, only : sort_short
    implicit none
    private
    public :: graph_type, new_graph, subgraph, degree, bandwidth, profile, fill
@@ -49,7 +50,7 @@ contains
                   if (pass == 2) graph%neighbour(count) = member(l)
                end do
             end do
-            if (pass == 2) call sort(graph%neighbour(graph%start(node):count))
+            if (pass == 2) call sort_short(graph%neighbour(graph%start(node):count))
          end do
          graph%start(n + 1) = count + 1
          if (pass == 1) allocate (graph%neighbour(count))
@@ -116,25 +117,6 @@ contains
          end do
       end do
    end subroutine invert
-
-   !> Sort a short list by insertion
-   pure subroutine sort(list)
-      !> The list, ascending on return
-      integer, intent(inout) :: list(:)
-
-      integer :: i, j, key
-
-      do i = 2, size(list)
-         key = list(i)
-         j = i - 1
-         do while (j >= 1)
-            if (list(j) <= key) exit
-            list(j + 1) = list(j)
-            j = j - 1
-         end do
-         list(j + 1) = key
-      end do
-   end subroutine sort
 
    !> Number of neighbours
    pure integer function degree(graph, node)

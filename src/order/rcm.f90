@@ -1,5 +1,6 @@
 !> Reverse Cuthill-McKee ordering
 module axijoint_order_rcm
+   use axijoint_base_sort, only : sort_short
    use axijoint_order_graph, only : graph_type, degree
    use axijoint_order_levels, only : find_ends
    implicit none
@@ -19,24 +20,29 @@ contains
 
       !> Negative for the nodes that are not numbered yet
       integer, allocatable :: mark(:)
+      !> Number of neighbours of each node
+      integer, allocatable :: degrees(:)
       integer :: seed, first, last, start, finish
 
       allocate (order(graph%n), mark(graph%n))
       mark = -1
+      degrees = [(degree(graph, seed), seed=1, graph%n)]
       last = 0
       do seed = 1, graph%n
          if (mark(seed) >= 0) cycle
          first = last + 1
          call find_ends(graph, seed, mark, start, finish)
-         call cuthill_mckee(graph, start, mark, order, last)
+         call cuthill_mckee(graph, degrees, start, mark, order, last)
          order(first:last) = order(last:first:-1)
       end do
    end subroutine reverse_cuthill_mckee
 
    !> Cuthill-McKee order of the component of a node
-   subroutine cuthill_mckee(graph, root, mark, order, last)
+   subroutine cuthill_mckee(graph, degrees, root, mark, order, last)
       !> Graph of the nodes
       type(graph_type), intent(in) :: graph
+      !> Number of neighbours of each node
+      integer, intent(in) :: degrees(:)
       !> First node
       integer, intent(in) :: root
       !> Negative for the nodes that are not numbered yet
@@ -63,30 +69,9 @@ contains
                order(last) = next
             end associate
          end do
-         call sort_by_degree(graph, order(first:last))
+         call sort_short(order(first:last), degrees)
          head = head + 1
       end do
    end subroutine cuthill_mckee
-
-   !> Sort a short list of nodes by degree; equals keep their order
-   pure subroutine sort_by_degree(graph, list)
-      !> Graph of the nodes
-      type(graph_type), intent(in) :: graph
-      !> The nodes
-      integer, intent(inout) :: list(:)
-
-      integer :: i, j, key
-
-      do i = 2, size(list)
-         key = list(i)
-         j = i - 1
-         do while (j >= 1)
-            if (degree(graph, list(j)) <= degree(graph, key)) exit
-            list(j + 1) = list(j)
-            j = j - 1
-         end do
-         list(j + 1) = key
-      end do
-   end subroutine sort_by_degree
 
 end module axijoint_order_rcm
