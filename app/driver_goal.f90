@@ -21,9 +21,6 @@ module axijoint_driver_goal
    private
    public :: refine_to_goal
 
-   !> Unknowns grow at most so in a round: the limit is looked at before it
-   real(wp), parameter :: growth = 4.0_wp
-
 contains
 
    !> Solve all combinations, and again with a refined job, until the largest error is below
@@ -52,49 +49,85 @@ contains
       !> Errors of the refined job
       type(error_type), allocatable, intent(out) :: error
 
-      type(refinement_type) :: refinement
-      type(round_type) :: round
-      real(wp) :: start
+      type(refinement_type) :: refinement, before
       integer :: worst
-      logical :: changed
+      logical :: changed, back
 
       allocate (rounds(0))
+      back = .false.
       do
-         start = omp_get_wtime()
-         call solve_round(model, structure, results, worst, timer, progress, error)
-         if (allocated(error)) return
-         round = round_type(refinement%mesh, model%max_harmonic, model%n_planes, n_unknowns(results(worst)), &
-                            -1.0_wp, omp_get_wtime() - start)
-         if (results(worst)%converged) round%error = goal_error(results(worst)%budget, model%error_goal)
-         rounds = [rounds, round]
-         if (.not. results(worst)%converged) return
-         if (round%error >= 0.0_wp .and. round%error <= model%error_goal%target) return
-         if (size(rounds) >= model%error_goal%most_rounds) return
-         if (growth*round%n_unknowns > model%error_goal%most_unknowns) return
-         call refine_further(model, results(worst)%budget, refinement, changed)
-         if (.not. changed) return
-         call show_progress(progress, 'round '//to_text(size(rounds) + 1)//' of refinement')
-         call timer%push(phase_read)
-         call read_deck(deck, source, model, diagnostics, refinement)
-         call timer%pop()
-         if (diagnostics%n_errors > 0) then
-            call fatal_error(error, exit_deck, 'the refined job (elements of BLOCKS times '// &
-                             to_text(refinement%mesh)//') has faults:'//new_line('a')//render(diagnostics, source))
+         call solve_round(refinement, model, structure, results, rounds, worst, timer, progress, error)
+         if (back) then
+            rounds = rounds(:size(rounds) - 1)  ! this one stands there already
             return
          end if
-         if (command%solver >= 0) model%solver = command%solver
-         model%memory_limit = command%memory_limit
+         associate (last => rounds(size(rounds)))
+            back = allocated(last%failure) .and. size(rounds) > 1
+            if (back) then
+               refinement = before
+               if (allocated(error)) deallocate (error)
+            else
+               if (allocated(error) .or. allocated(last%failure)) return
+               if (last%error >= 0.0_wp .and. last%error <= model%error_goal%target) return
+               if (size(rounds) >= model%error_goal%most_rounds) return
+               before = refinement
+               call refine_further(model, results(worst)%budget, last%n_unknowns, refinement, changed)
+               if (.not. changed) return
+            end if
+         end associate
+         call show_progress(progress, 'round '//to_text(size(rounds) + 1)//' of refinement')
+         call read_refined(deck, command, refinement, model, source, diagnostics, timer, error)
+         if (allocated(error)) return
       end do
    end subroutine refine_to_goal
 
-   !> Solve all combinations
-   subroutine solve_round(model, structure, results, worst, timer, progress, error)
+   !> Read the job as it is refined
+   subroutine read_refined(deck, command, refinement, model, source, diagnostics, timer, error)
+      !> The deck
+      character(len=*), intent(in) :: deck
+      !> Options
+      type(command_type), intent(in) :: command
+      !> How it is refined
+      type(refinement_type), intent(inout) :: refinement
+      !> The job
+      type(model_type), intent(inout) :: model
+      !> Cards of the deck, and warnings about them
+      type(source_type), intent(inout) :: source
+      type(diagnostics_type), intent(inout) :: diagnostics
+      !> Times of the run
+      type(timer_type), intent(inout) :: timer
+      !> Errors of the refined job
+      type(error_type), allocatable, intent(out) :: error
+
+      call timer%push(phase_read)
+      call read_deck(deck, source, model, diagnostics, refinement)
+      if (diagnostics%n_errors > 0 .and. abs(refinement%mesh - anint(refinement%mesh)) > 0.0_wp) then
+         ! an edge that faces two others keeps facing them if all are divided by the same integer
+         refinement%mesh = ceiling(refinement%mesh)
+         call read_deck(deck, source, model, diagnostics, refinement)
+      end if
+      call timer%pop()
+      if (diagnostics%n_errors > 0) then
+         call fatal_error(error, exit_deck, 'the refined job (elements of BLOCKS times '// &
+                          to_text(refinement%mesh)//') has faults:'//new_line('a')//render(diagnostics, source))
+         return
+      end if
+      if (command%solver >= 0) model%solver = command%solver
+      model%memory_limit = command%memory_limit
+   end subroutine read_refined
+
+   !> Solve all combinations, and note what the round came to
+   subroutine solve_round(refinement, model, structure, results, rounds, worst, timer, progress, error)
+      !> How the job was refined
+      type(refinement_type), intent(in) :: refinement
       !> The job
       type(model_type), intent(in), target :: model
       !> Its structure
       type(structure_type), intent(inout), target :: structure
       !> Results of its combinations
       type(results_type), allocatable, intent(out) :: results(:)
+      !> One more round
+      type(round_type), allocatable, intent(inout) :: rounds(:)
       !> The combination with the largest error, or the first that did not converge
       integer, intent(out) :: worst
       !> Times of the run
@@ -104,22 +137,34 @@ contains
       !> Singular stiffness, or out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp) :: largest, found
+      type(round_type) :: round
+      real(wp) :: start
       integer :: k
 
+      start = omp_get_wtime()
       worst = 1
-      largest = -1.0_wp
       allocate (results(size(model%combinations)))
       call build_structure(model, structure, timer, progress, error)
       do k = 1, size(results)
-         if (allocated(error)) return
+         if (allocated(error)) exit
          call analyse_combination(model, structure, model%combinations(k), results(k), timer, progress, error)
-         if (allocated(error)) return
-         found = huge(1.0_wp)
-         if (results(k)%converged) found = goal_error(results(k)%budget, model%error_goal)
-         if (found > largest) worst = k
-         largest = max(largest, found)
+         if (allocated(error) .or. results(k)%converged) cycle
+         if (.not. allocated(round%failure)) worst = k
+         round%failure = 'did not converge'
       end do
+      if (allocated(error)) then
+         round%failure = 'could not be solved ('//error%message//')'
+      else if (.not. allocated(round%failure)) then
+         worst = maxloc([(goal_error(results(k)%budget, model%error_goal), k=1, size(results))], 1)
+         round%error = goal_error(results(worst)%budget, model%error_goal)
+      end if
+      round%mesh = refinement%mesh
+      round%nodes = maxval(model%mesh%element_size)
+      round%harmonic = model%max_harmonic
+      round%planes = model%n_planes
+      if (allocated(results(worst)%solves)) round%n_unknowns = n_unknowns(results(worst))
+      round%seconds = omp_get_wtime() - start
+      rounds = [rounds, round]
    end subroutine solve_round
 
 end module axijoint_driver_goal

@@ -219,7 +219,10 @@ contains
       if (.not. results%converged) return
       associate (last => results%rounds(size(results%rounds)), goal => model%error_goal)
          if (last%error >= 0.0_wp .and. last%error <= goal%target) return
-         if (last%error < 0.0_wp) then
+         if (allocated(last%failure)) then
+            why = 'round '//to_text(size(results%rounds))//' '//last%failure//'; these are the results of round '// &
+                  to_text(size(results%rounds) - 1)
+         else if (last%error < 0.0_wp) then
             why = 'the error of '//trim(goal_names(goal%quantity))//' is not known'
          else if (size(results%rounds) >= goal%most_rounds) then
             why = 'so many rounds are allowed'

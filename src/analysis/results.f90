@@ -83,10 +83,14 @@ module axijoint_analysis_results
 
    !> A round of a job that is refined until its error is below a target
    type :: round_type
-      !> Elements of BLOCKS along each side, times so many; M; planes; unknowns in all
-      integer :: mesh = 1, harmonic = 0, planes = 0, n_unknowns = 0
-      !> Estimate of the error that the target is about
-      real(wp) :: error = 0.0_wp
+      !> Elements of BLOCKS along each side, times so many
+      real(wp) :: mesh = 1.0_wp
+      !> Most nodes of an element; M; planes; unknowns in all
+      integer :: nodes = 0, harmonic = 0, planes = 0, n_unknowns = 0
+      !> Estimate of the error that the target is about; negative if not known
+      real(wp) :: error = -1.0_wp
+      !> What happened to the round, if it brought no results
+      character(len=:), allocatable :: failure
       !> Time of the round [second]
       real(wp) :: seconds = 0.0_wp
    end type round_type

@@ -23,7 +23,7 @@ module axijoint_assembly_equations
    !> A band wider than this many nodes is never faster than nested dissection
    integer, parameter :: widest_band = 400
    !> With fewer equations in all, threads cost more than they save
-   integer, parameter :: least_equations = 10000
+   integer, parameter :: least_equations = 5000
    !> Rate of matrix products that solvers are chosen by [operations/second]
    real(wp), parameter :: nominal_rate = 5.0e10_wp
 

@@ -9,7 +9,7 @@ module axijoint_deck_control
    use axijoint_model_model, only : model_type, can_yield
    implicit none
    private
-   public :: read_control, check_planes, field_harmonic, field_planes
+   public :: read_control, check_planes, field_harmonic, field_planes, field_method
 
    !> Fields of CONTROL
    integer, parameter :: field_harmonic = 1, field_planes = 2, field_linear = 3, field_quadratic = 4, &

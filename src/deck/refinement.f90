@@ -1,14 +1,15 @@
 !> ERROR, and what a deck is read with when it is refined for it
 module axijoint_deck_refinement
    use axijoint_base_kinds, only : wp
-   use axijoint_deck_blocks, only : field_n1, field_n2
-   use axijoint_deck_control, only : field_harmonic, field_planes
+   use axijoint_deck_blocks, only : field_size, field_n1, field_n2
+   use axijoint_deck_control, only : field_harmonic, field_planes, field_method
    use axijoint_deck_diagnostics, only : diagnostics_type
    use axijoint_deck_layout, only : section_control, section_blocks, section_error, section_elements, &
       section_groups, section_increments, section_restraints, section_ring_loads, section_point_loads, &
       section_node_temps, section_moved_nodes, section_chains, section_joints, section_nodes, section_lines
    use axijoint_deck_sections, only : sections_type
    use axijoint_deck_table, only : table_type, integer_value, entry_error
+   use axijoint_model_model, only : method_newton
    use axijoint_model_request, only : error_goal_type, refinement_type
    implicit none
    private
@@ -28,11 +29,14 @@ contains
 
       associate (blocks => sections%tables(section_blocks), control => sections%tables(section_control), &
                  increments => sections%tables(section_increments))
-         blocks%values([field_n1, field_n2], :blocks%n) = &
-            refinement%mesh*blocks%values([field_n1, field_n2], :blocks%n)
+         associate (n => blocks%values(field_n1:field_n2, :blocks%n), size => blocks%values(field_size, :blocks%n))
+            n = max(1.0_wp, anint(refinement%mesh*n))
+            if (refinement%quadratic) where (nint(size) == 4) size = 8.0_wp
+         end associate
          if (control%n == 0) return
          if (refinement%harmonic > 0) control%values(field_harmonic, 1) = refinement%harmonic
          if (refinement%planes > 0) control%values(field_planes, 1) = refinement%planes
+         if (refinement%newton) control%values(field_method, 1) = method_newton
          increments%values(2, :increments%n) = refinement%tolerance*increments%values(2, :increments%n)
       end associate
    end subroutine refine_sections

@@ -76,7 +76,11 @@ module axijoint_model_request
    !> How a job is refined beyond what its deck says
    type :: refinement_type
       !> Elements of BLOCKS along each side, times so many
-      integer :: mesh = 1
+      real(wp) :: mesh = 1.0_wp
+      !> Whether BLOCKS of 4-node elements are made of 8-node elements
+      logical :: quadratic = .false.
+      !> Whether joints are brought to equilibrium by Newton's method, whatever CONTROL says
+      logical :: newton = .false.
       !> M and the planes of CONTROL; zero for those of the deck
       integer :: harmonic = 0, planes = 0
       !> Factor on the tolerances of INCREMENTS

@@ -20,6 +20,9 @@ module axijoint_output_hdf5_data
    integer(hid_t), parameter :: no_handle = -1_hid_t
    !> Values of a chunk at most; about a megabyte of reals
    integer(hsize_t), parameter :: chunk_values = 131072_hsize_t
+   !> Values from which an array is worth compressing, a quarter of a megabyte of reals: a small job has a
+   !> hundred small arrays, and would spend a third of its time there
+   integer(hsize_t), parameter :: compressed_from = 32768_hsize_t
    !> Effort of the compression, from 1 (fast) to 9
    integer, parameter :: deflate_level = 1
 
@@ -56,7 +59,7 @@ contains
       if (present(errno)) self%errno = errno
    end subroutine check
 
-   !> Write an array with checksums and compression
+   !> Write an array with checksums, a large one compressed
    subroutine write_array(file, name, file_type, memory_type, extent, values, failure)
       !> Handle of the file
       integer(hid_t), intent(in) :: file
@@ -166,7 +169,7 @@ contains
       call failure%check(status, name)
    end subroutine make_space
 
-   !> Storage of an array: chunks with checksums, compressed where the library
+   !> Storage of an array: chunks with checksums, of large arrays compressed where the library
    !> can. An empty array cannot be cut into chunks.
    subroutine make_properties(name, extent, properties, failure)
       !> Dataset, for the message
@@ -190,7 +193,7 @@ contains
       call failure%check(status, name)
       call h5zfilter_avail_f(h5z_filter_deflate_f, can_deflate, status)
       call failure%check(status, name)
-      if (can_deflate) then
+      if (can_deflate .and. product(extent) >= compressed_from) then
          call h5pset_shuffle_f(properties, status)
          call failure%check(status, name)
          call h5pset_deflate_f(properties, deflate_level, status)

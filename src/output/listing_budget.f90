@@ -62,16 +62,16 @@ contains
       !> Results
       type(results_type), intent(in) :: results
 
-      character(len=*), parameter :: format_round = "(i10, i12, i12, i10, i14)"
-      character(len=58) :: line
+      character(len=*), parameter :: format_round = "(i10, f13.2, i8, i12, i10, i14)"
+      character(len=67) :: line
       integer :: i
 
       if (.not. allocated(results%rounds)) return
       call write_heading(file, "ROUNDS OF REFINEMENT")
-      call file%put("     round   elements x           M    planes      unknowns          error")
+      call file%put("     round   elements x   nodes           M    planes      unknowns          error")
       do i = 1, size(results%rounds)
          associate (round => results%rounds(i))
-            write (line, format_round) i, round%mesh, round%harmonic, round%planes, round%n_unknowns
+            write (line, format_round) i, round%mesh, round%nodes, round%harmonic, round%planes, round%n_unknowns
             call file%put(line//value_text(round%error))
          end associate
       end do

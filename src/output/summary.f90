@@ -86,7 +86,8 @@ contains
       do i = 1, size(results%rounds)
          if (i > 1) json = json//", "
          associate (round => results%rounds(i))
-            json = json//'{"mesh": '//json_number(round%mesh)//', "max_harmonic": '//json_number(round%harmonic)// &
+            json = json//'{"mesh": '//json_number(round%mesh)//', "element_nodes": '//json_number(round%nodes)// &
+               ', "max_harmonic": '//json_number(round%harmonic)// &
                ', "planes": '//json_number(round%planes)//', "unknowns": '//json_number(round%n_unknowns)// &
                ', "error": '//json_number(round%error)//', "seconds": '//json_number(round%seconds)//'}'
          end associate
