@@ -64,6 +64,9 @@ def settings(meshes, harmonics, quick):
 class PaperCase:
     """A case of the paper's example; cases 1 and 2 with the bond law. The reference is a finer run"""
 
+    # Element types and meshes that ERROR begins with
+    starts = ((4, 1), (8, 0.5), (9, 0.5))
+
     def __init__(self, number):
         self.name = f"case {number}"
         self.number = number
@@ -98,6 +101,7 @@ class Disc:
 
     name = "eccentric disc"
     step = None
+    starts = ((4, 4), (8, 4))
 
     @staticmethod
     def deck(setting):
@@ -142,6 +146,25 @@ def nonlinear_points(problem, program, folder, quick):
                     results.summary["unknowns"], cost, values,
                     {name: values[name]/exact[name] - 1.0 for name in exact}, problem=problem.name,
                     series=setting.series())
+
+
+def goal_points(problem, program, folder, points):
+    """Lines on what ERROR makes of coarse decks: true error, rounds, cost over that of the cheapest setting"""
+    name = next(iter(points[0].errors))
+    best = cheapest(points, {name: 0.01}, lambda p: p.cost.wall)
+    exact = points[0].values[name]/(1.0 + points[0].errors[name])
+    lines = []
+    for nodes, mesh in problem.starts:
+        start = Setting(nodes, mesh, 2, 9)
+        deck = problem.deck(start).replace("\nEND", "\nERROR\n1.0, DISPL\nEND")
+        results, cost = work_precision.axijoint(program, folder, deck, runs=5, long=1.0)
+        error = problem.values(results)[name]/exact - 1.0
+        rounds = results.summary["rounds"]
+        lines.append(f"{problem.name}: ERROR 1 % from {nodes} nodes, mesh {mesh:g}: {cost.wall:.3f} s, "
+                     f"{cost.wall/best.cost.wall:.1f} times {best.family}, mesh {best.mesh} ({best.cost.wall:.3f} s); "
+                     f"{name} {100*abs(error):.2f} % off, estimate {100*rounds[-1]['error']:.2f} %, "
+                     f"{len(rounds)} rounds")
+    return lines
 
 
 class MeasuredProgram:
@@ -207,7 +230,7 @@ def main():
     parser.add_argument("-o", dest="output", required=True)
     parser.add_argument("--quick", action="store_true")
     args = parser.parse_args()
-    points, advice = [], []
+    points, advice, goals = [], [], []
     problems = [(case.name, exact_points, case) for case in EXACT]
     problems += [(p.name, nonlinear_points, p) for p in (Disc(), *map(PaperCase, (1, 2, 3)))]
     for name, points_of, problem in problems:
@@ -219,11 +242,13 @@ def main():
                           + "".join(f" {what[:10]:>10}" for what in found.errors))
                 own.append(found)
                 show(found)
+            if problem not in EXACT:
+                goals += goal_points(problem, args.axijoint, folder, own)
         work_precision.draw(os.path.join(args.output, "accuracy_" + name.replace(" ", "_")), own,
                             list(own[0].errors), kind_of, f"{name}; one thread")
         advice += recommend(own, getattr(problem, "step", None))
         points += own
-    print("", *advice, sep="\n")
+    print("", *advice, "", *goals, sep="\n")
     path = os.path.join(args.output, "accuracy.csv")
     work_precision.write_table(path, points)
     print(f"\nWritten: {path}, and a figure of each problem, accuracy_*.png and .svg")

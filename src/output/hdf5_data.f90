@@ -20,9 +20,9 @@ module axijoint_output_hdf5_data
    integer(hid_t), parameter :: no_handle = -1_hid_t
    !> Values of a chunk at most; about a megabyte of reals
    integer(hsize_t), parameter :: chunk_values = 131072_hsize_t
-   !> Values from which an array is worth compressing, a quarter of a megabyte of reals: a small job has a
+   !> Values from which an array is worth compressing, a megabyte of reals: a small job has a
    !> hundred small arrays, and would spend a third of its time there
-   integer(hsize_t), parameter :: compressed_from = 32768_hsize_t
+   integer(hsize_t), parameter :: compressed_from = chunk_values
    !> Effort of the compression, from 1 (fast) to 9
    integer, parameter :: deflate_level = 1
 
