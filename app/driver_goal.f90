@@ -1,7 +1,7 @@
 !> Rounds of refinement of a job that has an error target
 module axijoint_driver_goal
    use omp_lib, only : omp_get_wtime
-   use axijoint_analysis_goal, only : goal_error, refine_further
+   use axijoint_analysis_goal, only : mark_type, mark_of, goal_error, refine_further, too_large
    use axijoint_analysis_results, only : results_type, round_type
    use axijoint_analysis_static, only : analyse_combination
    use axijoint_analysis_structure, only : structure_type, build_structure
@@ -50,13 +50,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(refinement_type) :: refinement, before
+      type(mark_type), allocatable :: marks(:)
       integer :: worst
       logical :: changed, back
 
-      allocate (rounds(0))
+      allocate (rounds(0), marks(size(model%combinations)))
       back = .false.
       do
-         call solve_round(refinement, model, structure, results, rounds, worst, timer, progress, error)
+         call solve_round(refinement, model, structure, results, marks, rounds, worst, timer, progress, error)
          if (back) then
             rounds = rounds(:size(rounds) - 1)  ! this one stands there already
             return
@@ -71,13 +72,18 @@ contains
                if (last%error >= 0.0_wp .and. last%error <= model%error_goal%target) return
                if (size(rounds) >= model%error_goal%most_rounds) return
                before = refinement
-               call refine_further(model, results(worst)%budget, last%n_unknowns, refinement, changed)
+               call refine_further(model, results(worst)%budget, size(rounds) == 1, last%error, last%n_unknowns, &
+                                   refinement, changed)
                if (.not. changed) return
             end if
          end associate
          call show_progress(progress, 'round '//to_text(size(rounds) + 1)//' of refinement')
          call read_refined(deck, command, refinement, model, source, diagnostics, timer, error)
          if (allocated(error)) return
+         if (too_large(model) .and. .not. back) then
+            call read_refined(deck, command, before, model, source, diagnostics, timer, error)
+            return
+         end if
       end do
    end subroutine refine_to_goal
 
@@ -117,7 +123,7 @@ contains
    end subroutine read_refined
 
    !> Solve all combinations, and note what the round came to
-   subroutine solve_round(refinement, model, structure, results, rounds, worst, timer, progress, error)
+   subroutine solve_round(refinement, model, structure, results, marks, rounds, worst, timer, progress, error)
       !> How the job was refined
       type(refinement_type), intent(in) :: refinement
       !> The job
@@ -126,6 +132,8 @@ contains
       type(structure_type), intent(inout), target :: structure
       !> Results of its combinations
       type(results_type), allocatable, intent(out) :: results(:)
+      !> What the round before had to say on each combination; then what this one has
+      type(mark_type), intent(inout) :: marks(:)
       !> One more round
       type(round_type), allocatable, intent(inout) :: rounds(:)
       !> The combination with the largest error, or the first that did not converge
@@ -138,7 +146,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(round_type) :: round
-      real(wp) :: start
+      real(wp) :: errors(size(marks)), start
       integer :: k
 
       start = omp_get_wtime()
@@ -155,8 +163,10 @@ contains
       if (allocated(error)) then
          round%failure = 'could not be solved ('//error%message//')'
       else if (.not. allocated(round%failure)) then
-         worst = maxloc([(goal_error(results(k)%budget, model%error_goal), k=1, size(results))], 1)
-         round%error = goal_error(results(worst)%budget, model%error_goal)
+         errors = [(goal_error(model, results(k), marks(k)), k=1, size(results))]
+         worst = maxloc(errors, 1)
+         round%error = errors(worst)
+         marks = [(mark_of(model, results(k)), k=1, size(results))]
       end if
       round%mesh = refinement%mesh
       round%nodes = maxval(model%mesh%element_size)

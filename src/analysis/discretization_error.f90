@@ -19,6 +19,8 @@ module axijoint_analysis_discretization_error
       !> Part of each element in the square of `relative`, shape (elements): the energy of its
       !> error in all modes over that of the whole solution
       real(wp), allocatable :: element(:)
+      !> Largest displacement of a node [length]
+      real(wp) :: largest_displacement = 0.0_wp
       !> Largest error of a displacement over the largest displacement
       real(wp) :: displacement = 0.0_wp
       !> Largest error of a joint stress over the largest joint stress; negative without joints

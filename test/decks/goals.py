@@ -1,0 +1,124 @@
+"""ERROR: rounds of refinement, and what they leave of the true error"""
+import os
+
+import hard_scenes as scenes
+from hard_decks import at, close, solved
+from support import Test, expected, read_text, write
+
+# The reference of a case of the example: elements, refinement, M, planes; it is good to 0.2 %
+REFERENCE = {'nodes': 9, 'refined': 2, 'harmonic': 8, 'planes': 33, 'tolerance': 1e-8}
+# A bar that is pulled; three blocks of one element face one of three
+FACING = """TITLE
+Three blocks beside one
+CONTROL
+0
+MATERIALS
+1, 1.0, 0.3
+BLOCKS
+1, 1, 4, 3, 1
+0, 0, 3, 1
+1, 1, 4, 1, 1
+0, 1, 1, 2
+1, 1, 4, 1, 1
+1, 1, 2, 2
+1, 1, 4, 1, 1
+2, 1, 3, 2
+FACES
+1, 1, 0, 0, 3, 0
+2, 1, 1, 2, 2, 2
+FIXEDFACES
+1, 111
+TRACTIONS
+2, 0, 0, 1
+ERROR
+2, DISPL
+END
+"""
+
+
+def with_goal(deck, target, *others):
+    """A deck with a target for its displacements"""
+    return deck.replace('\nEND', f'\nERROR\n{target}, DISPL' + ''.join(f', {other}' for other in others) + '\nEND')
+
+
+def met(summary):
+    """Faults, unless the last round and no other is below the target of 1 %"""
+    errors = [found['error'] for found in summary['rounds']]
+    return [] if errors[-1] <= 0.01 < min(errors[:-1] or [1.0]) else [f'errors of the rounds: {errors}']
+
+
+def disc(program, folder):
+    """The rotation is exact to 1 %"""
+    summary, tables = solved(program, folder, 'disc', with_goal(
+        scenes.eccentric_disc(0.7, n=4, planes=5, harmonic=2), 1.0))
+    exact = scenes.eccentric_exact(0.7)[0]
+    return met(summary) + close('rotation', exact, abs(at(tables['m = 1'], 1.0, 0.0, last=True)['v']), 0.01*exact)
+
+
+def case(program, folder, number, nodes, refined):
+    """The pile's end moves as in a finer run, to 1 %, from a coarse beginning"""
+    def moved(name, deck):
+        summary, tables = solved(program, folder, name, deck)
+        return summary, at(tables['m = 1'], 0.0, -0.5)['u']
+
+    _, reference = moved('reference', scenes.example(number, **REFERENCE))
+    summary, found = moved('goal', with_goal(scenes.example(
+        number, nodes=nodes, refined=refined, harmonic=2, planes=9, tolerance=1e-6), 1.0))
+    return met(summary) + close('displacement', reference, found, 0.01*abs(reference))
+
+
+def paper_method(program, folder):
+    """The paper's loop leaves more than 1 %: Newton's method takes over"""
+    deck = scenes.example(3, bond=False, harmonic=4, planes=5, method='TRANSFER', tolerance=0.03)
+    summary, _ = solved(program, folder, 'goal', with_goal(deck, 1.0))
+    return met(summary) + expected('method', 'newton', summary['method'])
+
+
+def facing(program, folder):
+    """An edge that faces three keeps facing them: all are divided by the same integer"""
+    summary, _ = solved(program, folder, 'facing', FACING)
+    factors = [found['mesh'] for found in summary['rounds']]
+    return [] if len(factors) > 1 and all(factor == round(factor) for factor in factors) else [
+        f'elements times {factors}']
+
+
+def limits(program, folder):
+    """Few unknowns or rounds, or nothing to refine: the results stand, and a message says why"""
+    faults = []
+    deck = FACING.replace('2, DISPL', '0.001, DISPL, 8, 400')
+    by_number = FACING.replace('ERROR', 'RINGLOADS\n1, 0, 0, 0.001\nERROR').replace('2, DISPL', '0.001, DISPL')
+    for name, text, words in (('unknowns', deck, 'more unknowns are not allowed'),
+                              ('rounds', FACING.replace('2, DISPL', '0.001, DISPL, 2'), 'so many rounds'),
+                              ('numbers', by_number, 'cards call nodes by number')):
+        summary, _ = solved(program, folder, name, text)
+        if not any(words in message for message in summary['messages']):
+            faults.append(f'{name}: expected {words!r}, found {summary["messages"]}')
+        if name == 'unknowns' and not max(found['unknowns'] for found in summary['rounds']) <= 400:
+            faults.append(f'unknowns: {[found["unknowns"] for found in summary["rounds"]]}')
+    return faults
+
+
+def back_again(program, folder):
+    """A round that does not fit into the memory: the results are those of the round before"""
+    summary, _ = solved(program, folder, 'plain', FACING.replace('ERROR\n2, DISPL\n', ''))
+    limit = str(int(summary['peak_memory_mb']) + 12)
+    deck = write(folder, 'back.dat', FACING.replace('2, DISPL', '1E-9, DISPL, 20, 100000000'))
+    ran = program.run('run', deck, '-o', folder, '--memory', limit, '--solver', 'band')
+    faults = ran.ended_with(0)
+    text = read_text(os.path.join(folder, 'back.json')) if not faults else ''
+    for words in ('could not be solved', 'these are the results of round', '"status": "converged"'):
+        if not faults and words not in text:
+            faults.append(f'expected {words!r} in the summary')
+    return faults
+
+
+def tests(program):
+    """The tests of this module"""
+
+    def test(name, function, *arguments):
+        return Test(f'goals: {name}', lambda folder: function(program, folder, *arguments))
+
+    return ([test('disc', disc), test("the paper's loop", paper_method), test('blocks that face others', facing),
+             test('limits', limits), test('memory', back_again)]
+            + [test(f'case {number}, {nodes} nodes', case, number, nodes, refined)
+               for number in (1, 2, 3) for nodes, refined in ((4, 1), (8, 0.5))])
