@@ -146,7 +146,7 @@ contains
          equation_seconds = 3.0e-7_wp
       case default
          share = 0.76_wp
-         entry_seconds = merge(1.55e-8_wp, 1.35e-8_wp, kept)
+         entry_seconds = merge(9.0e-9_wp, 7.0e-9_wp, kept)
          equation_seconds = 3.5e-7_wp
       end select
       seconds = solver%operations/(share*rate) + entry_seconds*real(solver%factor_entries, wp) &

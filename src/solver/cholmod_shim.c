@@ -43,13 +43,6 @@ static void choose(cholmod_common *common) {
    common->nmethods = 1;
    common->method[0].ordering = CHOLMOD_NATURAL; /* the order is chosen by the caller */
    common->postorder = 1;
-   /* fewer and larger supernodes than by default: faster for two to three unknowns a node */
-   common->nrelax[0] = 16;
-   common->nrelax[1] = 48;
-   common->nrelax[2] = 96;
-   common->zrelax[0] = 0.8;
-   common->zrelax[1] = 0.3;
-   common->zrelax[2] = 0.15;
 }
 
 /* CHOLMOD shares its loops among four threads if it may; here a thread works on a harmonic of its
@@ -148,9 +141,11 @@ static int arrange(handle_type *plan, const int64_t *start, const int32_t *colum
 }
 
 /* Plan for a pattern: null if there is no memory. Gives the entries of the factor, the
-   operations of a factorization and the bytes of a factor. */
+   operations of a factorization, and the bytes of a factor and of what a factorization takes
+   besides. */
 void *axijoint_cholmod_analyse(int64_t n, const int64_t *start, const int32_t *column,
-                               double *entries, double *operations, int64_t *bytes) {
+                               double *entries, double *operations, int64_t *bytes,
+                               int64_t *work_bytes) {
    handle_type *plan = calloc(1, sizeof *plan);
    size_t size = (size_t)start[n];
    if (!plan) return NULL;
@@ -168,6 +163,8 @@ void *axijoint_cholmod_analyse(int64_t n, const int64_t *start, const int32_t *c
    }
    *bytes = (int64_t)sizeof(double) * (int64_t)plan->factor->xsize
             + (int64_t)sizeof(int64_t) * ((int64_t)plan->factor->ssize + 3 * n);
+   *work_bytes = (int64_t)sizeof(double) * (int64_t)plan->factor->maxcsize
+                 + (int64_t)sizeof(int32_t) * (3 * n + 3 * (int64_t)plan->factor->nsuper);
    return plan;
 }
 
@@ -178,31 +175,38 @@ static handle_type *new_factor(const handle_type *plan, int large) {
    choose(&handle->common);
    handle->n = plan->n;
    handle->factor = cholmod_l_copy_factor(plan->factor, &handle->common);
-   if (handle->factor && large) { /* else CHOLMOD takes the memory, and frees it by free, too */
+   if (handle->factor) { /* CHOLMOD frees the memory by free, too */
       cholmod_factor *l = handle->factor;
-      l->x = allocate(sizeof(double) * l->xsize);
-      if (l->x) l->xtype = CHOLMOD_REAL;
+      size_t bytes = sizeof(double) * l->xsize;
+      l->x = large ? allocate(bytes) : malloc(bytes);
+      if (l->x) {
+         l->xtype = CHOLMOD_REAL;
+         return handle;
+      }
    }
-   if (handle->factor) return handle;
    axijoint_cholmod_free(handle);
    return NULL;
 }
 
+/* supernodal.f90 */
+typedef struct {
+   int64_t n, n_supernodes, largest_update;
+   const void *column, *first_row, *first_number, *row, *matrix_start, *matrix_row, *from;
+} structure_type;
+void axijoint_supernodal_factorize(const structure_type *structure, const double *value, double *l,
+                                   int64_t *failed, int32_t *code);
+
 /* Numeric factor in the order of the plan; 0 if there is no memory */
-static int factorize(const handle_type *plan, const double *value, handle_type *handle) {
-   int64_t k, entries = plan->start[plan->n];
-   double shift[2] = {0.0, 0.0};
-   double *x = allocate(sizeof *x * (size_t)(entries + 1));
-   int ok = x != NULL, levels;
-   if (ok) {
-      cholmod_sparse a = view(plan->n, plan->start, plan->row, x, -1);
-      for (k = 0; k < entries; k++) x[k] = value[plan->from[k]];
-      levels = forbid_threads();
-      ok = cholmod_l_super_numeric(&a, NULL, shift, handle->factor, &handle->common);
-      omp_set_max_active_levels(levels);
-   }
-   free(x);
-   return ok && handle->common.status != CHOLMOD_OUT_OF_MEMORY;
+static int factorize(const handle_type *plan, const double *value, handle_type *handle,
+                     int64_t *failed) {
+   cholmod_factor *l = handle->factor;
+   int32_t code;
+   structure_type structure = {plan->n, (int64_t)l->nsuper, (int64_t)l->maxcsize, l->super, l->pi,
+                               l->px, l->s, plan->start, plan->row, plan->from};
+   axijoint_supernodal_factorize(&structure, value, l->x, failed, &code);
+   l->is_ll = 1;
+   l->minor = (size_t)plan->n;
+   return code == 0;
 }
 
 /* Factor of a matrix of the pattern, given by its values: null if there is no memory. An old
@@ -216,7 +220,7 @@ void *axijoint_cholmod_factorize(const void *pointer, void *old, int large, cons
    handle_type *handle = old ? old : new_factor(plan, large);
    *failed = 0;
    if (!handle) return NULL;
-   if (!factorize(plan, value, handle)) {
+   if (!factorize(plan, value, handle, failed)) {
       axijoint_cholmod_free(handle);
       return NULL;
    }
@@ -224,7 +228,7 @@ void *axijoint_cholmod_factorize(const void *pointer, void *old, int large, cons
    const int64_t *order = l->Perm, *super = l->super, *pi = l->pi, *px = l->px;
    const double *x = l->x;
    int64_t s, k;
-   if (handle->common.status == CHOLMOD_NOT_POSDEF) *failed = order[l->minor] + 1;
+   *failed = *failed < 0 ? 0 : order[*failed] + 1;
    for (s = 0; s < (int64_t)l->nsuper && *failed == 0; s++)
       for (k = super[s]; k < super[s + 1]; k++) {
          int64_t c = k - super[s], rows = pi[s + 1] - pi[s];

@@ -41,14 +41,15 @@ module axijoint_solver_sparse
 
    interface
       !> Plan for a pattern
-      function cholmod_analyse(n, start, column, entries, operations, bytes) result(handle) &
+      function cholmod_analyse(n, start, column, entries, operations, bytes, work_bytes) &
+         result(handle) &
          bind(c, name='axijoint_cholmod_analyse')
          import :: c_ptr, c_int32_t, c_int64_t, c_double
          integer(c_int64_t), value :: n
          integer(c_int64_t), intent(in) :: start(*)
          integer(c_int32_t), intent(in) :: column(*)
          real(c_double), intent(out) :: entries, operations
-         integer(c_int64_t), intent(out) :: bytes
+         integer(c_int64_t), intent(out) :: bytes, work_bytes
          type(c_ptr) :: handle
       end function cholmod_analyse
       !> Factor of a matrix, in the memory of an old one if that is not null, or in new memory,
@@ -105,12 +106,12 @@ contains
       call free_solver(self)
       self%n = pattern%n
       self%handle = cholmod_analyse(int(pattern%n, c_int64_t), pattern%row_start, pattern%column, &
-                                    entries, operations, self%factor_bytes)
+                                    entries, operations, self%factor_bytes, &
+                                    self%work_bytes)
       self%factor_entries = int(entries, i8)
       self%operations = operations
-      ! rows in 8 bytes and places of the values in 4; values in the order of the factor
+      ! rows in 8 bytes and places of the values in 4
       self%plan_bytes = 12*size(pattern%column, kind=i8) + 64*int(pattern%n, i8)
-      self%work_bytes = 8*size(pattern%column, kind=i8)
       if (c_associated(self%handle)) return
       call fatal_error(error, exit_memory, 'out of memory: analysis of a sparse matrix with '// &
                        to_text(pattern%n)//' equations')
