@@ -147,7 +147,7 @@ contains
       case default
          share = 0.76_wp
          entry_seconds = merge(9.0e-9_wp, 7.0e-9_wp, kept)
-         equation_seconds = 3.5e-7_wp
+         equation_seconds = 2.0e-7_wp
       end select
       seconds = solver%operations/(share*rate) + entry_seconds*real(solver%factor_entries, wp) &
          + equation_seconds*solver%n

@@ -163,8 +163,7 @@ void *axijoint_cholmod_analyse(int64_t n, const int64_t *start, const int32_t *c
    }
    *bytes = (int64_t)sizeof(double) * (int64_t)plan->factor->xsize
             + (int64_t)sizeof(int64_t) * ((int64_t)plan->factor->ssize + 3 * n);
-   *work_bytes = (int64_t)sizeof(double) * (int64_t)plan->factor->maxcsize
-                 + (int64_t)sizeof(int32_t) * (3 * n + 3 * (int64_t)plan->factor->nsuper);
+   *work_bytes = (int64_t)sizeof(int32_t) * (3 * n + 3 * (int64_t)plan->factor->nsuper);
    return plan;
 }
 
@@ -190,7 +189,7 @@ static handle_type *new_factor(const handle_type *plan, int large) {
 
 /* supernodal.f90 */
 typedef struct {
-   int64_t n, n_supernodes, largest_update;
+   int64_t n, n_supernodes;
    const void *column, *first_row, *first_number, *row, *matrix_start, *matrix_row, *from;
 } structure_type;
 void axijoint_supernodal_factorize(const structure_type *structure, const double *value, double *l,
@@ -201,8 +200,8 @@ static int factorize(const handle_type *plan, const double *value, handle_type *
                      int64_t *failed) {
    cholmod_factor *l = handle->factor;
    int32_t code;
-   structure_type structure = {plan->n, (int64_t)l->nsuper, (int64_t)l->maxcsize, l->super, l->pi,
-                               l->px, l->s, plan->start, plan->row, plan->from};
+   structure_type structure = {plan->n, (int64_t)l->nsuper, l->super, l->pi, l->px, l->s,
+                               plan->start, plan->row, plan->from};
    axijoint_supernodal_factorize(&structure, value, l->x, failed, &code);
    l->is_ll = 1;
    l->minor = (size_t)plan->n;

@@ -15,11 +15,13 @@ module axijoint_solver_supernodal
 
    !> Updates of so few columns are formed as a whole, not only their triangle
    integer, parameter :: few_columns = 32
+   !> Larger updates are formed in parts, which stay in the cache
+   integer, parameter :: largest_update = 131072
 
    !> A supernode is a set of neighbouring columns with the same rows, kept as one dense panel
    type, bind(c) :: supernodal_structure_type
-      !> Order, number of supernodes, numbers in the largest update
-      integer(c_int64_t) :: n, n_supernodes, largest_update
+      !> Order, number of supernodes
+      integer(c_int64_t) :: n, n_supernodes
       !> First column of each supernode, shape (0:n_supernodes)
       type(c_ptr) :: column
       !> First of its rows in `row`, and of its numbers in the factor, shape (0:n_supernodes)
@@ -115,10 +117,14 @@ contains
       call c_f_pointer(structure%from, at%from, [at%matrix_start(n)])
       at%from(0:) => at%from
       allocate (at%supernode(0:n), at%place(0:n), at%head(0:m), at%next(0:m), at%done(0:m), &
-                at%target(0:n), at%update(0:structure%largest_update), stat=stat)
+                at%target(0:n), stat=stat)
+      if (stat == 0) then
+         m = int(maxval([0_i8, at%first_row(1:) - at%first_row(:m - 1)]))
+         allocate (at%update(0:max(largest_update, few_columns*m) - 1), stat=stat)
+      end if
       code = merge(0_c_int32_t, 1_c_int32_t, stat == 0)
       if (code /= 0) return
-      do s = 0, m - 1
+      do s = 0, int(structure%n_supernodes) - 1
          at%supernode(at%column(s):at%column(s + 1) - 1) = s
       end do
       at%head = -1
@@ -179,7 +185,7 @@ contains
       !> The panel
       real(wp), intent(inout) :: panel(0:height - 1, 0:*)
 
-      integer :: depth, rows, columns, skip, rank, i, j, to
+      integer :: depth, rows, columns, skip, rank, first, last, i, j
 
       depth = int(at%first_row(d + 1) - at%first_row(d))
       rank = int(at%column(d + 1) - at%column(d))
@@ -192,13 +198,18 @@ contains
             target(i) = at%place(row(1 + i))
          end do
          if (target(rows - 1) - target(0) == rows - 1) then  ! neighbouring rows need no gathering
-            call add_product(-1.0_wp, 1.0_wp, height, panel(target(0), target(0)))
+            call add_product(0, columns, -1.0_wp, 1.0_wp, height, panel(target(0), target(0)))
          else
-            call add_product(1.0_wp, 0.0_wp, rows, at%update)
-            do j = 0, columns - 1
-               to = target(j)
-               do i = j, rows - 1
-                  panel(target(i), to) = panel(target(i), to) - at%update(i + j*rows)
+            last = 0
+            do while (last < columns)
+               first = last
+               last = min(columns, first + max(few_columns, largest_update/(rows - first)))
+               call add_product(first, last, 1.0_wp, 0.0_wp, rows - first, at%update)
+               do j = first, last - 1
+                  do i = j, rows - 1
+                     panel(target(i), target(j)) = panel(target(i), target(j)) &
+                        - at%update(i - first + (j - first)*(rows - first))
+                  end do
                end do
             end do
          end if
@@ -207,8 +218,10 @@ contains
 
    contains
 
-      !> c = alpha b b^T + beta c, the lower triangle of the first columns and all below
-      subroutine add_product(alpha, beta, stride, c)
+      !> c = alpha b b^T + beta c for some columns, the lower triangle of them and all below
+      subroutine add_product(first, last, alpha, beta, stride, c)
+         !> Columns before them, and up to them
+         integer, intent(in) :: first, last
          !> Factors
          real(wp), intent(in) :: alpha, beta
          !> Rows between columns of c
@@ -216,15 +229,18 @@ contains
          !> The sum
          real(wp), intent(inout) :: c(0:*)
 
-         if (columns <= few_columns .and. .not. beta > 0.0_wp) then
-            call dgemm('N', 'T', rows, columns, rank, alpha, before(skip), depth, before(skip), &
-                       depth, beta, c, stride)
+         integer :: n
+
+         n = last - first
+         if (n <= few_columns .and. .not. beta > 0.0_wp) then
+            call dgemm('N', 'T', rows - first, n, rank, alpha, before(skip + first), depth, &
+                       before(skip + first), depth, beta, c, stride)
             return
          end if
-         call dsyrk('L', 'N', columns, rank, alpha, before(skip), depth, beta, c, stride)
-         if (rows == columns) return
-         call dgemm('N', 'T', rows - columns, columns, rank, alpha, before(skip + columns), depth, &
-                    before(skip), depth, beta, c(columns), stride)
+         call dsyrk('L', 'N', n, rank, alpha, before(skip + first), depth, beta, c, stride)
+         if (rows == last) return
+         call dgemm('N', 'T', rows - last, n, rank, alpha, before(skip + last), depth, &
+                    before(skip + first), depth, beta, c(n), stride)
       end subroutine add_product
 
    end subroutine subtract_update
