@@ -101,7 +101,7 @@ def memory_changes_nothing(program, folder):
         runs = []
         for limit in (999999, None):
             if limit is None:
-                limit = int(0.78*predicted_memory(program, deck, '--threads', '2')[0])
+                limit = int(0.87*predicted_memory(program, deck, '--threads', '2')[0])
             factors = predicted_memory(program, deck, '--threads', '2', '--memory', str(limit))[1]
             ran = program.run('run', deck, '-o', folder, *options, '--memory', str(limit))
             if ran.code != 0:
