@@ -19,7 +19,7 @@ module axijoint_driver_goal
    use axijoint_output_totals, only : n_unknowns
    implicit none
    private
-   public :: refine_to_goal
+   public :: refine_to_goal, take_options
 
 contains
 
@@ -118,9 +118,20 @@ contains
                           to_text(refinement%mesh)//') has faults:'//new_line('a')//render(diagnostics, source))
          return
       end if
+      call take_options(command, model)
+   end subroutine read_refined
+
+   !> What the command line says of a job
+   subroutine take_options(command, model)
+      !> Options
+      type(command_type), intent(in) :: command
+      !> The job
+      type(model_type), intent(inout) :: model
+
       if (command%solver >= 0) model%solver = command%solver
       model%memory_limit = command%memory_limit
-   end subroutine read_refined
+      model%sweep%wanted = model%sweep%wanted .or. command%swept
+   end subroutine take_options
 
    !> Solve all combinations, and note what the round came to
    subroutine solve_round(refinement, model, structure, results, marks, rounds, worst, timer, progress, error)

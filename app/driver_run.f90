@@ -10,7 +10,7 @@ module axijoint_driver_run
    use axijoint_base_system, only : error_output_is_terminal
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type, phase_read, phase_write
-   use axijoint_driver_goal, only : refine_to_goal
+   use axijoint_driver_goal, only : refine_to_goal, take_options
    use axijoint_cli, only : command_type, word_type
    use axijoint_deck_diagnostics, only : diagnostics_type, render, warning_texts
    use axijoint_deck_reader, only : read_deck
@@ -92,9 +92,7 @@ contains
       end if
       if (diagnostics%n_warnings > 0) write (error_unit, '(a)') render(diagnostics, source)
 
-      if (command%solver >= 0) model%solver = command%solver
-      model%memory_limit = command%memory_limit
-      model%sweep%wanted = model%sweep%wanted .or. command%swept
+      call take_options(command, model)
       do k = 1, size(model%combinations)
          call check_output(command%directory, result_name(deck, model, k), source, model, error)
          if (allocated(error)) return

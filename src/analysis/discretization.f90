@@ -23,7 +23,7 @@ module axijoint_analysis_discretization
 contains
 
    !> Estimate the discretization error
-   subroutine estimate_discretization(model, structure, loading, field, nodal, results)
+   subroutine estimate_discretization(model, structure, loading, field, largest_stress, nodal, results)
       !> The job
       type(model_type), intent(in) :: model
       !> Joints and springs
@@ -32,6 +32,8 @@ contains
       type(loading_type), intent(in) :: loading
       !> State of the joints
       type(joint_field_type), intent(in) :: field
+      !> Largest stress of joints that yield, of all increments
+      real(wp), intent(in) :: largest_stress
       !> Errors of the displacements of nodes, and of joints that yield
       type(nodal_error_type), intent(in) :: nodal
       !> Results, stresses and all; takes the estimate
@@ -76,7 +78,7 @@ contains
          largest = max(0.0_wp, largest, elastic_joint_error( &
             model, structure%joint_points(elastic), new_view(results%plane_angles, results%modes), &
             nodal%displacement))
-         error = ratio(largest, maxval(abs(results%joint_stress)))
+         error = ratio(largest, max(largest_stress, maxval(abs(results%joint_stress))))
       end function joint_stress_error
 
       !> Energy of the joints in one mode

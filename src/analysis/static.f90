@@ -101,7 +101,7 @@ contains
       call timer%push(phase_recover)
       call recover(model, structure, history%loading, history%peak, field, results)
       call smooth_stress(model, results)
-      call estimate_discretization(model, structure, history%loading, field, nodal, results)
+      call estimate_discretization(model, structure, history%loading, field, history%largest_stress, nodal, results)
       call cut_resultants(model, structure, history%loading, field, results)
       results%converged = results%converged .and. max(results%residual_ratio, results%mismatch) &
          <= results%tolerance + rounding(results)
@@ -251,6 +251,7 @@ contains
 
       measure%work = sum(history%loading%right*results%displacement)
       measure%displacement = maxval(abs(results%displacement))
+      measure%stress = history%largest_stress
       associate (scene => structure%scene, errors => results%joint_errors)
          if (scene%method /= method_transfer) then
             call estimate_joint_errors(scene, yielding, history%memory, measure, errors)

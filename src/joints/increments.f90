@@ -40,6 +40,9 @@ module axijoint_joints_increments
       real(wp), allocatable :: runaway(:, :, :)
       !> Sum of the load factors of the last step in equilibrium
       real(wp) :: reached = 0.0_wp
+      !> Largest joint stress at the end of a step: what errors are measured by, for joints that
+      !> were unloaded have none at the end
+      real(wp) :: largest_stress = 0.0_wp
       !> States at the ends of the increments before the last; none unless the job
       !> wants its bodies swept
       type(increment_state_type), allocatable :: states(:)
@@ -194,6 +197,7 @@ contains
                call commit_field(scene%model, scene%points, field)
             end if
             history%reached = step%load_factor
+            history%largest_stress = max(history%largest_stress, maxval(abs(field%stress)))
          end associate
       end subroutine try_step
 

@@ -23,7 +23,7 @@ module axijoint_joints_joint_errors
 
    !> An error of the joints
    type :: joint_error_type
-      !> Of the joint stress, over the largest; negative if it is not known
+      !> Of the joint stress, over the largest of all increments; negative if it is not known
       real(wp) :: stress = -1.0_wp
       !> Of displacements: root mean square of the jumps, over the largest displacement, or of the work of
       !> the loads, over that, whichever is more
@@ -38,6 +38,8 @@ module axijoint_joints_joint_errors
       real(wp) :: work = 0.0_wp
       !> Largest displacement [length]
       real(wp) :: displacement = 0.0_wp
+      !> Largest joint stress, of all increments [stress]
+      real(wp) :: stress = 0.0_wp
    end type measure_type
 
    !> The errors by what leaves them
@@ -71,7 +73,7 @@ contains
       allocate (state)
       state = on_planes(field, memory, 1, size(field%jump, 3))
       call linearize(scene, state, newton)
-      call iteration_error(scene, state, newton, measure, errors%iteration)
+      call iteration_error(scene, newton, measure, errors%iteration)
       planes = scene%planes
       step = max(2, (4*maxval(scene%equations%modes%harmonic) + n - 1)/n)  ! for products of harmonics up to 2 M
       scene%planes = new_planes(step*n + 1, scene%equations%modes, whole=planes%folds == 1)
@@ -123,11 +125,10 @@ contains
    end subroutine linearize
 
    !> Error by the residual that the iteration left
-   subroutine iteration_error(scene, state, newton, measure, error)
+   subroutine iteration_error(scene, newton, measure, error)
       !> What does not change
       type(scene_type), intent(in) :: scene
-      !> The state, and the laws about it
-      type(joint_field_type), intent(in) :: state
+      !> The laws about the state
       type(newton_type), intent(in) :: newton
       !> What the error is measured by
       type(measure_type), intent(in) :: measure
@@ -137,7 +138,7 @@ contains
       real(wp) :: clock
 
       clock = omp_get_wtime()
-      call effect(scene, state, newton, measure, error)
+      call effect(scene, newton, measure, error)
       error%seconds = omp_get_wtime() - clock
    end subroutine iteration_error
 
@@ -158,7 +159,7 @@ contains
 
       clock = omp_get_wtime()
       call linearize(scene, state, newton)
-      call effect(scene, state, newton, measure, error)
+      call effect(scene, newton, measure, error)
       error%seconds = omp_get_wtime() - clock
    end subroutine planes_error
 
@@ -200,7 +201,7 @@ contains
       newton%rest = at_points(newton%by_jump, high)
       ! what k times these jumps gives belongs to their own harmonics
       newton%residual = analyse(scene%planes, more - excess)
-      call effect(scene, state, newton, measure, error, high)
+      call effect(scene, newton, measure, error, high)
       error%seconds = omp_get_wtime() - clock
    end subroutine harmonics_error
 
@@ -283,11 +284,10 @@ contains
    end function jumps_above
 
    !> Change of joint stress and of displacements if the laws were linear
-   subroutine effect(scene, state, newton, measure, error, high)
+   subroutine effect(scene, newton, measure, error, high)
       !> What does not change
       type(scene_type), intent(in) :: scene
-      !> The state, and the laws about it with the residual that changes it
-      type(joint_field_type), intent(in) :: state
+      !> The laws about the state, with the residual that changes it
       type(newton_type), intent(in) :: newton
       !> What the error is measured by
       type(measure_type), intent(in) :: measure
@@ -301,7 +301,7 @@ contains
       change = correction(scene, newton, tolerance)
       stress = newton%rest + at_points(newton%by_jump, &
          synthesize(scene%planes, jumps(scene%response, change, free=.false.)))
-      error%stress = maxval(abs(stress))/max(tiny(1.0_wp), maxval(abs(state%stress)))
+      error%stress = maxval(abs(stress))/max(tiny(1.0_wp), measure%stress)
       error%displacement = change_of_displacement(scene, change, high, measure)
    end subroutine effect
 

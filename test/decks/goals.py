@@ -98,6 +98,13 @@ def limits(program, folder):
     return faults
 
 
+def swept(program, folder):
+    """An option holds for the last round as for the first"""
+    ran = program.run('run', write(folder, 'swept.dat', FACING), '-o', folder, '--vtk')
+    faults = ran.ended_with(0)
+    return faults + ([] if os.path.exists(os.path.join(folder, 'swept.vtkhdf')) else ['no swept.vtkhdf'])
+
+
 def back_again(program, folder):
     """A round that does not fit into the memory: the results are those of the round before"""
     summary, _ = solved(program, folder, 'plain', FACING.replace('ERROR\n2, DISPL\n', ''))
@@ -119,6 +126,6 @@ def tests(program):
         return Test(f'goals: {name}', lambda folder: function(program, folder, *arguments))
 
     return ([test('disc', disc), test("the paper's loop", paper_method), test('blocks that face others', facing),
-             test('limits', limits), test('memory', back_again)]
+             test('limits', limits), test('options', swept), test('memory', back_again)]
             + [test(f'case {number}, {nodes} nodes', case, number, nodes, refined)
                for number in (1, 2, 3) for nodes, refined in ((4, 1), (8, 0.5))])

@@ -138,7 +138,9 @@ class Disc:
     name: str = "effectivity_disc"
     solutions: tuple = ()
     ratios: tuple = (0.3, 0.4, 0.5)
-    sizes: tuple = (8, 16, 32)
+    # With 32 elements the true error, some 1E-6, is rounding: between 257 and 1025 planes it jumps from 6E-7 to 5E-6,
+    # for the bodies are 1E8 times as stiff as the joint. Softer ones would not be rigid
+    sizes: tuple = (4, 8, 16)
     nodes: tuple = (4, 8, 9)
     planes: int = 257  # so that their share of the error is small
 
