@@ -13,9 +13,11 @@ module axijoint_analysis_error_budget
 contains
 
    !> Put the estimates of a run together
-   pure function new_budget(model, results) result(budget)
+   pure function new_budget(model, case_factor, results) result(budget)
       !> The job
       type(model_type), intent(in) :: model
+      !> Factors of its load cases, shape (cases)
+      real(wp), intent(in) :: case_factor(:)
       !> Results with the estimates of their parts
       type(results_type), intent(in) :: results
       !> Discretization, harmonics, planes, iteration, solver
@@ -26,7 +28,7 @@ contains
       yields = size(results%path) > 0
       allocate (budget(5))
       budget(1) = discretization_share(model, results)
-      budget(2) = harmonics_share(model, results, yields)
+      budget(2) = harmonics_share(model, case_factor, results, yields)
       budget(3) = error_share_type(source='planes', remedy='planes: '// &
                                    to_text(nint(1.4142*(model%n_planes - 1)) + 1)//' in CONTROL')
       budget(4) = error_share_type(source='iteration', remedy='half the tolerance in INCREMENTS')
@@ -63,9 +65,11 @@ contains
    end function discretization_share
 
    !> Harmonics above M, of the loads and of joints that open and slip
-   pure function harmonics_share(model, results, yields) result(share)
+   pure function harmonics_share(model, case_factor, results, yields) result(share)
       !> The job
       type(model_type), intent(in) :: model
+      !> Factors of its load cases, shape (cases)
+      real(wp), intent(in) :: case_factor(:)
       !> Results
       type(results_type), intent(in) :: results
       !> Whether joints yield
@@ -73,11 +77,18 @@ contains
       !> Their share
       type(error_share_type) :: share
 
+      integer :: k
+
       share%source = 'harmonics'
       share%remedy = 'harmonics: M = '//to_text(max(1, nint(1.4142*model%max_harmonic)))//' in CONTROL'
       share%displacement = 0.0_wp
       if (yields) call take(results%joint_errors%harmonics, share)
-      share%load = maxval([0.0_wp, model%truncations%left_out])
+      share%load = 0.0_wp
+      do k = 1, size(model%truncations)
+         associate (cut => model%truncations(k))
+            if (abs(case_factor(cut%case)) > 0.0_wp) share%load = max(share%load, cut%left_out)
+         end associate
+      end do
    end function harmonics_share
 
    !> Take an estimate of the joints

@@ -105,7 +105,7 @@ contains
       call cut_resultants(model, structure, history%loading, field, results)
       results%converged = results%converged .and. max(results%residual_ratio, results%mismatch) &
          <= results%tolerance + rounding(results)
-      if (results%converged) results%budget = new_budget(model, results)
+      if (results%converged) results%budget = new_budget(model, history%loading%case_factor, results)
       results%remarks = remarks_on(model, structure, history, field, results)
       call timer%pop()
    end subroutine analyse_combination

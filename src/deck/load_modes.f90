@@ -198,7 +198,7 @@ contains
                                     to_text(integer_of(card, 1))
       name = name//', shape '//to_text(integer_of(card, field))
       left_out = share_left_out(f, card%harmonics)
-      call add_truncation(truncations, name, left_out)
+      call add_truncation(truncations, name, left_out, card%case)
       if (left_out < 1.0_wp) return
       call add_warning(card%diagnostics, card%table%cards(1, card%entry), 0, 0, &
                        'the harmonics in use have no part of the load', &
@@ -206,13 +206,15 @@ contains
    end subroutine note_truncation
 
    !> Add what the harmonics leave of a load
-   pure subroutine add_truncation(truncations, name, left_out)
+   pure subroutine add_truncation(truncations, name, left_out, case)
       !> The list
       type(truncation_list_type), intent(inout) :: truncations
       !> The load in words
       character(len=*), intent(in) :: name
       !> Root mean square of what is left out, over that of the load
       real(wp), intent(in) :: left_out
+      !> Load case (index)
+      integer, intent(in) :: case
 
       type(truncation_type), allocatable :: larger(:)
       integer :: k
@@ -223,11 +225,12 @@ contains
          do k = 1, truncations%n
             call move_alloc(truncations%entries(k)%name, larger(k)%name)
             larger(k)%left_out = truncations%entries(k)%left_out
+            larger(k)%case = truncations%entries(k)%case
          end do
          call move_alloc(larger, truncations%entries)
       end if
       truncations%n = truncations%n + 1
-      truncations%entries(truncations%n) = truncation_type(name, left_out)
+      truncations%entries(truncations%n) = truncation_type(name, left_out, case)
    end subroutine add_truncation
 
    !> Shares of a load in harmonic 1 along the direction theta0: the symmetric load turned

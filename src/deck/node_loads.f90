@@ -108,7 +108,7 @@ contains
          end if
       end associate
       call add_truncation(lists%truncations, 'POINTLOADS, node '//to_text(integer_of(card, 1))// &
-                          ', theta = '//to_text(real_of(card, point_angle)), left_out)
+                          ', theta = '//to_text(real_of(card, point_angle)), left_out, card%case)
       do k = 1, size(loads)
          if (.not. any(card%harmonics == loads(k)%mode%harmonic)) cycle
          if (.not. any(abs(loads(k)%force) > 0.0_wp)) cycle

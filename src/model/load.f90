@@ -113,6 +113,8 @@ module axijoint_model_load
       !> Root mean square of what is left out, over that of the load; 1 if the
       !> load is concentrated in points
       real(wp) :: left_out = 0.0_wp
+      !> Load case (index)
+      integer :: case = 1
    end type truncation_type
 
    !> A load increment in the tradition of Owen and Hinton

@@ -1,9 +1,10 @@
 """ERROR: rounds of refinement, and what they leave of the true error"""
+import json
 import os
 
 import hard_scenes as scenes
 from hard_decks import at, close, solved
-from support import Test, expected, read_text, write
+from support import INPUTS, Test, expected, read_text, write
 
 # The reference of a case of the example: elements, refinement, M, planes; it is good to 0.2 %
 REFERENCE = {'nodes': 9, 'refined': 2, 'harmonic': 8, 'planes': 33, 'tolerance': 1e-8}
@@ -98,6 +99,16 @@ def limits(program, folder):
     return faults
 
 
+def loads_of_combinations(program, folder):
+    """Combination 1 is the weight alone; what M leaves of the wind counts in combination 2"""
+    faults = program.run('run', os.path.join(INPUTS, 'chimney.dat'), '-o', folder).ended_with(0)
+    if faults:
+        return faults
+    one, two = (json.loads(read_text(os.path.join(folder, f'chimney.{number}.json')))['errors']['harmonics']['load']
+                for number in (1, 2))
+    return [] if one == 0.0 < two else [f'left out of the loads: {one} and {two}']
+
+
 def swept(program, folder):
     """An option holds for the last round as for the first"""
     ran = program.run('run', write(folder, 'swept.dat', FACING), '-o', folder, '--vtk')
@@ -126,6 +137,7 @@ def tests(program):
         return Test(f'goals: {name}', lambda folder: function(program, folder, *arguments))
 
     return ([test('disc', disc), test("the paper's loop", paper_method), test('blocks that face others', facing),
-             test('limits', limits), test('options', swept), test('memory', back_again)]
+             test('limits', limits), test('options', swept),
+             test('loads of a combination', loads_of_combinations), test('memory', back_again)]
             + [test(f'case {number}, {nodes} nodes', case, number, nodes, refined)
                for number in (1, 2, 3) for nodes, refined in ((4, 1), (8, 0.5))])
