@@ -69,7 +69,7 @@ contains
                if (allocated(error)) deallocate (error)
             else
                if (allocated(error) .or. allocated(last%failure)) return
-               if (last%error >= 0.0_wp .and. last%error <= model%error_goal%target) return
+               if (last%error <= model%error_goal%target) return  ! met, or not known
                if (size(rounds) >= model%error_goal%most_rounds) return
                before = refinement
                call refine_further(model, results(worst)%budget, size(rounds) == 1, last%error, last%n_unknowns, &

@@ -2,9 +2,11 @@
 !> would halve the largest
 module axijoint_analysis_error_budget
    use axijoint_analysis_results, only : results_type, error_share_type
+   use axijoint_analysis_response_tail, only : response_tail
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
    use axijoint_joints_joint_errors, only : joint_error_type
+   use axijoint_joints_residual, only : ratio
    use axijoint_model_model, only : model_type
    implicit none
    private
@@ -77,6 +79,8 @@ contains
       !> Their share
       type(error_share_type) :: share
 
+      real(wp), allocatable :: amplitude(:)
+      integer, allocatable :: harmonic(:)
       integer :: k
 
       share%source = 'harmonics'
@@ -89,6 +93,14 @@ contains
             if (abs(case_factor(cut%case)) > 0.0_wp) share%load = max(share%load, cut%left_out)
          end associate
       end do
+      if (.not. share%load > 0.0_wp) return
+      harmonic = results%modes%harmonic
+      amplitude = [(sqrt(maxval(sum(results%displacement(:, :, k)**2, 1))), k=1, size(results%modes))]
+      share%displacement = share%displacement &
+                           + ratio(response_tail(harmonic, amplitude), &
+                                   results%discretization%largest_displacement)
+      share%energy = sqrt(ratio(response_tail(harmonic, results%discretization%energy), &
+                                sum(results%discretization%energy)))
    end function harmonics_share
 
    !> Take an estimate of the joints
@@ -111,7 +123,7 @@ contains
 
       real(wp) :: size_of(size(budget))
 
-      size_of = max(budget%displacement, budget%joint_stress, budget%load)
+      size_of = max(budget%displacement, budget%joint_stress)
       place = maxloc(size_of, 1)
       if (.not. size_of(place) > 0.0_wp) place = 0
    end function largest_share

@@ -112,6 +112,7 @@ contains
       associate (budget => results%budget, goal => model%error_goal)
          do i = 1, size(budget)
             if (budget(i)%source == 'discretization' .and. share_of(budget(i), goal) < 0.0_wp) return
+            if (budget(i)%load >= 1.0_wp) return  ! what a concentrated load does has no limit
          end do
          now = mark_of(model, results)
          if (before%estimate >= distinct*now%estimate .and. before%largest > 0.0_wp .and. now%largest > 0.0_wp) then
@@ -147,12 +148,13 @@ contains
       select case (goal%quantity)
       case (goal_joints)
          share_of = share%joint_stress
+         ! of loads that M cuts off there is an estimate of the displacements only
+         if (share%load > 0.0_wp) share_of = max(share_of, share%displacement)
       case (goal_energy)
          share_of = merge(share%energy, share%displacement, share%energy >= 0.0_wp)
       case default
          share_of = share%displacement
       end select
-      share_of = max(share_of, share%load)
    end function share_of
 
    !> How a source is brought down

@@ -224,6 +224,7 @@ contains
                   to_text(size(results%rounds) - 1)
          else if (last%error < 0.0_wp) then
             why = 'the error of '//trim(goal_names(goal%quantity))//' is not known'
+            if (any(model%truncations%left_out >= 1.0_wp)) why = why//', as some load is concentrated in points'
          else if (size(results%rounds) >= goal%most_rounds) then
             why = 'so many rounds are allowed'
          else if (goal%mesh_too) then
