@@ -307,7 +307,7 @@ contains
       type(orders_type) :: orders
       type(equations_type), allocatable :: equations
       type(error_type), allocatable :: error
-      real(wp) :: start, processor, processor_end
+      real(wp) :: start, processor, processor_end, time
       integer :: m
 
       call omp_set_num_threads(n_threads)
@@ -335,14 +335,19 @@ contains
       start = clock(n_threads)
       call form_matrices(equations)
       record%matrix = clock(n_threads) - start
-      call cpu_time(processor)
-      start = clock(n_threads)
-      call factorize_in_turn(equations)
-      call report_failure(equations, model, error)
-      call stop_on(error)
-      record%factorization = clock(n_threads) - start
-      call cpu_time(processor_end)
-      record%share = (processor_end - processor)/record%factorization
+      ! twice: the first time some memory is new to the process, with two threads more than with one
+      do m = 1, 2
+         call cpu_time(processor)
+         start = clock(n_threads)
+         call factorize_in_turn(equations)
+         call report_failure(equations, model, error)
+         call stop_on(error)
+         time = clock(n_threads) - start
+         call cpu_time(processor_end)
+         if (m == 2 .and. time > record%factorization) exit
+         record%factorization = time
+         record%share = (processor_end - processor)/time
+      end do
    end subroutine measure_threads
 
    !> Processor time on one thread, which other jobs do not disturb; else the wall clock [second]

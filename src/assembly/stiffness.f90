@@ -5,7 +5,7 @@ module axijoint_assembly_stiffness
    use axijoint_assembly_pattern, only : new_pattern
    use axijoint_assembly_support, only : support_point_type, support_stiffness
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_base_large_pages, only : use_large_pages
+   use axijoint_base_large_pages, only : zero_large_pages
    use axijoint_base_sort, only : refine_order
    use axijoint_element_blocks, only : n_blocks, pack_blocks
    use axijoint_element_joint, only : joint_stiffness
@@ -52,9 +52,6 @@ module axijoint_assembly_stiffness
       logical, allocatable :: regular(:)
       !> Place of each node in the order
       integer, allocatable :: place(:)
-      !> Nodes nothing has been added to: their rows are cleared when they are first
-      !> needed, and are at hand then
-      logical, allocatable :: fresh(:)
    end type stiffness_type
 
 contains
@@ -160,8 +157,7 @@ contains
       do k = 1, size(classes)
          associate (class => classes(k))
             allocate (class%parts(n_parts(class), size(class%pattern%column)))
-            call use_large_pages(class%parts)
-            allocate (class%fresh(size(class%place)), source=.true.)
+            call zero_large_pages(class%parts)
          end associate
       end do
       n = n_nodes(model%mesh)
@@ -177,9 +173,6 @@ contains
       end do
       do k = 1, size(support_points)
          call add_support_point(support_points(k), classes)
-      end do
-      do k = 1, size(classes)
-         deallocate (classes(k)%fresh)
       end do
    end subroutine assemble_parts
 
@@ -234,35 +227,13 @@ contains
       !> First and last place of the range
       integer, intent(in) :: from, to
 
-      integer :: k, node
+      integer :: k
 
       do k = 1, size(elements)
          if (lowest(elements(k)) > to .or. highest(elements(k)) < from) cycle
          call add_element(model, references, kernels, elements(k), classes, from, to)
       end do
-      do k = 1, size(classes)
-         do node = 1, size(classes(k)%place)  ! that no element has
-            if (classes(k)%place(node) < from .or. classes(k)%place(node) > to) cycle
-            if (classes(k)%fresh(node)) call clear_node(classes(k), node)
-         end do
-      end do
    end subroutine assemble_range
-
-   !> Zeros in the rows of a node
-   pure subroutine clear_node(stiffness, node)
-      !> The stiffness
-      type(stiffness_type), intent(inout) :: stiffness
-      !> The node
-      integer, intent(in) :: node
-
-      integer :: first
-
-      stiffness%fresh(node) = .false.
-      associate (equation => stiffness%dofs%equation(:, node), start => stiffness%pattern%row_start)
-         first = first_equation(equation)
-         if (first > 0) stiffness%parts(:, start(first):start(maxval(equation) + 1) - 1) = 0.0_wp
-      end associate
-   end subroutine clear_node
 
    !> Add the parts of one element
    subroutine add_element(model, references, kernels, element, classes, from, to)
@@ -360,7 +331,6 @@ contains
          end associate
          mine(i) = first(i) > 0 .and. stiffness%place(nodes(i)) >= from &
             .and. stiffness%place(nodes(i)) <= to
-         if (mine(i) .and. stiffness%fresh(nodes(i))) call clear_node(stiffness, nodes(i))
       end do
       p = 0
       do j = 1, size(nodes)

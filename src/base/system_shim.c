@@ -133,3 +133,22 @@ void axijoint_use_large_pages(double *array, int64_t count)
    (void)count;
 #endif
 }
+
+/* Zeros in an array that has just been allocated, in large pages. Pages that are given up are
+   handed out again, cleared, when they are first touched: by the thread that needs them, and once,
+   where filling the array would touch all of it before. */
+void axijoint_zero_large_pages(double *array, int64_t count)
+{
+   char *from = (char *)array, *to = (char *)(array + count);
+#ifdef __linux__
+   const uintptr_t page = (uintptr_t)1 << 21;
+   char *first = (char *)(((uintptr_t)from + page - 1) / page * page);
+   char *last = (char *)((uintptr_t)to / page * page);
+   if (last > first && madvise(first, (size_t)(last - first), MADV_DONTNEED) == 0) {
+      axijoint_use_large_pages(array, count);
+      memset(from, 0, (size_t)(first - from));
+      from = last;
+   }
+#endif
+   memset(from, 0, (size_t)(to - from));
+}
