@@ -241,7 +241,7 @@ contains
       !> The job
       type(model_type), intent(in) :: model
 
-      too_large = 3*n_nodes(model%mesh)*size(used_modes(model)) > model%error_goal%most_unknowns
+      too_large = 3.0_wp*n_nodes(model%mesh)*size(used_modes(model)) > model%error_goal%most_unknowns
    end function too_large
 
    !> Raise M, by waves that the loads let through
