@@ -14,8 +14,9 @@ module axijoint_analysis_footprint
    !> Numbers of a joint point on a plane: jumps, stresses, states, slip, slopes, and copies
    integer(i8), parameter :: plane_numbers = 60
 
-   !> Vectors that the iteration of Newton's method keeps at most
-   integer(i8), parameter :: newton_vectors = 400
+   !> Vectors that the linear solutions of Newton's method touch; more are there for those that need
+   !> them, but joints a thousand times as stiff as usual do with these
+   integer(i8), parameter :: newton_vectors = 100
    !> Bytes of a node in the mesh, its elements, graph, orders and equations, as measured
    integer(i8), parameter :: mesh_bytes = 520
 
@@ -110,12 +111,12 @@ contains
       if (n_nodes > 4 .and. n_points < 7) bytes = bytes + real_bytes*functions*3*(n_points + 9)
    end function interpolation_bytes
 
-   !> All that comes after planning, were none given back
+   !> Most that is there at once after planning: stresses come when the flexibilities are formed
    elemental integer(i8) function coming(self)
       !> The bytes
       class(footprint_type), intent(in) :: self
 
-      coming = self%loads + self%stresses + self%joints + self%joint_work
+      coming = self%loads + self%joints + max(self%stresses, self%joint_work)
    end function coming
 
 end module axijoint_analysis_footprint
