@@ -55,7 +55,7 @@ contains
          associate (mode => results%modes(k), displacement => results%displacement(:, :, k), &
                     case_factor => loading%case_factor)
             call solid_force(model, loading%initial, k, mode, displacement, force)
-            stress = stress_amplitude(model, structure%joint_points, mode, displacement, field, k)
+            stress = stress_amplitude(structure%joint_points, mode, displacement, field, k)
             do c = 1, size(planes)
                associate (plane => planes(c), total => results%cut_resultants(:, c))
                   total = total + rigid_resultants(plane%position, mode, &

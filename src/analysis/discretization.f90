@@ -76,7 +76,7 @@ contains
          elastic = pack([(k, k=1, size(structure%joint_points))], &
                         .not. can_yield_at(model, structure%joint_points%material))
          largest = max(0.0_wp, largest, elastic_joint_error( &
-            model, structure%joint_points(elastic), new_view(results%plane_angles, results%modes), &
+            structure%joint_points(elastic), new_view(results%plane_angles, results%modes), &
             nodal%displacement))
          error = ratio(largest, max(largest_stress, maxval(abs(results%joint_stress))))
       end function joint_stress_error
@@ -89,7 +89,7 @@ contains
          real(wp), allocatable :: stress(:, :)
          integer :: i
 
-         allocate (stress, source=stress_amplitude(model, structure%joint_points, results%modes(k), &
+         allocate (stress, source=stress_amplitude(structure%joint_points, results%modes(k), &
                                                    results%displacement(:, :, k), field, k))
          joint_energy = 0.0_wp
          do i = 1, size(structure%joint_points)

@@ -49,7 +49,7 @@ contains
          end do
          field%jump = synthesize(planes, jump)
          do j = 1, size(planes%angle)
-            field%stress(:, :, j) = elastic_joint_stress(model, points, field%jump(:, :, j)) + field%initial
+            field%stress(:, :, j) = elastic_joint_stress(points, field%jump(:, :, j)) + field%initial
          end do
       end associate
    end subroutine elastic_field

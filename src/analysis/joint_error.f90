@@ -13,7 +13,6 @@ module axijoint_analysis_joint_error
    use axijoint_joints_increments, only : history_type
    use axijoint_joints_newton, only : newton_type, new_newton, newton_step
    use axijoint_joints_planes, only : planes_type, synthesize
-   use axijoint_joints_residual, only : load_norm
    use axijoint_joints_response, only : jumps
    use axijoint_joints_scene, only : scene_type, evaluate
    use axijoint_model_joint_points, only : model_joint_point_type
@@ -66,9 +65,7 @@ contains
    end subroutine new_nodal_error
 
    !> Largest change of an elastic joint stress by changes of displacements
-   function elastic_joint_error(model, points, planes, change) result(largest)
-      !> The job
-      type(model_type), intent(in) :: model
+   function elastic_joint_error(points, planes, change) result(largest)
       !> Joint points
       type(model_joint_point_type), intent(in) :: points(:)
       !> Planes
@@ -88,7 +85,7 @@ contains
       jump = synthesize(planes, jump)
       largest = 0.0_wp
       do j = 1, size(jump, 3)
-         largest = max(largest, maxval(abs(elastic_joint_stress(model, points, jump(:, :, j)))))
+         largest = max(largest, maxval(abs(elastic_joint_stress(points, jump(:, :, j)))))
       end do
    end function elastic_joint_error
 
@@ -167,8 +164,7 @@ contains
       field = new_joint_field(size(scene%points), size(scene%planes%angle), size(scene%equations%modes))
       call set_initial_stress(scene%model, scene%points, history%loading%case_factor, field)
       allocate (path(0))
-      call balance_step(scene, strict, most_iterations, load_norm(scene%equations, history%peak), &
-                        iteration_type(), field, path, verdict)
+      call balance_step(scene, strict, most_iterations, iteration_type(), field, path, verdict)
       found = verdict%converged .or. verdict%at_rounding
    end subroutine start_again
 
@@ -188,7 +184,7 @@ contains
 
       type(newton_type) :: newton
       real(wp), allocatable :: residual(:, :, :)
-      logical :: made, ran
+      logical :: made
       integer :: k
 
       field%share = 1.0_wp
@@ -199,7 +195,7 @@ contains
       made = .true.
       do k = 1, most_steps
          if (newton%merit <= goal .or. .not. made) exit
-         call newton_step(scene, linear_tolerance, huge(1.0_wp), newton, field, residual, made, ran)
+         call newton_step(scene, 0.0_wp, linear_tolerance, huge(1.0_wp), newton, field, residual, made)
       end do
       found = newton%merit <= goal
       if (present(moved)) moved = k > 1

@@ -1,6 +1,6 @@
 !> The motion in which a structure runs away, in words
 module axijoint_analysis_motion
-   use axijoint_assembly_mechanism, only : solid_parts
+   use axijoint_assembly_rigid_motion, only : solid_parts
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
    use axijoint_fe_mode, only : mode_type, is_torsion, mode_name

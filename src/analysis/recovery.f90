@@ -7,7 +7,7 @@ module axijoint_analysis_recovery
    use axijoint_assembly_equations, only : on_equations, worth_threads
    use axijoint_assembly_force, only : joint_force
    use axijoint_assembly_loading, only : loading_type
-   use axijoint_assembly_mechanism, only : solid_parts
+   use axijoint_assembly_rigid_motion, only : solid_parts
    use axijoint_assembly_solid_force, only : solid_force
    use axijoint_assembly_support, only : add_support_force
    use axijoint_base_kinds, only : wp
@@ -98,7 +98,7 @@ contains
          call solid_force(model, loading%initial, k, results%modes(k), &
                           results%displacement(:, :, k), internal, results%stress(:, :, k))
          internal = internal + spring_force(k) + joint_force(structure%joint_points, &
-            results%modes(k)%harmonic, stress_amplitude(model, structure%joint_points, &
+            results%modes(k)%harmonic, stress_amplitude(structure%joint_points, &
             results%modes(k), results%displacement(:, :, k), field, k), size(internal, 2))
       end function internal_force
 

@@ -13,7 +13,7 @@ module axijoint_analysis_remarks
    use axijoint_model_request, only : goal_names
    implicit none
    private
-   public :: remarks_on, remark_on_goal, mechanism_text, out_of_proportion
+   public :: remarks_on, remark_on_goal, mechanism_text
 
    !> Joints whose k h/E is above these: of a doubtful, and of no sensible proportion
    real(wp), parameter :: stiff = 100.0_wp, stiffest = 1.0e4_wp
@@ -63,7 +63,7 @@ contains
 
       real(wp) :: proportion
 
-      proportion = stiffness_ratio(model, structure%joint_points)
+      proportion = stiffness_ratio(structure%joint_points)
       if (proportion > stiffest .or. .not. results%converged .and. proportion > stiff) then
          call add(remarks, 'joints with k h/E up to '//to_text(proportion)// &
             ' are stiff out of proportion to the bodies (sensible: 1E-3 to 1E2); '// &
@@ -246,16 +246,6 @@ contains
 
       remarks = [remarks, remark_type(text)]
    end subroutine add
-
-   !> Whether the joints are so stiff that rounding decides, not mechanics
-   pure logical function out_of_proportion(model, structure)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The structure, for its joint points
-      type(structure_type), intent(in) :: structure
-
-      out_of_proportion = stiffness_ratio(model, structure%joint_points) > stiffest
-   end function out_of_proportion
 
    !> A mechanism in words
    function mechanism_text(model, reached, results) result(text)

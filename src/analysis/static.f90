@@ -8,11 +8,12 @@ module axijoint_analysis_static
    use axijoint_analysis_left_out, only : what_was_left_out
    use axijoint_analysis_nodal_stress, only : smooth_stress
    use axijoint_analysis_recovery, only : recover
-   use axijoint_analysis_remarks, only : remarks_on, mechanism_text, out_of_proportion
+   use axijoint_analysis_remarks, only : remarks_on, mechanism_text
    use axijoint_analysis_results, only : results_type
    use axijoint_analysis_increment_fields, only : elastic_field
    use axijoint_analysis_solution, only : solve_displacements
    use axijoint_analysis_structure, only : structure_type, build_structure
+   use axijoint_assembly_force, only : elastic_joint_stress
    use axijoint_assembly_loading, only : new_loading
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
@@ -23,8 +24,8 @@ module axijoint_analysis_static
                                           loads_of_increments, compare_loops, balance_again
    use axijoint_joints_joint_errors, only : measure_type, estimate_joint_errors, change_of_displacement
    use axijoint_joints_planes, only : planes_type, new_view, on_all
-   use axijoint_joints_residual, only : residual_norm, load_norm, ratio
-   use axijoint_joints_scene, only : mismatch_of, elastic_stress
+   use axijoint_joints_residual, only : strictest_type, strictest
+   use axijoint_joints_scene, only : mismatch_of
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type
@@ -145,6 +146,7 @@ contains
       type(joint_field_type) :: yielding
       type(joint_field_type), allocatable :: other
       real(wp) :: factor_share, start
+      integer :: k
 
       structure%scene%model => model
       structure%scene%equations => structure%equations
@@ -166,9 +168,17 @@ contains
                                   structure%scene%points, history%runaway, results%displacement, &
                                   results%solves, factor_share, error)
          if (allocated(error)) return
-         if (.not. out_of_proportion(model, structure)) then
-            results%mechanism = mechanism_text(model, history%reached, results)
-         end if
+         results%mechanism = mechanism_text(model, history%reached, results)
+      end if
+      if (allocated(history%motion)) then
+         results%displacement = 0.0_wp
+         do k = 1, size(history%motion)
+            associate (floating => structure%scene%floating(k))
+               results%displacement(:, :, floating%mode) = results%displacement(:, :, floating%mode) &
+                  + history%motion(k)*floating%displacement
+            end associate
+         end do
+         results%mechanism = mechanism_text(model, history%reached, results)
       end if
       call solve_displacements(structure%equations, model, history%loading, structure%scene%points, &
                                yielding%excess, results%displacement, results%solves, factor_share, &
@@ -212,14 +222,15 @@ contains
       !> Part of the tolerance that is no matter
       real(wp), parameter :: part = 0.1_wp
       real(wp), allocatable :: jump(:, :, :)
+      type(strictest_type) :: found
       real(wp) :: factor_share
       integer :: k
 
       associate (scene => structure%scene)
          do k = 0, most_corrections
             jump = mismatch_of(scene, yielding, results%displacement)
-            results%mismatch = ratio(residual_norm(structure%equations, scene%points, elastic_stress(scene, jump)), &
-                                     load_norm(structure%equations, history%peak))
+            found = strictest(scene%measure, elastic_stress(jump), paper=scene%method == method_transfer)
+            results%mismatch = found%ratio
             if (.not. results%converged .or. scene%method == method_transfer) return
             if (results%mismatch <= part*results%tolerance .or. k == most_corrections) return
             scene%response%free = scene%response%free + jump
@@ -231,6 +242,23 @@ contains
             if (allocated(error)) return
          end do
       end associate
+
+   contains
+
+      !> Stress of the jumps in the elastic structure
+      function elastic_stress(jump) result(stress)
+         !> Amplitudes, shape (3, points, modes)
+         real(wp), intent(in) :: jump(:, :, :)
+         !> Amplitudes, same shape
+         real(wp) :: stress(3, size(jump, 2), size(jump, 3))
+
+         integer :: m
+
+         do m = 1, size(jump, 3)
+            stress(:, :, m) = elastic_joint_stress(structure%scene%points, jump(:, :, m))
+         end do
+      end function elastic_stress
+
    end subroutine mend_mismatch
 
    !> Errors that iteration, planes and harmonics leave. The paper's loop is another
@@ -323,7 +351,7 @@ contains
          state%increment = last%increment
          state%load_factor = last%load_factor
       end associate
-      if (allocated(history%runaway)) state%load_factor = history%reached
+      if (allocated(history%runaway) .or. allocated(history%motion)) state%load_factor = history%reached
       state%case_factor = history%loading%case_factor
    end function last_state
 

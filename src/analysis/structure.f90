@@ -14,7 +14,9 @@ module axijoint_analysis_structure
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type, phase_assemble, phase_factor, phase_joints
    use axijoint_fe_mode, only : mode_type
+   use axijoint_joints_floating, only : new_floating_motions
    use axijoint_joints_planes, only : planes_type, new_planes
+   use axijoint_joints_residual, only : new_measure
    use axijoint_joints_response, only : new_response
    use axijoint_joints_scene, only : scene_type
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points, stiffness_ratio
@@ -83,8 +85,14 @@ contains
          call show_progress(progress, 'condensing to '//to_text(size(structure%yielding))//' joint points')
          structure%scene%planes = new_planes(model%n_planes, structure%modes)
          structure%planes = new_planes(model%n_planes, structure%modes, whole=.true.)
-         structure%scene%proportion = stiffness_ratio(model, structure%scene%points)
+         structure%scene%proportion = stiffness_ratio(structure%scene%points)
          structure%scene%first_share = share_seen_first(model, structure%scene)
+         associate (points => structure%joint_points)
+            call new_floating_motions(model, pack(points, .not. can_yield_at(model, points%material)), &
+                                      structure%support_points, structure%modes, structure%scene%points, &
+                                      structure%scene%floating)
+         end associate
+         call new_measure(model%mesh, structure%equations, structure%scene%points, structure%scene%measure)
          call new_response(structure%equations, structure%scene%points, structure%scene%response, error)
          if (.not. allocated(error)) call report_failure(structure%equations, model, error)
       end if

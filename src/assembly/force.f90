@@ -7,7 +7,6 @@ module axijoint_assembly_force
    use axijoint_fe_shape, only : shape_line
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : edge_load_type
-   use axijoint_model_model, only : model_type
    implicit none
    private
    public :: add_edge_load, joint_force, joint_jump, elastic_joint_stress
@@ -63,10 +62,8 @@ contains
       end do
    end function joint_jump
 
-   !> Elastic joint stress of relative displacements (Eq. 9)
-   pure function elastic_joint_stress(model, points, jump) result(stress)
-      !> The job
-      type(model_type), intent(in) :: model
+   !> Joint stress of relative displacements in the elastic structure (Eq. 9)
+   pure function elastic_joint_stress(points, jump) result(stress)
       !> Points of all joints
       type(model_joint_point_type), intent(in) :: points(:)
       !> Relative displacements xi, eta, theta, shape (3, points)
@@ -77,7 +74,7 @@ contains
       integer :: k
 
       do k = 1, size(points)
-         stress(:, k) = model%joint_materials(points(k)%material)%law%stiffness*jump(:, k)
+         stress(:, k) = points(k)%base*jump(:, k)
       end do
    end function elastic_joint_stress
 

@@ -70,7 +70,7 @@ contains
       do k = 1, size(modes)
          if (allocated(loading%held)) still = loading%held(:, :, k)
          call solid_force(model, loading%initial, k, modes(k), still, internal)
-         stress = elastic_joint_stress(model, joint_points, joint_jump(joint_points, still))
+         stress = elastic_joint_stress(joint_points, joint_jump(joint_points, still))
          if (same_mode(modes(k), mode_type(0, family_symmetric))) then
             stress = stress + in_situ_joint_stress(model, joint_points, combination%factor)
          end if

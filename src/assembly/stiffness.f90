@@ -169,7 +169,7 @@ contains
       end do
       !$omp end parallel do
       do k = 1, size(joint_points)
-         call add_joint_point(model, joint_points(k), classes)
+         call add_joint_point(joint_points(k), classes)
       end do
       do k = 1, size(support_points)
          call add_support_point(support_points(k), classes)
@@ -269,9 +269,7 @@ contains
    end subroutine add_element
 
    !> Add one point of a joint; its stiffness is free of the harmonic: part A
-   subroutine add_joint_point(model, point, classes)
-      !> The job
-      type(model_type), intent(in) :: model
+   subroutine add_joint_point(point, classes)
       !> The point
       type(model_joint_point_type), intent(in) :: point
       !> The classes in use
@@ -281,9 +279,7 @@ contains
       integer :: n, i
 
       n = 2*point%n_pairs
-      call joint_stiffness(point%joint_point_type, &
-                           model%joint_materials(point%material)%law%stiffness, &
-                           parts(:3*n, :3*n))
+      call joint_stiffness(point%joint_point_type, point%base, parts(:3*n, :3*n))
       call pack_blocks(n, parts, blocks=blocks)
       do i = 1, size(classes)
          call scatter(classes(i), point%nodes(:n), blocks, 1, huge(1))

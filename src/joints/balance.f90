@@ -6,10 +6,11 @@ module axijoint_joints_balance
    use axijoint_element_joint_law, only : opening_bond
    use axijoint_joints_anderson, only : anderson_type, new_anderson, anderson_step
    use axijoint_joints_field, only : joint_field_type, iteration_type, judge_states, break_bonds, soften, count_state
+   use axijoint_joints_mechanism, only : mechanism_type, find_mechanism
    use axijoint_joints_newton, only : newton_type, new_newton, newton_step
-   use axijoint_joints_residual, only : residual_norm, ratio
-   use axijoint_joints_scene, only : scene_type, evaluate
-   use axijoint_model_model, only : method_newton, method_total, method_anderson
+   use axijoint_joints_residual, only : strictest_type, strictest, residual_norm
+   use axijoint_joints_scene, only : scene_type, evaluate, views
+   use axijoint_model_model, only : method_newton, method_total, method_anderson, method_transfer
    implicit none
    private
    public :: verdict_type, balance_step
@@ -19,18 +20,21 @@ module axijoint_joints_balance
    !> Bonds are broken and points softened, one pass after the other, in states at
    !> least this well balanced. The last pass reaches the tolerance asked for
    real(wp), parameter :: pass_tolerance = 1.0e-4_wp
-   !> Joints much stiffer than the bodies (k h/E beyond `stiff`) tear like a zip, in
-   !> many passes: their bonds are broken in looser states, which comes closer to
-   !> the order in which a growing load breaks them
-   real(wp), parameter :: stiff = 5.0_wp, loose_pass = 0.3_wp
+   !> Joints much stiffer than the bodies tear like a zip, in many passes: their bonds are broken in looser
+   !> states, which comes closer to the order in which a growing load breaks them. k h/E of stiff and of
+   !> very stiff joints, and how loose the states are
+   real(wp), parameter :: stiff = 5.0_wp, loose_pass = 0.3_wp, very_stiff = 100.0_wp, loosest_pass = 1.0_wp
    !> Joints much stiffer than the bodies: the laws see a share of their stiffness
    !> first, this many times more whenever the residual ratio has fallen so far
    real(wp), parameter :: stage_factor = 10.0_wp, stage_tolerance = 0.1_wp
-   !> Tolerance of Newton's linear solution far from equilibrium, the ratio from which on it
+   !> How well the state is balanced that other methods begin with
+   real(wp), parameter :: begun_tolerance = 1.0_wp
+   !> Weak springs in place of joints that do not resist a motion under load: their first share of the joints'
+   !> stiffness, what it falls by whenever the ratio has fallen to `stage_tolerance`, and the last
+   real(wp), parameter :: first_leak = 1.0e-2_wp, leak_factor = 1.0e-2_wp, last_leak = 1.0e-8_wp
+   !> Tolerance of Newton's linear solution far from equilibrium, with very stiff joints, the ratio from which on it
    !> is near, the least tolerance there, and the part of the step's tolerance that is left to it
-   real(wp), parameter :: loose = 1.0e-3_wp, near = 1.0e-2_wp, strict = 1.0e-9_wp, part = 0.01_wp
-   !> If Newton's step runs away, so many steps of Anderson's mix go before the next
-   integer, parameter :: detour = 8
+   real(wp), parameter :: loose = 1.0e-3_wp, closer = 1.0e-4_wp, near = 1.0e-2_wp, strict = 1.0e-9_wp, part = 0.01_wp
    !> Rounding of the forces of the excess stress
    real(wp), parameter :: rounding = 1.0e2_wp*epsilon(1.0_wp)
    !> A step without a better residual for so many iterations has stalled
@@ -38,8 +42,8 @@ module axijoint_joints_balance
    !> Iterations in which a point that changes its state counts as restless
    integer, parameter :: recent = 12
    !> Jumps so many times larger than the displacements with elastic joints are no
-   !> state: a Newton step to them is none, and shows a mechanism if no other step
-   !> helps. (The jumps of an elastic joint are no measure: they vanish if it is stiff.)
+   !> state: a Newton step to them is not made. (The jumps of an elastic joint are no measure: they
+   !> vanish if it is stiff.)
    real(wp), parameter :: runaway = 1.0e5_wp
 
    !> How a load step ended
@@ -49,23 +53,27 @@ module axijoint_joints_balance
       !> Whether the residual stopped falling, whether it is down to rounding then,
       !> and whether the jumps ran away
       logical :: stalled = .false., at_rounding = .false., ran_away = .false.
+      !> Rigid motions that the joints do not resist at the end
+      type(mechanism_type) :: mechanism
       !> Points times planes that changed their state among the last iterations,
       !> shape (points, planes); allocated if stalled
       logical, allocatable :: restless(:, :)
       !> Passes in which bonds broke or points softened
       integer :: n_passes = 0
+      !> The largest ratio of residual forces at the end
+      type(strictest_type) :: residual
    end type verdict_type
 
    !> What is remembered from iterate to iterate
    type :: watch_type
       !> Jumps beyond which there is no state
       real(wp) :: largest = 0.0_wp
-      !> Best residual ratio, its iteration, and that of the last Newton step that
-      !> ran away
+      !> Best residual ratio, and its iteration
       real(wp) :: best = huge(1.0_wp)
-      integer :: best_at = 0, ran_at = -1
-      !> Steps of Anderson's mix that are left before the next of Newton's
-      integer :: mixes = 0
+      integer :: best_at = 0
+      !> Whether a step of Newton's was not made, whether weak springs were tried, and steps made with those of now
+      logical :: ran = .false., leaked = .false.
+      integer :: n_steps = 0
       type(anderson_type) :: memory
       !> States of the last iterate, and the iteration that changed them last, shape
       !> (points, planes)
@@ -75,14 +83,12 @@ module axijoint_joints_balance
 contains
 
    !> Iterate a load step to equilibrium
-   recursive subroutine balance_step(scene, tolerance, most, norm, now, field, path, verdict, warm)
-      !> What does not change, but for a while the method
+   recursive subroutine balance_step(scene, tolerance, most, now, field, path, verdict, warm)
+      !> What does not change, but for a while the method; residuals are held against the reference of its measure
       type(scene_type), intent(inout) :: scene
       !> Tolerance on the residual ratio, and most iterations
       real(wp), intent(in) :: tolerance
       integer, intent(in) :: most
-      !> Norm of the largest load so far (Psi_f)
-      real(wp), intent(in) :: norm
       !> Increment, iterations made in it so far, load factor
       type(iteration_type), intent(in) :: now
       !> State of the joints: of the last step, then of this one
@@ -96,80 +102,148 @@ contains
       logical, intent(in), optional :: warm
 
       type(iteration_type), allocatable :: steps(:)
+      type(joint_field_type), allocatable :: start
       type(watch_type) :: watch
       type(newton_type) :: newton
       real(wp), allocatable :: residual(:, :, :)
-      real(wp) :: transferred
       logical :: again, soft
-      integer :: k
+      integer :: k, before
 
       allocate (residual, mold=field%excess)
       allocate (steps(0))
       soft = scene%method == method_newton
       if (present(warm)) soft = soft .and. .not. warm
-      if (soft) field%share = scene%first_share
-      if (scene%proportion > stiff .and. any(scene%method == [method_total, method_anderson])) then
-         call break_as_newton(scene, tolerance, most, norm, field)
+      soft = soft .and. scene%first_share < 1.0_wp
+      if (any(scene%method == [method_total, method_anderson])) then
+         call begin_as_newton(scene, tolerance, most, now, field, path, verdict)
       end if
+      if (verdict%mechanism%loaded) return
+      before = now%iteration
+      if (size(path) > 0) then
+         if (path(size(path))%increment == now%increment) before = path(size(path))%iteration
+      end if
+      allocate (start, source=field)
+      if (soft) field%share = scene%first_share
       watch = new_watch(scene, field)
-      call look_again(scene, field, residual, newton)
+      call look_again(scene, 1.0_wp, field, residual, newton)
+      if (scene%method == method_newton) then
+         call find_mechanism(scene, field, verdict%mechanism)
+         if (verdict%mechanism%loaded) call hold_weakly()
+      end if
       do k = 1, most
          call append(steps, k, now)
-         steps(k)%iteration = now%iteration + k
-         steps(k)%ratio = ratio(residual_norm(scene%equations, scene%points, residual), norm)
+         verdict%residual = strictest(scene%measure, residual, paper=scene%method == method_transfer)
+         steps(k)%iteration = before + k
+         steps(k)%ratio = verdict%residual%ratio
          call judge_states(scene%model, scene%points, field)
          call count_state(field, scene%planes%place, steps(k)%n_slip, steps(k)%n_open)
          call look(scene, k, steps(k)%ratio, field, watch, verdict)
-         if (verdict%ran_away) exit
-         call go_on(scene, tolerance, steps(k)%ratio, field, watch, verdict, again)
-         if (verdict%converged) exit
-         if (again) then
-            call look_again(scene, field, residual, newton)
+         if (verdict%ran_away .or. verdict%stalled) then
+            if (.not. (soft .or. may_hold_weakly())) exit
+            field = start
+            if (soft) then
+               soft = .false.
+               call begin_again(leak=0.0_wp)
+            else
+               call hold_weakly()
+            end if
             cycle
          end if
-         if (verdict%stalled .or. k == most) exit
-         call take_step(scene, k, tolerance, steps(k)%ratio, field, residual, newton, watch)
+         call go_on(scene, tolerance, field, residual, watch, verdict, again)
+         if (verdict%converged) exit
+         if (verdict%mechanism%loaded) then
+            if (.not. may_hold_weakly()) exit
+            call hold_weakly()
+            cycle
+         end if
+         if (k == most) exit
+         if (again) call look_again(scene, steps(k)%ratio, field, residual, newton)
+         call take_step(scene, tolerance, steps(k)%ratio, field, residual, newton, watch)
       end do
       field%pending = residual
+      field%leak = 0.0_wp
       k = min(k, most)
       path = [path, steps(:k)]
       if (verdict%converged) return
       verdict%restless = watch%changed > k - recent
       if (.not. verdict%stalled) return
-      transferred = residual_norm(scene%equations, scene%points, field%excess)
-      verdict%at_rounding = watch%best <= rounding*ratio(transferred, norm)
+      verdict%at_rounding = watch%best <= rounding*(residual_norm(scene%measure, field%excess) &
+                                                    /residual_norm(scene%measure, residual))*steps(k)%ratio
+
+   contains
+
+      !> Whether weak springs may still help
+      logical function may_hold_weakly() result(may)
+         may = scene%method == method_newton .and. size(scene%floating) > 0 .and. .not. watch%leaked .and. k < most
+      end function may_hold_weakly
+
+      !> Go on with weak springs
+      subroutine hold_weakly()
+         watch%leaked = .true.
+         call begin_again(first_leak)
+      end subroutine hold_weakly
+
+      !> Go on from the field as if the iterations began
+      subroutine begin_again(leak)
+         !> Weak springs, as a share of the joints' stiffness
+         real(wp), intent(in) :: leak
+
+         verdict%ran_away = .false.
+         verdict%stalled = .false.
+         verdict%mechanism%loaded = .false.
+         watch%best = huge(1.0_wp)
+         watch%n_steps = 0
+         field%leak = leak
+         call look_again(scene, 1.0_wp, field, residual, newton)
+      end subroutine begin_again
+
    end subroutine balance_step
 
-   !> Break the bonds that Newton's iteration breaks. In loosely balanced states the order
-   !> of breaking belongs to the iterates; so all methods on total jumps take it from
-   !> Newton's, and end in the same state.
-   recursive subroutine break_as_newton(scene, tolerance, most, norm, field)
+   !> Where the loops on total jumps must begin as Newton's method does: bonds of stiff joints, which break in loosely balanced
+   !> states, break in the order of its iterates, so that all methods end in the same state; and parts that no joint
+   !> holds at first are put where its weak springs leave them
+   recursive subroutine begin_as_newton(scene, tolerance, most, now, field, path, verdict)
       !> What does not change, but for a while the method
       type(scene_type), intent(inout) :: scene
       !> Tolerance on the residual ratio, and most iterations
       real(wp), intent(in) :: tolerance
       integer, intent(in) :: most
-      !> Norm of the largest load so far
-      real(wp), intent(in) :: norm
-      !> State of the joints; its bonds break
+      !> Increment, iterations made in it so far, load factor
+      type(iteration_type), intent(in) :: now
+      !> State of the joints; its bonds break, its parts move
       type(joint_field_type), intent(inout) :: field
+      !> Convergence path, to be continued
+      type(iteration_type), allocatable, intent(inout) :: path(:)
+      !> Takes a mechanism that Newton's method found
+      type(verdict_type), intent(out) :: verdict
 
-      type(joint_field_type), allocatable :: torn
-      type(iteration_type), allocatable :: path(:)
-      type(verdict_type) :: verdict
+      type(joint_field_type), allocatable :: begun
+      type(verdict_type) :: end
+      real(wp), allocatable :: residual(:, :, :)
+      logical :: tears
       integer :: k, method
 
-      if (all([(scene%model%joint_materials(scene%points(k)%material)%law%opening /= opening_bond, &
-                k=1, size(scene%points))])) return
-      allocate (torn)
-      allocate (path(0))
-      torn = field
+      tears = scene%proportion > stiff .and. any([(scene%model%joint_materials(scene%points(k)%material)%law%opening &
+                                                   == opening_bond, k=1, size(scene%points))])
+      allocate (begun, source=field)
+      allocate (residual, mold=field%excess)
+      call evaluate(scene, begun, residual)
+      call find_mechanism(scene, begun, verdict%mechanism)
+      if (.not. (tears .or. verdict%mechanism%loaded)) return
+      begun = field
       method = scene%method
       scene%method = method_newton
-      call balance_step(scene, tolerance, most, norm, iteration_type(), torn, path, verdict)
+      call balance_step(scene, merge(tolerance, max(tolerance, begun_tolerance), tears), most, now, begun, path, end)
       scene%method = method
-      if (verdict%converged) field%memory%broken = torn%memory%broken
-   end subroutine break_as_newton
+      if (end%converged) then
+         if (tears) field%memory%broken = begun%memory%broken
+         if (verdict%mechanism%loaded) then
+            field%excess = begun%excess
+            field%carried = begun%carried
+         end if
+      end if
+      verdict%mechanism = end%mechanism
+   end subroutine begin_as_newton
 
    !> Room for one more line of a path, which grows by doubling
    subroutine append(steps, k, step)
@@ -222,40 +296,49 @@ contains
 
       where (field%state /= watch%before) watch%changed = k
       watch%before = field%state
-      verdict%ran_away = .not. ieee_is_finite(ratio)
+      verdict%ran_away = watch%ran .or. .not. ieee_is_finite(ratio)
+      watch%ran = .false.
       if (verdict%ran_away) return
-      verdict%ran_away = maxval(abs(field%jump)) > watch%largest
+      verdict%ran_away = maxval(abs(field%jump)) > watch%largest .and. .not. field%leak > 0.0_wp
       if (ratio < 0.9_wp*watch%best) then
          watch%best = ratio
          watch%best_at = k
       end if
       verdict%stalled = scene%method == method_newton .and. k > watch%best_at + patience
-      if (verdict%stalled) verdict%ran_away = watch%ran_at >= watch%best_at
    end subroutine look
 
-   !> In a state that is balanced well enough, see what is next: more of the joints'
+   !> In a state that is balanced well enough, see what is next: weaker springs, more of the joints'
    !> stiffness, the next bonds to break, or the end
-   subroutine go_on(scene, tolerance, ratio, field, watch, verdict, again)
+   subroutine go_on(scene, tolerance, field, residual, watch, verdict, again)
       !> What does not change
       type(scene_type), intent(in) :: scene
-      !> Tolerance on the residual ratio, and the ratio
-      real(wp), intent(in) :: tolerance, ratio
+      !> Tolerance on the residual ratio
+      real(wp), intent(in) :: tolerance
       !> State of the joints
       type(joint_field_type), intent(inout) :: field
+      !> Excess stress that is not transferred
+      real(wp), intent(inout) :: residual(:, :, :)
       !> The watch; begins again if the task changed
       type(watch_type), intent(inout) :: watch
-      !> Takes `converged` and the passes
+      !> Takes `converged`, the passes, and a mechanism
       type(verdict_type), intent(inout) :: verdict
       !> Whether the task changed
       logical, intent(out) :: again
 
       integer :: n_broken, n_softened
+      real(wp) :: ratio
 
-      again = field%share < 1.0_wp .and. ratio <= stage_tolerance
-      if (again) then
-         field%share = min(1.0_wp, stage_factor*field%share)
-      else if (field%share >= 1.0_wp) then
-         if (scene%method == method_newton .and. scene%proportion > stiff .and. ratio <= loose_pass) then
+      ratio = verdict%residual%ratio
+      again = .false.
+      if (field%leak > 0.0_wp) then
+         again = ratio <= stage_tolerance .and. watch%n_steps > 0
+         if (again) call weaken(scene, field, residual, verdict)
+      else if (field%share < 1.0_wp) then
+         again = verdict%residual%whole <= stage_tolerance
+         if (again) call stiffen(scene, field, residual)
+      else
+         if (scene%method == method_newton .and. scene%proportion > stiff &
+             .and. ratio <= merge(loosest_pass, loose_pass, scene%proportion > very_stiff)) then
             call break_bonds(scene%model, scene%points, field, n_broken)
             again = n_broken > 0
          end if
@@ -263,21 +346,89 @@ contains
             call break_bonds(scene%model, scene%points, field, n_broken)
             call soften(scene%model, scene%points, field, n_softened)
             again = n_broken + n_softened > 0
-            verdict%converged = .not. again .and. ratio <= tolerance
+            if (.not. again .and. ratio <= tolerance) call conclude(scene, tolerance, field, residual, verdict)
          end if
          if (again) verdict%n_passes = verdict%n_passes + 1
       end if
       if (.not. again) return
       watch%best = huge(1.0_wp)
+      watch%n_steps = 0
       watch%memory = new_anderson(size(field%excess), depth)
    end subroutine go_on
 
-   !> One step of the method; where Newton's runs away, some of Anderson's mix
-   subroutine take_step(scene, k, tolerance, ratio, field, residual, newton, watch)
+   !> Let the laws see more of the joints' stiffness, as much as leaves the state about in balance
+   subroutine stiffen(scene, field, residual)
       !> What does not change
       type(scene_type), intent(in) :: scene
-      !> Iteration
-      integer, intent(in) :: k
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> Excess stress that is not transferred
+      real(wp), intent(inout) :: residual(:, :, :)
+
+      type(strictest_type) :: found
+
+      do while (field%share < 1.0_wp)
+         field%share = min(1.0_wp, stage_factor*field%share)
+         call evaluate(scene, field, residual)
+         found = strictest(scene%measure, residual, paper=.false.)
+         if (found%whole > stage_tolerance) exit
+      end do
+   end subroutine stiffen
+
+   !> Weaken the springs, or take them away: what moves under load without them is a mechanism
+   subroutine weaken(scene, field, residual, verdict)
+      !> What does not change
+      type(scene_type), intent(in) :: scene
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> Excess stress that is not transferred
+      real(wp), intent(inout) :: residual(:, :, :)
+      !> Takes a mechanism
+      type(verdict_type), intent(inout) :: verdict
+
+      if (field%leak > last_leak) then
+         field%leak = max(last_leak, leak_factor*field%leak)
+      else
+         field%leak = 0.0_wp
+         call evaluate(scene, field, residual)
+         call find_mechanism(scene, field, verdict%mechanism)
+      end if
+   end subroutine weaken
+
+   !> See whether a state within the tolerance is one: by what the laws say if they see the jumps, not parts of them,
+   !> and if no load acts on a motion that nothing resists
+   subroutine conclude(scene, tolerance, field, residual, verdict)
+      !> What does not change
+      type(scene_type), intent(in) :: scene
+      !> Tolerance on the residual ratio
+      real(wp), intent(in) :: tolerance
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> Excess stress that is not transferred
+      real(wp), intent(inout) :: residual(:, :, :)
+      !> Takes `converged` and the mechanism
+      type(verdict_type), intent(inout) :: verdict
+
+      type(strictest_type) :: found
+
+      if (any(views(scene, field%share) < 1.0_wp)) then
+         call evaluate(scene, field, residual, judged=.true.)
+         found = strictest(scene%measure, residual, paper=scene%method == method_transfer)
+         verdict%converged = found%ratio <= tolerance
+         if (.not. verdict%converged) then
+            call evaluate(scene, field, residual)
+            return
+         end if
+         verdict%residual = found
+      end if
+      call find_mechanism(scene, field, verdict%mechanism)
+      verdict%converged = .not. verdict%mechanism%loaded
+   end subroutine conclude
+
+   !> One step of the method
+   subroutine take_step(scene, tolerance, ratio, field, residual, newton, watch)
+      !> What does not change
+      type(scene_type), intent(in) :: scene
       !> Tolerance on the residual ratio, and the ratio
       real(wp), intent(in) :: tolerance, ratio
       !> State of the joints
@@ -291,34 +442,37 @@ contains
 
       real(wp), allocatable :: x(:)
       real(wp) :: accuracy
-      logical :: made, ran
+      logical :: made
 
-      if (scene%method == method_newton .and. watch%mixes == 0) then
+      watch%n_steps = watch%n_steps + 1
+      if (scene%method == method_newton) then
+         accuracy = merge(closer, loose, scene%proportion > very_stiff)
          ! near to equilibrium, so exactly that one step can reach the tolerance
-         accuracy = merge(min(loose, max(strict, part*tolerance/max(tiny(ratio), ratio))), loose, ratio < near)
-         call newton_step(scene, accuracy, watch%largest, newton, field, residual, &
-                          made, ran)
-         if (ran) watch%ran_at = k
-         if (made) return
-         watch%mixes = detour
-         watch%memory = new_anderson(size(field%excess), depth)
+         if (ratio < near) accuracy = min(accuracy, max(strict, part*tolerance/max(tiny(ratio), ratio)))
+         if (field%leak > 0.0_wp) accuracy = max(strict, min(accuracy, 0.1_wp*field%leak))
+         call newton_step(scene, ratio, accuracy, watch%largest/max(field%leak, merge(0.0_wp, 1.0_wp, field%leak > 0.0_wp)), &
+                          newton, field, residual, made)
+         watch%ran = .not. made
+         return
       end if
-      if (scene%method == method_newton .or. scene%method == method_anderson) then
-         watch%mixes = watch%mixes - 1
+      field%carried = field%stress
+      if (scene%method == method_anderson) then
          x = reshape(field%excess, [size(field%excess)])
          call anderson_step(watch%memory, x, reshape(residual, [size(x)]))
          field%excess = reshape(x, shape(field%excess))
       else
          field%excess = field%excess + residual
       end if
-      call look_again(scene, field, residual, newton)
+      call look_again(scene, ratio, field, residual, newton)
    end subroutine take_step
 
    !> What an iterate leaves without equilibrium, and the laws about it for Newton's
    !> method
-   subroutine look_again(scene, field, residual, newton)
+   subroutine look_again(scene, ratio, field, residual, newton)
       !> What does not change
       type(scene_type), intent(in) :: scene
+      !> Residual ratio of the iterate before
+      real(wp), intent(in) :: ratio
       !> State of the joints
       type(joint_field_type), intent(inout) :: field
       !> Excess stress not transferred
@@ -327,7 +481,7 @@ contains
       type(newton_type), intent(inout) :: newton
 
       call evaluate(scene, field, residual)
-      if (scene%method == method_newton) newton = new_newton(scene, field)
+      if (scene%method == method_newton) newton = new_newton(scene, field, ratio)
    end subroutine look_again
 
 end module axijoint_joints_balance

@@ -11,7 +11,7 @@ module axijoint_joints_field
    implicit none
    private
    public :: joint_field_type, iteration_type, new_joint_field, admit_jump, admit_trial, judge_states
-   public :: set_initial_stress, trial_of, stress_amplitude
+   public :: set_initial_stress, trial_of, seen_by_law, stress_amplitude
    public :: commit_field, break_bonds, soften, count_state, n_across_gaps
 
    !> Share of the largest joint stress, or jump, below which a value is rounding
@@ -34,11 +34,14 @@ module axijoint_joints_field
       !> Share of the joint stiffness that the laws see: less than one on the way to
       !> the state of stiff joints
       real(wp) :: share = 1.0_wp
+      !> Share of the elastic stress that joints keep though the laws do not admit it: weak springs that
+      !> hold, on the way, what nothing else does
+      real(wp) :: leak = 0.0_wp
       !> Amplitudes of the stress k d - P that was not admitted and has been
       !> transferred to the structure, and of that which has not yet been, shape
       !> (3, points, modes)
       real(wp), allocatable :: excess(:, :, :), pending(:, :, :)
-      !> Stress of Newton's iterate, which the law admits only in the end, shape
+      !> Stress that the laws start from, the same that they admit in the end, shape
       !> (3, points, planes)
       real(wp), allocatable :: carried(:, :, :)
    end type joint_field_type
@@ -102,17 +105,21 @@ contains
       field%initial = initial
    end subroutine set_initial_stress
 
-   !> Let the laws admit the stress of total jumps. Gives what they do not admit.
-   pure subroutine admit_jump(model, points, jump, field, excess)
+   !> Let the laws admit the stress of total jumps. Gives what they do not admit. Where the view is
+   !> less than 1, P = law(P + view (t - P)) stands for P = law(t): the same in the end, but a stiff
+   !> joint makes no large stress of a small jump on the way
+   pure subroutine admit_jump(model, points, jump, view, field, excess)
       !> The job
       type(model_type), intent(in) :: model
       !> Joint points
       type(model_joint_point_type), intent(in) :: points(:)
       !> Relative displacements, shape (3, points, planes)
       real(wp), intent(in) :: jump(:, :, :)
+      !> The view of each point, > 0 and <= 1
+      real(wp), intent(in) :: view(:)
       !> Field that takes jumps and stresses
       type(joint_field_type), intent(inout) :: field
-      !> k d + initial stress - P on the planes, shape (3, points, planes)
+      !> Stress of the elastic structure + initial stress - P on the planes, shape (3, points, planes)
       real(wp), intent(out) :: excess(:, :, :)
 
       real(wp) :: trial(3), tangent(3, 3)
@@ -122,10 +129,9 @@ contains
       do j = 1, size(jump, 3)
          do k = 1, size(points)
             associate (law => model%joint_materials(points(k)%material)%law)
-               trial = trial_of(model, points, k, j, jump(:, k, j), field)
+               trial = seen_by_law(model, points, k, j, view(k), field)
                call admit(law, field%memory(k, j), trial, field%stress(:, k, j), tangent)
-               excess(:, k, j) = law%stiffness*jump(:, k, j) + field%initial(:, k) &
-                  - field%stress(:, k, j)
+               excess(:, k, j) = points(k)%base*jump(:, k, j) + field%initial(:, k) - field%stress(:, k, j)
             end associate
          end do
       end do
@@ -152,6 +158,25 @@ contains
          trial = field%share*trial + field%initial(:, k)
       end associate
    end function trial_of
+
+   !> Trial stress of a point on a plane as far as its law sees the jump
+   pure function seen_by_law(model, points, k, j, view, field) result(trial)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Joint points
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Point and plane
+      integer, intent(in) :: k, j
+      !> How much of the way from the stress carried to that of the jump, > 0 and <= 1
+      real(wp), intent(in) :: view
+      !> The field
+      type(joint_field_type), intent(in) :: field
+      !> tau_xi, sigma, tau_theta
+      real(wp) :: trial(3)
+
+      trial = trial_of(model, points, k, j, field%jump(:, k, j), field)
+      if (view < 1.0_wp) trial = field%carried(:, k, j) + view*(trial - field%carried(:, k, j))
+   end function seen_by_law
 
    !> Let the laws admit a trial stress (the paper's accumulated stress)
    pure subroutine admit_trial(model, points, trial, field)
@@ -275,9 +300,7 @@ contains
 
    !> Amplitudes of the joint stress that acts on the bodies: k d and in-situ stress,
    !> less what was not admitted
-   pure function stress_amplitude(model, points, mode, displacement, field, k) result(stress)
-      !> The job
-      type(model_type), intent(in) :: model
+   pure function stress_amplitude(points, mode, displacement, field, k) result(stress)
       !> Points of all joints
       type(model_joint_point_type), intent(in) :: points(:)
       !> The mode
@@ -291,7 +314,7 @@ contains
       !> tau_xi, sigma, tau_theta, shape (3, points)
       real(wp) :: stress(3, size(points))
 
-      stress = elastic_joint_stress(model, points, joint_jump(points, displacement)) &
+      stress = elastic_joint_stress(points, joint_jump(points, displacement)) &
          - field%excess(:, :, k)
       if (same_mode(mode, mode_type(0, family_symmetric))) stress = stress + field%in_situ
    end function stress_amplitude

@@ -11,10 +11,11 @@ module axijoint_joints_increments
    use axijoint_joints_balance, only : verdict_type, balance_step
    use axijoint_joints_field, only : joint_field_type, iteration_type, new_joint_field, commit_field, &
                                      set_initial_stress
+   use axijoint_joints_floating, only : new_loads_on, put_loads_on
    use axijoint_joints_planes, only : on_all
-   use axijoint_joints_residual, only : load_norm, ratio
+   use axijoint_joints_residual, only : load_norm, ratio, set_reference
    use axijoint_joints_response, only : load_response
-   use axijoint_joints_scene, only : scene_type
+   use axijoint_joints_scene, only : scene_type, elastic_stress
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type, increment_type
@@ -35,9 +36,9 @@ module axijoint_joints_increments
       type(loading_type) :: loading
       !> The largest loads on the way, by their norm (Psi_f)
       type(loading_type) :: peak
-      !> Excess stress of joints that ran away, shape (3, points, modes); allocated
-      !> if the joints came to a mechanism
-      real(wp), allocatable :: runaway(:, :, :)
+      !> Excess stress of joints that ran away, shape (3, points, modes), and the motion that
+      !> nothing resists, in shares of the floating motions; one is allocated if the joints came to a mechanism
+      real(wp), allocatable :: runaway(:, :, :), motion(:)
       !> Sum of the load factors of the last step in equilibrium
       real(wp) :: reached = 0.0_wp
       !> Largest joint stress at the end of a step: what errors are measured by, for joints that
@@ -84,13 +85,16 @@ contains
       type(progress_type), intent(inout) :: progress
 
       type(step_type) :: start, goal
+      real(wp), allocatable :: balanced(:, :, :)
       real(wp) :: peak_norm
       integer :: i
 
       allocate (history%path(0), history%states(0))
       field = new_joint_field(size(scene%points), size(scene%planes%angle), size(scene%equations%modes))
+      scene%loads = new_loads_on(scene%floating, size(scene%points))
       goal = first_step(combination)
       peak_norm = 0.0_wp
+      allocate (balanced, source=field%excess)  ! zero: elastic stress of the loads in equilibrium
       do i = 1, size(scene%model%increments)
          start = goal
          goal = next_step(goal, scene%model%increments(i), combination)
@@ -98,6 +102,7 @@ contains
          call reach(i, start, goal, most_halvings)
          if (.not. history%verdict%converged) return
          if (allocated(history%runaway)) deallocate (history%runaway)  ! smaller steps got there
+         if (allocated(history%motion)) deallocate (history%motion)
          if (scene%model%sweep%wanted .and. i < size(scene%model%increments)) call keep_state(i, goal)
       end do
 
@@ -119,11 +124,12 @@ contains
          call try_step(increment, to)
          if (allocated(history%failure)) return
          if (history%verdict%converged .or. history%verdict%at_rounding) return
-         if (scene%method == method_transfer) return
+         if (history%verdict%mechanism%loaded) history%motion = history%verdict%mechanism%motion
+         if (scene%method == method_transfer .and. .not. history%verdict%mechanism%loaded) return
          if (history%verdict%ran_away) history%runaway = field%excess
-         if (halvings == 0) then
-            if (.not. allocated(history%runaway)) return
-            if (scene%method == method_newton) then
+         if (halvings == 0 .or. scene%method == method_transfer) then
+            if (.not. (allocated(history%runaway) .or. allocated(history%motion))) return
+            if (scene%method == method_newton .and. .not. history%verdict%mechanism%loaded) then
                ! Newton may run away where there is a state: no mechanism if the mix finds one
                field = before
                scene%method = method_anderson
@@ -171,6 +177,7 @@ contains
          type(step_type), intent(in) :: step
 
          type(iteration_type) :: now
+         real(wp), allocatable :: stress(:, :, :)
          real(wp) :: norm
 
          associate (control => scene%model%increments(increment))
@@ -182,6 +189,8 @@ contains
                peak_norm = norm
                history%peak = history%loading
             end if
+            stress = elastic_stress(scene, field)
+            call set_reference(scene%measure, peak_norm, stress - balanced, control%tolerance)
             now%increment = increment
             now%load_factor = step%load_factor
             if (size(history%path) > 0) then
@@ -189,9 +198,11 @@ contains
                   if (last%increment == increment) now%iteration = last%iteration
                end associate
             end if
-            call balance_step(scene, control%tolerance, control%max_iterations, peak_norm, now, field, &
+            call balance_step(scene, control%tolerance, control%max_iterations, now, field, &
                               history%path, history%verdict)
             if (.not. history%verdict%converged) return
+            balanced = stress
+            scene%loads%stress = max(scene%loads%stress, maxval(abs(field%stress), 3))
             history%memory = field%memory
             if (scene%method /= method_transfer) then
                call commit_field(scene%model, scene%points, field)
@@ -209,6 +220,7 @@ contains
          call new_loading(scene%model, all_points, supports, scene%equations%modes, &
                           combination_type(combination%label, step%case_factor), history%loading)
          call load_response(scene%equations, scene%points, history%loading, scene%response)
+         call put_loads_on(scene%floating, history%loading%external, scene%loads)
          call report_failure(scene%equations, scene%model, history%failure)
          call set_initial_stress(scene%model, scene%points, step%case_factor, field)
       end subroutine put_loads
@@ -227,8 +239,8 @@ contains
       field%memory = history%memory
       associate (last => history%path(size(history%path)), &
                  control => scene%model%increments(size(scene%model%increments)))
-         call balance_step(scene, control%tolerance, control%max_iterations, &
-                           load_norm(scene%equations, history%peak), last, field, history%path, history%verdict, warm=.true.)
+         call balance_step(scene, control%tolerance, control%max_iterations, last, field, history%path, &
+                           history%verdict, warm=.true.)
       end associate
       history%memory = field%memory
       if (history%verdict%converged) call commit_field(scene%model, scene%points, field)
@@ -266,7 +278,7 @@ contains
       method = scene%method
       scene%method = merge(method_newton, method_transfer, method == method_transfer)
       call balance_step(scene, merge(strict, paper_tolerance, method == method_transfer), most_sweeps, &
-                        load_norm(scene%equations, history%peak), iteration_type(), other, path, verdict)
+                        iteration_type(), other, path, verdict)
       scene%method = method
       if (.not. verdict%converged) then
          deallocate (other)

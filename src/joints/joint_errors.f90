@@ -11,7 +11,7 @@ module axijoint_joints_joint_errors
    use axijoint_joints_newton, only : newton_type, new_newton, correction, at_points
    use axijoint_joints_planes, only : planes_type, new_planes, synthesize, analyse
    use axijoint_joints_response, only : jumps
-   use axijoint_joints_scene, only : scene_type, evaluate
+   use axijoint_joints_scene, only : scene_type, evaluate, views
    use axijoint_linalg_lapack, only : matrix_vector
    use axijoint_model_model, only : method_newton
    implicit none
@@ -103,6 +103,7 @@ contains
       state%memory = memory(:, place)
       state%jump = field%jump(:, :, place)
       state%stress = field%stress(:, :, place)
+      state%carried = state%stress
       state%state = field%state(:, place)
       state%share = 1.0_wp
    end function on_planes
@@ -195,9 +196,9 @@ contains
       other = state
       excess = state%jump  ! for its shape
       more = state%jump
-      call admit_jump(scene%model, scene%points, state%jump, other, excess)
+      call admit_jump(scene%model, scene%points, state%jump, views(scene, 1.0_wp), other, excess)
       high = synthesize(planes, jumps_above(scene, modes, analyse(planes, excess)))
-      call admit_jump(scene%model, scene%points, state%jump + high, other, more)
+      call admit_jump(scene%model, scene%points, state%jump + high, views(scene, 1.0_wp), other, more)
       newton%rest = at_points(newton%by_jump, high)
       ! what k times these jumps gives belongs to their own harmonics
       newton%residual = analyse(scene%planes, more - excess)
@@ -266,10 +267,10 @@ contains
          share = 0.0_wp
          n = 0
          do k = 1, size(scene%points)
-            associate (law => scene%model%joint_materials(scene%points(k)%material)%law)
+            associate (base => scene%points(k)%base)
                do i = 1, 3
-                  if (.not. law%stiffness(i) > 0.0_wp) cycle
-                  share = share + matrix(3*(k - 1) + i, 3*(k - 1) + i)*law%stiffness(i)
+                  if (.not. base(i) > 0.0_wp) cycle
+                  share = share + matrix(3*(k - 1) + i, 3*(k - 1) + i)*base(i)
                   n = n + 1
                end do
             end associate

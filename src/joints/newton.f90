@@ -12,10 +12,11 @@
 module axijoint_joints_newton
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : admit
-   use axijoint_joints_field, only : joint_field_type, trial_of
+   use axijoint_joints_field, only : joint_field_type, seen_by_law
    use axijoint_joints_planes, only : planes_type, synthesize, analyse
+   use axijoint_joints_point_blocks, only : point_blocks_type, new_point_blocks, precondition
    use axijoint_joints_response, only : response_type, jumps
-   use axijoint_joints_scene, only : scene_type, evaluate
+   use axijoint_joints_scene, only : scene_type, evaluate, views
    use axijoint_linalg_gmres, only : operator_type, gmres
    implicit none
    private
@@ -23,12 +24,10 @@ module axijoint_joints_newton
 
    !> Most products of a linear solution
    integer, parameter :: most_products = 400
-   !> gamma k, in stiffnesses of the bodies
-   real(wp), parameter :: augmentation = 10.0_wp
    !> Values on the planes from which on threads are worth their start
    integer, parameter :: worth_threads = 5000
-   !> Shortest part of a step
-   real(wp), parameter :: shortest = 1.0_wp/8.0_wp
+   !> Shortest part of a step, and how many times as much may be missing after a step
+   real(wp), parameter :: shortest = 1.0_wp/8.0_wp, more = 2.0_wp
 
    !> Laws of all points, linear about an iterate: P changes by `by_jump` times the
    !> change of the jumps, and by `rest`
@@ -40,6 +39,10 @@ module axijoint_joints_newton
       real(wp), allocatable :: rest(:, :, :)
       !> Amplitudes of k d - P - `rest` that are not transferred, shape (3, points, modes)
       real(wp), allocatable :: residual(:, :, :)
+      !> Share of the excess stress that the laws do keep from the structure: 1 without weak springs
+      real(wp) :: kept = 1.0_wp
+      !> Points whose laws are stiffer than their joints in the structure
+      logical, allocatable :: stiff(:)
       !> Size of what is missing to the solution, in P and in e
       real(wp) :: merit = huge(1.0_wp)
    end type newton_type
@@ -51,6 +54,10 @@ module axijoint_joints_newton
       type(response_type), pointer :: response => null()
       type(planes_type), pointer :: planes => null()
       real(wp), pointer :: slope(:, :, :, :) => null()
+      !> Share of them that acts
+      real(wp) :: kept = 1.0_wp
+      !> Inverses of what points do to themselves, where laws are stiff
+      type(point_blocks_type), allocatable :: blocks
    contains
       !> Product with amplitudes of excess stress
       procedure :: apply
@@ -70,8 +77,9 @@ contains
       real(wp), allocatable :: excess(:, :, :)
 
       excess = reshape(x, [3, size(self%slope, 3), size(x)/(3*size(self%slope, 3))])
-      excess = excess - analyse(self%planes, at_points(self%slope, &
+      excess = excess - self%kept*analyse(self%planes, at_points(self%slope, &
          synthesize(self%planes, jumps(self%response, excess, free=.false.))))
+      if (allocated(self%blocks)) call precondition(self%blocks, excess)
       y = reshape(excess, [size(y)])
    end subroutine apply
 
@@ -92,48 +100,76 @@ contains
    end function at_points
 
    !> Linearize the laws at the jumps of an iterate
-   function new_newton(scene, field) result(newton)
+   function new_newton(scene, field, far) result(newton)
       !> What does not change
       type(scene_type), intent(in) :: scene
       !> The iterate, its jumps evaluated
       type(joint_field_type), intent(in) :: field
+      !> Its residual ratio; zero if absent
+      real(wp), intent(in), optional :: far
       !> The laws about it
       type(newton_type) :: newton
 
-      real(wp) :: gamma, trial(3), admitted(3), tangent(3, 3), inverse(3, 3), identity(3, 3)
+      real(wp) :: admitted(3), tangent(3, 3), inverse(3, 3), identity(3, 3)
+      real(wp) :: view(size(scene%points)), limit(size(scene%points))
       real(wp), allocatable :: excess(:, :, :), missing(:, :, :)
       integer :: i, j, k
 
-      gamma = min(1.0_wp, augmentation/max(tiny(1.0_wp), field%share*scene%proportion))
+      view = views(scene, field%share)
+      limit = 1.0_wp
+      do k = 1, size(limit)
+         associate (proportion => field%share*scene%points(k)%proportion)
+            if (present(far)) limit(k) = min(1.0_wp, steepest(far)/max(tiny(1.0_wp), proportion))
+            if (.not. present(far)) limit(k) = min(1.0_wp, steepest(0.0_wp)/max(tiny(1.0_wp), proportion))
+         end associate
+      end do
+      newton%stiff = [(any(field%share*scene%model%joint_materials(scene%points(k)%material)%law%stiffness &
+                           > scene%points(k)%base), k=1, size(scene%points))]
       identity = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
       allocate (newton%by_jump(3, 3, size(field%jump, 2), size(field%jump, 3)))
       allocate (newton%slope, mold=newton%by_jump)
       allocate (newton%rest, excess, missing, mold=field%jump)
-      !$omp parallel do private(i, k, trial, admitted, tangent, inverse) if (size(field%jump) >= worth_threads)
+      !$omp parallel do private(i, k, admitted, tangent, inverse) if (size(field%jump) >= worth_threads)
       do j = 1, size(field%jump, 3)
          do k = 1, size(field%jump, 2)
-            associate (law => scene%model%joint_materials(scene%points(k)%material)%law, &
-                       stress => field%carried(:, k, j))
-               trial = trial_of(scene%model, scene%points, k, j, field%jump(:, k, j), field)
-               call admit(law, field%memory(k, j), stress + gamma*(trial - stress), admitted, tangent)
-               inverse = inverse_of(identity - (1.0_wp - gamma)*tangent)
+            associate (point => scene%points(k), stress => field%carried(:, k, j), &
+                       law => scene%model%joint_materials(scene%points(k)%material)%law)
+               call admit(law, field%memory(k, j), seen_by_law(scene%model, scene%points, k, j, view(k), field), &
+                          admitted, tangent)
                missing(:, k, j) = admitted - stress
+               inverse = inverse_of(identity - (1.0_wp - view(k)/limit(k))*tangent)
                newton%rest(:, k, j) = matmul(inverse, missing(:, k, j))
-               tangent = gamma*field%share*matmul(inverse, tangent)
+               tangent = view(k)/limit(k)*matmul(inverse, tangent)
                do i = 1, 3
-                  newton%by_jump(:, i, k, j) = tangent(:, i)*law%stiffness(i)
+                  newton%by_jump(:, i, k, j) = limit(k)*field%share*tangent(:, i)*law%stiffness(i)
                   newton%slope(:, i, k, j) = -newton%by_jump(:, i, k, j)
-                  newton%slope(i, i, k, j) = newton%slope(i, i, k, j) + law%stiffness(i)
+                  newton%slope(i, i, k, j) = newton%slope(i, i, k, j) + point%base(i)
                end do
-               excess(:, k, j) = law%stiffness*field%jump(:, k, j) + field%initial(:, k) - stress
+               excess(:, k, j) = point%base*field%jump(:, k, j) + field%initial(:, k) - stress
             end associate
          end do
       end do
       !$omp end parallel do
-      newton%residual = analyse(scene%planes, excess) - field%excess
+      newton%kept = 1.0_wp - field%leak
+      newton%residual = newton%kept*analyse(scene%planes, excess) - field%excess
       newton%merit = merit_of(scene, newton%residual, missing)
-      newton%residual = newton%residual - analyse(scene%planes, newton%rest)
+      newton%residual = newton%residual - newton%kept*analyse(scene%planes, newton%rest)
    end function new_newton
+
+   !> Stiffness k h/E above which laws are linearized as if they had no more: far from equilibrium a stiff law
+   !> predicts stresses that the next iterate does not see; near to it, what such a linearization leaves falls slowly
+   pure real(wp) function steepest(ratio)
+      !> Residual ratio
+      real(wp), intent(in) :: ratio
+
+      if (ratio > 0.3_wp) then
+         steepest = 1.0e2_wp
+      else if (ratio > 1.0e-3_wp) then
+         steepest = 1.0e4_wp
+      else
+         steepest = 1.0e5_wp
+      end if
+   end function steepest
 
    !> Inverse of a matrix, by its adjugate
    pure function inverse_of(matrix) result(inverse)
@@ -193,25 +229,36 @@ contains
       real(wp), allocatable :: change(:, :, :)
 
       type(derivative_type) :: derivative
-      real(wp), allocatable :: x(:)
+      real(wp), allocatable :: x(:), right(:, :, :)
+      logical :: stiff(size(scene%points))
       real(wp) :: reduction
       integer :: n_products
 
       derivative%response => scene%response
       derivative%planes => scene%planes
       derivative%slope => newton%slope
-      x = reshape(newton%residual, [size(newton%residual)])
-      call gmres(derivative, reshape(newton%residual, [size(x)]), tolerance, min(most_products, size(x)), x, &
+      derivative%kept = newton%kept
+      right = newton%residual
+      stiff = newton%stiff
+      if (any(stiff)) then
+         allocate (derivative%blocks)
+         call new_point_blocks(scene%response, scene%planes, newton%slope, newton%kept, stiff, derivative%blocks)
+         call precondition(derivative%blocks, right)
+      end if
+      allocate (x(size(right)))
+      call gmres(derivative, reshape(right, [size(x)]), tolerance, min(most_products, size(x)), x, &
                  n_products, reduction)
       change = reshape(x, shape(newton%residual))
    end function correction
 
-   !> One step, shortened until what is missing falls, but not below a part of it:
+   !> One step, shortened until what is missing is not much more, but not below a part of it:
    !> the shortest is made even if it does not help. A step to jumps that are no
    !> state is not made.
-   subroutine newton_step(scene, tolerance, largest, newton, field, residual, made, ran)
+   subroutine newton_step(scene, far, tolerance, largest, newton, field, residual, made)
       !> What does not change
       type(scene_type), intent(in) :: scene
+      !> Residual ratio of the iterate
+      real(wp), intent(in) :: far
       !> Tolerance of the linear solution
       real(wp), intent(in) :: tolerance
       !> Jumps beyond which there is no state
@@ -222,8 +269,8 @@ contains
       type(joint_field_type), intent(inout) :: field
       !> Excess stress not transferred
       real(wp), intent(inout) :: residual(:, :, :)
-      !> Whether a step was made, and whether the whole step ran away
-      logical, intent(out) :: made, ran
+      !> Whether a step was made
+      logical, intent(out) :: made
 
       real(wp), allocatable :: start(:, :, :), carried(:, :, :), change(:, :, :), change_carried(:, :, :)
       real(wp) :: length, before
@@ -235,22 +282,20 @@ contains
       carried = field%carried
       before = newton%merit
       length = 1.0_wp
-      ran = .false.
       do
          field%excess = start + length*change
          field%carried = carried + length*change_carried
          call evaluate(scene, field, residual)
-         newton = new_newton(scene, field)
+         newton = new_newton(scene, field, far)
          made = maxval(abs(field%jump)) <= largest
-         if (.not. made) ran = .true.
-         if (made .and. newton%merit < before .or. length <= shortest) exit
+         if (made .and. newton%merit < more*before .or. length <= shortest) exit
          length = 0.5_wp*length
       end do
       if (made) return
       field%excess = start
       field%carried = carried
       call evaluate(scene, field, residual)
-      newton = new_newton(scene, field)
+      newton = new_newton(scene, field, far)
    end subroutine newton_step
 
 end module axijoint_joints_newton

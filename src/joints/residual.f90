@@ -1,43 +1,202 @@
-!> Residual forces of the whole structure and their norm (Eq. 17)
+!> Residual forces of joint stress that is out of balance, and what they are measured by (Eq. 17):
+!> the whole load, and part by part and harmonic by harmonic what the joints themselves carry of the
+!> load of the increment
 module axijoint_joints_residual
    use axijoint_assembly_equations, only : equations_type, on_equations
-   use axijoint_assembly_force, only : joint_force
    use axijoint_assembly_loading, only : loading_type
+   use axijoint_assembly_rigid_motion, only : solid_parts
    use axijoint_base_kinds, only : wp
    use axijoint_fe_fourier, only : circle_integral
+   use axijoint_joints_rows, only : jump_rows
    use axijoint_model_joint_points, only : model_joint_point_type
+   use axijoint_model_mesh, only : mesh_type
    implicit none
    private
-   public :: residual_norm, load_norm, ratio
+   public :: measure_type, strictest_type, new_measure, set_reference, strictest, residual_norm, load_norm, ratio
+
+   !> A residual this small beside the forces of the increment is rounding: smaller parts and harmonics are not
+   !> resolved beyond it
+   real(wp), parameter :: resolution = 1.0e-11_wp
+   !> The paper's loop is held to Eq. 17, and part by part and harmonic by harmonic to this share of it
+   real(wp), parameter :: paper_share = 0.1_wp
+
+   !> How stress at the joint points acts on the unknowns of a class
+   type :: rows_type
+      !> Unknown (counted among those of joints; zero for none) and factor of each jump, shape (18, 3, points)
+      integer, allocatable :: place(:, :, :)
+      real(wp), allocatable :: coefficient(:, :, :)
+      !> Part of each unknown, counted among those with joints
+      integer, allocatable :: part(:)
+   end type rows_type
+
+   !> What residual forces are measured by
+   type :: measure_type
+      private
+      !> One entry a class of the equations, and the class and the integral of each mode
+      type(rows_type), allocatable :: rows(:)
+      integer, allocatable :: class(:)
+      real(wp), allocatable :: integral(:)
+      !> Weights of the joint points
+      real(wp), allocatable :: weight(:)
+      !> A node of each part that has joints
+      integer, allocatable, public :: part_node(:)
+      !> Norm of the loads so far (Psi_f)
+      real(wp) :: loads = 0.0_wp
+      !> Norm of the forces that a residual is held against, shape (parts, modes); zero for none
+      real(wp), allocatable :: reference(:, :)
+   end type measure_type
+
+   !> The largest ratio of residual forces
+   type :: strictest_type
+      !> The ratio that decides, and that of the whole structure to the loads (Eq. 17)
+      real(wp) :: ratio = 0.0_wp, whole = 0.0_wp
+      !> Where it is: a node of the part, and place of the mode; zero if it is the whole
+      integer :: node = 0, mode = 0
+   end type strictest_type
 
 contains
 
-   !> Norm of the residual forces r = N*^T e of joint stress that is neither
-   !> admitted nor transferred yet: the ring forces on all equations, squared and
-   !> integrated round the circle, which is the sum over m of |r_m|^2 / c_m for
-   !> generalized forces r_m (Psi^r of Eq. 17)
-   function residual_norm(equations, points, excess) result(norm)
+   !> Make ready to measure
+   subroutine new_measure(mesh, equations, points, measure)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
       !> The equations
       type(equations_type), intent(in) :: equations
-      !> Joint points
+      !> Joint points that can yield
       type(model_joint_point_type), intent(in) :: points(:)
-      !> Amplitudes of that stress, shape (3, points, modes)
-      real(wp), intent(in) :: excess(:, :, :)
-      !> The norm
-      real(wp) :: norm
+      !> The measure, without reference
+      type(measure_type), intent(out) :: measure
 
-      real(wp) :: squared(size(equations%modes))
-      integer :: k, n_nodes
+      integer, allocatable :: part(:), unknowns(:), number(:), owner(:)
+      integer :: c, i, node, k
 
-      n_nodes = size(equations%classes(1)%dofs%equation, 2)
-      do k = 1, size(equations%modes)
-         associate (m => equations%modes(k)%harmonic)
-            squared(k) = sum(on_equations(equations, k, joint_force(points, m, excess(:, :, k), n_nodes))**2) &
-               /circle_integral(m)
+      measure%weight = points%weight
+      measure%class = equations%systems(equations%system)%class
+      measure%integral = circle_integral(equations%modes%harmonic)
+      call solid_parts(mesh, part)
+      allocate (measure%rows(size(equations%classes)), number(maxval(part)), measure%part_node(0))
+      number = 0
+      do k = 1, size(points)
+         do i = 1, 2*points(k)%n_pairs
+            node = points(k)%nodes(i)
+            if (number(part(node)) > 0) cycle
+            measure%part_node = [measure%part_node, node]
+            number(part(node)) = size(measure%part_node)
+         end do
+      end do
+      do c = 1, size(equations%classes)
+         associate (dofs => equations%classes(c)%dofs, rows => measure%rows(c))
+            call jump_rows(dofs, points, unknowns, rows%place, rows%coefficient)
+            allocate (owner(dofs%n_equations), source=0)
+            do node = 1, size(part)
+               do i = 1, 3
+                  if (dofs%equation(i, node) > 0) owner(dofs%equation(i, node)) = number(part(node))
+               end do
+            end do
+            rows%part = owner(unknowns)
+            deallocate (owner)
          end associate
       end do
-      norm = sqrt(sum(squared))
+      allocate (measure%reference(size(measure%part_node), size(equations%modes)), source=0.0_wp)
+   end subroutine new_measure
+
+   !> Set what the residuals of an increment are held against: the forces that its joints would carry of
+   !> its load if they held, part by part in the harmonics that this load has, and of all harmonics in the others
+   subroutine set_reference(measure, loads, elastic, tolerance)
+      !> The measure
+      type(measure_type), intent(inout) :: measure
+      !> Norm of the largest loads so far (Psi_f)
+      real(wp), intent(in) :: loads
+      !> Change of the joint stress by the increment if all joints held, shape (3, points, modes)
+      real(wp), intent(in) :: elastic(:, :, :)
+      !> Tolerance on the ratio
+      real(wp), intent(in) :: tolerance
+
+      real(wp) :: of_part(size(measure%part_node)), least
+      integer :: k
+
+      measure%loads = loads
+      measure%reference = sqrt(squares(measure, elastic))
+      of_part = sqrt(sum(measure%reference**2, 2))
+      least = resolution/max(resolution, tolerance)
+      of_part = max(of_part, least*maxval([0.0_wp, of_part]))
+      do k = 1, size(measure%integral)
+         associate (reference => measure%reference(:, k))
+            reference = merge(max(reference, least*of_part), of_part, reference > 0.0_wp)
+         end associate
+      end do
+   end subroutine set_reference
+
+   !> Hold residual forces against the reference
+   pure function strictest(measure, residual, paper) result(found)
+      !> The measure
+      type(measure_type), intent(in) :: measure
+      !> Amplitudes of joint stress out of balance, shape (3, points, modes)
+      real(wp), intent(in) :: residual(:, :, :)
+      !> Whether the ratio of the whole decides, as in the paper, unless it hides much larger ones
+      logical, intent(in) :: paper
+      !> The largest ratio
+      type(strictest_type) :: found
+
+      real(wp), allocatable :: forces(:, :)
+      integer :: place(2)
+
+      forces = squares(measure, residual)
+      found%whole = ratio(sqrt(sum(forces)), measure%loads)
+      found%ratio = found%whole
+      forces = merge(paper_share, 1.0_wp, paper)*ratio(sqrt(forces), measure%reference)
+      if (size(forces) == 0) return
+      place = maxloc(forces)
+      if (all(measure%reference <= 0.0_wp) .or. .not. forces(place(1), place(2)) > found%whole) return
+      found%ratio = forces(place(1), place(2))
+      found%node = measure%part_node(place(1))
+      found%mode = place(2)
+   end function strictest
+
+   !> Norm of the residual forces r = N*^T e of joint stress: the ring forces on all equations, squared and
+   !> integrated round the circle, which is the sum over m of |r_m|^2 / c_m for generalized forces r_m (Psi^r of
+   !> Eq. 17)
+   pure real(wp) function residual_norm(measure, stress) result(norm)
+      !> The measure
+      type(measure_type), intent(in) :: measure
+      !> Amplitudes of that stress, shape (3, points, modes)
+      real(wp), intent(in) :: stress(:, :, :)
+
+      norm = sqrt(sum(squares(measure, stress)))
    end function residual_norm
+
+   !> Squares of the forces of joint stress, part by part and mode by mode
+   pure function squares(measure, stress) result(squared)
+      !> The measure
+      type(measure_type), intent(in) :: measure
+      !> Amplitudes of the stress, shape (3, points, modes)
+      real(wp), intent(in) :: stress(:, :, :)
+      !> Shape (parts, modes)
+      real(wp) :: squared(size(measure%part_node), size(measure%integral))
+
+      real(wp), allocatable :: force(:)
+      integer :: i, k, l, p
+
+      squared = 0.0_wp
+      do k = 1, size(squared, 2)
+         associate (rows => measure%rows(measure%class(k)))
+            allocate (force(size(rows%part)), source=0.0_wp)
+            do p = 1, size(stress, 2)
+               do i = 1, 3
+                  do l = 1, size(rows%place, 1)
+                     if (rows%place(l, i, p) == 0) cycle
+                     force(rows%place(l, i, p)) = force(rows%place(l, i, p)) &
+                        + measure%weight(p)*rows%coefficient(l, i, p)*stress(i, p, k)
+                  end do
+               end do
+            end do
+            do l = 1, size(force)
+               squared(rows%part(l), k) = squared(rows%part(l), k) + measure%integral(k)*force(l)**2
+            end do
+            deallocate (force)
+         end associate
+      end do
+   end function squares
 
    !> Norm of the loads (Psi_f of Eq. 17): of the external forces, and of those
    !> that held displacements and initial stresses give, which may balance them

@@ -1,7 +1,6 @@
 !> What the structure does at its joints: relative displacements from loads and
 !> from joint stress that is not admitted, condensed to the joint points
 module axijoint_joints_response
-   use axijoint_assembly_dofs, only : dofs_type
    use axijoint_assembly_equations, only : equations_type, solve_mode
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
                                          release_factor
@@ -9,13 +8,13 @@ module axijoint_joints_response
    use axijoint_assembly_loading, only : loading_type
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
-   use axijoint_element_joint, only : jump_matrix
    use axijoint_fe_fourier, only : circle_integral
+   use axijoint_joints_rows, only : jump_rows
    use axijoint_linalg_lapack, only : matrix_vector
    use axijoint_model_joint_points, only : model_joint_point_type
    implicit none
    private
-   public :: response_type, new_response, load_response, jumps
+   public :: response_type, new_response, load_response, jumps, own_flexibility
 
    !> Joint points from which on products of the harmonics are worth threads
    integer, parameter :: worth_points = 64
@@ -133,54 +132,6 @@ contains
 
    end subroutine condense
 
-   !> The rows of N: jumps from the unknowns of the joints' nodes
-   subroutine jump_rows(dofs, points, unknowns, place, coefficient)
-      !> Unknowns of the harmonic
-      type(dofs_type), intent(in) :: dofs
-      !> Joint points
-      type(model_joint_point_type), intent(in) :: points(:)
-      !> Equations of the joints' nodes, ascending
-      integer, allocatable, intent(out) :: unknowns(:)
-      !> For each jump: places in `unknowns`, zero for none, and factors, shape
-      !> (18, 3, points)
-      integer, allocatable, intent(out) :: place(:, :, :)
-      real(wp), allocatable, intent(out) :: coefficient(:, :, :)
-
-      real(wp) :: matrix(3, 18)
-      integer, allocatable :: number(:)
-      integer :: k, a, i, n, count
-
-      allocate (number(dofs%n_equations), source=0)
-      do k = 1, size(points)
-         do a = 1, 2*points(k)%n_pairs
-            do i = 1, 3
-               associate (equation => dofs%equation(i, points(k)%nodes(a)))
-                  if (equation > 0) number(equation) = 1
-               end associate
-            end do
-         end do
-      end do
-      unknowns = pack([(i, i=1, size(number))], number > 0)
-      do count = 1, size(unknowns)
-         number(unknowns(count)) = count
-      end do
-      allocate (place(18, 3, size(points)), source=0)
-      allocate (coefficient(18, 3, size(points)), source=0.0_wp)
-      do k = 1, size(points)
-         n = 2*points(k)%n_pairs
-         call jump_matrix(points(k)%joint_point_type, matrix(:, :3*n))
-         do a = 1, n
-            do i = 1, 3
-               associate (node => points(k)%nodes(a), l => 3*(a - 1) + i)
-                  if (dofs%equation(i, node) == 0) cycle
-                  place(l, :, k) = number(dofs%equation(i, node))
-                  coefficient(l, :, k) = dofs%factor(i, node)*matrix(:, l)
-               end associate
-            end do
-         end do
-      end do
-   end subroutine jump_rows
-
    !> Jumps from loads, joints elastic
    subroutine load_response(equations, points, loading, response)
       !> Equations of all modes, assembled; systems that cannot be factored are marked there
@@ -219,6 +170,18 @@ contains
       end do
       !$omp end parallel do
    end subroutine load_response
+
+   !> Jumps of a point from unit amplitudes of its own excess stress
+   pure function own_flexibility(response, mode, k) result(flexibility)
+      !> The response
+      type(response_type), intent(in) :: response
+      !> Place of the mode, and the point
+      integer, intent(in) :: mode, k
+      !> The jumps, one column a component of stress
+      real(wp) :: flexibility(3, 3)
+
+      flexibility = response%flexibilities(response%system(mode))%matrix(3*k - 2:3*k, 3*k - 2:3*k)
+   end function own_flexibility
 
    !> Jumps from loads and excess stress, or from the latter alone
    function jumps(response, excess, free) result(jump)

@@ -4,14 +4,20 @@ module axijoint_joints_scene
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_force, only : joint_jump
    use axijoint_base_kinds, only : wp
+   use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
    use axijoint_joints_field, only : joint_field_type, admit_jump, admit_trial
+   use axijoint_joints_floating, only : floating_motion_type, floating_loads_type
    use axijoint_joints_planes, only : planes_type, synthesize, analyse
+   use axijoint_joints_residual, only : measure_type
    use axijoint_joints_response, only : response_type, jumps
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type, method_newton, method_transfer
    implicit none
    private
-   public :: scene_type, evaluate, mismatch_of, elastic_stress
+   public :: scene_type, evaluate, views, mismatch_of, elastic_stress
+
+   !> Stiffness k h/E of joints that Newton's method lets the laws see at a time, and that a state is judged by
+   real(wp), parameter :: newton_view = 10.0_wp, judged_view = 1.0e2_wp
 
    !> All that an iteration needs to know and does not change
    type :: scene_type
@@ -25,6 +31,12 @@ module axijoint_joints_scene
       type(response_type) :: response
       !> Planes of the joint checks
       type(planes_type) :: planes
+      !> Rigid motions that only these joints resist
+      type(floating_motion_type), allocatable :: floating(:)
+      !> Loads on these motions
+      type(floating_loads_type) :: loads
+      !> What residual forces are measured by
+      type(measure_type) :: measure
       !> How joints are brought to equilibrium, one of the `method_` parameters
       integer :: method = method_newton
       !> Stiffness of the joints in proportion to the bodies, k h/E
@@ -37,25 +49,64 @@ contains
 
    !> Excess stress that is not yet transferred, from the jumps that loads and
    !> transferred stress give
-   subroutine evaluate(scene, field, residual)
+   subroutine evaluate(scene, field, residual, judged)
       !> What does not change
       type(scene_type), intent(in) :: scene
       !> State of the joints; jumps and stresses follow its excess stress
       type(joint_field_type), intent(inout) :: field
       !> The amplitudes, shape (3, points, modes)
       real(wp), intent(out) :: residual(:, :, :)
+      !> Whether the laws see the jumps as a state is judged; false if absent
+      logical, intent(in), optional :: judged
 
       real(wp), allocatable :: total(:, :, :), excess(:, :, :)
+      real(wp) :: view(size(scene%points))
 
       total = synthesize(scene%planes, jumps(scene%response, field%excess, free=.true.))
       if (scene%method == method_transfer) then
          call accumulate(scene, total, field, residual)
       else
          excess = total  ! for its shape
-         call admit_jump(scene%model, scene%points, total, field, excess)
-         residual = analyse(scene%planes, excess) - field%excess
+         view = views(scene, field%share)
+         if (present(judged)) view = min(1.0_wp, judged_view/max(tiny(1.0_wp), scene%points%proportion))
+         call admit_jump(scene%model, scene%points, total, view, field, excess)
+         residual = (1.0_wp - field%leak)*analyse(scene%planes, excess) - field%excess
       end if
    end subroutine evaluate
+
+   !> How much of a jump the law of each point sees: joints that are much stiffer than the bodies would
+   !> make large stresses of the jumps on the way
+   pure function views(scene, share) result(view)
+      !> What does not change
+      type(scene_type), intent(in) :: scene
+      !> Share of the joint stiffness that the laws see
+      real(wp), intent(in) :: share
+      !> > 0 and <= 1, shape (points)
+      real(wp) :: view(size(scene%points))
+
+      integer :: k
+
+      do k = 1, size(view)
+         associate (point => scene%points(k))
+            view(k) = min(1.0_wp, maxval(point%base)/max(tiny(1.0_wp), share*maxval(stiffness_of(scene, k))))
+            if (scene%method == method_newton) then
+               view(k) = min(view(k), newton_view/max(tiny(1.0_wp), share*point%proportion))
+            end if
+         end associate
+      end do
+   end function views
+
+   !> Stiffness of the law of a point
+   pure function stiffness_of(scene, k) result(stiffness)
+      !> What does not change
+      type(scene_type), intent(in) :: scene
+      !> The point
+      integer, intent(in) :: k
+      !> Along xi, eta, theta
+      real(wp) :: stiffness(3)
+
+      stiffness = scene%model%joint_materials(scene%points(k)%material)%law%stiffness
+   end function stiffness_of
 
    !> Relative displacements of the bodies, less those that the laws saw: rounding of the
    !> condensed structure. It grows with k h/E, because the structure is condensed with its joints
@@ -78,20 +129,24 @@ contains
       end do
    end function mismatch_of
 
-   !> Stress of elastic joints
-   function elastic_stress(scene, jump) result(stress)
-      !> What does not change
+   !> Joint stress of the loads if all joints held, with the stress before loading
+   function elastic_stress(scene, field) result(stress)
+      !> What does not change; the loads are in its response
       type(scene_type), intent(in) :: scene
-      !> Amplitudes of the jumps, shape (3, points, modes)
-      real(wp), intent(in) :: jump(:, :, :)
-      !> Amplitudes, same shape
-      real(wp) :: stress(3, size(jump, 2), size(jump, 3))
+      !> State of the joints, for the stress before loading
+      type(joint_field_type), intent(in) :: field
+      !> Amplitudes, shape (3, points, modes)
+      real(wp), allocatable :: stress(:, :, :)
 
       integer :: k, p
 
-      do k = 1, size(jump, 3)
-         do p = 1, size(jump, 2)
-            stress(:, p, k) = scene%model%joint_materials(scene%points(p)%material)%law%stiffness*jump(:, p, k)
+      allocate (stress, mold=scene%response%free)
+      do k = 1, size(stress, 3)
+         do p = 1, size(stress, 2)
+            stress(:, p, k) = scene%points(p)%base*scene%response%free(:, p, k)
+            if (same_mode(scene%equations%modes(k), mode_type(0, family_symmetric))) then
+               stress(:, p, k) = stress(:, p, k) + field%initial(:, p)
+            end if
          end do
       end do
    end function elastic_stress

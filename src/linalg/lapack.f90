@@ -7,7 +7,7 @@ module axijoint_linalg_lapack
    public :: band_cholesky, dpbtrs, dtrsm, dgemm, dsyrk, dpotrf
    public :: cholesky, inverse_from_cholesky, product_with_transpose, symmetric_eigen, use_one_blas_thread, norm_step
    public :: product_rate
-   public :: matrix_vector, least_squares
+   public :: matrix_vector, least_squares, invert
 
    interface
       !> Cholesky factorization of a positive definite band matrix
@@ -95,6 +95,23 @@ module axijoint_linalg_lapack
          integer, intent(out) :: rank, info
       end subroutine dgelsy
       !> One step of Higham's estimate of a 1-norm
+      subroutine dgetrf(m, n, a, lda, ipiv, info)
+         import :: wp
+         integer, intent(in) :: m, n, lda
+         real(wp), intent(inout) :: a(lda, *)
+         integer, intent(out) :: ipiv(*)
+         integer, intent(out) :: info
+      end subroutine dgetrf
+
+      subroutine dgetri(n, a, lda, ipiv, work, lwork, info)
+         import :: wp
+         integer, intent(in) :: n, lda, lwork
+         real(wp), intent(inout) :: a(lda, *)
+         integer, intent(in) :: ipiv(*)
+         real(wp), intent(out) :: work(*)
+         integer, intent(out) :: info
+      end subroutine dgetri
+
       subroutine dlacn2(n, v, x, isgn, est, kase, isave)
          import :: wp
          integer, intent(in) :: n
@@ -190,6 +207,23 @@ contains
 
       call dgemv('N', size(a, 1), size(a, 2), 1.0_wp, a, max(1, size(a, 1)), x, 1, 0.0_wp, y, 1)
    end subroutine matrix_vector
+
+   !> Inverse of a matrix
+   subroutine invert(a, info)
+      !> The matrix, then its inverse
+      real(wp), intent(inout), contiguous :: a(:, :)
+      !> 0, or the place of a pivot that is zero
+      integer, intent(out) :: info
+
+      real(wp) :: work(32*size(a, 1))
+      integer :: pivots(size(a, 1))
+
+      info = 0
+      if (size(a) == 0) return
+      call dgetrf(size(a, 1), size(a, 1), a, size(a, 1), pivots, info)
+      if (info /= 0) return
+      call dgetri(size(a, 1), a, size(a, 1), pivots, work, size(work), info)
+   end subroutine invert
 
    !> The x of least norm that makes |a x - b| least; columns of a that depend on
    !> others to twelve digits do not count

@@ -2,6 +2,7 @@
 module axijoint_model_joint_points
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint, only : joint_point_type, new_joint_point, lower_node
+   use axijoint_element_joint_law, only : joint_law_type, law_elastic
    use axijoint_fe_quadrature, only : gauss_rule, lobatto_rule
    use axijoint_model_material, only : rule_centroid, rule_gauss
    use axijoint_model_model, only : model_type
@@ -9,12 +10,22 @@ module axijoint_model_joint_points
    private
    public :: model_joint_point_type, new_joint_points, joint_rule, stiffness_ratio
 
+   !> k h/E up to which joints that can yield act in the structure with their whole stiffness. What
+   !> stiffer joints do beyond that is left to the iteration on their laws: a structure that is
+   !> condensed with stiff joints loses what the bodies do when these open to rounding
+   real(wp), parameter :: stiffest_base = 1.0e3_wp
+
    !> A joint point in its model
    type, extends(joint_point_type) :: model_joint_point_type
       !> Joint (index) and its material (index)
       integer :: joint = 0, material = 0
       !> Nodes of the joint, the first 2 n_pairs of which are in use
       integer :: nodes(6) = 0
+      !> Stiffness in proportion to the bodies, k h/E
+      real(wp) :: proportion = 0.0_wp
+      !> Stiffness along xi, eta, theta that the structure has there: k of the law or, of a joint
+      !> that can yield and is much stiffer than the bodies, less [stress/length]
+      real(wp) :: base(3) = 0.0_wp
    end type model_joint_point_type
 
 contains
@@ -26,11 +37,12 @@ contains
       !> The points
       type(model_joint_point_type), allocatable :: points(:)
 
-      real(wp) :: x(3), w(3), side(2, 3)
+      real(wp) :: x(3), w(3), side(2, 3), modulus
       integer :: joint, k, n, n_pairs, count
 
       allocate (points(3*size(model%mesh%joint_label)))
       count = 0
+      modulus = least_modulus(model)
       do joint = 1, size(model%mesh%joint_label)
          n_pairs = model%mesh%joint_size(joint)/2
          associate (nodes => model%mesh%joint_nodes(:, joint), &
@@ -43,6 +55,8 @@ contains
                points(count)%joint = joint
                points(count)%material = material
                points(count)%nodes = nodes
+               call set_base(model%joint_materials(material)%law, norm2(side(:, 2) - side(:, 1))/modulus, &
+                             points(count))
             end do
          end associate
       end do
@@ -68,15 +82,27 @@ contains
       end if
    end subroutine joint_rule
 
-   !> Stiffness of the joints in proportion to the bodies: the largest k h/E, with
-   !> the length h of a joint and the least modulus E of the elements
-   pure real(wp) function stiffness_ratio(model, points) result(ratio)
+   !> What the stiffness of a joint is in proportion to the bodies, and in the structure
+   pure subroutine set_base(law, flexibility, point)
+      !> Law of the joint
+      type(joint_law_type), intent(in) :: law
+      !> Length of the joint over the modulus of the bodies, h/E
+      real(wp), intent(in) :: flexibility
+      !> The point
+      type(model_joint_point_type), intent(inout) :: point
+
+      point%proportion = maxval(law%stiffness)*flexibility
+      point%base = law%stiffness
+      if (law%kind /= law_elastic .and. point%proportion > stiffest_base) then
+         point%base = stiffest_base/point%proportion*law%stiffness
+      end if
+   end subroutine set_base
+
+   !> Least modulus E of the elements
+   pure real(wp) function least_modulus(model) result(modulus)
       !> The job
       type(model_type), intent(in) :: model
-      !> Joint points
-      type(model_joint_point_type), intent(in) :: points(:)
 
-      real(wp) :: modulus
       integer :: k
 
       modulus = huge(1.0_wp)
@@ -89,13 +115,15 @@ contains
             end if
          end associate
       end do
-      ratio = 0.0_wp
-      do k = 1, size(points)
-         associate (x => model%mesh%coordinates(:, points(k)%nodes(1:2)))
-            ratio = max(ratio, maxval(model%joint_materials(points(k)%material)%law%stiffness) &
-                               *norm2(x(:, 2) - x(:, 1))/modulus)
-         end associate
-      end do
+   end function least_modulus
+
+   !> Stiffness of the joints in proportion to the bodies: the largest k h/E, with
+   !> the length h of a joint and the least modulus E of the elements
+   pure real(wp) function stiffness_ratio(points) result(ratio)
+      !> Joint points
+      type(model_joint_point_type), intent(in) :: points(:)
+
+      ratio = maxval([0.0_wp, points%proportion])
    end function stiffness_ratio
 
 end module axijoint_model_joint_points
