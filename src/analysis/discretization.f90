@@ -10,6 +10,7 @@ module axijoint_analysis_discretization
    use axijoint_base_kinds, only : wp, pi
    use axijoint_fe_mode, only : mode_type, mode_integral, meridional, circumferential
    use axijoint_joints_field, only : joint_field_type, stress_amplitude
+   use axijoint_joints_floating, only : add_motions
    use axijoint_joints_planes, only : new_view
    use axijoint_joints_residual, only : ratio
    use axijoint_model_model, only : model_type, can_yield_at
@@ -39,7 +40,7 @@ contains
       !> Results, stresses and all; takes the estimate
       type(results_type), intent(inout) :: results
 
-      real(wp), allocatable :: error(:, :), energy(:, :)
+      real(wp), allocatable :: error(:, :), energy(:, :), total(:, :, :)
       real(wp) :: start
       integer :: k
 
@@ -55,7 +56,9 @@ contains
          estimate%element = ratio(sum(error, 1), sum(estimate%energy))
          ! displacements that loads work on are off by the square of the error in the energy norm: by more than
          ! nodes show where stresses are infinite
-         estimate%largest_displacement = largest_vector(results%modes, results%displacement)
+         total = results%displacement
+         if (size(field%offset) > 0) call add_motions(structure%scene%floating, field%offset, total)
+         estimate%largest_displacement = largest_vector(results%modes, total)
          estimate%displacement = max(estimate%relative**2, ratio(largest_vector(results%modes, nodal%displacement), &
                                                                  estimate%largest_displacement))
          estimate%joint_stress = joint_stress_error()

@@ -11,6 +11,7 @@ module axijoint_analysis_increment_fields
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
    use axijoint_joints_field, only : joint_field_type, new_joint_field, set_initial_stress
+   use axijoint_joints_floating, only : add_motions
    use axijoint_joints_planes, only : planes_type, synthesize
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_joint_points, only : model_joint_point_type
@@ -41,7 +42,7 @@ contains
       integer :: j, k
 
       associate (points => structure%joint_points)
-         field = new_joint_field(size(points), size(planes%angle), size(displacement, 3))
+         field = new_joint_field(size(points), size(planes%angle), size(displacement, 3), 0)
          call set_initial_stress(model, points, case_factor, field)
          allocate (jump(3, size(points), size(displacement, 3)))
          do k = 1, size(displacement, 3)
@@ -99,6 +100,7 @@ contains
       end do
       !$omp end parallel do
       call smooth_stress(model, results)
+      if (allocated(state%offset)) call add_motions(structure%scene%floating, state%offset, results%displacement)
    end subroutine solve_increment
 
    !> Relative displacements, stresses and states of all joints on planes: those of

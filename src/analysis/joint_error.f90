@@ -161,7 +161,8 @@ contains
       type(iteration_type), allocatable :: path(:)
       type(verdict_type) :: verdict
 
-      field = new_joint_field(size(scene%points), size(scene%planes%angle), size(scene%equations%modes))
+      field = new_joint_field(size(scene%points), size(scene%planes%angle), size(scene%equations%modes), &
+                              size(scene%floating))
       call set_initial_stress(scene%model, scene%points, history%loading%case_factor, field)
       allocate (path(0))
       call balance_step(scene, strict, most_iterations, iteration_type(), field, path, verdict)

@@ -20,12 +20,13 @@ module axijoint_analysis_static
    use axijoint_base_progress, only : progress_type
    use axijoint_base_timer, only : timer_type, phase_factor, phase_joints, phase_recover
    use axijoint_joints_field, only : joint_field_type
+   use axijoint_joints_floating, only : add_motions
    use axijoint_joints_increments, only : history_type, run_increments, final_factors, &
                                           loads_of_increments, compare_loops, balance_again
    use axijoint_joints_joint_errors, only : measure_type, estimate_joint_errors, change_of_displacement
    use axijoint_joints_planes, only : planes_type, new_view, on_all
    use axijoint_joints_residual, only : strictest_type, strictest
-   use axijoint_joints_scene, only : mismatch_of
+   use axijoint_joints_scene, only : mismatch_of, stand_where_they_are
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type
@@ -104,6 +105,7 @@ contains
       call smooth_stress(model, results)
       call estimate_discretization(model, structure, history%loading, field, history%largest_stress, nodal, results)
       call cut_resultants(model, structure, history%loading, field, results)
+      if (size(field%offset) > 0) call add_motions(structure%scene%floating, field%offset, results%displacement)
       results%converged = results%converged .and. max(results%residual_ratio, results%mismatch) &
          <= results%tolerance + rounding(results)
       if (results%converged) results%budget = new_budget(model, history%loading%case_factor, results)
@@ -146,7 +148,6 @@ contains
       type(joint_field_type) :: yielding
       type(joint_field_type), allocatable :: other
       real(wp) :: factor_share, start
-      integer :: k
 
       structure%scene%model => model
       structure%scene%equations => structure%equations
@@ -158,6 +159,7 @@ contains
          return
       end if
       results%converged = history%verdict%converged
+      call stand_where_they_are(structure%scene, yielding)
       call compare_loops(structure%scene, history, yielding, results%other_loop, other)
       results%path = history%path
       results%states = [history%states, last_state(history)]
@@ -172,12 +174,7 @@ contains
       end if
       if (allocated(history%motion)) then
          results%displacement = 0.0_wp
-         do k = 1, size(history%motion)
-            associate (floating => structure%scene%floating(k))
-               results%displacement(:, :, floating%mode) = results%displacement(:, :, floating%mode) &
-                  + history%motion(k)*floating%displacement
-            end associate
-         end do
+         call add_motions(structure%scene%floating, history%motion, results%displacement)
          results%mechanism = mechanism_text(model, history%reached, results)
       end if
       call solve_displacements(structure%equations, model, history%loading, structure%scene%points, &
@@ -199,6 +196,7 @@ contains
          field%stress(:, yield, :) = on_all(planes, yielding%stress)
          field%state(yield, :) = yielding%state(:, planes%place)
          field%excess(:, yield, :) = yielding%excess + yielding%pending
+         field%offset = yielding%offset
       end associate
    end subroutine solve_joints
 
@@ -276,9 +274,12 @@ contains
       type(results_type), intent(inout) :: results
 
       type(measure_type) :: measure
+      real(wp), allocatable :: total(:, :, :)
 
-      measure%work = sum(history%loading%right*results%displacement)
-      measure%displacement = maxval(abs(results%displacement))
+      total = results%displacement
+      call add_motions(structure%scene%floating, yielding%offset, total)
+      measure%work = sum(history%loading%right*total)
+      measure%displacement = maxval(abs(total))
       measure%stress = history%largest_stress
       associate (scene => structure%scene, errors => results%joint_errors)
          if (scene%method /= method_transfer) then

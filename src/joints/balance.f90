@@ -4,9 +4,10 @@ module axijoint_joints_balance
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : opening_bond
+   use axijoint_joints_approach, only : approach
    use axijoint_joints_anderson, only : anderson_type, new_anderson, anderson_step
    use axijoint_joints_field, only : joint_field_type, iteration_type, judge_states, break_bonds, soften, count_state
-   use axijoint_joints_mechanism, only : mechanism_type, find_mechanism
+   use axijoint_joints_mechanism, only : mechanism_type, find_mechanism, settle, balance_motions
    use axijoint_joints_newton, only : newton_type, new_newton, newton_step
    use axijoint_joints_residual, only : strictest_type, strictest, residual_norm
    use axijoint_joints_scene, only : scene_type, evaluate, views
@@ -27,8 +28,6 @@ module axijoint_joints_balance
    !> Joints much stiffer than the bodies: the laws see a share of their stiffness
    !> first, this many times more whenever the residual ratio has fallen so far
    real(wp), parameter :: stage_factor = 10.0_wp, stage_tolerance = 0.1_wp
-   !> How well the state is balanced that other methods begin with
-   real(wp), parameter :: begun_tolerance = 1.0_wp
    !> Weak springs in place of joints that do not resist a motion under load: their first share of the joints'
    !> stiffness, what it falls by whenever the ratio has fallen to `stage_tolerance`, and the last
    real(wp), parameter :: first_leak = 1.0e-2_wp, leak_factor = 1.0e-2_wp, last_leak = 1.0e-8_wp
@@ -106,34 +105,31 @@ contains
       type(watch_type) :: watch
       type(newton_type) :: newton
       real(wp), allocatable :: residual(:, :, :)
-      logical :: again, soft
-      integer :: k, before
+      logical :: again, soft, moved
+      integer :: k
 
       allocate (residual, mold=field%excess)
       allocate (steps(0))
       soft = scene%method == method_newton
       if (present(warm)) soft = soft .and. .not. warm
       soft = soft .and. scene%first_share < 1.0_wp
-      if (any(scene%method == [method_total, method_anderson])) then
-         call begin_as_newton(scene, tolerance, most, now, field, path, verdict)
+      if (scene%proportion > stiff .and. any(scene%method == [method_total, method_anderson])) then
+         call break_as_newton(scene, tolerance, most, field)
       end if
-      if (verdict%mechanism%loaded) return
-      before = now%iteration
-      if (size(path) > 0) then
-         if (path(size(path))%increment == now%increment) before = path(size(path))%iteration
-      end if
-      allocate (start, source=field)
       if (soft) field%share = scene%first_share
-      watch = new_watch(scene, field)
       call look_again(scene, 1.0_wp, field, residual, newton)
+      if (scene%method /= method_transfer) call approach(scene, .true., field, residual, moved)
+      start = field
+      watch = new_watch(scene, field)
       if (scene%method == method_newton) then
-         call find_mechanism(scene, field, verdict%mechanism)
+         newton = new_newton(scene, field, 1.0_wp)
+         call find_mechanism(scene, field, .false., verdict%mechanism)
          if (verdict%mechanism%loaded) call hold_weakly()
       end if
       do k = 1, most
          call append(steps, k, now)
          verdict%residual = strictest(scene%measure, residual, paper=scene%method == method_transfer)
-         steps(k)%iteration = before + k
+         steps(k)%iteration = now%iteration + k
          steps(k)%ratio = verdict%residual%ratio
          call judge_states(scene%model, scene%points, field)
          call count_state(field, scene%planes%place, steps(k)%n_slip, steps(k)%n_open)
@@ -199,51 +195,34 @@ contains
 
    end subroutine balance_step
 
-   !> Where the loops on total jumps must begin as Newton's method does: bonds of stiff joints, which break in loosely balanced
-   !> states, break in the order of its iterates, so that all methods end in the same state; and parts that no joint
-   !> holds at first are put where its weak springs leave them
-   recursive subroutine begin_as_newton(scene, tolerance, most, now, field, path, verdict)
+   !> Break the bonds that Newton's iteration breaks. In loosely balanced states the order
+   !> of breaking belongs to the iterates; so all methods on total jumps take it from
+   !> Newton's, and end in the same state.
+   recursive subroutine break_as_newton(scene, tolerance, most, field)
       !> What does not change, but for a while the method
       type(scene_type), intent(inout) :: scene
       !> Tolerance on the residual ratio, and most iterations
       real(wp), intent(in) :: tolerance
       integer, intent(in) :: most
-      !> Increment, iterations made in it so far, load factor
-      type(iteration_type), intent(in) :: now
-      !> State of the joints; its bonds break, its parts move
+      !> State of the joints; its bonds break
       type(joint_field_type), intent(inout) :: field
-      !> Convergence path, to be continued
-      type(iteration_type), allocatable, intent(inout) :: path(:)
-      !> Takes a mechanism that Newton's method found
-      type(verdict_type), intent(out) :: verdict
 
-      type(joint_field_type), allocatable :: begun
-      type(verdict_type) :: end
-      real(wp), allocatable :: residual(:, :, :)
-      logical :: tears
+      type(joint_field_type), allocatable :: torn
+      type(iteration_type), allocatable :: path(:)
+      type(verdict_type) :: verdict
       integer :: k, method
 
-      tears = scene%proportion > stiff .and. any([(scene%model%joint_materials(scene%points(k)%material)%law%opening &
-                                                   == opening_bond, k=1, size(scene%points))])
-      allocate (begun, source=field)
-      allocate (residual, mold=field%excess)
-      call evaluate(scene, begun, residual)
-      call find_mechanism(scene, begun, verdict%mechanism)
-      if (.not. (tears .or. verdict%mechanism%loaded)) return
-      begun = field
+      if (all([(scene%model%joint_materials(scene%points(k)%material)%law%opening /= opening_bond, &
+                k=1, size(scene%points))])) return
+      allocate (torn)
+      allocate (path(0))
+      torn = field
       method = scene%method
       scene%method = method_newton
-      call balance_step(scene, merge(tolerance, max(tolerance, begun_tolerance), tears), most, now, begun, path, end)
+      call balance_step(scene, tolerance, most, iteration_type(), torn, path, verdict)
       scene%method = method
-      if (end%converged) then
-         if (tears) field%memory%broken = begun%memory%broken
-         if (verdict%mechanism%loaded) then
-            field%excess = begun%excess
-            field%carried = begun%carried
-         end if
-      end if
-      verdict%mechanism = end%mechanism
-   end subroutine begin_as_newton
+      if (verdict%converged) field%memory%broken = torn%memory%broken
+   end subroutine break_as_newton
 
    !> Room for one more line of a path, which grows by doubling
    subroutine append(steps, k, step)
@@ -332,7 +311,7 @@ contains
       again = .false.
       if (field%leak > 0.0_wp) then
          again = ratio <= stage_tolerance .and. watch%n_steps > 0
-         if (again) call weaken(scene, field, residual, verdict)
+         if (again) call weaken(scene, field, verdict)
       else if (field%share < 1.0_wp) then
          again = verdict%residual%whole <= stage_tolerance
          if (again) call stiffen(scene, field, residual)
@@ -375,23 +354,22 @@ contains
       end do
    end subroutine stiffen
 
-   !> Weaken the springs, or take them away: what moves under load without them is a mechanism
-   subroutine weaken(scene, field, residual, verdict)
+   !> Take the springs away where joints resist all motions under load by now, else weaken them. What they alone still
+   !> hold when they are weakest is a mechanism
+   subroutine weaken(scene, field, verdict)
       !> What does not change
       type(scene_type), intent(in) :: scene
       !> State of the joints
       type(joint_field_type), intent(inout) :: field
-      !> Excess stress that is not transferred
-      real(wp), intent(inout) :: residual(:, :, :)
       !> Takes a mechanism
       type(verdict_type), intent(inout) :: verdict
 
-      if (field%leak > last_leak) then
+      call find_mechanism(scene, field, .false., verdict%mechanism)
+      if (verdict%mechanism%loaded .and. field%leak > last_leak) then
+         verdict%mechanism%loaded = .false.
          field%leak = max(last_leak, leak_factor*field%leak)
       else
          field%leak = 0.0_wp
-         call evaluate(scene, field, residual)
-         call find_mechanism(scene, field, verdict%mechanism)
       end if
    end subroutine weaken
 
@@ -410,6 +388,7 @@ contains
       type(verdict_type), intent(inout) :: verdict
 
       type(strictest_type) :: found
+      type(joint_field_type), allocatable :: settled
 
       if (any(views(scene, field%share) < 1.0_wp)) then
          call evaluate(scene, field, residual, judged=.true.)
@@ -421,8 +400,15 @@ contains
          end if
          verdict%residual = found
       end if
-      call find_mechanism(scene, field, verdict%mechanism)
+      call find_mechanism(scene, field, .false., verdict%mechanism)
       verdict%converged = .not. verdict%mechanism%loaded
+      if (.not. verdict%converged .or. size(verdict%mechanism%idle, 2) == 0) return
+      allocate (settled, source=field)
+      call settle(scene, verdict%mechanism, settled)
+      call evaluate(scene, settled, residual, judged=.true.)
+      found = strictest(scene%measure, residual, paper=scene%method == method_transfer)
+      if (found%ratio <= tolerance) field = settled
+      call evaluate(scene, field, residual, judged=.true.)
    end subroutine conclude
 
    !> One step of the method
@@ -442,16 +428,24 @@ contains
 
       real(wp), allocatable :: x(:)
       real(wp) :: accuracy
-      logical :: made
+      logical :: made, moved
 
       watch%n_steps = watch%n_steps + 1
       if (scene%method == method_newton) then
          accuracy = merge(closer, loose, scene%proportion > very_stiff)
          ! near to equilibrium, so exactly that one step can reach the tolerance
          if (ratio < near) accuracy = min(accuracy, max(strict, part*tolerance/max(tiny(ratio), ratio)))
+         if (.not. field%leak > 0.0_wp) then
+            call approach(scene, .true., field, residual, moved)
+            if (moved) newton = new_newton(scene, field, ratio)
+         end if
          if (field%leak > 0.0_wp) accuracy = max(strict, min(accuracy, 0.1_wp*field%leak))
          call newton_step(scene, ratio, accuracy, watch%largest/max(field%leak, merge(0.0_wp, 1.0_wp, field%leak > 0.0_wp)), &
                           newton, field, residual, made)
+         if (.not. made .and. .not. field%leak > 0.0_wp) then  ! what slips may stop farther on
+            call approach(scene, .false., field, residual, made)
+            if (made) newton = new_newton(scene, field, ratio)
+         end if
          watch%ran = .not. made
          return
       end if
@@ -462,6 +456,11 @@ contains
          field%excess = reshape(x, shape(field%excess))
       else
          field%excess = field%excess + residual
+         if (scene%method == method_total) then
+            call evaluate(scene, field, residual)
+            call approach(scene, .true., field, residual, moved)
+            call balance_motions(scene, field)
+         end if
       end if
       call look_again(scene, ratio, field, residual, newton)
    end subroutine take_step

@@ -41,6 +41,9 @@ module axijoint_joints_field
       !> transferred to the structure, and of that which has not yet been, shape
       !> (3, points, modes)
       real(wp), allocatable :: excess(:, :, :), pending(:, :, :)
+      !> Where the parts stand from which displacements and excess stress count: shares of the floating
+      !> motions, and their jumps, shape (3, points, planes)
+      real(wp), allocatable :: offset(:), moved(:, :, :)
       !> Stress that the laws start from, the same that they admit in the end, shape
       !> (3, points, planes)
       real(wp), allocatable :: carried(:, :, :)
@@ -63,14 +66,15 @@ module axijoint_joints_field
 contains
 
    !> Joint without stress
-   pure function new_joint_field(n_points, n_planes, n_modes) result(field)
-      !> Numbers of points, planes and modes
-      integer, intent(in) :: n_points, n_planes, n_modes
+   pure function new_joint_field(n_points, n_planes, n_modes, n_floating) result(field)
+      !> Numbers of points, planes, modes, and floating motions
+      integer, intent(in) :: n_points, n_planes, n_modes, n_floating
       !> The field
       type(joint_field_type) :: field
 
       allocate (field%jump(3, n_points, n_planes), source=0.0_wp)
       allocate (field%stress(3, n_points, n_planes), field%carried(3, n_points, n_planes), source=0.0_wp)
+      allocate (field%offset(n_floating), field%moved(3, n_points, n_planes), source=0.0_wp)
       allocate (field%excess(3, n_points, n_modes), field%pending(3, n_points, n_modes), source=0.0_wp)
       allocate (field%initial(3, n_points), field%in_situ(3, n_points), source=0.0_wp)
       allocate (field%state(n_points, n_planes), source=state_stick)
@@ -131,7 +135,8 @@ contains
             associate (law => model%joint_materials(points(k)%material)%law)
                trial = seen_by_law(model, points, k, j, view(k), field)
                call admit(law, field%memory(k, j), trial, field%stress(:, k, j), tangent)
-               excess(:, k, j) = points(k)%base*jump(:, k, j) + field%initial(:, k) - field%stress(:, k, j)
+               excess(:, k, j) = points(k)%base*(jump(:, k, j) - field%moved(:, k, j)) + field%initial(:, k) &
+                  - field%stress(:, k, j)
             end associate
          end do
       end do

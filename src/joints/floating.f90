@@ -11,7 +11,7 @@ module axijoint_joints_floating
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: floating_motion_type, floating_loads_type, new_floating_motions, new_loads_on, put_loads_on
+   public :: floating_motion_type, floating_loads_type, new_floating_motions, new_loads_on, put_loads_on, add_motions
 
    !> A rigid motion
    type :: floating_motion_type
@@ -65,6 +65,24 @@ contains
          end do
       end do
    end subroutine new_floating_motions
+
+   !> Add motions to displacements
+   pure subroutine add_motions(motions, share, displacement)
+      !> The motions
+      type(floating_motion_type), intent(in) :: motions(:)
+      !> Share of each
+      real(wp), intent(in) :: share(:)
+      !> Displacement amplitudes, shape (3, nodes, modes)
+      real(wp), intent(inout) :: displacement(:, :, :)
+
+      integer :: k
+
+      do k = 1, size(motions)
+         associate (motion => motions(k))
+            displacement(:, :, motion%mode) = displacement(:, :, motion%mode) + share(k)*motion%displacement
+         end associate
+      end do
+   end subroutine add_motions
 
    !> No loads so far
    pure function new_loads_on(motions, n_points) result(loads)

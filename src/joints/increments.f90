@@ -90,7 +90,8 @@ contains
       integer :: i
 
       allocate (history%path(0), history%states(0))
-      field = new_joint_field(size(scene%points), size(scene%planes%angle), size(scene%equations%modes))
+      field = new_joint_field(size(scene%points), size(scene%planes%angle), size(scene%equations%modes), &
+                              size(scene%floating))
       scene%loads = new_loads_on(scene%floating, size(scene%points))
       goal = first_step(combination)
       peak_norm = 0.0_wp
@@ -166,6 +167,7 @@ contains
          state%stress = on_all(scene%planes, field%stress)
          state%state = field%state(:, scene%planes%place)
          state%excess = field%excess
+         state%offset = field%offset
          history%states = [history%states, state]
       end subroutine keep_state
 
@@ -273,7 +275,8 @@ contains
       if (any(scene%model%joint_materials%law%gap > 0.0_wp)) return  ! the paper's loop knows none
       allocate (path(0))
       allocate (other)
-      other = new_joint_field(size(scene%points), size(scene%planes%angle), size(scene%equations%modes))
+      other = new_joint_field(size(scene%points), size(scene%planes%angle), size(scene%equations%modes), &
+                              size(scene%floating))
       call set_initial_stress(scene%model, scene%points, history%loading%case_factor, other)
       method = scene%method
       scene%method = merge(method_newton, method_transfer, method == method_transfer)

@@ -104,6 +104,7 @@ contains
       state%jump = field%jump(:, :, place)
       state%stress = field%stress(:, :, place)
       state%carried = state%stress
+      state%moved = field%moved(:, :, place)
       state%state = field%state(:, place)
       state%share = 1.0_wp
    end function on_planes

@@ -2,15 +2,16 @@
 !> do not resist is none only if no load acts on it, at any size of the load
 module axijoint_joints_mechanism
    use axijoint_base_kinds, only : wp
-   use axijoint_element_joint_law, only : admit
+   use axijoint_element_joint_law, only : admit, eta
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_joints_field, only : joint_field_type, seen_by_law
    use axijoint_joints_planes, only : synthesize, analyse
-   use axijoint_joints_scene, only : scene_type, views
-   use axijoint_linalg_lapack, only : symmetric_eigen
+   use axijoint_joints_response, only : jumps
+   use axijoint_joints_scene, only : scene_type, views, motion_of
+   use axijoint_linalg_lapack, only : symmetric_eigen, singular_values
    implicit none
    private
-   public :: mechanism_type, find_mechanism
+   public :: mechanism_type, find_mechanism, settle, balance_motions
 
    !> A motion is not resisted if the resistance to it is less than this share of that of sticking joints
    real(wp), parameter :: no_resistance = 1.0e-7_wp
@@ -24,57 +25,134 @@ module axijoint_joints_mechanism
       logical :: loaded = .false.
       !> The motion under the load, shape (floating motions)
       real(wp), allocatable :: motion(:)
-      !> Motions that no load acts on, one column each, shape (floating motions, any)
+      !> Motions that no load acts on, one column each, of unit elastic work, shape (floating motions, any)
       real(wp), allocatable :: idle(:, :)
    end type mechanism_type
 
 contains
 
    !> Find the motions that a state does not resist
-   subroutine find_mechanism(scene, field, mechanism)
+   subroutine find_mechanism(scene, field, sticking, mechanism)
       !> The scene
       type(scene_type), intent(in) :: scene
       !> The state
       type(joint_field_type), intent(in) :: field
+      !> Whether points with any friction or cohesion count as sticking where they touch
+      logical, intent(in) :: sticking
       !> The mechanism
       type(mechanism_type), intent(out) :: mechanism
 
-      real(wp), dimension(size(scene%floating), size(scene%floating)) :: resistance, elastic, to_unit, square
-      real(wp), dimension(size(scene%floating)) :: eigenvalue, force, least, direction
-      integer :: k, n, info
+      real(wp), dimension(size(scene%floating), size(scene%floating)) :: resistance, to_unit, rows
+      real(wp), dimension(size(scene%floating)) :: value, force, least, direction
+      real(wp) :: work, mixed
+      integer :: k, n
 
       n = size(scene%floating)
       allocate (mechanism%motion(n), mechanism%idle(n, 0))
       mechanism%motion = 0.0_wp
       if (n == 0) return
-      call resist(scene, field, resistance, elastic)
+      call unit_resistance(scene, field, sticking, resistance, to_unit, value, rows)
       call act(scene, field, force, least)
-      call symmetric_eigen(elastic, eigenvalue, info)
-      do k = 1, n
-         to_unit(:, k) = elastic(:, k)/sqrt(eigenvalue(k))
-      end do
-      resistance = matmul(transpose(to_unit), matmul(resistance, to_unit))
-      square = matmul(transpose(resistance), resistance)
-      call symmetric_eigen(square, eigenvalue, info)
-      do k = 1, n
-         if (eigenvalue(k) > no_resistance**2) exit
-         direction = matmul(to_unit, square(:, k))
-         if (abs(dot_product(direction, force)) > dot_product(abs(direction), least)) then
+      ! rounding mixes motions that are resisted little into those that are not
+      mixed = rounding*norm2(matmul(force, to_unit))/max(no_resistance, minval(value, mask=value > no_resistance))
+      do k = n, 1, -1
+         if (value(k) > no_resistance) exit
+         direction = matmul(to_unit, rows(k, :))
+         work = dot_product(direction, force)
+         if (abs(work) > dot_product(abs(direction), least) + mixed) then
             mechanism%loaded = .true.
-            mechanism%motion = mechanism%motion + dot_product(direction, force)*direction
+            mechanism%motion = mechanism%motion + work*direction
          else
             mechanism%idle = reshape([mechanism%idle, direction], [n, size(mechanism%idle, 2) + 1])
          end if
       end do
    end subroutine find_mechanism
 
-   !> Work of the joints on each motion when another grows, by the derivatives of their laws and if they
-   !> all stick; stiffnesses are those of the structure
-   subroutine resist(scene, field, resistance, elastic)
+   !> Move the parts until the joints, as they stick, slip and stand open, balance the loads on them: what takes
+   !> the loops many sweeps where little resists a motion
+   subroutine balance_motions(scene, field)
+      !> The scene
+      type(scene_type), intent(in) :: scene
+      !> The state; the stresses are those before
+      type(joint_field_type), intent(inout) :: field
+
+      real(wp), dimension(size(scene%floating), size(scene%floating)) :: resistance, to_unit, rows
+      real(wp), dimension(size(scene%floating)) :: value, force, least, direction
+      integer :: k
+
+      if (size(scene%floating) == 0) return
+      call unit_resistance(scene, field, .false., resistance, to_unit, value, rows)
+      call act(scene, field, force, least)
+      force = matmul(force, to_unit)
+      do k = 1, size(value)
+         if (value(k) <= no_resistance) exit
+         direction = rows(k, :)
+         field%offset = field%offset &
+            + dot_product(matmul(resistance, direction), force)/value(k)**2*matmul(to_unit, direction)
+      end do
+   end subroutine balance_motions
+
+   !> Take motions away that no load acts on and nothing resists: where a state leaves them is of no meaning, so the
+   !> joints' mean is zero
+   subroutine settle(scene, mechanism, field)
+      !> The scene
+      type(scene_type), intent(in) :: scene
+      !> Such motions
+      type(mechanism_type), intent(in) :: mechanism
+      !> The state; the stresses are those before
+      type(joint_field_type), intent(inout) :: field
+
+      real(wp), allocatable :: stress(:, :, :)
+      integer :: i, k
+
+      stress = jumps(scene%response, field%excess, free=.true.) + motion_of(scene, field%offset)
+      do k = 1, size(stress, 2)
+         do i = 1, 3
+            stress(i, k, :) = scene%points(k)%base(i)*stress(i, k, :)
+         end do
+      end do
+      do k = 1, size(mechanism%idle, 2)
+         associate (direction => mechanism%idle(:, k))
+            field%offset = field%offset - dot_product(direction, works(scene, stress))*direction
+         end associate
+      end do
+   end subroutine settle
+
+   !> What joints resist of motions that sticking joints all resist by one
+   subroutine unit_resistance(scene, field, sticking, resistance, to_unit, value, rows)
       !> The scene
       type(scene_type), intent(in) :: scene
       !> The state
       type(joint_field_type), intent(in) :: field
+      !> Whether points with any friction or cohesion count as sticking where they touch
+      logical, intent(in) :: sticking
+      !> The resistance; one column a motion in shares of the floating motions
+      real(wp), intent(out) :: resistance(:, :), to_unit(:, :)
+      !> Singular values of the resistance, descending, and its right singular vectors, one row each
+      real(wp), intent(out) :: value(:), rows(:, :)
+
+      real(wp) :: elastic(size(value), size(value)), eigenvalue(size(value)), lost(size(value), size(value))
+      integer :: info, k
+
+      call resist(scene, field, sticking, resistance, elastic)
+      call symmetric_eigen(elastic, eigenvalue, info)
+      do k = 1, size(value)
+         to_unit(:, k) = elastic(:, k)/sqrt(eigenvalue(k))
+      end do
+      resistance = matmul(transpose(to_unit), matmul(resistance, to_unit))
+      lost = resistance
+      call singular_values(lost, value, rows)
+   end subroutine unit_resistance
+
+   !> Work of the joints on each motion when another grows, by the derivatives of their laws and if they
+   !> all stick; stiffnesses are those of the structure
+   subroutine resist(scene, field, sticking, resistance, elastic)
+      !> The scene
+      type(scene_type), intent(in) :: scene
+      !> The state
+      type(joint_field_type), intent(in) :: field
+      !> Whether points that touch count as sticking
+      logical, intent(in) :: sticking
       !> The works, shape (motions, motions)
       real(wp), intent(out) :: resistance(:, :), elastic(:, :)
 
@@ -82,7 +160,7 @@ contains
       integer :: j, k, z
 
       allocate (tangent(3, 3, size(scene%points), size(field%jump, 3)))
-      call linearize(scene, field, tangent)
+      call linearize(scene, field, sticking, tangent)
       allocate (amplitude, mold=field%excess)
       do z = 1, size(scene%floating)
          amplitude = 0.0_wp
@@ -101,22 +179,28 @@ contains
    end subroutine resist
 
    !> Derivatives of the stress admitted by the trial stress
-   subroutine linearize(scene, field, tangent)
+   subroutine linearize(scene, field, sticking, tangent)
       !> The scene
       type(scene_type), intent(in) :: scene
       !> The state
       type(joint_field_type), intent(in) :: field
+      !> Whether points that touch count as sticking
+      logical, intent(in) :: sticking
       !> The derivatives, shape (3, 3, points, planes)
       real(wp), intent(out) :: tangent(:, :, :, :)
 
+      real(wp), parameter :: identity(9) = [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp]
       real(wp) :: view(size(scene%points)), admitted(3)
       integer :: j, k
 
       view = views(scene, field%share)
       do j = 1, size(tangent, 4)
          do k = 1, size(tangent, 3)
-            call admit(scene%model%joint_materials(scene%points(k)%material)%law, field%memory(k, j), &
-                       seen_by_law(scene%model, scene%points, k, j, view(k), field), admitted, tangent(:, :, k, j))
+            associate (law => scene%model%joint_materials(scene%points(k)%material)%law, t => tangent(:, :, k, j))
+               call admit(law, field%memory(k, j), seen_by_law(scene%model, scene%points, k, j, view(k), field), admitted, t)
+               if (.not. sticking .or. .not. t(eta, eta) > 0.0_wp) cycle
+               if (law%friction > 0.0_wp .or. law%cohesion > 0.0_wp) t = reshape(identity, [3, 3])
+            end associate
          end do
       end do
    end subroutine linearize

@@ -145,7 +145,7 @@ contains
                   newton%slope(:, i, k, j) = -newton%by_jump(:, i, k, j)
                   newton%slope(i, i, k, j) = newton%slope(i, i, k, j) + point%base(i)
                end do
-               excess(:, k, j) = point%base*field%jump(:, k, j) + field%initial(:, k) - stress
+               excess(:, k, j) = point%base*(field%jump(:, k, j) - field%moved(:, k, j)) + field%initial(:, k) - stress
             end associate
          end do
       end do

@@ -10,11 +10,12 @@ module axijoint_joints_scene
    use axijoint_joints_planes, only : planes_type, synthesize, analyse
    use axijoint_joints_residual, only : measure_type
    use axijoint_joints_response, only : response_type, jumps
+   use axijoint_linalg_lapack, only : invert
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type, method_newton, method_transfer
    implicit none
    private
-   public :: scene_type, evaluate, views, mismatch_of, elastic_stress
+   public :: scene_type, evaluate, views, mismatch_of, elastic_stress, motion_of, stand_where_they_are
 
    !> Stiffness k h/E of joints that Newton's method lets the laws see at a time, and that a state is judged by
    real(wp), parameter :: newton_view = 10.0_wp, judged_view = 1.0e2_wp
@@ -63,6 +64,10 @@ contains
       real(wp) :: view(size(scene%points))
 
       total = synthesize(scene%planes, jumps(scene%response, field%excess, free=.true.))
+      if (any(abs(field%offset) > 0.0_wp)) then
+         field%moved = synthesize(scene%planes, motion_of(scene, field%offset))
+         total = total + field%moved
+      end if
       if (scene%method == method_transfer) then
          call accumulate(scene, total, field, residual)
       else
@@ -128,6 +133,81 @@ contains
          jump(:, :, k) = jump(:, :, k) + joint_jump(scene%points, displacement(:, :, k))
       end do
    end function mismatch_of
+
+   !> Jumps of the floating motions
+   pure function motion_of(scene, share) result(jump)
+      !> The scene
+      type(scene_type), intent(in) :: scene
+      !> Share of each motion
+      real(wp), intent(in) :: share(:)
+      !> Amplitudes, shape (3, points, modes)
+      real(wp) :: jump(3, size(scene%points), size(scene%equations%modes))
+
+      integer :: z
+
+      jump = 0.0_wp
+      do z = 1, size(scene%floating)
+         associate (floating => scene%floating(z))
+            jump(:, :, floating%mode) = jump(:, :, floating%mode) + share(z)*floating%jump
+         end associate
+      end do
+   end function motion_of
+
+   !> Let displacements count from where the parts stand: with the rigid motions taken away, small strains of
+   !> stiff bodies on soft joints are not lost to rounding. The state does not change
+   subroutine stand_where_they_are(scene, field)
+      !> The scene
+      type(scene_type), intent(in) :: scene
+      !> The state
+      type(joint_field_type), intent(inout) :: field
+
+      real(wp), dimension(size(scene%floating), size(scene%floating)) :: matrix
+      real(wp), dimension(size(scene%floating)) :: right, share
+      real(wp), dimension(3, size(scene%points), size(scene%equations%modes)) :: jump, motion
+      integer :: info, k, z
+
+      if (size(scene%floating) == 0) return
+      jump = jumps(scene%response, field%excess, free=.true.)
+      do z = 1, size(scene%floating)
+         share = 0.0_wp
+         share(z) = 1.0_wp
+         matrix(:, z) = works_of(motion_of(scene, share))
+      end do
+      right = works_of(jump)
+      call invert(matrix, info)
+      if (info /= 0) return
+      share = matmul(matrix, right)
+      motion = motion_of(scene, share)
+      do k = 1, size(scene%points)
+         do z = 1, 3
+            field%excess(z, k, :) = field%excess(z, k, :) - scene%points(k)%base(z)*motion(z, k, :)
+         end do
+      end do
+      field%offset = field%offset + share
+
+   contains
+
+      !> Work of elastic joints on the motions
+      function works_of(jump) result(work)
+         !> Amplitudes of their jumps, shape (3, points, modes)
+         real(wp), intent(in) :: jump(:, :, :)
+         !> Shape (motions)
+         real(wp) :: work(size(scene%floating))
+
+         integer :: i, p
+
+         work = 0.0_wp
+         do i = 1, size(work)
+            associate (floating => scene%floating(i))
+               do p = 1, size(scene%points)
+                  work(i) = work(i) + scene%points(p)%weight &
+                     *sum(floating%jump(:, p)*scene%points(p)%base*jump(:, p, floating%mode))
+               end do
+            end associate
+         end do
+      end function works_of
+
+   end subroutine stand_where_they_are
 
    !> Joint stress of the loads if all joints held, with the stress before loading
    function elastic_stress(scene, field) result(stress)

@@ -21,6 +21,8 @@ module axijoint_joints_states
       integer, allocatable :: state(:, :)
       !> Amplitudes of the stress that was not admitted, shape (3, points, modes)
       real(wp), allocatable :: excess(:, :, :)
+      !> Where the parts stand from which displacements count: shares of the floating motions
+      real(wp), allocatable :: offset(:)
    end type increment_state_type
 
 end module axijoint_joints_states

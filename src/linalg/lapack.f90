@@ -7,7 +7,7 @@ module axijoint_linalg_lapack
    public :: band_cholesky, dpbtrs, dtrsm, dgemm, dsyrk, dpotrf
    public :: cholesky, inverse_from_cholesky, product_with_transpose, symmetric_eigen, use_one_blas_thread, norm_step
    public :: product_rate
-   public :: matrix_vector, least_squares, invert
+   public :: matrix_vector, least_squares, invert, singular_values
 
    interface
       !> Cholesky factorization of a positive definite band matrix
@@ -102,6 +102,15 @@ module axijoint_linalg_lapack
          integer, intent(out) :: ipiv(*)
          integer, intent(out) :: info
       end subroutine dgetrf
+
+      subroutine dgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, info)
+         import :: wp
+         character, intent(in) :: jobu, jobvt
+         integer, intent(in) :: m, n, lda, ldu, ldvt, lwork
+         real(wp), intent(inout) :: a(lda, *)
+         real(wp), intent(out) :: s(*), u(ldu, *), vt(ldvt, *), work(*)
+         integer, intent(out) :: info
+      end subroutine dgesvd
 
       subroutine dgetri(n, a, lda, ipiv, work, lwork, info)
          import :: wp
@@ -207,6 +216,21 @@ contains
 
       call dgemv('N', size(a, 1), size(a, 2), 1.0_wp, a, max(1, size(a, 1)), x, 1, 0.0_wp, y, 1)
    end subroutine matrix_vector
+
+   !> Singular values of a square matrix, descending, and its right singular vectors, one row each
+   subroutine singular_values(a, values, rows)
+      !> The matrix; lost on return
+      real(wp), intent(inout), contiguous :: a(:, :)
+      !> The values
+      real(wp), intent(out) :: values(:)
+      !> The vectors, shape of a
+      real(wp), intent(out), contiguous :: rows(:, :)
+
+      real(wp) :: none(1, 1), work(8*size(a, 1) + 64)
+      integer :: info
+
+      call dgesvd('N', 'A', size(a, 1), size(a, 1), a, size(a, 1), values, none, 1, rows, size(a, 1), work, size(work), info)
+   end subroutine singular_values
 
    !> Inverse of a matrix
    subroutine invert(a, info)

@@ -1,0 +1,99 @@
+!> Bodies that stand free move under their load until joints touch, before anything deforms: contact by
+!> contact, as rigid bodies
+module axijoint_joints_approach
+   use axijoint_base_kinds, only : wp
+   use axijoint_element_joint_law, only : xi, eta, theta
+   use axijoint_joints_field, only : joint_field_type, trial_of
+   use axijoint_joints_mechanism, only : mechanism_type, find_mechanism
+   use axijoint_joints_planes, only : synthesize
+   use axijoint_joints_scene, only : scene_type, evaluate, elastic_stress, motion_of
+   implicit none
+   private
+   public :: approach
+
+   !> Pressure at the points that touch, as a share of the joint stress that the load would give if all joints held
+   real(wp), parameter :: touch = 1.0e-3_wp
+   !> Contacts that are followed: so many for each motion
+   integer, parameter :: most_contacts = 4
+
+contains
+
+   !> Move the parts that joints do not hold under load until they do
+   subroutine approach(scene, sticking, field, residual, moved)
+      !> The scene
+      type(scene_type), intent(in) :: scene
+      !> Whether points with any friction or cohesion count as sticking where they touch
+      logical, intent(in) :: sticking
+      !> State of the joints, its stresses evaluated; points that touch or stand open carry no shear where they stand
+      type(joint_field_type), intent(inout) :: field
+      !> Excess stress that is not transferred
+      real(wp), intent(inout) :: residual(:, :, :)
+      !> Whether anything moved
+      logical, intent(out) :: moved
+
+      type(mechanism_type) :: mechanism
+      real(wp), allocatable :: jump(:, :, :)
+      real(wp) :: way
+      integer :: contact
+
+      moved = .false.
+      do contact = 0, most_contacts*size(scene%floating)
+         call find_mechanism(scene, field, sticking, mechanism)
+         if (.not. mechanism%loaded) return
+         jump = synthesize(scene%planes, motion_of(scene, mechanism%motion))
+         way = way_to_contact(scene, field, jump)
+         if (.not. way < huge(way)) return
+         moved = .true.
+         field%offset = field%offset + way*mechanism%motion
+         call stand_free(way*jump, field)
+         call evaluate(scene, field, residual)
+      end do
+   end subroutine approach
+
+   !> How far a motion goes until a point that stands open is pressed a little; the largest number if none is
+   function way_to_contact(scene, field, jump) result(way)
+      !> The scene
+      type(scene_type), intent(in) :: scene
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> Jumps of the motion, shape (3, points, planes)
+      real(wp), intent(in) :: jump(:, :, :)
+      !> In units of the motion
+      real(wp) :: way
+
+      real(wp) :: pressure, trial(3), stiffness
+      integer :: j, k
+
+      way = huge(way)
+      pressure = touch*maxval(abs(elastic_stress(scene, field)))
+      do j = 1, size(jump, 3)
+         do k = 1, size(jump, 2)
+            if (.not. jump(eta, k, j) < 0.0_wp) cycle
+            stiffness = scene%model%joint_materials(scene%points(k)%material)%law%stiffness(eta)
+            trial = trial_of(scene%model, scene%points, k, j, field%jump(:, k, j), field)
+            if (trial(eta) > 0.0_wp) way = min(way, (trial(eta) + pressure)/(-stiffness*jump(eta, k, j)))
+         end do
+      end do
+   end function way_to_contact
+
+   !> Points that stood open start without shear where they stand after a motion
+   pure subroutine stand_free(jump, field)
+      !> Jumps of the motion, shape (3, points, planes)
+      real(wp), intent(in) :: jump(:, :, :)
+      !> State of the joints before it
+      type(joint_field_type), intent(inout) :: field
+
+      integer :: i, j, k
+
+      do j = 1, size(jump, 3)
+         do k = 1, size(jump, 2)
+            if (any(abs(field%stress(:, k, j)) > 0.0_wp)) cycle
+            do i = xi, theta, theta - xi
+               field%memory(k, j)%slip(i) = field%jump(i, k, j) + jump(i, k, j)
+            end do
+         end do
+      end do
+      field%carried = field%stress
+   end subroutine stand_free
+
+end module axijoint_joints_approach
