@@ -38,6 +38,12 @@ module axijoint_joints_balance
    real(wp), parameter :: rounding = 1.0e2_wp*epsilon(1.0_wp)
    !> A step without a better residual for so many iterations has stalled
    integer, parameter :: patience = 25
+   !> How many times as much may be missing after a step of Newton's: more helps on the way, but goes round in circles
+   !> where the residual no longer falls
+   real(wp), parameter :: bold = 2.0_wp, careful = 1.0_wp
+   !> Change of the jumps by the first steps, in displacements with elastic joints: of several states the near one is
+   !> found. It grows as steps want more
+   real(wp), parameter :: first_radius = 3.0_wp
    !> Iterations in which a point that changes its state counts as restless
    integer, parameter :: recent = 12
    !> Jumps so many times larger than the displacements with elastic joints are no
@@ -67,9 +73,13 @@ module axijoint_joints_balance
    type :: watch_type
       !> Jumps beyond which there is no state
       real(wp) :: largest = 0.0_wp
+      !> Change of the jumps beyond which Newton's steps are shortened
+      real(wp) :: radius = 0.0_wp
       !> Best residual ratio, and its iteration
       real(wp) :: best = huge(1.0_wp)
       integer :: best_at = 0
+      !> Whether the last residual was the best, and whether steps are long whatever it does
+      logical :: falls = .true., far = .false.
       !> Whether a step of Newton's was not made, whether weak springs were tried, and steps made with those of now
       logical :: ran = .false., leaked = .false.
       integer :: n_steps = 0
@@ -101,7 +111,8 @@ contains
       logical, intent(in), optional :: warm
 
       type(iteration_type), allocatable :: steps(:)
-      type(joint_field_type), allocatable :: start
+      !> The state at the start, and the last that ran away
+      type(joint_field_type), allocatable :: start, astray
       type(watch_type) :: watch
       type(newton_type) :: newton
       real(wp), allocatable :: residual(:, :, :)
@@ -135,10 +146,14 @@ contains
          call count_state(field, scene%planes%place, steps(k)%n_slip, steps(k)%n_open)
          call look(scene, k, steps(k)%ratio, field, watch, verdict)
          if (verdict%ran_away .or. verdict%stalled) then
-            if (.not. (soft .or. may_hold_weakly())) exit
+            if (verdict%ran_away) astray = field
+            if (.not. (soft .or. may_go_far() .or. may_hold_weakly())) exit
             field = start
             if (soft) then
                soft = .false.
+               call begin_again(leak=0.0_wp)
+            else if (may_go_far()) then
+               watch%far = .true.
                call begin_again(leak=0.0_wp)
             else
                call hold_weakly()
@@ -156,6 +171,11 @@ contains
          if (again) call look_again(scene, steps(k)%ratio, field, residual, newton)
          call take_step(scene, tolerance, steps(k)%ratio, field, residual, newton, watch)
       end do
+      if (verdict%stalled .and. allocated(astray)) then
+         verdict%ran_away = .true.
+         field = astray
+         call evaluate(scene, field, residual)
+      end if
       field%pending = residual
       field%leak = 0.0_wp
       k = min(k, most)
@@ -168,6 +188,11 @@ contains
 
    contains
 
+      !> Whether long steps may still help, or show that there is no state
+      logical function may_go_far() result(may)
+         may = scene%method == method_newton .and. verdict%stalled .and. .not. (watch%far .or. watch%leaked) .and. k < most
+      end function may_go_far
+
       !> Whether weak springs may still help
       logical function may_hold_weakly() result(may)
          may = scene%method == method_newton .and. size(scene%floating) > 0 .and. .not. watch%leaked .and. k < most
@@ -176,6 +201,8 @@ contains
       !> Go on with weak springs
       subroutine hold_weakly()
          watch%leaked = .true.
+         watch%far = .false.
+         watch%radius = huge(1.0_wp)  ! the springs hold
          call begin_again(first_leak)
       end subroutine hold_weakly
 
@@ -255,6 +282,7 @@ contains
       watch%memory = new_anderson(size(field%excess), depth)
       watch%largest = runaway*maxval([tiny(1.0_wp), scene%response%largest, abs(scene%response%free), &
                                       abs(field%jump)])
+      watch%radius = first_radius*watch%largest/runaway
       watch%before = field%state
       watch%changed = 0*field%state
    end function new_watch
@@ -283,6 +311,7 @@ contains
          watch%best = ratio
          watch%best_at = k
       end if
+      watch%falls = watch%best_at == k
       verdict%stalled = scene%method == method_newton .and. k > watch%best_at + patience
    end subroutine look
 
@@ -427,7 +456,7 @@ contains
       type(watch_type), intent(inout) :: watch
 
       real(wp), allocatable :: x(:)
-      real(wp) :: accuracy
+      real(wp) :: accuracy, largest
       logical :: made, moved
 
       watch%n_steps = watch%n_steps + 1
@@ -440,8 +469,11 @@ contains
             if (moved) newton = new_newton(scene, field, ratio)
          end if
          if (field%leak > 0.0_wp) accuracy = max(strict, min(accuracy, 0.1_wp*field%leak))
-         call newton_step(scene, ratio, accuracy, watch%largest/max(field%leak, merge(0.0_wp, 1.0_wp, field%leak > 0.0_wp)), &
-                          newton, field, residual, made)
+         largest = watch%largest
+         if (field%leak > 0.0_wp) largest = largest/field%leak
+         if (watch%far) watch%radius = largest
+         call newton_step(scene, ratio, accuracy, largest, newton, field, residual, made, &
+                          more=merge(bold, careful, watch%falls .or. watch%far), radius=watch%radius)
          if (.not. made .and. .not. field%leak > 0.0_wp) then  ! what slips may stop farther on
             call approach(scene, .false., field, residual, made)
             if (made) newton = new_newton(scene, field, ratio)

@@ -59,7 +59,8 @@ contains
          if (value(k) > no_resistance) exit
          direction = matmul(to_unit, rows(k, :))
          work = dot_product(direction, force)
-         if (abs(work) > dot_product(abs(direction), least) + mixed) then
+         ! what iterations leave out of balance is no load
+         if (min(abs(work), abs(dot_product(direction, scene%loads%work))) > dot_product(abs(direction), least) + mixed) then
             mechanism%loaded = .true.
             mechanism%motion = mechanism%motion + work*direction
          else
@@ -127,9 +128,9 @@ contains
       !> Whether points with any friction or cohesion count as sticking where they touch
       logical, intent(in) :: sticking
       !> The resistance; one column a motion in shares of the floating motions
-      real(wp), intent(out) :: resistance(:, :), to_unit(:, :)
+      real(wp), intent(out), contiguous :: resistance(:, :), to_unit(:, :)
       !> Singular values of the resistance, descending, and its right singular vectors, one row each
-      real(wp), intent(out) :: value(:), rows(:, :)
+      real(wp), intent(out), contiguous :: value(:), rows(:, :)
 
       real(wp) :: elastic(size(value), size(value)), eigenvalue(size(value)), lost(size(value), size(value))
       integer :: info, k

@@ -27,7 +27,7 @@ module axijoint_joints_newton
    !> Values on the planes from which on threads are worth their start
    integer, parameter :: worth_threads = 5000
    !> Shortest part of a step, and how many times as much may be missing after a step
-   real(wp), parameter :: shortest = 1.0_wp/8.0_wp, more = 2.0_wp
+   real(wp), parameter :: shortest = 1.0_wp/8.0_wp, usual = 2.0_wp, widening = 4.0_wp
 
    !> Laws of all points, linear about an iterate: P changes by `by_jump` times the
    !> change of the jumps, and by `rest`
@@ -254,7 +254,7 @@ contains
    !> One step, shortened until what is missing is not much more, but not below a part of it:
    !> the shortest is made even if it does not help. A step to jumps that are no
    !> state is not made.
-   subroutine newton_step(scene, far, tolerance, largest, newton, field, residual, made)
+   subroutine newton_step(scene, far, tolerance, largest, newton, field, residual, made, more, radius)
       !> What does not change
       type(scene_type), intent(in) :: scene
       !> Residual ratio of the iterate
@@ -271,24 +271,37 @@ contains
       real(wp), intent(inout) :: residual(:, :, :)
       !> Whether a step was made
       logical, intent(out) :: made
+      !> How many times as much may be missing after a step; 2 if absent
+      real(wp), intent(in), optional :: more
+      !> Change of the jumps beyond which a step is shortened, and which grows then; absent for none
+      real(wp), intent(inout), optional :: radius
 
-      real(wp), allocatable :: start(:, :, :), carried(:, :, :), change(:, :, :), change_carried(:, :, :)
-      real(wp) :: length, before
+      real(wp), allocatable :: start(:, :, :), carried(:, :, :), change(:, :, :), change_carried(:, :, :), jump(:, :, :)
+      real(wp) :: length, before, least, most
 
       change = correction(scene, newton, tolerance)
-      change_carried = newton%rest + at_points(newton%by_jump, &
-         synthesize(scene%planes, jumps(scene%response, change, free=.false.)))
+      jump = synthesize(scene%planes, jumps(scene%response, change, free=.false.))
+      change_carried = newton%rest + at_points(newton%by_jump, jump)
       start = field%excess
       carried = field%carried
       before = newton%merit
+      most = usual
+      if (present(more)) most = more
       length = 1.0_wp
+      if (present(radius)) then
+         if (maxval(abs(jump)) > radius) then
+            length = radius/maxval(abs(jump))
+            radius = widening*radius
+         end if
+      end if
+      least = shortest*length
       do
          field%excess = start + length*change
          field%carried = carried + length*change_carried
          call evaluate(scene, field, residual)
          newton = new_newton(scene, field, far)
          made = maxval(abs(field%jump)) <= largest
-         if (made .and. newton%merit < more*before .or. length <= shortest) exit
+         if (made .and. newton%merit < most*before .or. length <= least) exit
          length = 0.5_wp*length
       end do
       if (made) return
