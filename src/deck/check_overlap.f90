@@ -7,7 +7,7 @@ module axijoint_deck_check_overlap
    use axijoint_deck_diagnostics, only : diagnostics_type, add_error, add_warning
    use axijoint_deck_draft, only : draft_type, place_text
    use axijoint_deck_edges, only : edge_table_type
-   use axijoint_fe_shape, only : shape_line
+   use axijoint_fe_shape, only : shape_line, n_corners
    implicit none
    private
    public :: check_overlap
@@ -20,8 +20,8 @@ module axijoint_deck_check_overlap
    real(wp), parameter :: depth_limit = 0.04_wp
    !> Straight pieces that stand for a curved side
    integer, parameter :: n_pieces = 8
-   !> Most cells along r and along z
-   integer, parameter :: most_cells = 1000
+   !> Most cells
+   integer, parameter :: most_cells = 1000000
 
    !> Points of the outlines, sorted into cells of a rectangle around the mesh
    type :: cells_type
@@ -30,8 +30,8 @@ module axijoint_deck_check_overlap
       integer, allocatable :: element(:)
       !> Lower corner of the rectangle, and the size of a cell
       real(wp) :: corner(2) = 0.0_wp, width(2) = 1.0_wp
-      !> Cells along r, and along z
-      integer :: n = 1
+      !> Cells along r and along z
+      integer :: n(2) = 1
       !> Points by cell: those of cell i are listed from start(i) to start(i + 1) - 1
       integer, allocatable :: start(:), list(:)
    end type cells_type
@@ -97,14 +97,14 @@ contains
             cells%element(m) = edges%element(i)
          end do
       end do
-      cells%n = max(1, min(most_cells, int(sqrt(real(draft%n_elements, wp)))))
+      cells%n = divisions(draft)
       cells%corner = minval(draft%position(:, :draft%n_nodes), 2)
       cells%width = (maxval(draft%position(:, :draft%n_nodes), 2) - cells%corner)/cells%n
       where (.not. cells%width > 0.0_wp) cells%width = 1.0_wp
-      allocate (cells%start(cells%n**2 + 1), source=0)
+      allocate (cells%start(product(cells%n) + 1), source=0)
       do i = 1, m
          place = place_of(cells, cells%position(:, i))
-         cell(i) = place(1) + (place(2) - 1)*cells%n
+         cell(i) = place(1) + (place(2) - 1)*cells%n(1)
          cells%start(cell(i) + 1) = cells%start(cell(i) + 1) + 1
       end do
       cells%start(1) = 1
@@ -117,6 +117,36 @@ contains
          next(cell(i)) = next(cell(i)) + 1
       end do
    end function new_cells
+
+   !> Cells along r and along z that are about as wide and as high as an element is in the mean:
+   !> a narrow body has few in one direction and many in the other. Not more cells than elements
+   pure function divisions(draft) result(n)
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> Cells along r, along z
+      integer :: n(2)
+
+      real(wp) :: extent, mean, wanted(2)
+      integer :: axis, element
+
+      do axis = 1, 2
+         mean = 0.0_wp
+         do element = 1, draft%n_elements
+            associate (x => draft%position(axis, draft%element_nodes(:n_corners(draft%element_size(element)), element)))
+               mean = mean + (maxval(x) - minval(x))/draft%n_elements
+            end associate
+         end do
+         associate (x => draft%position(axis, :draft%n_nodes))
+            extent = maxval(x) - minval(x)
+         end associate
+         wanted(axis) = 1.0_wp
+         if (mean > 0.0_wp) wanted(axis) = max(1.0_wp, extent/mean)
+      end do
+      associate (most => real(min(most_cells, draft%n_elements), wp))
+         if (product(wanted) > most) wanted = wanted*sqrt(most/product(wanted))
+         n = max(1, int(min(wanted, most)))
+      end associate
+   end function divisions
 
    !> Column and row of the cell of a point
    pure function place_of(cells, position) result(place)
@@ -175,7 +205,7 @@ contains
       depth = least_depth(polygon)
       do row = low(2), high(2)
          do column = low(1), high(1)
-            associate (cell => column + (row - 1)*cells%n)
+            associate (cell => column + (row - 1)*cells%n(1))
                do k = cells%start(cell), cells%start(cell + 1) - 1
                   point = cells%list(k)
                   if (cells%element(point) == element) cycle

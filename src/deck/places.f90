@@ -9,13 +9,16 @@ module axijoint_deck_places
    !> Distance of points at the same place, in extents of the model
    real(wp), parameter, public :: same_place = 1.0e-9_wp
 
-   !> Points in the plane, halved again and again across r and z in turn
+   !> Points in the plane, halved again and again across the longer side of what is left: in turn
+   !> across r and z, points of a narrow strip would lie on both sides of most cuts
    type :: point_tree_type
       private
       !> The points, shape (2, points)
       real(wp), allocatable :: position(:, :)
       !> Their indices: the middle one of each part divides it
       integer, allocatable :: order(:)
+      !> Axis across which the part with the middle point here is halved, 1 for r and 2 for z
+      integer, allocatable :: axis(:)
    end type point_tree_type
 
 contains
@@ -92,26 +95,32 @@ contains
 
       tree%position = position
       tree%order = [(i, i=1, size(position, 2))]
-      call halve(tree%position, tree%order, 1)
+      allocate (tree%axis(size(tree%order)), source=1)
+      call halve(tree%position, tree%order, tree%axis)
    end function new_point_tree
 
-   !> Put the middle point along an axis in the middle, smaller coordinates
-   !> before and larger behind it, and go on with both parts
+   !> Put the middle point along the axis on which the points extend most in the middle,
+   !> smaller coordinates before and larger behind it, and go on with both parts
    pure recursive subroutine halve(position, order, axis)
       !> r and z
       real(wp), intent(in) :: position(:, :)
       !> Indices of the points
       integer, intent(inout) :: order(:)
-      !> Axis, 1 for r and 2 for z
-      integer, intent(in) :: axis
+      !> Axis of each part, at the place of its middle point
+      integer, intent(inout) :: axis(:)
 
-      integer :: middle
+      real(wp) :: extent(2)
+      integer :: middle, i
 
       if (size(order) < 2) return
       middle = (size(order) + 1)/2
-      call select_middle(position(axis, :), order, middle)
-      call halve(position, order(:middle - 1), 3 - axis)
-      call halve(position, order(middle + 1:), 3 - axis)
+      do i = 1, 2
+         extent(i) = maxval(position(i, order)) - minval(position(i, order))
+      end do
+      axis(middle) = maxloc(extent, 1)
+      call select_middle(position(axis(middle), :), order, middle)
+      call halve(position, order(:middle - 1), axis(:middle - 1))
+      call halve(position, order(middle + 1:), axis(middle + 1:))
    end subroutine halve
 
    !> Arrange indices so that the one in the middle is where sorting would put
@@ -166,7 +175,7 @@ contains
       integer, intent(out) :: n_found
 
       n_found = 0
-      call collect(tree%position, tree%order, 1, place, distance, found, n_found)
+      call collect(tree%position, tree%order, tree%axis, place, distance, found, n_found)
    end subroutine points_near
 
    !> Collect points of a part of the tree within a distance
@@ -175,8 +184,8 @@ contains
       real(wp), intent(in) :: position(:, :)
       !> Indices of the part
       integer, intent(in) :: order(:)
-      !> Axis across which the part is halved
-      integer, intent(in) :: axis
+      !> Axis of each part
+      integer, intent(in) :: axis(:)
       !> r and z of the place
       real(wp), intent(in) :: place(2)
       !> Largest distance
@@ -196,11 +205,11 @@ contains
          n_found = n_found + 1
          found(n_found) = order(middle)
       end if
-      if (offset(axis) <= distance) then
-         call collect(position, order(:middle - 1), 3 - axis, place, distance, found, n_found)
+      if (offset(axis(middle)) <= distance) then
+         call collect(position, order(:middle - 1), axis(:middle - 1), place, distance, found, n_found)
       end if
-      if (offset(axis) >= -distance) then
-         call collect(position, order(middle + 1:), 3 - axis, place, distance, found, n_found)
+      if (offset(axis(middle)) >= -distance) then
+         call collect(position, order(middle + 1:), axis(middle + 1:), place, distance, found, n_found)
       end if
    end subroutine collect
 

@@ -95,19 +95,18 @@ contains
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
-      integer :: entry, outside, missing, number
+      logical, allocatable :: lies(:)
+      integer :: entry, outside, missing
 
       do entry = 1, size(lines)
          if (.not. table%good(entry)) cycle
          associate (line => lines(entry))
             call locate_points(mesh, line)
-            outside = 0
-            missing = 0
-            do number = 1, line%n_points
-               if (any(line%points%number == number)) cycle
-               outside = outside + 1
-               if (missing == 0) missing = number
-            end do
+            if (allocated(lies)) deallocate (lies)
+            allocate (lies(line%n_points), source=.false.)
+            lies(line%points%number) = .true.
+            outside = count(.not. lies)
+            missing = findloc(lies, .false., 1)
             if (outside == line%n_points) then
                call entry_error(diagnostics, table, entry, &
                                 'no point of section '//to_text(line%label)//' lies in the mesh', &
