@@ -4,7 +4,7 @@ module axijoint_base_system
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: path_kind, is_directory, same_file, rename_path, unlink_path, sync_path
+   public :: path_kind, target_kind, is_directory, same_file, rename_path, unlink_path, sync_path
    public :: peak_memory_mb, process_id, error_output_is_terminal
    public :: return_freed_memory, ignore_file_size_signal, last_error, set_last_error, error_text
    public :: path_absent, path_file, path_directory, path_link, path_other
@@ -33,12 +33,12 @@ module axijoint_base_system
          integer(c_int) :: c_path_kind
       end function c_path_kind
 
-      !> Whether a path leads to a directory; system_shim.c
-      function c_is_directory(path) bind(c, name="axijoint_is_directory")
+      !> What a path leads to; system_shim.c
+      function c_target_kind(path) bind(c, name="axijoint_target_kind")
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
-         integer(c_int) :: c_is_directory
-      end function c_is_directory
+         integer(c_int) :: c_target_kind
+      end function c_target_kind
 
       !> Whether two paths lead to one file; system_shim.c
       function c_same_file(first, second) bind(c, name="axijoint_same_file")
@@ -126,11 +126,18 @@ contains
       path_kind = int(c_path_kind(path//c_null_char))
    end function path_kind
 
+   !> What a path leads to, links followed; the negative errno if that cannot be looked at
+   integer function target_kind(path)
+      !> The path
+      character(len=*), intent(in) :: path
+      target_kind = int(c_target_kind(path//c_null_char))
+   end function target_kind
+
    !> Whether a path leads to a directory, links followed
    logical function is_directory(path)
       !> The path
       character(len=*), intent(in) :: path
-      is_directory = c_is_directory(path//c_null_char) == 1_c_int
+      is_directory = target_kind(path) == path_directory
    end function is_directory
 
    !> Whether two paths lead to one file, links followed

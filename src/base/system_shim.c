@@ -15,25 +15,30 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* What a path is, links not followed: 0 nothing, 1 regular file, 2 directory,
-   3 symbolic link, 4 anything else; -errno if that cannot be told. */
+/* A kind of file: 1 regular file, 2 directory, 3 symbolic link, 4 anything else. */
+static int kind_of(mode_t mode)
+{
+   if (S_ISREG(mode)) return 1;
+   if (S_ISDIR(mode)) return 2;
+   if (S_ISLNK(mode)) return 3;
+   return 4;
+}
+
+/* What a path is, links not followed: 0 nothing, else its kind; -errno if that
+   cannot be told. */
 int axijoint_path_kind(const char *path)
 {
    struct stat status;
    if (lstat(path, &status) != 0) return errno == ENOENT ? 0 : -errno;
-   if (S_ISREG(status.st_mode)) return 1;
-   if (S_ISDIR(status.st_mode)) return 2;
-   if (S_ISLNK(status.st_mode)) return 3;
-   return 4;
+   return kind_of(status.st_mode);
 }
 
-/* Whether a path, links followed, is a directory: 1 or 0; -errno if it
-   cannot be reached. */
-int axijoint_is_directory(const char *path)
+/* The same, links followed: a link that leads nowhere is nothing. */
+int axijoint_target_kind(const char *path)
 {
    struct stat status;
-   if (stat(path, &status) != 0) return -errno;
-   return S_ISDIR(status.st_mode) ? 1 : 0;
+   if (stat(path, &status) != 0) return errno == ENOENT ? 0 : -errno;
+   return kind_of(status.st_mode);
 }
 
 /* Whether two paths, links followed, lead to one file: 1 or 0. */

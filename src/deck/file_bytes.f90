@@ -1,7 +1,7 @@
 !> A text file as one string of bytes
 module axijoint_deck_file_bytes
    use axijoint_base_kinds, only : i8
-   use axijoint_base_system, only : is_directory, path_kind, path_absent, path_other
+   use axijoint_base_system, only : path_kind, target_kind, path_absent, path_directory, path_other
    use axijoint_base_text, only : to_text
    implicit none
    private
@@ -66,9 +66,11 @@ contains
          failure = 'the path is empty'
       else if (path_kind(path) == path_absent) then
          failure = 'there is no such file'
-      else if (is_directory(path)) then
+      else if (target_kind(path) == path_absent) then
+         failure = 'this is a link that leads to no file'
+      else if (target_kind(path) == path_directory) then
          failure = 'this is a directory, not a file'
-      else if (path_kind(path) == path_other) then
+      else if (target_kind(path) == path_other) then
          failure = 'this is not a regular file'
       end if
    end function path_failure

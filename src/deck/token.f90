@@ -71,7 +71,7 @@ contains
 
       value = 0
       do i = 1, len(number)
-         value = 10*value + iachar(number(i:i)) - iachar('0')
+         value = 10*value + (iachar(number(i:i)) - iachar('0'))  ! in this order 2147483647 is in range
       end do
    end function digits_value
 

@@ -137,6 +137,15 @@ def made(folder, make, name='job.dat'):
     return name
 
 
+def included_link(program, folder, target, words):
+    """An INCLUDE card that names a symbolic link"""
+    place = os.path.join(folder, 'decks')
+    os.mkdir(place)
+    os.symlink(target, os.path.join(place, 'a.inc'))
+    return made_faults(program, folder, including('a.inc'),
+                       f'16:11-15: error: the included file a.inc: {words}')
+
+
 def many_errors(program, folder):
     """Of more than 100 errors the first 100 are told, and all are counted"""
     cards = ''.join(f'{k}, -1.0, 0.0\n' for k in range(11, 262))
@@ -169,6 +178,13 @@ def tests(program):
             program, folder, made(folder, os.mkfifo), 'job.dat: error: this is not a regular')),
         test('device', lambda folder: refused(
             program, folder, '/dev/zero', '/dev/zero: error: this is not a regular file')),
+        test('symbolic link to a device', lambda folder: refused(
+            program, folder, made(folder, lambda path: os.symlink('/dev/zero', path)),
+            'job.dat: error: this is not a regular file')),
+        test('included link to a device', lambda folder: included_link(
+            program, folder, '/dev/null', 'this is not a regular file')),
+        test('included link to nothing', lambda folder: included_link(
+            program, folder, 'nothing', 'this is a link that leads to no file')),
         test('symbolic link to itself', lambda folder: refused(
             program, folder, made(folder, loop), 'job.dat: error: the file cannot be opened')),
         test('unreadable', lambda folder: unreadable(program, folder)),
