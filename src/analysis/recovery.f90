@@ -18,7 +18,7 @@ module axijoint_analysis_recovery
    use axijoint_joints_field, only : joint_field_type, stress_amplitude
    use axijoint_joints_residual, only : ratio, load_norm
    use axijoint_model_mesh, only : n_elements, n_nodes
-   use axijoint_model_model, only : model_type, element_references, on_axis
+   use axijoint_model_model, only : model_type, element_references, held_components, on_axis
    implicit none
    private
    public :: recover
@@ -159,7 +159,7 @@ contains
 
       logical :: pole(size(model%mesh%node_label))
 
-      held = model%fixed
+      held = held_components(model, mode)
       if (is_torsion(mode)) then
          held(1:2, :) = .false.
       else if (mode%harmonic == 0) then

@@ -1,6 +1,7 @@
 !> Sentences about results that the user should know
 module axijoint_analysis_remarks
    use axijoint_analysis_motion, only : motion_text
+   use axijoint_analysis_pins, only : pin_text
    use axijoint_analysis_results, only : results_type, remark_type
    use axijoint_analysis_structure, only : structure_type
    use axijoint_base_kinds, only : wp, degree
@@ -37,6 +38,8 @@ contains
       !> The sentences, each of which fits a line of the listing
       type(remark_type), allocatable :: remarks(:)
 
+      character(len=:), allocatable :: pins
+
       allocate (remarks(0))
       if (size(results%path) > 0) then
          call remark_on_end(model, structure, history, results, remarks)
@@ -46,6 +49,8 @@ contains
                   to_text(maxval(results%solves%condition))//', residual '// &
                   to_text(results%residual_ratio)//'): stiffnesses out of all proportion?')
       end if
+      pins = pin_text(model, structure, history%loading, field, results)
+      if (len(pins) > 0) call add(remarks, pins)
    end function remarks_on
 
    !> Why the increments ended as they did

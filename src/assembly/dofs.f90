@@ -22,7 +22,7 @@ module axijoint_assembly_dofs
 
 contains
 
-   !> Modes of one class share their equations: torsion has w only, the
+   !> Modes of one kinematic class have the same components: torsion has w only, the
    !> symmetric harmonic 0 no w; from 1 on, all have u, v, w, but on the axis 1
    !> and the rest differ
    elemental integer function kinematic_class(mode, touches_axis)

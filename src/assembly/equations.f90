@@ -1,7 +1,8 @@
 !> The equations of all harmonics: matrices, factors, solution
 module axijoint_assembly_equations
-   use axijoint_assembly_dofs, only : gather, expand, kinematic_class
+   use axijoint_assembly_dofs, only : gather, expand
    use axijoint_assembly_harmonic, only : harmonic_product
+   use axijoint_assembly_mode_classes, only : mode_classes
    use axijoint_assembly_stiffness, only : stiffness_type, new_stiffness, assemble_parts
    use axijoint_assembly_support, only : support_point_type
    use axijoint_base_error, only : error_type
@@ -9,7 +10,7 @@ module axijoint_assembly_equations
    use axijoint_fe_mode, only : mode_type
    use axijoint_linalg_lapack, only : norm_step
    use axijoint_model_joint_points, only : model_joint_point_type
-   use axijoint_model_model, only : model_type, on_axis
+   use axijoint_model_model, only : model_type
    use axijoint_order_graph, only : bandwidth
    use axijoint_solver_choice, only : solver_auto, solver_band, solver_sparse, orders_type, &
                                       order_for, new_solver, expected_seconds
@@ -27,8 +28,8 @@ module axijoint_assembly_equations
    !> Rate of matrix products that solvers are chosen by [operations/second]
    real(wp), parameter :: nominal_rate = 5.0e10_wp
 
-   !> K_m of one harmonic: both families of it share the matrix; m = 0 has one for
-   !> the symmetric family and one for torsion
+   !> K_m of one harmonic: both families of it share the matrix unless restraints tell them apart;
+   !> m = 0 has one for the symmetric family and one for torsion
    type :: system_type
       !> Harmonic m
       integer :: harmonic = 0
@@ -125,7 +126,7 @@ contains
       order = order_for(orders, kind)
       equations%modes = modes
       equations%solver = kind
-      call divide_modes(modes, any(on_axis(model%mesh)), equations%system, equations%systems)
+      call divide_modes(modes, mode_classes(model, modes), equations%system, equations%systems)
       n_classes = maxval([0, equations%systems%class])
       allocate (equations%classes(n_classes), equations%plans(n_classes))
       do k = 1, n_classes
@@ -138,24 +139,23 @@ contains
       end do
    end subroutine plan_solver
 
-   !> Divide the modes into systems, and the systems into classes
-   subroutine divide_modes(modes, touches_axis, system, systems)
+   !> Divide the modes into systems
+   subroutine divide_modes(modes, class, system, systems)
       !> Modes, ascending
       type(mode_type), intent(in) :: modes(:)
-      !> Whether the mesh has nodes at r = 0
-      logical, intent(in) :: touches_axis
+      !> Class of each
+      integer, intent(in) :: class(:)
       !> System of each mode
       integer, allocatable, intent(out) :: system(:)
       !> Systems, without matrices
       type(system_type), allocatable, intent(out) :: systems(:)
 
-      integer :: kinds(size(modes)), k, s
+      integer :: k, s
       logical :: first(size(modes))
 
-      kinds = kinematic_class(modes, touches_axis)
       first = .true.
       do k = 2, size(modes)
-         first(k) = modes(k)%harmonic /= modes(k - 1)%harmonic .or. kinds(k) /= kinds(k - 1)
+         first(k) = modes(k)%harmonic /= modes(k - 1)%harmonic .or. class(k) /= class(k - 1)
       end do
       system = [(count(first(:k)), k=1, size(modes))]
       allocate (systems(count(first)))
@@ -163,10 +163,7 @@ contains
          systems(s)%modes = pack([(k, k=1, size(modes))], system == s)
          k = systems(s)%modes(1)
          systems(s)%harmonic = modes(k)%harmonic
-         systems(s)%class = 1
-         if (s == 1) cycle
-         ! a class begins wherever the kind changes: modes of one kind follow each other
-         systems(s)%class = systems(s - 1)%class + merge(0, 1, kinds(k) == kinds(k - 1))
+         systems(s)%class = class(k)
       end do
    end subroutine divide_modes
 

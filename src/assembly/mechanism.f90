@@ -9,6 +9,7 @@ module axijoint_assembly_mechanism
    use axijoint_fe_mode, only : mode_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type
+   use axijoint_model_restraint, only : any_family
    implicit none
    private
    public :: check_mechanism
@@ -38,7 +39,7 @@ contains
       last = -1
       do k = 1, size(modes)
          if (modes(k)%harmonic > 1) exit
-         if (modes(k)%harmonic == 1 .and. last == 1) cycle  ! both families move alike
+         if (modes(k)%harmonic == 1 .and. last == 1 .and. .not. families_differ(model)) cycle
          last = modes(k)%harmonic
          message = message//text_of(modes(k))
       end do
@@ -65,11 +66,19 @@ contains
             place = maxloc(abs(free(:, i)), 1)
             text = text//new_line('a')//'  the part with node '// &
                to_text(model%mesh%node_label(findloc(part, (place - 1)/max_motions + 1, 1)))// &
-               trim(motion_name(mode, place))
+               motion_name(mode, place, families_differ(model))
          end do
       end function text_of
 
    end subroutine check_mechanism
 
+   !> Whether supports hold the families differently; else both move alike
+   pure logical function families_differ(model)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      families_differ = .false.
+      if (allocated(model%restraints)) families_differ = any(model%restraints%family /= any_family)
+   end function families_differ
 
 end module axijoint_assembly_mechanism

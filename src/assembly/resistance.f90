@@ -8,7 +8,7 @@ module axijoint_assembly_resistance
    use axijoint_linalg_lapack, only : symmetric_eigen
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_mesh, only : n_nodes
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, held_components
    implicit none
    private
    public :: free_motions
@@ -69,14 +69,16 @@ contains
       real(wp), intent(inout) :: resistance(:, :)
 
       real(wp) :: motion(3, max_motions)
+      logical, allocatable :: held(:, :)
       integer :: node, i, first
 
+      held = held_components(model, mode)
       do node = 1, n_nodes(model%mesh)
-         if (.not. any(model%fixed(:, node))) cycle
+         if (.not. any(held(:, node))) cycle
          motion = rigid_motion(model%mesh, frame, mode, node)
          first = max_motions*(part(node) - 1)
          do i = 1, 3
-            if (.not. model%fixed(i, node)) cycle
+            if (.not. held(i, node)) cycle
             if (.not. any(abs(motion(i, :)) > 0.0_wp)) cycle
             call add_row(motion(i, :), [first + 1, first + 2], resistance)
          end do

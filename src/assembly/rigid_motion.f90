@@ -1,7 +1,7 @@
 !> Parts of a mesh and their rigid motions
 module axijoint_assembly_rigid_motion
    use axijoint_base_kinds, only : wp
-   use axijoint_fe_mode, only : mode_type, is_torsion
+   use axijoint_fe_mode, only : mode_type, is_torsion, mode_name
    use axijoint_model_mesh, only : mesh_type, n_elements, n_nodes
    implicit none
    private
@@ -73,22 +73,27 @@ contains
    end function frame_of
 
    !> A rigid motion in words
-   pure function motion_name(mode, place) result(name)
+   pure function motion_name(mode, place, with_family) result(name)
       !> Mode of harmonic 0 or 1
       type(mode_type), intent(in) :: mode
       !> Place of the motion in the resistance matrix
       integer, intent(in) :: place
+      !> Whether the family matters
+      logical, intent(in) :: with_family
       !> Words
-      character(len=40) :: name
+      character(len=:), allocatable :: name
 
       if (is_torsion(mode)) then
          name = ' is free to turn about z (torsion)'
       else if (mode%harmonic == 0) then
          name = ' is free to move along z (harmonic 0)'
-      else if (mod(place, max_motions) == 1) then
-         name = ' is free to move sideways (harmonic 1)'
       else
-         name = ' is free to tilt (harmonic 1)'
+         name = ' is free to '//trim(merge('move sideways', 'tilt         ', mod(place, max_motions) == 1))
+         if (with_family) then
+            name = name//' (harmonic '//mode_name(mode)//')'
+         else
+            name = name//' (harmonic 1)'
+         end if
       end if
    end function motion_name
 

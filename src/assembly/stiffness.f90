@@ -19,7 +19,7 @@ module axijoint_assembly_stiffness
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_material, only : elasticity
    use axijoint_model_mesh, only : mesh_type, max_element_nodes, n_nodes, n_elements
-   use axijoint_model_model, only : model_type, element_references, on_axis
+   use axijoint_model_model, only : model_type, element_references, held_components, on_axis
    use axijoint_order_graph, only : graph_type
    implicit none
    private
@@ -73,7 +73,7 @@ contains
       integer :: k
 
       at_axis = on_axis(model%mesh)
-      call new_dofs(stiffness%dofs, mode, at_axis, model%fixed, order)
+      call new_dofs(stiffness%dofs, mode, at_axis, held_components(model, mode), order)
       call new_pattern(stiffness%pattern, graph, stiffness%dofs, order)
       ! with nodes on the axis harmonic 1 has equations of its own
       if (mode%harmonic == 0 .or. (mode%harmonic == 1 .and. any(at_axis))) then

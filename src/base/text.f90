@@ -4,7 +4,7 @@ module axijoint_base_text
    use axijoint_base_kinds, only : wp, i8
    implicit none
    private
-   public :: to_text, lower, upper, count_of, edit_distance, nearest_word
+   public :: to_text, percent_text, lower, upper, count_of, edit_distance, nearest_word
 
    !> A number as text without blanks
    interface to_text
@@ -77,6 +77,24 @@ contains
       end if
       if (value < 0.0_wp) text = '-'//text
    end function real_text
+
+   !> A share in per cent with three significant digits: 12.3 %
+   pure function percent_text(share) result(text)
+      !> The share
+      real(wp), intent(in) :: share
+      !> Its text
+      character(len=:), allocatable :: text
+
+      character(len=16) :: buffer
+      real(wp) :: rounded
+
+      rounded = 100.0_wp*share
+      if (ieee_is_finite(rounded)) then
+         write (buffer, '(es16.2e4)') rounded
+         read (buffer, '(es16.2e4)') rounded
+      end if
+      text = real_text(rounded)//' %'
+   end function percent_text
 
    !> Nothing instead of a decimal point without decimals
    pure function trim_point(decimals) result(text)

@@ -7,7 +7,7 @@ module axijoint_deck_layout
       angle, largest_body, largest_division, largest_harmonic
    use axijoint_deck_field, only : field_type, integer_field, real_field, word_field, code_field, &
       text_field, largest_number
-   use axijoint_deck_load_fields, only : load_fields
+   use axijoint_deck_load_fields, only : load_fields, harmonic_range
    use axijoint_model_model, only : method_names
    use axijoint_model_request, only : goal_names, goal_displacement
    use axijoint_solver_choice, only : solver_names
@@ -113,13 +113,13 @@ contains
          fields = [number('the law', 1), number('face a', 6), number('face b', 11)]
       case (section_restraints)
          fields = [number('the node', 1), code_field('the code', 6, 10), &
-                   last_number('the last node', 11), step(16)]
+                   last_number('the last node', 11), step(16), harmonic_range(21)]
       case (section_groups)
          fields = group_fields()
       case (section_sections, section_cuts, section_sweep, section_error)
          fields = request_fields(section)
       case (section_fixed_faces)
-         fields = [number('the face', 1), code_field('the code', 6, 10)]
+         fields = [number('the face', 1), code_field('the code', 6, 10), harmonic_range(11)]
       case default
          fields = load_fields(section_names(section))
       end select

@@ -7,14 +7,16 @@ module axijoint_deck_load_fields
    use axijoint_deck_field, only : field_type, integer_field, real_field, word_field, text_field
    implicit none
    private
-   public :: load_fields
-   public :: name_harmonic, name_family, name_shape, name_last, name_step
+   public :: load_fields, harmonic_range
+   public :: name_harmonic, name_family, name_shape, name_last, name_step, name_held
 
    !> Names by which the fields of the distribution round the circle are found
    character(len=*), parameter :: name_harmonic = 'the harmonic', name_family = 'the family', &
       name_shape = 'the shape'
    !> Names of the fields of a row of nodes
    character(len=*), parameter :: name_last = 'the last node', name_step = 'the step'
+   !> Name of the field that says whether a displacement is held in other harmonics, too
+   character(len=*), parameter :: name_held = 'where it is held'
    !> Families, kinds of shapes and of resultants; their places are the fields' values
    character(len=1), parameter :: families(2) = ['S', 'A']
    character(len=6), parameter :: shape_kinds(3) = [character(len=6) :: 'PATCH', 'COSINE', 'TABLE']
@@ -69,10 +71,10 @@ contains
                    real_field('T', 21, 30), family(31), shape_number(36)]
       case ('MOVEDNODES')
          fields = [number('the node', 1), harmonic(6), displacements('', 11), family(41), &
-                   last_number(name_last, 46), step(51)]
+                   last_number(name_last, 46), step(51), held_in(56)]
       case ('MOVEDFACES')
          fields = [number('the face', 1), harmonic(6), displacements(' at the first point', 11), &
-                   displacements(' at the last point', 41), family(71)]
+                   displacements(' at the last point', 41), family(71), held_in(76)]
       case ('SPRINGS')
          fields = [number('the face', 1), spring('k_n', 6), spring('k_s', 16), spring('k_theta', 26)]
       case ('INSITU')
@@ -128,6 +130,26 @@ contains
       type(field_type) :: field
       field = word_field(name_family, first, first + 4, families, 1)
    end function family
+
+   !> Fields of the harmonics and the family that a restraint holds in; in all if blank
+   pure function harmonic_range(first) result(fields)
+      !> First column
+      integer, intent(in) :: first
+      !> The fields
+      type(field_type) :: fields(3)
+      fields = [integer_field('the first harmonic', first, first + 4, 0, largest_harmonic, default=0), &
+                integer_field('the last harmonic', first + 5, first + 9, 0, largest_harmonic, default=0), &
+                family(first + 10)]
+   end function harmonic_range
+
+   !> Field that says whether a given displacement is held in every harmonic, at 0 in the others
+   pure function held_in(first) result(field)
+      !> First column
+      integer, intent(in) :: first
+      !> The field
+      type(field_type) :: field
+      field = word_field(name_held, first, first + 4, [character(len=5) :: 'EVERY', 'ONLY'], 1)
+   end function held_in
 
    !> Field of the number of a shape; blank if a harmonic is given
    pure function shape_number(first) result(field)

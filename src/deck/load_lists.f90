@@ -9,8 +9,18 @@ module axijoint_deck_load_lists
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: load_lists_type, new_load_lists, take_loads
+   public :: load_lists_type, move_type, new_load_lists, take_loads
    public :: add_tractions, add_ring_load, add_temperatures, add_move
+
+   !> A given displacement, and what its card says of it
+   type, extends(prescribed_type) :: move_type
+      !> The card
+      integer :: card = 0
+      !> Whether the component is held in the mode of the card only
+      logical :: only = .false.
+      !> Whether it is a card of nodes, not of a face
+      logical :: of_nodes = .false.
+   end type move_type
 
    !> Loads; the arrays of `n_` may be longer than these counts
    type :: load_lists_type
@@ -26,9 +36,8 @@ module axijoint_deck_load_lists
       type(body_load_type), allocatable :: body_loads(:)
       !> Temperatures, one entry for each case, mode and body
       type(thermal_load_type), allocatable :: thermal_loads(:)
-      !> Displacements that are given, zeros too, and the card of each
-      type(prescribed_type), allocatable :: moves(:)
-      integer, allocatable :: move_card(:)
+      !> Displacements that are given, zeros too
+      type(move_type), allocatable :: moves(:)
       integer :: n_moves = 0
       !> In-situ stresses
       type(initial_stress_type), allocatable :: initial_stresses(:)
@@ -48,7 +57,7 @@ contains
       type(load_lists_type) :: lists
 
       lists%n_nodes = n_nodes
-      allocate (lists%edge_loads(64), lists%ring_loads(64), lists%moves(64), lists%move_card(64))
+      allocate (lists%edge_loads(64), lists%ring_loads(64), lists%moves(64))
       allocate (lists%body_loads(0), lists%thermal_loads(0), lists%initial_stresses(0))
       allocate (lists%edge_supports(0))
    end function new_load_lists
@@ -175,27 +184,21 @@ contains
    end subroutine add_temperature_field
 
    !> Add a given displacement
-   pure subroutine add_move(lists, move, card)
+   pure subroutine add_move(lists, move)
       !> The lists
       type(load_lists_type), intent(inout) :: lists
       !> The displacement; may be zero
-      type(prescribed_type), intent(in) :: move
-      !> Its card
-      integer, intent(in) :: card
+      type(move_type), intent(in) :: move
 
-      type(prescribed_type), allocatable :: larger(:)
-      integer, allocatable :: more_cards(:)
+      type(move_type), allocatable :: larger(:)
 
       if (lists%n_moves == size(lists%moves)) then
-         allocate (larger(2*lists%n_moves), more_cards(2*lists%n_moves))
+         allocate (larger(2*lists%n_moves))
          larger(:lists%n_moves) = lists%moves
-         more_cards(:lists%n_moves) = lists%move_card
          call move_alloc(larger, lists%moves)
-         call move_alloc(more_cards, lists%move_card)
       end if
       lists%n_moves = lists%n_moves + 1
       lists%moves(lists%n_moves) = move
-      lists%move_card(lists%n_moves) = card
    end subroutine add_move
 
    !> Move the loads into the model; displacements are left to their check

@@ -18,7 +18,7 @@ module axijoint_deck_loads
       read_node_temperature, read_in_situ
    use axijoint_deck_moves, only : read_moved_nodes, read_moved_face, take_moves
    use axijoint_deck_node_loads, only : read_ring_load, read_point_load
-   use axijoint_deck_restraints, only : fix_nodes, fix_faces
+   use axijoint_deck_restraints, only : read_restraints
    use axijoint_deck_sections, only : sections_type
    use axijoint_deck_shapes, only : read_shapes
    use axijoint_deck_source, only : source_type
@@ -54,7 +54,6 @@ contains
       type(load_lists_type) :: lists
       integer :: k
 
-      allocate (model%fixed(3, draft%n_nodes), source=.false.)
       card%source => source
       card%sections => sections
       card%draft => draft
@@ -65,8 +64,8 @@ contains
          end if
          call read_harmonics(source, tables(section_harmonics), card%highest, card%harmonics, diagnostics)
          call read_shapes(source, tables(section_shapes), card%shapes, diagnostics)
-         call fix_nodes(source, tables(section_restraints), draft, model%fixed, diagnostics)
-         call fix_faces(source, tables(section_fixed_faces), draft, model%fixed, diagnostics)
+         call read_restraints(source, tables(section_restraints), tables(section_fixed_faces), draft, &
+                              card%highest, model, diagnostics)
          call read_cases(source, tables(section_case), first_load(tables(load_sections)), card%cases, &
                          diagnostics)
          lists = new_load_lists(draft%n_nodes)

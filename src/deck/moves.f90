@@ -8,13 +8,14 @@ module axijoint_deck_moves
    use axijoint_deck_face_geometry, only : linear_along
    use axijoint_deck_load_card, only : load_card_type, is_given, integer_of, real_of, reals_of, &
       field_named, field_fault, is_sound, find_any_face, find_row
-   use axijoint_deck_load_fields, only : name_harmonic, name_family
-   use axijoint_deck_load_lists, only : load_lists_type, add_move
+   use axijoint_deck_layout, only : section_moved_nodes
+   use axijoint_deck_load_fields, only : name_harmonic, name_family, name_held
+   use axijoint_deck_load_lists, only : load_lists_type, move_type, add_move
    use axijoint_deck_load_modes, only : share_type, truncation_list_type, read_shares, check_components
    use axijoint_deck_source, only : source_type, card_position
    use axijoint_fe_mode, only : mode_type, same_mode, is_torsion, mode_name
-   use axijoint_model_load, only : prescribed_type
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, held_at
+   use axijoint_model_restraint, only : restraint_type, hold_in
    implicit none
    private
    public :: read_moved_nodes, read_moved_face, take_moves
@@ -125,7 +126,9 @@ contains
       type(mode_type) :: mode
       real(wp) :: value
       integer :: component, i
+      logical :: only
 
+      only = integer_of(card, field_named(card, name_held)) > 1
       mode = mode_type(integer_of(card, field_named(card, name_harmonic)), &
                        integer_of(card, field_named(card, name_family)))
       do component = 1, 3
@@ -142,8 +145,8 @@ contains
                value = -value
             end if
          end if
-         call add_move(lists, prescribed_type(mode, card%case, node, i, value), &
-                       card%table%cards(1, card%entry))
+         call add_move(lists, move_type(mode, card%case, node, i, value, card=card%table%cards(1, card%entry), &
+                                        only=only, of_nodes=card%section == section_moved_nodes))
       end do
    end subroutine move_node
 
@@ -179,8 +182,8 @@ contains
                        allowed='on the axis v in harmonic 0, and u = -w in harmonic 1')
    end subroutine report_pole
 
-   !> Move the displacements into the model, which holds their components in all modes.
-   !> Those that contradict each other or a restraint are reported
+   !> Move the displacements into the model, which holds their components in all modes, or in
+   !> their own only. Those that contradict each other or a restraint are reported
    subroutine take_moves(source, draft, lists, model, diagnostics)
       !> The deck
       type(source_type), intent(in) :: source
@@ -199,7 +202,7 @@ contains
 
       associate (moves => lists%moves(:lists%n_moves))
          kept = abs(moves%value) > 0.0_wp
-         call check_restraints(draft, lists, model%fixed, diagnostics)
+         call check_restraints(draft, lists, model, diagnostics)
          order = order_of(moves)
          do k = 2, size(order)
             if (.not. same_component(moves(order(k)), moves(order(k - 1)))) cycle
@@ -207,16 +210,36 @@ contains
             call check_same(source, draft, lists, order(k), order(k - 1), diagnostics)
          end do
          do i = 1, size(moves)
-            model%fixed(moves(i)%component, moves(i)%node) = .true.
+            call hold_component(moves(i), model)
          end do
-         model%prescribed = pack(moves, kept)
+         model%prescribed = pack((moves%prescribed_type), kept)
       end associate
    end subroutine take_moves
+
+   !> Hold the component of a given displacement
+   subroutine hold_component(move, model)
+      !> The displacement
+      type(move_type), intent(in) :: move
+      !> The job
+      type(model_type), intent(inout) :: model
+
+      integer :: k
+
+      if (move%only) then
+         call hold_in(model%restraints, &
+                      restraint_type(move%mode%harmonic, move%mode%harmonic, move%mode%family), &
+                      size(model%fixed, 2), [move%node], [(k == move%component, k=1, 3)])
+         return
+      end if
+      model%held_by_default(move%component, move%node) = move%of_nodes &
+         .and. (model%held_by_default(move%component, move%node) .or. .not. model%fixed(move%component, move%node))
+      model%fixed(move%component, move%node) = .true.
+   end subroutine hold_component
 
    !> Displacements by node, component, case and mode; else as they were given
    pure function order_of(moves) result(order)
       !> The displacements
-      type(prescribed_type), intent(in) :: moves(:)
+      type(move_type), intent(in) :: moves(:)
       !> Indices
       integer, allocatable :: order(:)
 
@@ -233,34 +256,35 @@ contains
    !> Whether two displacements are of the same component, mode and case
    pure logical function same_component(a, b)
       !> The displacements
-      type(prescribed_type), intent(in) :: a, b
+      type(move_type), intent(in) :: a, b
 
       same_component = a%node == b%node .and. a%component == b%component .and. a%case == b%case &
                        .and. same_mode(a%mode, b%mode)
    end function same_component
 
    !> Report displacements of components that are fixed, once a card
-   subroutine check_restraints(draft, lists, fixed, diagnostics)
+   subroutine check_restraints(draft, lists, model, diagnostics)
       !> The mesh
       type(draft_type), intent(in) :: draft
       !> The loads
       type(load_lists_type), intent(in) :: lists
-      !> Components that RESTRAINTS and FIXEDFACES hold, shape (3, nodes)
-      logical, intent(in) :: fixed(:, :)
+      !> The job, which has what RESTRAINTS and FIXEDFACES hold
+      type(model_type), intent(in) :: model
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
       integer :: i, reported
-      logical :: held
+      logical :: fixed(3), held
 
       reported = 0
       do i = 1, lists%n_moves
          associate (move => lists%moves(i))
-            held = fixed(move%component, move%node)
+            fixed = held_at(model, move%mode, move%node)
+            held = fixed(move%component)
             if (.not. draft%position(1, move%node) > 0.0_wp .and. move%component == 1) &
-               held = any(fixed([1, 3], move%node))  ! w follows u there
-            if (.not. held .or. .not. abs(move%value) > 0.0_wp .or. lists%move_card(i) == reported) cycle
-            reported = lists%move_card(i)
+               held = any(fixed([1, 3]))  ! w follows u there
+            if (.not. held .or. .not. abs(move%value) > 0.0_wp .or. move%card == reported) cycle
+            reported = move%card
             call add_error(diagnostics, reported, 0, 0, &
                            'node '//to_text(draft%node_label(move%node))//' is moved along '// &
                            component_name(move%component)//' and fixed there', &
@@ -284,15 +308,14 @@ contains
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
-      associate (a => lists%moves(earlier), b => lists%moves(i), card => lists%move_card(i), &
-                 first_card => lists%move_card(earlier))
+      associate (a => lists%moves(earlier), b => lists%moves(i))
          if (abs(a%value - b%value) <= same_value*max(abs(a%value), abs(b%value))) return
-         call add_error(diagnostics, card, 0, 0, &
+         call add_error(diagnostics, b%card, 0, 0, &
                         'node '//to_text(draft%node_label(b%node))//' is moved along '// &
                         component_name(b%component)//' in harmonic '//mode_name(b%mode)// &
                         ' by two different amounts', &
                         found=component_name(b%component)//' = '//to_text(b%value)//', and '// &
-                        to_text(a%value)//' by '//card_position(source, first_card, card), &
+                        to_text(a%value)//' by '//card_position(source, a%card, b%card), &
                         allowed='one amount in a load case')
       end associate
    end subroutine check_same

@@ -1,9 +1,10 @@
 !> Nodes, solid elements and joints of the meridional plane
 module axijoint_model_mesh
    use axijoint_base_kinds, only : wp
+   use axijoint_fe_shape, only : n_corners
    implicit none
    private
-   public :: mesh_type, n_nodes, n_elements, n_joints
+   public :: mesh_type, edge_nodes, n_nodes, n_elements, n_joints
    public :: max_element_nodes
 
    !> Nodes of the largest solid element
@@ -64,5 +65,21 @@ contains
       type(mesh_type), intent(in) :: mesh
       n_joints = size(mesh%joint_label)
    end function n_joints
+
+   !> Nodes of a side of an element: first and last as they follow round the element, and the
+   !> middle one of a quadratic element
+   pure function edge_nodes(mesh, element, side) result(nodes)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> Element and side
+      integer, intent(in) :: element, side
+      !> Two or three nodes
+      integer, allocatable :: nodes(:)
+
+      associate (n => mesh%element_size(element), all_nodes => mesh%element_nodes(:, element))
+         nodes = all_nodes([side, mod(side, n_corners(n)) + 1])
+         if (n > 4) nodes = [nodes, all_nodes(n_corners(n) + side)]
+      end associate
+   end function edge_nodes
 
 end module axijoint_model_mesh

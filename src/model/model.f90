@@ -3,16 +3,18 @@ module axijoint_model_model
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_memory, only : no_limit
    use axijoint_element_joint_law, only : law_elastic
+   use axijoint_fe_mode, only : mode_type
    use axijoint_fe_reference, only : reference_type, new_reference
    use axijoint_model_load, only : edge_load_type, ring_load_type, body_load_type, &
       thermal_load_type, prescribed_type, initial_stress_type, edge_support_type, &
       load_case_type, combination_type, increment_type, truncation_type
    use axijoint_model_material, only : solid_material_type, joint_material_type
    use axijoint_model_mesh, only : mesh_type
+   use axijoint_model_restraint, only : restraint_type, acts_in
    use axijoint_model_request, only : line_type, cut_type, supported_face_type, sweep_type, error_goal_type
    implicit none
    private
-   public :: model_type, can_yield, can_yield_at, yielding_nodes, element_references, on_axis
+   public :: model_type, held_components, held_at, can_yield, can_yield_at, yielding_nodes, element_references, on_axis
    public :: method_newton, method_total, method_anderson, method_transfer, method_names
 
    !> How joints are brought to equilibrium: Newton's method; the paper's loop on
@@ -36,6 +38,11 @@ module axijoint_model_model
       !> Fixed components u, v, w of each node in every mode, shape (3, nodes);
       !> a component that is prescribed anywhere is one of them
       logical, allocatable :: fixed(:, :)
+      !> Components that are held in some modes only
+      type(restraint_type), allocatable :: restraints(:)
+      !> Those of `fixed` that cards of nodes hold, and hold in every mode because nothing else was
+      !> said, shape (3, nodes)
+      logical, allocatable :: held_by_default(:, :)
       !> Tractions on edges
       type(edge_load_type), allocatable :: edge_loads(:)
       !> Loads on nodal circles
@@ -91,6 +98,44 @@ module axijoint_model_model
    end type model_type
 
 contains
+
+   !> Components that supports hold in a mode
+   pure function held_components(model, mode) result(held)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> Whether u, v, w are held, shape (3, nodes)
+      logical, allocatable :: held(:, :)
+
+      integer :: k
+
+      held = model%fixed
+      if (.not. allocated(model%restraints)) return
+      do k = 1, size(model%restraints)
+         if (acts_in(model%restraints(k), mode)) held = held .or. model%restraints(k)%held
+      end do
+   end function held_components
+
+   !> Components of a node that supports hold in a mode
+   pure function held_at(model, mode, node) result(held)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> The node
+      integer, intent(in) :: node
+      !> Whether u, v, w are held
+      logical :: held(3)
+
+      integer :: k
+
+      held = model%fixed(:, node)
+      if (.not. allocated(model%restraints)) return
+      do k = 1, size(model%restraints)
+         if (acts_in(model%restraints(k), mode)) held = held .or. model%restraints(k)%held(:, node)
+      end do
+   end function held_at
 
    !> Whether any joint can open or slip, so that the job needs iterations
    pure logical function can_yield(model)

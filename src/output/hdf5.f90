@@ -8,7 +8,8 @@ module axijoint_output_hdf5
    use axijoint_output_echo, only : deck_text
    use axijoint_output_face_reactions, only : write_support_group
    use axijoint_output_hdf5_file, only : hdf5_file_type
-   use axijoint_output_hdf5_loads, only : write_load_group, write_spring_group
+   use axijoint_output_hdf5_loads, only : write_load_group, write_restraint_group, &
+      write_spring_group
    use axijoint_output_hdf5_sections, only : write_section_groups, write_cut_group
    use axijoint_output_run, only : run_type, status_name
    implicit none
@@ -112,6 +113,7 @@ contains
          call file%write("/mesh/joint_nodes", mesh%joint_nodes, &
             "1-2 one side, 4-3 opposite, 5 and 6 mid-sides, then zeros; (6, joint)")
       end associate
+      call write_restraint_group(file, model)
    end subroutine write_mesh
 
    !> Materials and joint laws. Parentheses make a component of an array of

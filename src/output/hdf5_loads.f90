@@ -3,11 +3,12 @@ module axijoint_output_hdf5_loads
    use axijoint_base_kinds, only : wp
    use axijoint_fe_mode, only : mode_type
    use axijoint_analysis_results, only : results_type
+   use axijoint_model_mesh, only : n_nodes
    use axijoint_model_model, only : model_type
    use axijoint_output_hdf5_file, only : hdf5_file_type
    implicit none
    private
-   public :: write_load_group, write_spring_group
+   public :: write_load_group, write_restraint_group, write_spring_group
 
 contains
 
@@ -151,5 +152,30 @@ contains
             "Normal to the edge, along it, along theta; (3, spring) [stress/length]")
       end associate
    end subroutine write_spring_group
+
+   !> Restraints that hold in some modes only; no group if there are none
+   subroutine write_restraint_group(file, model)
+      !> The file
+      class(hdf5_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+
+      integer, allocatable :: held(:, :, :)
+      integer :: k
+
+      if (.not. allocated(model%restraints)) return
+      if (size(model%restraints) == 0) return
+      allocate (held(3, n_nodes(model%mesh), size(model%restraints)))
+      call file%group("/restraints")
+      associate (restraints => model%restraints)
+         do k = 1, size(restraints)
+            held(:, :, k) = merge(1, 0, restraints(k)%held)
+         end do
+         call file%write("/restraints/first", (restraints%first), "First harmonic; (restraint)")
+         call file%write("/restraints/last", (restraints%last), "Last harmonic; (restraint)")
+         call file%write("/restraints/family", (restraints%family), "1 symmetric, 2 antisymmetric, 0 both; (restraint)")
+         call file%write("/restraints/held", held, "1 where u, v, w is held; (3, node, restraint)")
+      end associate
+   end subroutine write_restraint_group
 
 end module axijoint_output_hdf5_loads

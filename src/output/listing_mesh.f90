@@ -1,13 +1,16 @@
 !> Tables of the listing that show the mesh
 module axijoint_output_listing_mesh
+   use axijoint_fe_mode, only : family_symmetric
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
+   use axijoint_base_text, only : to_text
    use axijoint_model_model, only : model_type
+   use axijoint_model_restraint, only : restraint_type, any_family
    use axijoint_output_columns, only : columns
    use axijoint_output_headings, only : write_heading, width
    use axijoint_output_text_file, only : text_file_type
    implicit none
    private
-   public :: write_nodes, write_elements, write_joints
+   public :: write_nodes, write_restraints, write_elements, write_joints
 
    !> Number of an entry
    character(len=*), parameter :: format_label = '(i10)'
@@ -42,6 +45,48 @@ contains
          call file%put(label//columns(model%mesh%coordinates(:, i), narrow)//code)
       end do
    end subroutine write_nodes
+
+   !> Restraints that hold in some modes only
+   subroutine write_restraints(file, model)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+
+      character(len=16) :: row
+      integer :: k, i
+
+      if (.not. allocated(model%restraints)) return
+      if (size(model%restraints) == 0) return
+      call write_heading(file, "RESTRAINTS IN SOME HARMONICS (fixed components u v w: 1)")
+      call file%put("      node   uvw   harmonics")
+      do k = 1, size(model%restraints)
+         associate (restraint => model%restraints(k))
+            do i = 1, n_nodes(model%mesh)
+               if (.not. any(restraint%held(:, i))) cycle
+               write (row, '(i10, 3x, 3i1)') model%mesh%node_label(i), merge(1, 0, restraint%held(:, i))
+               call file%put(row//"   "//range_text(restraint))
+            end do
+         end associate
+      end do
+   end subroutine write_restraints
+
+   !> Harmonics and family of a restraint in words
+   pure function range_text(restraint) result(text)
+      !> The restraint
+      type(restraint_type), intent(in) :: restraint
+      !> The words
+      character(len=:), allocatable :: text
+
+      text = "all"
+      if (restraint%last < huge(0)) then
+         text = to_text(restraint%first)
+         if (restraint%last > restraint%first) text = text//" to "//to_text(restraint%last)
+      end if
+      if (restraint%family /= any_family) then
+         text = text//trim(merge(" symmetric    ", " antisymmetric", restraint%family == family_symmetric))
+      end if
+   end function range_text
 
    !> Elements
    subroutine write_elements(file, model)

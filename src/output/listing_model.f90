@@ -76,8 +76,25 @@ contains
       call write_fact(file, "planes theta from 0 to pi", to_text(model%n_planes))
       call write_fact(file, "points (3, 4, 6, 8, 9 nodes)", point_counts(model))
       if (model%mean_dilatation) call write_fact(file, "4-node elements", "mean volumetric strain (B-bar)")
-      call write_fact(file, "restrained nodes", to_text(count(any(model%fixed, dim=1))))
+      call write_fact(file, "restrained nodes", to_text(n_restrained(model)))
    end subroutine write_model
+
+   !> Nodes that are held in any mode
+   pure integer function n_restrained(model)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      logical :: held(n_nodes(model%mesh))
+      integer :: k
+
+      held = any(model%fixed, dim=1)
+      if (allocated(model%restraints)) then
+         do k = 1, size(model%restraints)
+            held = held .or. any(model%restraints(k)%held, dim=1)
+         end do
+      end if
+      n_restrained = count(held)
+   end function n_restrained
 
    !> Integration points of each kind of element
    pure function point_counts(model) result(text)
