@@ -1,7 +1,7 @@
 !> From a deck to a model
 module axijoint_deck_reader
    use axijoint_deck_arrange, only : sort_nodes_and_elements, sort_joints
-   use axijoint_deck_check_axis, only : check_slivers
+   use axijoint_deck_check_axis, only : check_slivers, check_holes
    use axijoint_deck_check_elements, only : check_elements
    use axijoint_deck_check_joints, only : check_joints, check_joint_edges
    use axijoint_deck_check_mesh, only : snap_to_axis, check_used, check_coincident, check_near, &
@@ -190,6 +190,7 @@ contains
          if (diagnostics%n_errors == 0) then
             call check_touching(draft, group, diagnostics)
             call check_slivers(draft, diagnostics)
+            call check_holes(draft, diagnostics)
          end if
          call sort_joints(draft)
       end associate
