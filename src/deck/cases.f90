@@ -11,7 +11,7 @@ module axijoint_deck_cases
    implicit none
    private
    public :: cases_type, read_cases, case_of_card, warn_of_empty_cases, read_combinations, &
-      refer_increments
+      refer_increments, warn_of_idle_cases
 
    !> Fields of CASE; first pair of COMBINE
    integer, parameter :: field_label = 1, field_name = 2, field_pair = 2
@@ -259,5 +259,39 @@ contains
                           allowed='a case of a CASE card; 1 for loads above the first CASE; blank for all')
       end do
    end subroutine refer_increments
+
+   !> Warn of increments that name load cases which no combination puts together, and of load cases
+   !> that no increment applies: their loads never act
+   subroutine warn_of_idle_cases(table, combined, cases, increments, combinations, diagnostics)
+      !> INCREMENTS
+      type(table_type), intent(in) :: table
+      !> Whether COMBINE is there
+      logical, intent(in) :: combined
+      !> Load cases
+      type(cases_type), intent(in) :: cases
+      !> The increments
+      type(increment_type), intent(in) :: increments(:)
+      !> The combinations
+      type(combination_type), intent(in) :: combinations(:)
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      integer :: case, k
+
+      if (size(cases%cases) == 1 .or. .not. any(increments%case > 0)) return
+      if (.not. combined) then
+         call add_warning(diagnostics, table%cards(1, findloc(increments%case > 0, .true., 1)), 0, 0, &
+                          'INCREMENTS names load cases, and no COMBINE puts them together: each is a job '// &
+                          'without the others', mend='add COMBINE with all load cases of the history')
+         return
+      end if
+      do case = 1, size(cases%cases)
+         if (any(increments%case == case .or. increments%case == 0)) cycle
+         if (.not. any([(abs(combinations(k)%factor(case)) > 0.0_wp, k=1, size(combinations))])) cycle
+         call add_warning(diagnostics, table%cards(1, 1), 0, 0, &
+                          'load case '//to_text(cases%cases(case)%label)//' is in no increment: its loads never act', &
+                          mend='give it an increment, or leave its number blank on a card: then the factor is of all')
+      end do
+   end subroutine warn_of_idle_cases
 
 end module axijoint_deck_cases

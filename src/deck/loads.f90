@@ -2,7 +2,7 @@
 module axijoint_deck_loads
    use axijoint_base_kinds, only : wp
    use axijoint_deck_cases, only : cases_type, read_cases, case_of_card, warn_of_empty_cases, refer_increments, &
-      read_combinations
+      read_combinations, warn_of_idle_cases
    use axijoint_deck_diagnostics, only : diagnostics_type, add_warning
    use axijoint_deck_draft, only : draft_type
    use axijoint_deck_face_loads, only : read_traction, read_pressure, read_resultant
@@ -75,6 +75,10 @@ contains
          call read_section(card, section_springs, lists)
          call read_combinations(source, tables(section_combine), card%cases, model%combinations, diagnostics)
          call refer_increments(source, tables(section_increments), card%cases, model%increments, diagnostics)
+         if (diagnostics%n_errors == 0) then
+            call warn_of_idle_cases(tables(section_increments), tables(section_combine)%n > 0, card%cases, &
+                                    model%increments, model%combinations, diagnostics)
+         end if
          call check_loaded(tables(load_sections), tables(section_case), card%cases, diagnostics)
       end associate
       model%harmonics = card%harmonics

@@ -38,6 +38,7 @@ module axijoint_deck_reader
    use axijoint_deck_source, only : source_type
    use axijoint_deck_source_reader, only : read_source
    use axijoint_deck_sweep, only : read_sweep
+   use axijoint_deck_unused, only : warn_of_unused
    use axijoint_model_model, only : model_type, element_references
    use axijoint_model_request, only : refinement_type
    implicit none
@@ -92,6 +93,7 @@ contains
          call take_model(draft, properties, model)
          call check_properties(sections, model, diagnostics)
          call warn_of_locking(sections, model, diagnostics)
+         call warn_of_unused(source, sections, draft, model%mesh, diagnostics)
          call check_planes(source, tables(section_control), model, diagnostics)
       end associate
    end subroutine read_deck

@@ -19,6 +19,8 @@ module axijoint_deck_sections
       type(table_type) :: tables(n_sections)
       !> Title
       character(len=:), allocatable :: title
+      !> Keyword cards that no entries follow and that do not announce none
+      integer, allocatable :: empty(:)
       !> False if cards are lacking or belong nowhere, so that references
       !> between cards cannot be judged
       logical :: complete = .true.
@@ -54,7 +56,7 @@ contains
       end do
       allocate (entries(source%n_cards), source=0)
       call read_entries(source, owner, sections, entries, diagnostics)
-      call read_keywords(source, entries, sections%complete, diagnostics)
+      call read_keywords(source, entries, sections, diagnostics)
       call check_control(source, sections%tables(section_control), diagnostics)
    end subroutine read_sections
 
@@ -269,19 +271,20 @@ contains
    end subroutine read_entries
 
    !> Read the keyword cards and check the numbers of entries given there
-   subroutine read_keywords(source, entries, complete, diagnostics)
+   subroutine read_keywords(source, entries, sections, diagnostics)
       !> The deck
       type(source_type), intent(in) :: source
       !> Number of entries that follow each keyword card
       integer, intent(in) :: entries(:)
-      !> Whether all cards are there
-      logical, intent(in) :: complete
+      !> The sections, whether they are complete; takes those without entries
+      type(sections_type), intent(inout) :: sections
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
       type(table_type) :: table
       integer :: card
 
+      allocate (sections%empty(0))
       do card = 1, source%n_cards
          if (source%cards(card)%kind /= card_keyword) cycle
          associate (section => source%cards(card)%keyword)
@@ -289,8 +292,12 @@ contains
             if (.not. starts_with_letter(source, card)) cycle  ! reported already
             table = new_table(keyword_fields(section), 1)
             call read_entry(table, source, [card], diagnostics)
-            if (.not. (table%given(size(table%fields), 1) .and. size(table%fields) > 1)) cycle
-            if (integer_value(table, 2, 1) == entries(card) .or. .not. complete) cycle
+            if (size(table%fields) == 1) cycle  ! TITLE, END
+            if (.not. table%given(2, 1)) then
+               if (entries(card) == 0 .and. section /= section_sweep) sections%empty = [sections%empty, card]
+               cycle
+            end if
+            if (integer_value(table, 2, 1) == entries(card) .or. .not. sections%complete) cycle
             call field_error(diagnostics, source, table, 1, 2, &
                              trim(section_names(section))//' announces '// &
                              count_of(integer_value(table, 2, 1), 'entry')//' but has '// &

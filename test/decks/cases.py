@@ -3,6 +3,7 @@ import json
 import os
 
 import listing
+from messages import expected_messages, message_faults
 from support import Test, expected, read_text, write
 
 RING = """TITLE
@@ -92,7 +93,16 @@ def turned_load(program, folder):
     return faults
 
 
+def not_combined(program, folder):
+    """Increments of load cases that no combination puts together"""
+    deck = RING.format(patch='-20, 30', output='0') + LOADS.format(turned=0) + 'INCREMENTS\n1, , , 4\n1, , , 2\n'
+    wanted = expected_messages(f'! warns: {deck.count(chr(10)) - 1}: warning: INCREMENTS names load cases, and no '
+                               'COMBINE puts them together', 'warns')
+    return message_faults(wanted, program.run('check', write(folder, 'job.dat', deck + 'END\n')))[0]
+
+
 def tests(program):
     """The tests of this module"""
     return [Test('load cases: combinations', lambda folder: combinations_add_up(program, folder)),
-            Test('load cases: turned load', lambda folder: turned_load(program, folder))]
+            Test('load cases: turned load', lambda folder: turned_load(program, folder)),
+            Test('load cases: not combined', lambda folder: not_combined(program, folder))]

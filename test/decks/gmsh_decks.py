@@ -287,6 +287,7 @@ def same_face(program, folder, mesh, group, chain):
     deck = deck.replace('      FACE    2      bottom\n', f' FACE, 2, , {group}\n')
     if group == '1':
         deck = deck.replace(bodies, '      BODY    1    1 2\n').replace('     JOINT    1      wall\n', '')
+        deck = deck.replace('LAWS\n    1     1.0E4     2.0E4     1.0E4       0.0      30.0\n', '')
         deck = deck.replace('      FACE    1      outside\n', '').replace('FIXEDFACES\n    1  111', 'RESTRAINTS\n    4  111')
     decks = [deck, deck.replace(f' FACE, 2, , {group}\n', '') .replace('END\n', f'CHAINS\n2, {chain}\nEND\n')]
     for k, text in enumerate(decks):

@@ -226,11 +226,11 @@ def pile(title, *, cohesion=0.0, friction=0.0, details=None, base=False, nodes=4
         deck.details(1, **details)
     deck.block(1, 1, nodes, 2, n, 0, 0, radius, length).block(2, 1, nodes, 1, n, radius, 0, wall, length)
     deck.faces((1, 1, 0, length, radius, length), (2, 1, radius, 0, radius, length),
-               (3, 2, radius, 0, radius, length), (4, 2, wall, 0, wall, length), (5, 1, 0, 0, radius, 0))
+               (3, 2, radius, 0, radius, length), (4, 2, wall, 0, wall, length))
     deck.add('INTERFACES', (1, 2, 3))
     if base:
         deck.block(2, 1, nodes, 2, 1, 0, -0.5, radius, 0).block(2, 1, nodes, 1, 1, radius, -0.5, wall, 0)
-        deck.faces((6, 2, 0, 0, radius, 0), (7, 2, 0, -0.5, wall, -0.5))
+        deck.faces((5, 1, 0, 0, radius, 0), (6, 2, 0, 0, radius, 0), (7, 2, 0, -0.5, wall, -0.5))
         deck.law(2, (k, k, k), 0.0, 30.0).add('INTERFACES', (2, 5, 6)).add('FIXEDFACES', (7, '111'))
     return deck.add('FIXEDFACES', (4, '111'))
 
