@@ -5,7 +5,7 @@ module axijoint_driver_check
    use axijoint_base_text, only : to_text
    use axijoint_cli, only : word_type
    use axijoint_deck_diagnostics, only : diagnostics_type, render
-   use axijoint_deck_reader, only : read_deck
+   use axijoint_job_reader, only : read_job
    use axijoint_deck_source, only : source_type
    use axijoint_model_modes, only : used_modes
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
@@ -30,7 +30,7 @@ contains
 
       exit_code = exit_ok
       do k = 1, size(decks)
-         call read_deck(decks(k)%text, source, model, diagnostics)
+         call read_job(decks(k)%text, source, model, diagnostics)
          if (diagnostics%n_errors + diagnostics%n_warnings > 0) then
             write (error_unit, '(a)') render(diagnostics, source)
          end if

@@ -7,7 +7,7 @@ module axijoint_driver_estimate
    use axijoint_base_kinds, only : wp
    use axijoint_cli, only : command_type
    use axijoint_deck_diagnostics, only : diagnostics_type, render
-   use axijoint_deck_reader, only : read_deck
+   use axijoint_job_reader, only : read_job
    use axijoint_deck_source, only : source_type
    use axijoint_driver_run, only : print_error
    use axijoint_linalg_lapack, only : product_rate
@@ -42,7 +42,7 @@ contains
       if (command%threads > 0) call omp_set_num_threads(command%threads)
       rate = product_rate()
       do k = 1, size(command%decks)
-         call read_deck(command%decks(k)%text, source, model, diagnostics)
+         call read_job(command%decks(k)%text, source, model, diagnostics)
          if (diagnostics%n_errors > 0) then
             write (error_unit, '(a)') render(diagnostics, source)
             exit_code = max(exit_code, exit_deck)

@@ -12,7 +12,7 @@ module axijoint_driver_goal
    use axijoint_base_timer, only : timer_type, phase_read
    use axijoint_cli, only : command_type
    use axijoint_deck_diagnostics, only : diagnostics_type, render
-   use axijoint_deck_reader, only : read_deck
+   use axijoint_job_reader, only : read_job
    use axijoint_deck_source, only : source_type
    use axijoint_model_model, only : model_type
    use axijoint_model_request, only : refinement_type
@@ -106,11 +106,11 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       call timer%push(phase_read)
-      call read_deck(deck, source, model, diagnostics, refinement)
+      call read_job(deck, source, model, diagnostics, refinement)
       if (diagnostics%n_errors > 0 .and. abs(refinement%mesh - anint(refinement%mesh)) > 0.0_wp) then
          ! an edge that faces two others keeps facing them if all are divided by the same integer
          refinement%mesh = ceiling(refinement%mesh)
-         call read_deck(deck, source, model, diagnostics, refinement)
+         call read_job(deck, source, model, diagnostics, refinement)
       end if
       call timer%pop()
       if (diagnostics%n_errors > 0) then

@@ -13,7 +13,7 @@ module axijoint_driver_run
    use axijoint_driver_goal, only : refine_to_goal, take_options
    use axijoint_cli, only : command_type, word_type
    use axijoint_deck_diagnostics, only : diagnostics_type, render, warning_texts
-   use axijoint_deck_reader, only : read_deck
+   use axijoint_job_reader, only : read_job
    use axijoint_deck_source, only : source_type
    use axijoint_model_model, only : model_type
    use axijoint_output_output, only : check_output, write_output, write_error_summary
@@ -83,7 +83,7 @@ contains
       call timer%start()
       call timer%push(phase_read)
       call show_progress(progress, 'reading '//deck)
-      call read_deck(deck, source, model, diagnostics)
+      call read_job(deck, source, model, diagnostics)
       call timer%pop()
       call clear_progress(progress)
       if (diagnostics%n_errors > 0) then

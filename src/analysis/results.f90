@@ -1,6 +1,7 @@
 !> Everything that a run computes and the output reports
 module axijoint_analysis_results
    use axijoint_analysis_discretization_error, only : discretization_error_type
+   use axijoint_analysis_in_situ, only : in_situ_type
    use axijoint_base_kinds, only : wp, i8
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_field, only : iteration_type
@@ -181,6 +182,8 @@ module axijoint_analysis_results
       !> Largest unbalance of a part, over the resultants of the loads. Joint
       !> forces out of balance cancel in the whole, but not on the parts
       real(wp) :: part_error = 0.0_wp
+      !> How far in-situ stress is out of balance with weight, supports and joints
+      type(in_situ_type) :: in_situ
       !> Errors that iteration, planes and harmonics leave in joints that yield
       type(joint_errors_type) :: joint_errors
       !> What the approximations leave of the error, side by side

@@ -4,6 +4,7 @@ module axijoint_analysis_static
    use axijoint_analysis_cuts, only : cut_resultants
    use axijoint_analysis_discretization, only : estimate_discretization
    use axijoint_analysis_error_budget, only : new_budget
+   use axijoint_analysis_in_situ_balance, only : in_situ_balance
    use axijoint_analysis_joint_error, only : nodal_error_type, new_nodal_error, answer_of_joints
    use axijoint_analysis_left_out, only : what_was_left_out
    use axijoint_analysis_nodal_stress, only : smooth_stress
@@ -86,6 +87,7 @@ contains
       results%orderings = structure%orderings
       results%left_out = what_was_left_out(model, structure)
       results%solver = structure%equations%solver
+      results%in_situ = in_situ_balance(model, combination)
       call timer%push(phase_joints)
       call new_nodal_error(model, size(results%modes), nodal)
       if (size(structure%yielding) > 0) then

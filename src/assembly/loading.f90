@@ -6,7 +6,8 @@ module axijoint_assembly_loading
    use axijoint_base_kinds, only : wp
    use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
    use axijoint_model_joint_points, only : model_joint_point_type
-   use axijoint_model_load, only : combination_type
+   use axijoint_model_load, only : combination_type, initial_stress_type, covers, is_stressed, scaled_stresses, &
+      stress_before
    use axijoint_model_mesh, only : n_nodes
    use axijoint_model_model, only : model_type, on_axis
    implicit none
@@ -157,7 +158,7 @@ contains
    end function prescribed_displacement
 
    !> In-situ stress of the bodies on the planes of their joints, of the mean of
-   !> both sides where both have one
+   !> both sides where both have one: a card that says zero is no stress
    pure function in_situ_joint_stress(model, points, factor) result(stress)
       !> The job
       type(model_type), intent(in) :: model
@@ -168,29 +169,22 @@ contains
       !> tau_xi, sigma, tau_theta, shape (3, points)
       real(wp) :: stress(3, size(points))
 
-      integer, allocatable :: body(:)
-      real(wp) :: sum_of(4), now(4)
-      integer :: k, i, side, n_sides
-      logical :: has
+      type(initial_stress_type), allocatable :: states(:)
+      real(wp) :: sum_of(4)
+      integer :: k, side, n_sides
 
       stress = 0.0_wp
       if (size(model%initial_stresses) == 0) return
-      body = body_of_nodes(model)
+      states = scaled_stresses(model%initial_stresses, factor)
       do k = 1, size(points)
          n_sides = 0
          sum_of = 0.0_wp
-         do side = 1, 3, 2  ! nodes 1 and 3 lie on opposite sides
-            now = 0.0_wp
-            has = .false.
-            do i = 1, size(model%initial_stresses)
-               associate (state => model%initial_stresses(i))
-                  if (state%body /= 0 .and. state%body /= body(points(k)%nodes(side))) cycle
-                  has = .true.
-                  now = now + factor(state%case)*(state%stress + points(k)%position(2)*state%gradient)
-               end associate
-            end do
-            if (has) n_sides = n_sides + 1
-            sum_of = sum_of + now
+         do side = 1, 2
+            associate (body => model%mesh%element_body(points(k)%elements(side)), &
+                       material => model%mesh%element_material(points(k)%elements(side)))
+               if (any(covers(states, body, material) .and. is_stressed(model%initial_stresses))) n_sides = n_sides + 1
+               sum_of = sum_of + stress_before(states, body, material, points(k)%position(2))
+            end associate
          end do
          if (n_sides == 0) cycle
          associate (s => sum_of/n_sides, c => points(k)%cosine, d => points(k)%sine)
@@ -229,11 +223,7 @@ contains
       integer, allocatable :: body(:)
       integer :: k, j
 
-      state%in_situ = model%initial_stresses
-      do k = 1, size(state%in_situ)
-         state%in_situ(k)%stress = factor(state%in_situ(k)%case)*state%in_situ(k)%stress
-         state%in_situ(k)%gradient = factor(state%in_situ(k)%case)*state%in_situ(k)%gradient
-      end do
+      state%in_situ = scaled_stresses(model%initial_stresses, factor)
       state%present = size(state%in_situ) > 0 .or. size(model%thermal_loads) > 0
       if (size(model%thermal_loads) == 0) return
       body = body_of_nodes(model)

@@ -7,7 +7,7 @@ module axijoint_assembly_solid_force
    use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
    use axijoint_fe_quadrature, only : max_element_points
    use axijoint_fe_reference, only : reference_type
-   use axijoint_model_load, only : body_load_type, initial_stress_type
+   use axijoint_model_load, only : body_load_type, initial_stress_type, stress_before
    use axijoint_model_material, only : elasticity, thermal_strain
    use axijoint_model_mesh, only : n_elements, max_element_nodes
    use axijoint_model_model, only : model_type, element_references
@@ -130,16 +130,10 @@ contains
       !> Amplitudes of r, z, theta, rz, r-theta, z-theta
       real(wp) :: stress(6)
 
-      integer :: i
-
       stress = 0.0_wp
       if (.not. same_mode(mode, mode_type(0, family_symmetric))) return
-      do i = 1, size(initial%in_situ)
-         associate (state => initial%in_situ(i))
-            if (state%body /= 0 .and. state%body /= model%mesh%element_body(element)) cycle
-            stress(:4) = stress(:4) + state%stress + point%position(2)*state%gradient
-         end associate
-      end do
+      stress(:4) = stress_before(initial%in_situ, model%mesh%element_body(element), &
+                                 model%mesh%element_material(element), point%position(2))
    end function in_situ_stress
 
    !> Add the nodal forces of an acceleration of all masses

@@ -2,7 +2,7 @@
 !> sections need not hand it on piece by piece
 module axijoint_deck_load_card
    use axijoint_base_kinds, only : wp
-   use axijoint_base_number_map, only : find_number
+   use axijoint_base_number_map, only : number_map_type, find_number
    use axijoint_base_text, only : to_text
    use axijoint_deck_cases, only : cases_type, case_of_card
    use axijoint_deck_diagnostics, only : diagnostics_type
@@ -15,12 +15,13 @@ module axijoint_deck_load_card
    use axijoint_deck_sections, only : sections_type
    use axijoint_deck_shapes, only : shapes_type
    use axijoint_deck_source, only : source_type
-   use axijoint_deck_table, only : table_type, field_error, entry_error, table_integer => integer_value
+   use axijoint_deck_table, only : table_type, field_error, field_warning, entry_error, &
+      table_integer => integer_value
    implicit none
    private
    public :: load_card_type, open_section, next_card
    public :: is_given, integer_of, real_of, reals_of, field_named, section_name
-   public :: field_fault, card_fault, is_sound
+   public :: field_fault, field_doubt, card_fault, is_sound
    public :: find_loaded_face, find_any_face, find_node, find_row, check_body
 
    !> One card of a section, and the deck around it
@@ -39,6 +40,8 @@ module axijoint_deck_load_card
       !> Messages, and how many errors there were before the card
       type(diagnostics_type), pointer :: diagnostics => null()
       integer :: errors_before = 0
+      !> Materials by number
+      type(number_map_type) :: material_of
       !> Functions of theta
       type(shapes_type) :: shapes
       !> Highest harmonic of the job; negative if it is not known
@@ -153,6 +156,18 @@ contains
 
       call field_error(card%diagnostics, card%source, card%table, card%entry, field, text, allowed, mend)
    end subroutine field_fault
+
+   !> Warn of the value of a field
+   subroutine field_doubt(card, field, text, mend)
+      !> The card
+      type(load_card_type), intent(in) :: card
+      !> The field
+      integer, intent(in) :: field
+      !> What is doubtful, how to mend it
+      character(len=*), intent(in) :: text, mend
+
+      call field_warning(card%diagnostics, card%source, card%table, card%entry, field, text, mend)
+   end subroutine field_doubt
 
    !> Report a fault of the card as a whole
    subroutine card_fault(card, text, found, allowed, mend)

@@ -80,7 +80,8 @@ contains
       case ('INSITU')
          fields = [any_body(1), real_field('z_s', 6, 15), real_field('gamma', 16, 25), &
                    real_field('K0', 26, 35, from=0.0_wp, symbol='K0'), &
-                   real_field('sigma_z at z_s', 36, 45, default=0.0_wp)]
+                   real_field('sigma_z at z_s', 36, 45, default=0.0_wp), last_number('the material', 46), &
+                   word_field('the balance', 51, 60, [character(len=5) :: 'CHECK', 'MEANT'], 1)]
       case default
          allocate (fields(0))
       end select

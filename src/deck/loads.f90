@@ -18,6 +18,7 @@ module axijoint_deck_loads
       read_node_temperature, read_in_situ
    use axijoint_deck_moves, only : read_moved_nodes, read_moved_face, take_moves
    use axijoint_deck_node_loads, only : read_ring_load, read_point_load
+   use axijoint_deck_properties, only : properties_type
    use axijoint_deck_restraints, only : read_restraints
    use axijoint_deck_sections, only : sections_type
    use axijoint_deck_shapes, only : read_shapes
@@ -38,11 +39,13 @@ module axijoint_deck_loads
 contains
 
    !> Read harmonics, restraints and loads
-   subroutine read_loads(source, sections, draft, model, diagnostics)
+   subroutine read_loads(source, sections, properties, draft, model, diagnostics)
       !> The deck
       type(source_type), intent(in), target :: source
       !> Its sections
       type(sections_type), intent(in), target :: sections
+      !> Materials
+      type(properties_type), intent(in) :: properties
       !> The mesh
       type(draft_type), intent(in), target :: draft
       !> The job
@@ -57,6 +60,7 @@ contains
       card%source => source
       card%sections => sections
       card%draft => draft
+      card%material_of = properties%material_of
       card%diagnostics => diagnostics
       associate (tables => sections%tables)
          if (tables(section_control)%n > 0) then

@@ -1,13 +1,15 @@
 !> Loads on the whole of the solids: GRAVITY, ROTATION, TEMPERATURES, NODETEMPS, INSITU
 module axijoint_deck_mass_loads
    use axijoint_base_kinds, only : wp
+   use axijoint_base_number_map, only : find_number
+   use axijoint_base_text, only : to_text
    use axijoint_deck_load_card, only : load_card_type, is_given, integer_of, real_of, field_fault, &
-      is_sound, find_row, check_body
+      field_doubt, is_sound, find_row, check_body
    use axijoint_deck_load_lists, only : load_lists_type, add_temperatures
    use axijoint_deck_load_modes, only : share_type, read_shares, directed_shares, check_torsion, &
       needs_harmonic
    use axijoint_fe_mode, only : mode_type, family_symmetric
-   use axijoint_model_load, only : body_load_type, initial_stress_type
+   use axijoint_model_load, only : body_load_type, initial_stress_type, covers, is_stressed, any_material
    implicit none
    private
    public :: read_gravity, read_rotation, read_temperature, read_node_temperature, read_in_situ
@@ -17,7 +19,12 @@ module axijoint_deck_mass_loads
    !> Fields of TEMPERATURES: constant and growth along r and z; field of NODETEMPS
    integer, parameter :: temperature_0 = 3, temperature_r = 4, temperature_z = 5, temperature_node = 5
    !> Fields of INSITU
-   integer, parameter :: in_situ_level = 2, in_situ_gamma = 3, in_situ_ratio = 4, in_situ_stress = 5
+   integer, parameter :: in_situ_level = 2, in_situ_gamma = 3, in_situ_ratio = 4, in_situ_stress = 5, &
+      in_situ_material = 6, in_situ_balance = 7
+   !> Word of the last field: out of balance on purpose
+   integer, parameter :: balance_meant = 2
+   !> K0 of ground: from loose ground under much friction, 1 - sin(phi), to ground that bore far more before
+   real(wp), parameter :: least_ratio = 0.1_wp, largest_ratio = 5.0_wp
 
 contains
 
@@ -146,22 +153,74 @@ contains
       !> The loads
       type(load_lists_type), intent(inout) :: lists
 
+      type(initial_stress_type) :: new
       real(wp) :: ratio(4)
 
       call check_body(card)
       call needs_harmonic(card, 0, 'in-situ stress')
-      associate (body => integer_of(card, 1), known => lists%initial_stresses)
-         if (any(known%case == card%case .and. (known%body == body .or. body == 0 .or. known%body == 0))) then
-            call field_fault(card, 1, 'the body has an in-situ stress already', &
-                             allowed='one INSITU card for a body in a load case; blank means all bodies')
-         end if
-         if (.not. is_sound(card)) return
-         ratio = [real_of(card, in_situ_ratio), 1.0_wp, real_of(card, in_situ_ratio), 0.0_wp]
-         associate (gamma => real_of(card, in_situ_gamma), z_s => real_of(card, in_situ_level))
-            lists%initial_stresses = [lists%initial_stresses, initial_stress_type(card%case, body, &
-               (real_of(card, in_situ_stress) - gamma*z_s)*ratio, gamma*ratio)]
-         end associate
+      new%case = card%case
+      new%card = card%table%cards(1, card%entry)
+      new%meant = integer_of(card, in_situ_balance) == balance_meant
+      if (is_given(card, 1)) new%body = integer_of(card, 1)
+      call find_material(card, new%material)
+      if (is_sound(card)) call check_covered(card, lists, new)
+      if (.not. is_sound(card)) return
+      ratio = [real_of(card, in_situ_ratio), 1.0_wp, real_of(card, in_situ_ratio), 0.0_wp]
+      associate (gamma => real_of(card, in_situ_gamma), z_s => real_of(card, in_situ_level))
+         new%stress = (real_of(card, in_situ_stress) - gamma*z_s)*ratio
+         new%gradient = gamma*ratio
       end associate
+      lists%initial_stresses = [lists%initial_stresses, new]
+      if (new%meant .or. .not. is_stressed(new)) return
+      if (ratio(1) >= least_ratio .and. ratio(1) <= largest_ratio) return
+      call field_doubt(card, in_situ_ratio, 'K0 = '//to_text(ratio(1))//' is not that of ground: about '// &
+                       to_text(least_ratio)//' to '//to_text(largest_ratio), &
+                       mend='correct K0, or write MEANT in columns 51-60: then nothing of the card is doubted')
    end subroutine read_in_situ
+
+   !> Find the material of an in-situ stress, or report it
+   subroutine find_material(card, material)
+      !> A card of INSITU
+      type(load_card_type), intent(in) :: card
+      !> The material (index); `any_material` if the card names none
+      integer, intent(out) :: material
+
+      material = any_material
+      if (.not. is_given(card, in_situ_material)) return
+      material = find_number(card%material_of, integer_of(card, in_situ_material))
+      if (material == 0) call field_fault(card, in_situ_material, &
+                                          'material '//to_text(integer_of(card, in_situ_material))//' is not defined', &
+                                          allowed='a material of MATERIALS or ORTHOTROPIC')
+   end subroutine find_material
+
+   !> Check that an in-situ stress is one of some elements, and that these have no other in its load case
+   subroutine check_covered(card, lists, new)
+      !> A card of INSITU
+      type(load_card_type), intent(in) :: card
+      !> The loads before it
+      type(load_lists_type), intent(in) :: lists
+      !> The in-situ stress
+      type(initial_stress_type), intent(in) :: new
+
+      logical, allocatable :: covered(:)
+      integer :: k
+
+      if (.not. card%draft%elements_complete) return
+      associate (body => card%draft%element_body(:card%draft%n_elements), &
+                 material => card%draft%element_material(:card%draft%n_elements))
+         covered = covers(new, body, material)
+         if (.not. any(covered)) call field_fault(card, in_situ_material, 'no element of the body has material '// &
+                                                  to_text(integer_of(card, in_situ_material)), &
+                                                  allowed='a material of its elements')
+         do k = 1, size(lists%initial_stresses)
+            associate (known => lists%initial_stresses(k))
+               if (known%case /= new%case .or. .not. any(covered .and. covers(known, body, material))) cycle
+            end associate
+            call field_fault(card, 1, 'the body has an in-situ stress already', &
+                             allowed='one INSITU card for an element in a load case; blank means all bodies, all materials')
+            return
+         end do
+      end associate
+   end subroutine check_covered
 
 end module axijoint_deck_mass_loads

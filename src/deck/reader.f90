@@ -84,7 +84,7 @@ contains
          call number_faces(source, tables(section_faces), tables(section_chains), draft, diagnostics)
          call number_group_faces(source, tables(section_groups), import, draft, diagnostics)
          call make_joints_and_faces(source, sections, properties, import, draft, diagnostics)
-         call read_loads(source, sections, draft, model, diagnostics)
+         call read_loads(source, sections, properties, draft, model, diagnostics)
          call read_requests(source, sections, draft, model, diagnostics)
          call read_sweep(source, tables(section_sweep), model%sweep, diagnostics)
          call read_error_goal(tables(section_error), model%error_goal, diagnostics)

@@ -3,7 +3,7 @@ module axijoint_deck_table
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text, upper
    use axijoint_deck_card, only : slot_type, divide_card
-   use axijoint_deck_diagnostics, only : diagnostics_type, add_error
+   use axijoint_deck_diagnostics, only : diagnostics_type, add_error, add_warning
    use axijoint_deck_field, only : field_type, allowed_text, in_range, kind_integer, kind_real, &
       kind_word, kind_code, kind_text, smallest_real, largest_real
    use axijoint_deck_source, only : source_type, card_content
@@ -11,7 +11,7 @@ module axijoint_deck_table
       token_too_large, token_too_small, token_not_finite, token_asterisks
    implicit none
    private
-   public :: table_type, new_table, read_entry, integer_value, text_value, entry_error, field_error
+   public :: table_type, new_table, read_entry, integer_value, text_value, entry_error, field_error, field_warning
 
    !> Entries of a section
    type :: table_type
@@ -325,6 +325,26 @@ contains
       call add_error(diagnostics, card, slot%first, slot%last, text, &
                      found=text_value(source, table, entry, field), allowed=allowed, mend=mend)
    end subroutine field_error
+
+   !> Warn of the value of a field
+   subroutine field_warning(diagnostics, source, table, entry, field, text, mend)
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> The section
+      type(table_type), intent(in) :: table
+      !> Entry and field
+      integer, intent(in) :: entry, field
+      !> What is doubtful, how to mend it
+      character(len=*), intent(in) :: text, mend
+
+      type(slot_type) :: slot
+      integer :: card
+
+      call find_slot(source, table, entry, field, card, slot)
+      call add_warning(diagnostics, card, slot%first, slot%last, text, mend=mend)
+   end subroutine field_warning
 
    !> Report an error of an entry as a whole
    subroutine entry_error(diagnostics, table, entry, text, found, allowed, mend)

@@ -6,6 +6,7 @@ module axijoint_model_joint_points
    use axijoint_fe_quadrature, only : gauss_rule, lobatto_rule
    use axijoint_model_material, only : rule_centroid, rule_gauss
    use axijoint_model_model, only : model_type
+   use axijoint_model_neighbours, only : neighbours_type, new_neighbours, element_at_edge
    implicit none
    private
    public :: model_joint_point_type, new_joint_points, joint_rule, stiffness_ratio
@@ -26,20 +27,29 @@ module axijoint_model_joint_points
       !> Stiffness along xi, eta, theta that the structure has there: k of the law or, of a joint
       !> that can yield and is much stiffer than the bodies, less [stress/length]
       real(wp) :: base(3) = 0.0_wp
+      !> Elements at side 1-2 and at side 4-3, if the job has in-situ stresses
+      integer :: elements(2) = 0
    end type model_joint_point_type
 
 contains
 
    !> Points of all joints, joint by joint
-   pure function new_joint_points(model) result(points)
+   pure function new_joint_points(model, rule) result(points)
       !> The job
       type(model_type), intent(in) :: model
+      !> Rule in place of those of the laws
+      integer, intent(in), optional :: rule
       !> The points
       type(model_joint_point_type), allocatable :: points(:)
 
+      type(neighbours_type) :: neighbours
       real(wp) :: x(3), w(3), side(2, 3), modulus
-      integer :: joint, k, n, n_pairs, count
+      integer :: joint, k, n, n_pairs, count, elements(2)
+      logical :: in_situ
 
+      in_situ = size(model%initial_stresses) > 0
+      if (in_situ) neighbours = new_neighbours(model%mesh)
+      elements = 0
       allocate (points(3*size(model%mesh%joint_label)))
       count = 0
       modulus = least_modulus(model)
@@ -48,13 +58,20 @@ contains
          associate (nodes => model%mesh%joint_nodes(:, joint), &
                     material => model%mesh%joint_material(joint))
             side(:, :n_pairs) = model%mesh%coordinates(:, nodes(lower_node(:n_pairs)))
-            call joint_rule(model%joint_materials(material)%rule, n_pairs, n, x, w)
+            if (in_situ) elements = [element_at_edge(model%mesh, neighbours, nodes(1), nodes(2)), &
+                                     element_at_edge(model%mesh, neighbours, nodes(4), nodes(3))]
+            if (present(rule)) then
+               call joint_rule(rule, n_pairs, n, x, w)
+            else
+               call joint_rule(model%joint_materials(material)%rule, n_pairs, n, x, w)
+            end if
             do k = 1, n
                count = count + 1
                points(count)%joint_point_type = new_joint_point(side(:, :n_pairs), x(k), w(k))
                points(count)%joint = joint
                points(count)%material = material
                points(count)%nodes = nodes
+               points(count)%elements = elements
                call set_base(model%joint_materials(material)%law, norm2(side(:, 2) - side(:, 1))/modulus, &
                              points(count))
             end do

@@ -6,7 +6,11 @@ module axijoint_model_load
    private
    public :: edge_load_type, ring_load_type, body_load_type, thermal_load_type, prescribed_type, &
       initial_stress_type, edge_support_type, load_case_type, combination_type, increment_type, &
-      truncation_type
+      truncation_type, covers, is_stressed, scaled_stresses, stress_before
+   public :: any_body, any_material
+
+   !> An in-situ stress of all bodies, of all materials
+   integer, parameter :: any_body = 0, any_material = 0
 
    !> Traction on one edge of a solid element
    type :: edge_load_type
@@ -70,15 +74,19 @@ module axijoint_model_load
       real(wp) :: value = 0.0_wp
    end type prescribed_type
 
-   !> In-situ stress of a body before all loads, symmetric of harmonic 0
+   !> In-situ stress before all loads, symmetric of harmonic 0
    type :: initial_stress_type
       !> Load case (index)
       integer :: case = 1
-      !> Body
-      integer :: body = 0
+      !> Body, or `any_body`; material (index), or `any_material`
+      integer :: body = any_body, material = any_material
       !> sigma_r, sigma_z, sigma_theta, tau_rz at z = 0 [stress], and how they
       !> grow with z [stress/length]
       real(wp) :: stress(4) = 0.0_wp, gradient(4) = 0.0_wp
+      !> Whether it is meant to be out of balance with weight, supports and joints
+      logical :: meant = .false.
+      !> Card of the deck that gives it, for messages; 0 if there is none
+      integer :: card = 0
    end type initial_stress_type
 
    !> Springs between one edge of a solid element and the ground, in all modes
@@ -128,5 +136,63 @@ module axijoint_model_load
       !> Load case (index) that the factor belongs to; 0 for all
       integer :: case = 0
    end type increment_type
+
+contains
+
+   !> Whether an in-situ stress is one of the elements of a body and a material
+   elemental logical function covers(state, body, material)
+      !> The in-situ stress
+      type(initial_stress_type), intent(in) :: state
+      !> Body, and material (index)
+      integer, intent(in) :: body, material
+
+      covers = (state%body == any_body .or. state%body == body) &
+         .and. (state%material == any_material .or. state%material == material)
+   end function covers
+
+   !> Whether an in-situ stress is not zero
+   elemental logical function is_stressed(state)
+      !> The in-situ stress
+      type(initial_stress_type), intent(in) :: state
+
+      is_stressed = any(abs(state%stress) > 0.0_wp) .or. any(abs(state%gradient) > 0.0_wp)
+   end function is_stressed
+
+   !> In-situ stresses times the factors of their load cases
+   pure function scaled_stresses(states, factor) result(scaled)
+      !> The in-situ stresses
+      type(initial_stress_type), intent(in) :: states(:)
+      !> Factor of each load case
+      real(wp), intent(in) :: factor(:)
+      !> The same, factors in them
+      type(initial_stress_type) :: scaled(size(states))
+
+      integer :: k
+
+      scaled = states
+      do k = 1, size(states)
+         scaled(k)%stress = factor(states(k)%case)*states(k)%stress
+         scaled(k)%gradient = factor(states(k)%case)*states(k)%gradient
+      end do
+   end function scaled_stresses
+
+   !> In-situ stress of a body and a material at a height z
+   pure function stress_before(states, body, material, z) result(stress)
+      !> The in-situ stresses, factors of the load cases in them
+      type(initial_stress_type), intent(in) :: states(:)
+      !> Body, and material (index)
+      integer, intent(in) :: body, material
+      !> z
+      real(wp), intent(in) :: z
+      !> sigma_r, sigma_z, sigma_theta, tau_rz
+      real(wp) :: stress(4)
+
+      integer :: k
+
+      stress = 0.0_wp
+      do k = 1, size(states)
+         if (covers(states(k), body, material)) stress = stress + states(k)%stress + z*states(k)%gradient
+      end do
+   end function stress_before
 
 end module axijoint_model_load

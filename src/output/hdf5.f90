@@ -11,6 +11,7 @@ module axijoint_output_hdf5
    use axijoint_output_hdf5_loads, only : write_load_group, write_restraint_group, &
       write_spring_group
    use axijoint_output_hdf5_sections, only : write_section_groups, write_cut_group
+   use axijoint_output_in_situ, only : write_in_situ_group
    use axijoint_output_run, only : run_type, status_name
    implicit none
    private
@@ -57,6 +58,7 @@ contains
       call write_section_groups(file, model, results)
       call write_cut_group(file, model, results)
       call write_support_group(file, model, results)
+      call write_in_situ_group(file, results%in_situ)
       call write_convergence(file, model, results)
    end subroutine write_results
 

@@ -8,6 +8,7 @@ module axijoint_output_listing
    use axijoint_output_echo, only : write_echo
    use axijoint_output_face_reactions, only : write_face_reactions
    use axijoint_output_headings, only : write_lines, rule, mark_not_converged
+   use axijoint_output_in_situ, only : write_in_situ
    use axijoint_output_listing_budget, only : write_left_out, write_budget, write_rounds
    use axijoint_output_listing_mesh, only : write_nodes, write_restraints, write_elements, write_joints
    use axijoint_output_listing_loads, only : write_loads, write_truncations, write_supports, &
@@ -66,6 +67,7 @@ contains
       call write_combinations(file, model)
       call write_increments(file, model)
 
+      call write_in_situ(file, model, results%in_situ)
       call write_equations(file, results)
       call write_left_out(file, results)
       call write_convergence(file, model%method, results)

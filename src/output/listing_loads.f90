@@ -4,6 +4,7 @@ module axijoint_output_listing_loads
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
    use axijoint_fe_mode, only : mode_type, family_symmetric
+   use axijoint_model_load, only : initial_stress_type, any_material
    use axijoint_model_model, only : model_type
    use axijoint_output_columns, only : columns
    use axijoint_output_headings, only : write_heading, write_lines
@@ -177,10 +178,24 @@ contains
       do i = 1, size(model%initial_stresses)
          associate (load => model%initial_stresses(i))
             call file%put(label(mode_type(), model%load_cases(load%case)%label, load%body)//columns(load%stress, wide))
-            call file%put(repeat(" ", 32)//columns(load%gradient, wide))
+            call file%put(share_text(model, load)//columns(load%gradient, wide))
          end associate
       end do
    end subroutine write_initial_stresses
+
+   !> Material of an in-situ stress, if it is of one, and whether it is meant to be out of balance
+   pure function share_text(model, stress) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The stress
+      type(initial_stress_type), intent(in) :: stress
+      !> The words
+      character(len=32) :: text
+
+      text = ""
+      if (stress%material /= any_material) text = "    material "//to_text(model%materials(stress%material)%label)
+      if (stress%meant) text = trim(text)//"    meant"
+   end function share_text
 
    !> Springs to the ground; nothing if there are none
    subroutine write_supports(file, model)

@@ -10,6 +10,7 @@ module axijoint_output_summary
    use axijoint_fe_mode, only : family_symmetric, family_antisymmetric
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type, method_names
+   use axijoint_output_in_situ, only : in_situ_json
    use axijoint_output_listing_budget, only : largest_error_text
    use axijoint_output_json, only : json_string, json_number, json_integers, json_strings
    use axijoint_output_run, only : run_type, status_name, status_error
@@ -65,6 +66,7 @@ contains
       call put_pair(file, "joint_states", states_text(results))
       call put_pair(file, "equilibrium_error", json_number(results%equilibrium_error))
       call put_pair(file, "part_equilibrium_error", json_number(results%part_error))
+      call put_pair(file, "in_situ", in_situ_json(model, results%in_situ))
       call put_pair(file, "left_out", left_out_text(results))
       call put_pair(file, "errors", errors_text(results))
       call put_pair(file, "error_seconds", error_seconds_text(results))

@@ -67,9 +67,9 @@ def value_faults(card, tables):
 
 
 def summary_value(summary, name):
-    """A value of the summary; a dot leads inside"""
+    """A value of the summary; a dot leads inside, a number into a list"""
     for key in name.split('.'):
-        summary = summary[key]
+        summary = summary[int(key) if isinstance(summary, list) else key]
     return summary
 
 
