@@ -3,6 +3,7 @@ module axijoint_job_reader
    use axijoint_analysis_in_situ, only : in_situ_type, in_situ_part_type, in_situ_boundary_type, misfit_type, &
       told_share, refused_share
    use axijoint_analysis_in_situ_balance, only : in_situ_balance
+   use axijoint_analysis_in_situ_boundaries, only : place_of
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text, percent_text
    use axijoint_deck_diagnostics, only : diagnostics_type, add_error, add_warning
@@ -40,140 +41,179 @@ contains
       if (size(model%initial_stresses) > 0) call judge_in_situ(model, diagnostics)
    end subroutine read_job
 
-   !> Tell what is out of balance in any combination, everything once
+   !> Tell what is out of balance in any combination: everything once, and again if a further
+   !> combination makes an error of what was a warning
    subroutine judge_in_situ(model, diagnostics)
       !> The job
       type(model_type), intent(in) :: model
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
+      integer, parameter :: pressed = 1, weight = 2, traction = 3
       type(in_situ_type) :: findings
-      logical, allocatable :: told(:, :)
-      integer :: k, i
+      type(in_situ_boundary_type), allocatable :: boundaries(:)
+      integer, allocatable :: told(:, :)
+      integer :: k, i, before
 
-      allocate (told(3, size(model%mesh%node_label)), source=.false.)
+      allocate (boundaries(0))
+      allocate (told(traction, size(model%mesh%node_label)), source=0)
       do k = 1, size(model%combinations)
          findings = in_situ_balance(model, model%combinations(k))
          do i = 1, size(findings%parts)
-            associate (part => findings%parts(i))
+            associate (part => findings%parts(i), known => told(:, findings%parts(i)%node))
                if (part%meant) cycle
-               if (.not. part%has_stress) then
-                  if (first_time(1, part%node)) call tell_pressed(part)
-                  cycle
-               end if
-               if (part%weight_share > told_share) then
-                  if (first_time(2, part%node)) call tell_weight(part)
-               end if
-               if (part%on_place%share > told_share) then
-                  if (first_time(3, part%node)) call tell_traction(part)
-               end if
+               if (part%pressed > 0.0_wp .and. known(pressed) == 0) call tell_pressed(model, part, diagnostics)
+               if (part%pressed > 0.0_wp) known(pressed) = 1
+               if (grade(part%weight_share, part%weight_share) > known(weight)) &
+                  call tell_weight(model, k, part, diagnostics)
+               if (grade(part%on_place%share, part%on_whole%share) > known(traction)) &
+                  call tell_traction(model, k, part, diagnostics)
+               known(weight) = max(known(weight), grade(part%weight_share, part%weight_share))
+               known(traction) = max(known(traction), grade(part%on_place%share, part%on_whole%share))
             end associate
          end do
-         if (k == 1) then
-            do i = 1, size(findings%boundaries)
-               if (findings%boundaries(i)%share() > told_share .and. .not. findings%boundaries(i)%meant) &
-                  call tell_boundary(findings%boundaries(i))
-            end do
-         end if
+         do i = 1, size(findings%boundaries)
+            associate (boundary => findings%boundaries(i))
+               before = place_of(boundary, boundaries)
+               if (before > 0) then
+                  if (grade(boundary%share(), boundary%share()) <= &
+                      grade(boundaries(before)%share(), boundaries(before)%share())) cycle
+               end if
+               if (.not. boundary%meant .and. grade(boundary%share(), boundary%share()) > 0) &
+                  call tell_boundary(model, k, boundary, diagnostics)
+               boundaries = [boundaries, boundary]
+            end associate
+         end do
       end do
+   end subroutine judge_in_situ
 
-   contains
+   !> 0 for nothing, 1 for a warning, 2 for an error
+   pure integer function grade(share, of_whole)
+      !> What a warning goes by, and what an error goes by
+      real(wp), intent(in) :: share, of_whole
 
-      !> Whether a part is told about for the first time
-      logical function first_time(kind, node)
-         !> What is told
-         integer, intent(in) :: kind
-         !> A node of the part
-         integer, intent(in) :: node
+      grade = 0
+      if (share > told_share) grade = 1
+      if (of_whole > refused_share) grade = 2
+   end function grade
 
-         first_time = .not. told(kind, node)
-         told(kind, node) = .true.
-      end function first_time
+   !> Tell of a part that only others press
+   subroutine tell_pressed(model, part, diagnostics)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The part
+      type(in_situ_part_type), intent(in) :: part
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
 
-      !> Tell of a part whose weight is not that of its in-situ stress
-      subroutine tell_weight(part)
-         !> The part
-         type(in_situ_part_type), intent(in) :: part
+      call add_warning(diagnostics, 0, 0, 0, part_text(model, part)//' has no in-situ stress, but joints press '// &
+                       'it with that of its neighbours, up to '//to_text(part%pressed), &
+                       mend='give it an INSITU card; one with gamma = 0 and MEANT says that it has none')
+   end subroutine tell_pressed
 
-         call tell(part%card, part%weight_share, 'in-situ stress and weight of '//part_text(model, part)// &
-                   ' differ by '//percent_text(part%weight_share)//when(part%weight_increment), &
-                   'material '//to_text(model%materials(part%material)%label)//': gamma = '//to_text(part%gamma)// &
-                   ', -density g_z = '//to_text(part%weight), &
-                   'gamma = -density g_z, with GRAVITY in the load case of INSITU'//or_meant)
-      end subroutine tell_weight
+   !> Tell of a part whose weight is not that of its in-situ stress
+   subroutine tell_weight(model, k, part, diagnostics)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Place of the combination
+      integer, intent(in) :: k
+      !> The part
+      type(in_situ_part_type), intent(in) :: part
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
 
-      !> Tell of a traction that nothing takes
-      subroutine tell_traction(part)
-         !> The part
-         type(in_situ_part_type), intent(in) :: part
+      call tell(diagnostics, part%card, part%weight_share, 'in-situ stress and weight of '// &
+                part_text(model, part)//' differ by '//percent_text(part%weight_share)// &
+                when_text(model, k, part%weight_increment), &
+                'gamma = -density g_z, with GRAVITY in the load case of INSITU', &
+                found='material '//to_text(model%materials(part%material)%label)//': gamma = '// &
+                to_text(part%gamma)//', -density g_z = '//to_text(part%weight))
+   end subroutine tell_weight
 
-         type(misfit_type) :: worst
+   !> Tell of a traction that nothing takes
+   subroutine tell_traction(model, k, part, diagnostics)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Place of the combination
+      integer, intent(in) :: k
+      !> The part
+      type(in_situ_part_type), intent(in) :: part
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
 
-         worst = part%on_place
-         if (part%on_whole%share > refused_share) worst = part%on_whole
-         call tell(part%card, part%on_whole%share, &
-                   'in-situ stress of '//part_text(model, part)//' leaves a traction of '// &
-                   to_text(abs(worst%traction))//' along '//direction_name(worst%direction)//' at node '// &
-                   to_text(model%mesh%node_label(worst%node))//', '//percent_text(worst%share)// &
-                   trim(merge(' of its largest     ', ' of the stress there', part%on_whole%share > refused_share))// &
-                   ', that no support, joint or load takes'//when(worst%increment), '', &
-                   'hold the face, load it in the load case of INSITU, or mend stresses and laws of joints'//or_meant)
-      end subroutine tell_traction
+      type(misfit_type) :: worst
+      character(len=:), allocatable :: whole
 
-      !> Tell of a part that only others press
-      subroutine tell_pressed(part)
-         !> The part
-         type(in_situ_part_type), intent(in) :: part
+      worst = part%on_place
+      whole = ' of the stress there'
+      if (part%on_whole%share > refused_share) then
+         worst = part%on_whole
+         whole = ' of its largest'
+      end if
+      call tell(diagnostics, part%card, part%on_whole%share, 'in-situ stress of '//part_text(model, part)// &
+                ' leaves a traction of '//to_text(abs(worst%traction))//' along '// &
+                direction_name(worst%direction)//' at node '//to_text(model%mesh%node_label(worst%node))//', '// &
+                percent_text(worst%share)//whole//', that no support, joint or load takes'// &
+                when_text(model, k, worst%increment), &
+                'hold the face, load it in the load case of INSITU, or mend stresses and laws of joints')
+   end subroutine tell_traction
 
-         call add_warning(diagnostics, 0, 0, 0, part_text(model, part)//' has no in-situ stress, but joints press '// &
-                          'it with that of its neighbours, up to '//to_text(part%pressed), &
-                          mend='give it an INSITU card; one with gamma = 0 and MEANT says that it has none')
-      end subroutine tell_pressed
+   !> Tell of materials whose stresses do not match
+   subroutine tell_boundary(model, k, boundary, diagnostics)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Place of the combination
+      integer, intent(in) :: k
+      !> The boundary
+      type(in_situ_boundary_type), intent(in) :: boundary
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
 
-      !> Tell of materials whose stresses do not match
-      subroutine tell_boundary(boundary)
-         !> The boundary
-         type(in_situ_boundary_type), intent(in) :: boundary
-
-         call tell(boundary%card, boundary%share(), &
-                   'in-situ stresses of materials '//to_text(model%materials(boundary%materials(1))%label)//' and '// &
-                   to_text(model%materials(boundary%materials(2))%label)//' of body '//to_text(boundary%body)// &
+      associate (labels => model%materials(boundary%materials)%label)
+         call tell(diagnostics, boundary%card, boundary%share(), 'in-situ stresses of materials '// &
+                   to_text(labels(1))//' and '//to_text(labels(2))//' of body '//to_text(boundary%body)// &
                    ' do not match: the traction on their boundary jumps by '//to_text(boundary%jump)//' at r = '// &
                    to_text(boundary%position(1))//', z = '//to_text(boundary%position(2))//', '// &
-                   percent_text(boundary%share())//' of the largest there', '', &
-                   'the lower layer begins with the sigma_z that the upper one ends with (z_s, sigma_zs)'//or_meant)
-      end subroutine tell_boundary
+                   percent_text(boundary%share())//' of the largest there'// &
+                   when_text(model, k, boundary%increment), &
+                   'the lower layer begins with the sigma_z that the upper one ends with (z_s, sigma_zs)')
+      end associate
+   end subroutine tell_boundary
 
-      !> Warn, or report an error beyond the limit
-      subroutine tell(card, share, text, found, mend)
-         !> Card of INSITU
-         integer, intent(in) :: card
-         !> By how much something is out of balance
-         real(wp), intent(in) :: share
-         !> What is wrong, what was found, how to mend it
-         character(len=*), intent(in) :: text, found, mend
+   !> Warn, or report an error beyond the limit
+   subroutine tell(diagnostics, card, share, text, mend, found)
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+      !> Card of INSITU
+      integer, intent(in) :: card
+      !> By how much something is out of balance
+      real(wp), intent(in) :: share
+      !> What is wrong, and how to mend it
+      character(len=*), intent(in) :: text, mend
+      !> What was found
+      character(len=*), intent(in), optional :: found
 
-         if (share > refused_share) then
-            call add_error(diagnostics, card, 0, 0, text, found=found, mend=mend, &
-                           allowed=percent_text(refused_share)//' at most')
-         else
-            call add_warning(diagnostics, card, 0, 0, text, found=found, mend=mend)
-         end if
-      end subroutine tell
+      if (share > refused_share) then
+         call add_error(diagnostics, card, 0, 0, text, found=found, mend=mend//or_meant, &
+                        allowed=percent_text(refused_share)//' at most')
+      else
+         call add_warning(diagnostics, card, 0, 0, text, found=found, mend=mend//or_meant)
+      end if
+   end subroutine tell
 
-      !> Increment and combination, if there are several
-      function when(increment) result(text)
-         !> Increment
-         integer, intent(in) :: increment
-         !> Words, empty if there is one of both
-         character(len=:), allocatable :: text
+   !> Increment and combination, if there are several
+   function when_text(model, k, increment) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Place of the combination, and increment
+      integer, intent(in) :: k, increment
+      !> Words, empty if there is one of both
+      character(len=:), allocatable :: text
 
-         text = ''
-         if (size(model%increments) > 1) text = text//', after increment '//to_text(increment)
-         if (size(model%combinations) > 1) text = text//', combination '//to_text(model%combinations(k)%label)
-      end function when
-
-   end subroutine judge_in_situ
+      text = ''
+      if (size(model%increments) > 1) text = text//', after increment '//to_text(increment)
+      if (size(model%combinations) > 1) text = text//', combination '//to_text(model%combinations(k)%label)
+   end function when_text
 
    !> A part in words
    function part_text(model, part) result(text)

@@ -5,7 +5,7 @@ module axijoint_analysis_in_situ
    implicit none
    private
    public :: in_situ_type, in_situ_part_type, in_situ_boundary_type, misfit_type
-   public :: worst_part_share, larger_misfit
+   public :: larger_misfit
 
    !> What is out of balance by more than the first part is told; by more than the second it is an
    !> error, unless the card says that it is meant
@@ -94,13 +94,5 @@ contains
       share = 0.0_wp
       if (self%traction > 0.0_wp) share = self%jump/self%traction
    end function boundary_share
-
-   !> By how much a part is out of balance at most
-   elemental real(wp) function worst_part_share(part) result(share)
-      !> The part
-      type(in_situ_part_type), intent(in) :: part
-
-      share = max(part%weight_share, part%on_place%share)
-   end function worst_part_share
 
 end module axijoint_analysis_in_situ

@@ -10,7 +10,7 @@ module axijoint_analysis_in_situ_boundaries
    use axijoint_model_neighbours, only : neighbours_type, element_at_edge
    implicit none
    private
-   public :: add_boundaries
+   public :: add_boundaries, place_of
 
 contains
 

@@ -1,6 +1,7 @@
 """The decks in `good`, with the results that their comment cards expect, and in `unsolved`
 
     ! expect: joint_states.open = 0              a key of the summary; `exit`: the exit code
+    ! expect: in_situ.parts.0.weight = 1         in a list: the place, from 0 on
     ! expect: m = 1: u = -1.0E-3*(z**2 + 0.3*r**2)    amplitudes of harmonic 1 at all nodes
     ! expect: node 7, m = 1: u = 1.2E-3          at one node
     ! expect: m = 0 A: w = -1.0E-3*r             of the antisymmetric family
