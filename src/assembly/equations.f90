@@ -8,12 +8,12 @@ module axijoint_assembly_equations
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
    use axijoint_fe_mode, only : mode_type
-   use axijoint_linalg_lapack, only : norm_step
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type
    use axijoint_order_graph, only : bandwidth
    use axijoint_solver_choice, only : solver_auto, solver_band, solver_sparse, orders_type, &
                                       order_for, new_solver, expected_seconds
+   use axijoint_solver_inverse_norm, only : inverse_norm
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type
    implicit none
    private
@@ -262,28 +262,7 @@ contains
       !> The estimate; zero without equations
       real(wp) :: condition
 
-      real(wp), allocatable :: v(:), x(:, :)
-      integer, allocatable :: signs(:)
-      real(wp) :: inverse_norm
-      integer :: kase, save(3)
-
-      associate (n => equations%classes(equations%systems(k)%class)%pattern%n)
-         allocate (v(n), x(n, 1), signs(n))
-      end associate
-      condition = 0.0_wp
-      if (size(v) == 0) return
-      x = 0.0_wp
-      v = 0.0_wp
-      signs = 0
-      inverse_norm = 0.0_wp
-      kase = 0
-      save = 0
-      do
-         call norm_step(v, x(:, 1), signs, inverse_norm, kase, save)
-         if (kase == 0) exit
-         call equations%systems(k)%factor%solve(x)  ! symmetric: the transpose is the same
-      end do
-      condition = inverse_norm*equations%systems(k)%norm
+      condition = inverse_norm(equations%systems(k)%factor)*equations%systems(k)%norm
    end function condition_estimate
 
    !> Forces on the equations of one mode, from forces on components

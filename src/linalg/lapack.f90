@@ -5,7 +5,7 @@ module axijoint_linalg_lapack
    implicit none
    private
    public :: band_cholesky, dpbtrs, dtrsm, dgemm, dsyrk, dpotrf
-   public :: cholesky, inverse_from_cholesky, product_with_transpose, symmetric_eigen, use_one_blas_thread, norm_step
+   public :: cholesky, inverse_from_cholesky, product_with_transpose, symmetric_eigen, use_one_blas_thread
    public :: product_rate
    public :: matrix_vector, least_squares, invert, singular_values
 
@@ -94,7 +94,7 @@ module axijoint_linalg_lapack
          real(wp), intent(out) :: work(*)
          integer, intent(out) :: rank, info
       end subroutine dgelsy
-      !> One step of Higham's estimate of a 1-norm
+      !> LU factorization with partial pivoting
       subroutine dgetrf(m, n, a, lda, ipiv, info)
          import :: wp
          integer, intent(in) :: m, n, lda
@@ -103,6 +103,7 @@ module axijoint_linalg_lapack
          integer, intent(out) :: info
       end subroutine dgetrf
 
+      !> Singular value decomposition of a general matrix
       subroutine dgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, info)
          import :: wp
          character, intent(in) :: jobu, jobvt
@@ -112,6 +113,7 @@ module axijoint_linalg_lapack
          integer, intent(out) :: info
       end subroutine dgesvd
 
+      !> Inverse by the factors of dgetrf
       subroutine dgetri(n, a, lda, ipiv, work, lwork, info)
          import :: wp
          integer, intent(in) :: n, lda, lwork
@@ -121,12 +123,6 @@ module axijoint_linalg_lapack
          integer, intent(out) :: info
       end subroutine dgetri
 
-      subroutine dlacn2(n, v, x, isgn, est, kase, isave)
-         import :: wp
-         integer, intent(in) :: n
-         real(wp), intent(inout) :: v(*), x(*), est
-         integer, intent(inout) :: isgn(*), kase, isave(3)
-      end subroutine dlacn2
       !> Threads inside each routine of OpenBLAS
       subroutine openblas_set_num_threads(n) bind(c, name='openblas_set_num_threads')
          import :: c_int
@@ -270,24 +266,6 @@ contains
       call dgelsy(m, n, 1, a, m, right, m, pivots, 1.0e-12_wp, rank, work, size(work), info)
       x = right(:n, 1)
    end subroutine least_squares
-
-   !> One step of the estimate of the 1-norm of an operator: the caller applies
-   !> the operator to `x` and comes back until `kase` is zero (Higham, ACM Trans.
-   !> Math. Software 14, 1988)
-   subroutine norm_step(v, x, signs, estimate, kase, save)
-      !> Work space and vector, shape (n)
-      real(wp), intent(inout), contiguous :: v(:), x(:)
-      !> Work space, shape (n)
-      integer, intent(inout), contiguous :: signs(:)
-      !> The estimate so far
-      real(wp), intent(inout) :: estimate
-      !> Zero at the first call; zero when done
-      integer, intent(inout) :: kase
-      !> Work space
-      integer, intent(inout) :: save(3)
-
-      call dlacn2(size(x), v, x, signs, estimate, kase, save)
-   end subroutine norm_step
 
    !> Rate of large matrix products of one thread, measured: the best of some runs
    function product_rate() result(rate)
