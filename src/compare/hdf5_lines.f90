@@ -136,35 +136,54 @@ contains
       !> The tables
       type(listing_type), intent(inout) :: listing
 
-      type(array_type) :: face, values, applied, reacted
-      real(wp), allocatable :: others(:)
-      integer :: table, i, k, n
+      type(array_type) :: applied, reacted, family
+      integer :: table, i, n
 
       applied = array(file, '/resultants/applied')
       reacted = array(file, '/resultants/reacted')
-      face = array(file, '/supports/face')
-      values = array(file, '/supports/reacted')
+      family = array(file, '/modes/family')
+      call read_face_reactions(file, reacted%value, words, listing)
       if (len(file%failure) > 0) return
-      call open_table(listing, 'reactions of faces', '', [new_column('face', kind_key), &
-                      (new_column(trim(resultant_names(k)), resultant_kinds(k)), k=1, 6)], table)
-      others = reacted%value
-      do i = 1, size(face%value)
-         others = others - [(at(values, k, i), k=1, 6)]
-         call add_row(listing%tables(table), [number(at(face, i)), &
-                      number([(at(values, k, i), k=1, 6)])], 0)
-      end do
-      call add_row(listing%tables(table), [word_cell(words, 'other nodes'), number(others)], 0)
-      call add_row(listing%tables(table), [word_cell(words, 'together'), number(reacted%value)], 0)
       call open_table(listing, 'equilibrium', '', [new_column('resultant', kind_key), &
                       new_column('applied', kind_force), new_column('reacted', kind_force), &
                       new_column('sum', kind_force)], table)
-      n = 4
-      if (any(abs([applied%value(5:6), reacted%value(5:6)]) > 0.0_wp)) n = 6
+      n = merge(4, 6, all(nint(family%value) == 1))  ! as in the listing; 1 is symmetric
       do i = 1, n
          call add_row(listing%tables(table), [word_cell(words, resultant_texts(i)), &
                       number(at(applied, i)), number(at(reacted, i)), &
                       number(at(applied, i) + at(reacted, i))], 0)
       end do
    end subroutine read_resultants
+
+   !> Reactions of faces; none where nodes alone are held
+   subroutine read_face_reactions(file, together, words, listing)
+      !> The file
+      type(result_file_type), intent(inout) :: file
+      !> Resultants of all reactions
+      real(wp), intent(in) :: together(:)
+      !> Words of both files
+      type(words_type), intent(inout) :: words
+      !> The tables
+      type(listing_type), intent(inout) :: listing
+
+      type(array_type) :: face, values
+      real(wp), allocatable :: others(:)
+      integer :: table, i, k
+
+      if (.not. file%has('/supports')) return
+      face = array(file, '/supports/face')
+      values = array(file, '/supports/reacted')
+      if (len(file%failure) > 0) return
+      call open_table(listing, 'reactions of faces', '', [new_column('face', kind_key), &
+                      (new_column(trim(resultant_names(k)), resultant_kinds(k)), k=1, 6)], table)
+      others = together
+      do i = 1, size(face%value)
+         others = others - [(at(values, k, i), k=1, 6)]
+         call add_row(listing%tables(table), [number(at(face, i)), &
+                      number([(at(values, k, i), k=1, 6)])], 0)
+      end do
+      call add_row(listing%tables(table), [word_cell(words, 'other nodes'), number(others)], 0)
+      call add_row(listing%tables(table), [word_cell(words, 'together'), number(together)], 0)
+   end subroutine read_face_reactions
 
 end module axijoint_compare_hdf5_lines

@@ -9,7 +9,7 @@ module axijoint_compare_hdf5_reader
       coordinates
    use axijoint_compare_hdf5_lines, only : read_sections, read_cuts, read_resultants, &
       displacement_names, stress_names
-   use axijoint_compare_table, only : listing_type, words_type, column_type, open_table, add_row, &
+   use axijoint_compare_table, only : listing_type, words_type, column_type, open_table, drop_empty_tables, add_row, &
       kind_label, kind_key, kind_angle, kind_word, kind_displacement, kind_jump, kind_stress, kind_force
    implicit none
    private
@@ -53,6 +53,7 @@ contains
       call read_sections(file, listing)
       call read_cuts(file, words, listing)
       call read_resultants(file, words, listing)
+      call drop_empty_tables(listing)
       if (len(file%failure) > 0) then
          call fatal_error(error, exit_deck, path//': error: '//file%failure)
       end if

@@ -6,7 +6,7 @@ module axijoint_compare_table
    implicit none
    private
    public :: column_type, table_type, listing_type, words_type
-   public :: open_table, add_row, find_column, word_index, table_title, append_columns
+   public :: open_table, drop_empty_tables, add_row, find_column, word_index, table_title, append_columns
    public :: kind_names, kind_label, kind_key, kind_coordinate, kind_angle, kind_parameter, &
       kind_skip, kind_word, kind_displacement, kind_jump, kind_stress, kind_force, kind_moment
 
@@ -150,7 +150,25 @@ contains
       call move_alloc(from%line, to%line)
       to%left_out = from%left_out
       to%n_rows = from%n_rows
+      from%left_out = .false.
+      from%n_rows = 0
    end subroutine move_table
+
+   !> Forget the tables without rows: a listing shows nothing of them
+   subroutine drop_empty_tables(listing)
+      !> The tables
+      type(listing_type), intent(inout) :: listing
+
+      integer :: i, n
+
+      n = 0
+      do i = 1, listing%n_tables
+         if (listing%tables(i)%n_rows == 0) cycle
+         n = n + 1
+         if (n < i) call move_table(listing%tables(i), listing%tables(n))
+      end do
+      listing%n_tables = n
+   end subroutine drop_empty_tables
 
    !> Add a row
    subroutine add_row(table, cells, line)

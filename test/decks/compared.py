@@ -421,6 +421,22 @@ def result_files(base, folder):
     return faults
 
 
+def held_by_nodes(base, folder):
+    """Result files of jobs without a supported face: of nodes held, of the axis alone, of nothing that
+    moves; and of one with moved faces in the antisymmetric family, whose lateral resultants are zero"""
+    faults = []
+    for name in ('curved_bodies', 'shear_8', 'all_fixed', 'moved_face'):
+        one = base.solve(os.path.join(HERE, 'good', f'{name}.dat'), os.path.join(folder, name))
+        if ('REACTIONS OF SUPPORTED FACES' in one['lis'].decode()) != (name == 'moved_face'):
+            faults.append(f'{name} has, or has not, a supported face')
+        for ending in ('h5', 'lis'):
+            write(folder, f'{name}.{ending}', one[ending])
+        for a, b in (('h5', 'h5'), ('h5', 'lis'), ('lis', 'h5')):
+            faults += [f'{name}, {a} {b}: {fault}' for fault in
+                       verdict(base.program, folder, (f'{name}.{a}', f'{name}.{b}'), SAME, 'equilibrium')]
+    return faults
+
+
 def combinations(base, folder):
     """Listings of combinations, and of another solver"""
     files = {}
@@ -429,11 +445,12 @@ def combinations(base, folder):
         place = os.path.join(folder, solver)
         os.makedirs(place)
         files[solver] = base.solve(deck, place, '--solver', solver)
-        for name in ('1.lis', '2.lis', '2.h5'):
+        for name in ('1.lis', '1.h5', '2.lis', '2.h5'):
             write(place, name, files[solver][name])
     return verdict(base.program, folder, ('band/2.lis', 'sparse/2.lis'), SAME, 'displacements on sections') + \
         verdict(base.program, folder, ('band/1.lis', 'sparse/2.lis'), DIFFERENT, '') + \
-        verdict(base.program, folder, ('band/2.lis', 'sparse/2.h5'), SAME, 'cuts')
+        verdict(base.program, folder, ('band/2.lis', 'sparse/2.h5'), SAME, 'cuts') + \
+        verdict(base.program, folder, ('band/1.lis', 'sparse/1.h5'), SAME, 'cuts')
 
 
 def mechanism(base, folder):
@@ -576,7 +593,7 @@ def hurt(content, mixer):
 def tests(program):
     """One test a pair"""
     base = Base(program)
-    functions = {'HDF5': result_files, 'combinations': combinations, 'mechanism': mechanism,
+    functions = {'HDF5': result_files, 'held by nodes': held_by_nodes, 'combinations': combinations, 'mechanism': mechanism,
                  'a program of the eighties': old_program, 'wrong formats': bad_formats,
                  'damaged files': damaged}
     return [Test(f'compare: {case[0]}', lambda folder, case=case: pair(base, folder, *case[1:]))
