@@ -2,6 +2,7 @@
 module axijoint_analysis_remarks
    use axijoint_analysis_motion, only : motion_text
    use axijoint_analysis_pins, only : pin_text
+   use axijoint_analysis_proportion_remarks, only : proportion_remarks
    use axijoint_analysis_results, only : results_type, remark_type
    use axijoint_analysis_structure, only : structure_type
    use axijoint_base_kinds, only : wp, degree
@@ -16,8 +17,8 @@ module axijoint_analysis_remarks
    private
    public :: remarks_on, remark_on_goal, mechanism_text
 
-   !> Joints whose k h/E is above these: of a doubtful, and of no sensible proportion
-   real(wp), parameter :: stiff = 100.0_wp, stiffest = 1.0e4_wp
+   !> Joints whose k h/E is above this are of no sensible proportion
+   real(wp), parameter :: stiffest = 1.0e4_wp
    !> Tolerances above this deserve a word
    real(wp), parameter :: coarse_tolerance = 1.0e-3_wp
 
@@ -51,6 +52,7 @@ contains
       end if
       pins = pin_text(model, structure, history%loading, field, results)
       if (len(pins) > 0) call add(remarks, pins)
+      remarks = [remarks, proportion_remarks(model, results)]
    end function remarks_on
 
    !> Why the increments ended as they did
@@ -66,14 +68,6 @@ contains
       !> The sentences, to be continued
       type(remark_type), allocatable, intent(inout) :: remarks(:)
 
-      real(wp) :: proportion
-
-      proportion = stiffness_ratio(structure%joint_points)
-      if (proportion > stiffest .or. .not. results%converged .and. proportion > stiff) then
-         call add(remarks, 'joints with k h/E up to '//to_text(proportion)// &
-            ' are stiff out of proportion to the bodies (sensible: 1E-3 to 1E2); '// &
-            'k = 10 E/h is as good as rigid')
-      end if
       if (allocated(results%mechanism)) then
          call add(remarks, results%mechanism)
       else if (.not. results%converged) then

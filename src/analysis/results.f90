@@ -10,7 +10,7 @@ module axijoint_analysis_results
    implicit none
    private
    public :: results_type, mode_solve_type, ordering_type, remark_type, nodal_stress_type, &
-             error_share_type, round_type
+             error_share_type, round_type, stiffer_type
    public :: axial, lateral, moment, torque, lateral_90, moment_90, n_resultants
 
    !> Index of a resultant: force along z
@@ -95,6 +95,19 @@ module axijoint_analysis_results
       !> Time of the round [second]
       real(wp) :: seconds = 0.0_wp
    end type round_type
+
+   !> What would change if the joints of some laws, soft or stiff out of proportion to the bodies, were ten
+   !> times as stiff
+   type :: stiffer_type
+      !> The laws (indices), all on one side of what is sensible
+      integer, allocatable :: laws(:)
+      !> Whether the changes below were found
+      logical :: known = .false.
+      !> Changes of the largest displacement and of the largest joint stress, over these
+      real(wp) :: displacement = 0.0_wp, joint_stress = 0.0_wp
+      !> Largest changes of any displacement and of any joint stress, over the largest
+      real(wp) :: displacement_anywhere = 0.0_wp, joint_stress_anywhere = 0.0_wp
+   end type stiffer_type
 
    !> Stresses smoothed to the nodes. A node has a value for each material that it
    !> touches: stresses jump from one to the other. Joints have nodes of their own
@@ -192,6 +205,8 @@ module axijoint_analysis_results
       type(discretization_error_type) :: discretization
       !> Rounds of refinement; allocated if the job has a target
       type(round_type), allocatable :: rounds(:)
+      !> What stiffer joints would change: of soft laws, of stiff laws; none if all are sensible
+      type(stiffer_type), allocatable :: stiffer(:)
       !> What was not modelled because it is zero or like something else
       type(remark_type), allocatable :: left_out(:)
       !> What the user should know about the results

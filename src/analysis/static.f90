@@ -13,6 +13,7 @@ module axijoint_analysis_static
    use axijoint_analysis_results, only : results_type
    use axijoint_analysis_increment_fields, only : elastic_field
    use axijoint_analysis_solution, only : solve_displacements
+   use axijoint_analysis_stiffer_joints, only : compare_stiffer
    use axijoint_analysis_structure, only : structure_type, build_structure
    use axijoint_assembly_force, only : elastic_joint_stress
    use axijoint_assembly_loading, only : new_loading
@@ -111,6 +112,9 @@ contains
       results%converged = results%converged .and. max(results%residual_ratio, results%mismatch) &
          <= results%tolerance + rounding(results)
       if (results%converged) results%budget = new_budget(model, history%loading%case_factor, results)
+      call timer%push(phase_joints)
+      call compare_stiffer(model, structure, combination, history, field, results, progress)
+      call timer%pop()
       results%remarks = remarks_on(model, structure, history, field, results)
       call timer%pop()
    end subroutine analyse_combination

@@ -9,6 +9,7 @@ module axijoint_output_brief
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type
    use axijoint_output_headings, only : mark_not_converged
+   use axijoint_output_joint_proportion, only : proportions_text, stiffer_laws_text
    use axijoint_output_listing_budget, only : largest_error_text
    use axijoint_output_pending, only : join_path
    use axijoint_output_totals, only : peak_type, largest_displacement, largest_pressure, &
@@ -50,6 +51,7 @@ contains
          line("unknowns", to_text(n_unknowns(results))//" in "// &
          to_text(size(results%modes))//" harmonics, highest m = "// &
          to_text(maxval(results%modes%harmonic)))
+      if (n_joints(model%mesh) > 0) text = text//stiffness_lines(model, results)
       if (size(results%joint_state) > 0) text = text//joint_lines(results)
       text = text//line("residual ratio", to_text(results%residual_ratio))// &
          line("equilibrium error", to_text(results%equilibrium_error)//" on the whole, "// &
@@ -95,6 +97,24 @@ contains
             to_text(results%tolerance)//")"
       end if
    end function status_text
+
+   !> Stiffness of the joints beside the bodies, and what stiffer ones would change
+   pure function stiffness_lines(model, results) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> A line, and one for the soft and one for the stiff laws if there are any
+      character(len=:), allocatable :: text
+
+      integer :: i
+
+      text = line("joint stiffness", proportions_text(model))
+      if (.not. allocated(results%stiffer)) return
+      do i = 1, size(results%stiffer)
+         if (results%stiffer(i)%known) text = text//line("ten times as stiff", stiffer_laws_text(model, results%stiffer(i)))
+      end do
+   end function stiffness_lines
 
    !> States of the joints and the largest pressure
    pure function joint_lines(results) result(text)

@@ -12,6 +12,7 @@ module axijoint_output_hdf5
       write_spring_group
    use axijoint_output_hdf5_sections, only : write_section_groups, write_cut_group
    use axijoint_output_in_situ, only : write_in_situ_group
+   use axijoint_output_joint_proportion, only : write_proportion_arrays
    use axijoint_output_run, only : run_type, status_name
    implicit none
    private
@@ -48,6 +49,7 @@ contains
       call file%write("/deck", deck_text(source), "Cards as read, included files in place")
       call write_mesh(file, model)
       call write_materials(file, model)
+      call write_proportion_arrays(file, model)
       call write_load_group(file, model, results)
       call write_spring_group(file, model)
       call write_solution(file, results)

@@ -9,6 +9,7 @@ module axijoint_output_listing
    use axijoint_output_face_reactions, only : write_face_reactions
    use axijoint_output_headings, only : write_lines, rule, mark_not_converged
    use axijoint_output_in_situ, only : write_in_situ
+   use axijoint_output_joint_proportion, only : write_proportions
    use axijoint_output_listing_budget, only : write_left_out, write_budget, write_rounds
    use axijoint_output_listing_mesh, only : write_nodes, write_restraints, write_elements, write_joints
    use axijoint_output_listing_loads, only : write_loads, write_truncations, write_supports, &
@@ -57,6 +58,7 @@ contains
       call write_model(file, model)
       call write_materials(file, model)
       call write_joint_materials(file, model)
+      call write_proportions(file, model)
       call write_nodes(file, model)
       call write_restraints(file, model)
       call write_elements(file, model)

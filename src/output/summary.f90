@@ -12,6 +12,7 @@ module axijoint_output_summary
    use axijoint_model_model, only : model_type, method_names
    use axijoint_output_in_situ, only : in_situ_json
    use axijoint_output_listing_budget, only : largest_error_text
+   use axijoint_output_joint_proportion, only : proportions_json
    use axijoint_output_json, only : json_string, json_number, json_integers, json_strings
    use axijoint_output_run, only : run_type, status_name, status_error
    use axijoint_output_text_file, only : text_file_type
@@ -64,6 +65,7 @@ contains
          call put_pair(file, "other_loop_difference", "null")
       end if
       call put_pair(file, "joint_states", states_text(results))
+      call put_pair(file, "joint_stiffness", proportions_json(model, results))
       call put_pair(file, "equilibrium_error", json_number(results%equilibrium_error))
       call put_pair(file, "part_equilibrium_error", json_number(results%part_error))
       call put_pair(file, "in_situ", in_situ_json(model, results%in_situ))

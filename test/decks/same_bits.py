@@ -99,4 +99,5 @@ def tests(program):
         moved(f'moved memory, {solver}', fine, '--solver', solver) for solver in ('band', 'skyline', 'sparse')] + [
         moved('moved memory, bonds', example(2, nodes=9, harmonic=4, planes=17)),
         moved('moved memory, Anderson', example(3, factor=10.0, method='ANDERSON', tolerance=1e-6)),
+        moved('moved memory, joints out of proportion', example(3, factor=5e-3, harmonic=4, planes=17)),
         moved('moved memory, combinations', 'chimney.dat')]

@@ -1,0 +1,145 @@
+"""Joints soft or stiff out of proportion to the bodies: k h/E as it follows by hand, and the change that
+ten times the stiffness makes against runs with ten times the stiffness"""
+import json
+import os
+import re
+
+import hard_scenes as scenes
+import listing
+from support import INPUTS, Test, expected, read_text, write
+
+# Digits of the largest displacement on the terminal and of joint stress in the listing, and what the
+# estimate's tolerance (1E-6 of the forces) leaves
+CLOSE = 5e-5
+
+
+class Result:
+    """Summary, largest displacement and joint stresses of a run"""
+
+    def __init__(self, program, folder, name, deck):
+        ran = program.run('run', write(folder, f'{name}.dat', deck), '-o', folder)
+        faults = ran.ended_with(0)
+        if faults:
+            raise AssertionError('\n'.join([name, *faults]))
+        self.out = ran.out
+        self.summary = json.loads(read_text(os.path.join(folder, f'{name}.json')))
+        self.displacement = float(re.search(r'^largest displacement +(\S+)', ran.out, re.M)[1])
+        rows = listing.tables(read_text(os.path.join(folder, f'{name}.lis')))['joints']
+        self.stress = [row[key] for row in rows for key in ('tau_xi', 'sigma', 'tau_theta')]
+
+    def law(self, number):
+        """What the summary says of a law"""
+        return next(law for law in self.summary['joint_stiffness'] if law['law'] == number)
+
+
+def paper(vertical=1.0, horizontal=1.0, law='PAPER', method='NEWTON'):
+    """The paper's case 3, stiffness of both interfaces times a factor"""
+    deck = scenes.example(3, harmonic=4, planes=17, tolerance=1e-8, method=method)
+    one, two = re.findall(r'LAWS\n(.*)\n', deck)
+    for old, factor, kind in ((one, vertical, law), (two, horizontal, 'ELASTIC')):
+        number, *stiffness = old.split(', ')[:4]
+        fields = [number, *(f'{factor*float(k):.12G}' for k in stiffness)]
+        strength = ['0.0', '0.0'] if kind == 'PAPER' else ['', '']
+        deck = deck.replace(old, ', '.join(fields + strength + [kind, 'GAUSS']))
+    return deck
+
+
+def ring(stiffness, harmonic):
+    """Two rings with an elastic joint between, under cos(m theta): a linear job of one harmonic"""
+    deck = scenes.Deck(f'Rings under harmonic {harmonic}', harmonic, harmonic + 2).material(1, 1e4, 0.3)
+    deck.law(1, (stiffness,)*3, kind='ELASTIC')
+    deck.block(1, 1, 8, 2, 2, 0.5, 0, 1, 1).block(2, 1, 8, 4, 2, 1, 0, 2, 1)
+    deck.faces((1, 1, 1, 0, 1, 1), (2, 2, 1, 0, 1, 1), (3, 1, 0.5, 0, 0.5, 1), (4, 2, 2, 0, 2, 1))
+    deck.add('INTERFACES', (1, 1, 2)).add('FIXEDFACES', (4, '111'))
+    return deck.add('PRESSURES', (3, harmonic, 1.0, 1.0)).text()
+
+
+def history(factor):
+    """A pile in soil, pushed to and fro"""
+    return scenes.soil_pile('A cycle', ((1, 1), (0.5, 2), (-0.5, 2), (1, 2)), k=2e-3*factor, tolerance=1e-8)
+
+
+# Name; deck for a factor of the stiffness; laws concerned
+SCENES = (
+    ('no tension, soft', lambda f: paper(5e-3*f), [1]),
+    ('no tension, very soft', lambda f: paper(1e-4*f), [1]),
+    ('no tension, stiff', lambda f: paper(1e4*f), [1]),
+    ('another method', lambda f: paper(5e-3*f, method='NEWTON' if f > 1.0 else 'TOTAL'), [1]),
+    ('both laws soft', lambda f: paper(1e-3*f, 1e-3*f), [1, 2]),
+    ('elastic law of a job with iterations', lambda f: paper(1.0, 1e-3*f), [2]),
+    ('elastic joints', lambda f: paper(1e-3*f, 1.0, 'ELASTIC'), [1]),
+    ('bonds, soft', lambda f: scenes.example(1, factor=1e-3*f, harmonic=4, planes=17, tolerance=1e-8), [1, 2]),
+    ('rings in harmonic 0', lambda f: ring(5.0*f, 0), [1]),
+    ('rings in harmonic 2', lambda f: ring(5.0*f, 2), [1]),
+    ('rings in harmonic 2, stiff', lambda f: ring(1e7*f, 2), [1]),
+    ('a history', history, [1, 2]),
+    ('a disc on springs', lambda f: scenes.eccentric_disc(0.4, k=f, young=1e5, n=8, planes=17), [1]),
+)
+
+
+def tenfold(program, folder, make, laws):
+    """The change against a run with ten times the stiffness, and the words that tell it"""
+    one, other = (Result(program, folder, name, make(factor)) for name, factor in (('one', 1.0), ('other', 10.0)))
+    told = one.law(laws[0])['ten_times']
+    if told is None:
+        return [f'no change is told: {one.summary["joint_stiffness"]}']
+    largest = max(map(abs, one.stress))
+    wanted = {'displacement': other.displacement/one.displacement - 1.0,
+              'joint_stress': max(map(abs, other.stress))/largest - 1.0,
+              'joint_stress_anywhere': max(abs(a - b) for a, b in zip(one.stress, other.stress))/largest}
+    faults = expected('laws', laws, told['laws'])
+    for key, value in wanted.items():
+        if abs(told[key] - value) > CLOSE*max(1.0, abs(1.0 + value)):
+            faults.append(f'{key}: expected {value:.6f}, found {told[key]:.6f}')
+    faults += [f'{key}_anywhere is less than {key}' for key in ('displacement', 'joint_stress')
+               if told[f'{key}_anywhere'] < abs(told[key]) - 1e-12]
+    words = f'largest displacement {"+" if told["displacement"] >= 0 else "-"}'
+    for place, text in (('messages', ' '.join(one.summary['messages'])), ('terminal', one.out)):
+        if words not in text:
+            faults.append(f'{place}: expected {words!r}, found {text}')
+    return faults
+
+
+def proportions(program, folder):
+    """k h/E of the least modulus beside each joint; what is told of laws inside and outside the range"""
+    result = Result(program, folder, 'first', read_text(os.path.join(INPUTS, 'first.dat')))
+    law = result.law(1)
+    faults = expected('kappa', ([0.0625]*2, [0.125]*2, [0.0625]*2), (law['kappa_xi'], law['kappa_eta'], law['kappa_theta']))
+    faults += expected('side', ('sensible', None), (law['side'], law['ten_times']))
+    faults += expected('messages', [], result.summary['messages'])
+    soil = Result(program, folder, 'soil', scenes.soil_pile('p', ((1, 1),), k=1e3)).law(1)
+    lengths = (0.5, 0.5)  # of the shaft; E of the soil is 50, of the pile 2E4
+    return faults + expected('beside soil', [1e3*length/50.0 for length in lengths], soil['kappa_eta'])
+
+
+def sides(program, folder):
+    """Where the range ends: h = 0.125, E = 2E4. Shear counts if the law has strength in shear, and
+    the message names the direction"""
+    faults = []
+    for k_xi, k_eta, law, side, words in (
+            (1.61e2, 1.61e2, 'PAPER', 'sensible', ''), (1.59e2, 1.59e2, 'PAPER', 'soft', 'along eta'),
+            (1.59e7, 1.59e7, 'ELASTIC', 'sensible', ''), (1.61e7, 1.61e7, 'ELASTIC', 'stiff', '10 E/h'),
+            (1.0, 1e4, 'PAPER', 'sensible', ''), (1.0, 1e4, 'ELASTIC', 'soft', 'along xi'),
+            (0.0, 1e4, 'ELASTIC', 'sensible', '')):
+        deck = paper(law=law)
+        old = re.search(r'LAWS\n(.*)\n', deck)[1]
+        new = re.sub(r'^(1), .*?, .*?, .*?, ', f'1, {k_xi:G}, {k_eta:G}, 1E4, ' if law == 'ELASTIC' else
+                     f'1, {k_xi:G}, {k_eta:G}, {k_eta:G}, ', old)
+        if k_xi == k_eta:
+            new = new.replace('1E4', f'{k_eta:G}')
+        result = Result(program, folder, 'one', deck.replace(old, new))
+        faults += expected(f'{new}: side', side, result.law(1)['side'])
+        told = [text for text in result.summary['messages'] if 'law 1: joints' in text]
+        faults += expected(f'{new}: messages', int(side != 'sensible'), len(told))
+        if told and words not in told[0]:
+            faults.append(f'{new}: expected {words!r}, found {told[0]!r}')
+    return faults
+
+
+def tests(program):
+    """One test a scene"""
+    return [Test('stiffness: k h/E', lambda folder: proportions(program, folder)),
+            Test('stiffness: range', lambda folder: sides(program, folder))] + [
+        Test(f'stiffness: ten times, {name}',
+             lambda folder, make=make, laws=laws: tenfold(program, folder, make, laws))
+        for name, make, laws in SCENES]
