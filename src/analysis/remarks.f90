@@ -10,7 +10,6 @@ module axijoint_analysis_remarks
    use axijoint_element_joint_law, only : opening_reversible
    use axijoint_joints_field, only : joint_field_type, iteration_type, n_across_gaps
    use axijoint_joints_increments, only : history_type
-   use axijoint_model_joint_points, only : stiffness_ratio
    use axijoint_model_model, only : model_type, method_transfer
    use axijoint_model_request, only : goal_names
    implicit none
