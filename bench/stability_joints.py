@@ -48,12 +48,12 @@ def difference(one, other):
 
 
 def stiff_and_soft(runs):
-    """The paper's case 3 to 1E-6, against the same to 1E-10"""
+    """The paper's case 3 to 1E-6, against the same to 1E-8: rounding leaves 1E-9 where joints are soft by 1E-6"""
     found = []
     for proportion in PROPORTIONS[:-2]:
         one, other = (runs.run(f"case_3_{proportion:g}_{tolerance:g}",
                                scenes.example(3, factor=proportion/0.125, tolerance=tolerance))
-                      for tolerance in (TOLERANCE, 1e-10))
+                      for tolerance in (TOLERANCE, 1e-8))
         found.append((difference(one, other), 100*TOLERANCE, f"k h/E = {proportion:g}"))
     return worst(found)
 
@@ -231,7 +231,7 @@ def tee(runs):
 
 
 CASES = [*[elastic_joints(name) for name in ("4-node", "8-node")],
-         Case("case 3, tolerance 1e-6", "k h/E = 1e-6 … 1e4", "self-consistent: tolerance 1e-10",
+         Case("case 3, tolerance 1e-6", "k h/E = 1e-6 … 1e4", "self-consistent: tolerance 1e-8",
               "100 × tolerance", stiff_and_soft),
          Case("case 3, rigid joints", "k h/E = 1e4, 1e5, 1e6", "self-consistent: displacements at k h/E = 1e3",
               "1 %: ten times E/(k h) of the reference", rigid),

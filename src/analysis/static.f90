@@ -110,7 +110,7 @@ contains
       call cut_resultants(model, structure, history%loading, field, results)
       if (size(field%offset) > 0) call add_motions(structure%scene%floating, field%offset, results%displacement)
       results%converged = results%converged .and. max(results%residual_ratio, results%mismatch) &
-         <= results%tolerance + rounding(results)
+         <= results%tolerance
       if (results%converged) results%budget = new_budget(model, history%loading%case_factor, results)
       call timer%push(phase_joints)
       call compare_stiffer(model, structure, combination, history, field, results, progress)
@@ -118,16 +118,6 @@ contains
       results%remarks = remarks_on(model, structure, history, field, results)
       call timer%pop()
    end subroutine analyse_combination
-
-   !> What rounding may add to the residual ratio of a job with iterations, whose
-   !> tolerance may lie below it; a linear job must do better
-   pure real(wp) function rounding(results)
-      !> Results, with the condition of their equations
-      type(results_type), intent(in) :: results
-
-      rounding = 0.0_wp
-      if (size(results%path) > 0) rounding = 10.0_wp*epsilon(1.0_wp)*maxval(results%solves%condition)
-   end function rounding
 
    !> Joints that yield: the increments on the condensed structure, then the
    !> displacements of the whole

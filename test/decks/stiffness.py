@@ -56,7 +56,7 @@ def ring(stiffness, harmonic):
 
 def history(factor):
     """A pile in soil, pushed to and fro"""
-    return scenes.soil_pile('A cycle', ((1, 1), (0.5, 2), (-0.5, 2), (1, 2)), k=2e-3*factor, tolerance=1e-8)
+    return scenes.soil_pile('A cycle', ((1, 1), (0.5, 2), (-0.5, 2), (1, 2)), k=2e-3*factor, tolerance=1e-6)
 
 
 # Name; deck for a factor of the stiffness; laws concerned
