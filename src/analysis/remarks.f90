@@ -67,11 +67,19 @@ contains
       !> The sentences, to be continued
       type(remark_type), allocatable, intent(inout) :: remarks(:)
 
+      integer :: i
+
       if (allocated(results%mechanism)) then
          call add(remarks, results%mechanism)
       else if (.not. results%converged) then
          call add(remarks, 'the last equilibrium was at the load factor '// &
                                          to_text(history%reached))
+      end if
+      if (allocated(results%idle)) then
+         do i = 1, size(results%idle)
+            call add(remarks, 'nothing resists and nothing loads it: '//trim(results%idle(i))// &
+                     '; its share in that motion is arbitrary')
+         end do
       end if
       if (history%verdict%at_rounding) then
          call add(remarks, 'rounding allows no smaller residual ratio: the stress of open joints so '// &

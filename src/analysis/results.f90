@@ -6,6 +6,7 @@ module axijoint_analysis_results
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_field, only : iteration_type
    use axijoint_joints_joint_errors, only : joint_errors_type
+   use axijoint_joints_residual, only : residual_record_type
    use axijoint_joints_states, only : increment_state_type
    implicit none
    private
@@ -174,6 +175,12 @@ module axijoint_analysis_results
       type(increment_state_type), allocatable :: states(:)
       !> Convergence path; empty for a linear job
       type(iteration_type), allocatable :: path(:)
+      !> Motions that nothing resists and no load acts on, in words
+      character(len=80), allocatable :: idle(:)
+      !> What the iterations left out of balance step by step, and a node of each part of the structure that
+      !> it is measured on; empty for a linear job
+      type(residual_record_type), allocatable :: residuals(:)
+      integer, allocatable :: residual_part_node(:)
       !> Residual-force ratio at the end (Eq. 17), from the whole structure
       real(wp) :: residual_ratio = 0.0_wp
       !> Forces of the joint stress that belongs to the bodies' relative displacements but not to

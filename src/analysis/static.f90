@@ -7,6 +7,7 @@ module axijoint_analysis_static
    use axijoint_analysis_in_situ_balance, only : in_situ_balance
    use axijoint_analysis_joint_error, only : nodal_error_type, new_nodal_error, answer_of_joints
    use axijoint_analysis_left_out, only : what_was_left_out
+   use axijoint_analysis_motion, only : motion_text
    use axijoint_analysis_nodal_stress, only : smooth_stress
    use axijoint_analysis_recovery, only : recover
    use axijoint_analysis_remarks, only : remarks_on, mechanism_text
@@ -180,6 +181,9 @@ contains
       if (allocated(error)) return
       call mend_mismatch(model, structure, history, yielding, results, error)
       if (allocated(error)) return
+      results%residuals = history%residuals
+      results%residual_part_node = model%mesh%node_label(structure%scene%measure%part_node)
+      call name_idle_motions(model, structure, history, results)
       if (results%converged) call estimate_errors(structure, history, yielding, other, results)
       start = omp_get_wtime()
       call answer_of_joints(structure%scene, history, yielding, nodal%displacement, nodal%joint_stress)
@@ -195,6 +199,32 @@ contains
          field%offset = yielding%offset
       end associate
    end subroutine solve_joints
+
+   !> Name the motions that nothing resists and no load acts on
+   subroutine name_idle_motions(model, structure, history, results)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> Takes the names
+      type(results_type), intent(inout) :: results
+
+      real(wp), allocatable :: motion(:, :, :)
+      character(len=len(results%idle)) :: name
+      integer :: k
+
+      allocate (results%idle(0))
+      if (.not. results%converged .or. .not. allocated(history%verdict%mechanism%idle)) return
+      allocate (motion, mold=results%displacement)
+      do k = 1, size(history%verdict%mechanism%idle, 2)
+         motion = 0.0_wp
+         call add_motions(structure%scene%floating, history%verdict%mechanism%idle(:, k), motion)
+         name = motion_text(model%mesh, results%modes, motion)
+         results%idle = [results%idle, name]
+      end do
+   end subroutine name_idle_motions
 
    !> See how far the relative displacements of the bodies are from those that the laws saw;
    !> where that matters, correct the response by the difference and balance the joints again
@@ -319,7 +349,7 @@ contains
                        history%loading)
       history%peak = history%loading
       allocate (results%displacement, mold=history%loading%right)
-      allocate (results%path(0), none(3, 0, size(structure%modes)))
+      allocate (results%path(0), results%residuals(0), results%residual_part_node(0), none(3, 0, size(structure%modes)))
       results%states = loads_of_increments(model, combination)
       if (.not. model%sweep%wanted) results%states = results%states(size(results%states):)
       call timer%push(phase_joints)

@@ -9,11 +9,11 @@ module axijoint_joints_increments
    use axijoint_base_text, only : to_text
    use axijoint_element_joint_law, only : memory_type
    use axijoint_joints_balance, only : verdict_type, balance_step
-   use axijoint_joints_field, only : joint_field_type, iteration_type, new_joint_field, commit_field, &
+   use axijoint_joints_field, only : joint_field_type, iteration_type, new_joint_field, commit_field, judge_states, &
                                      set_initial_stress
    use axijoint_joints_floating, only : new_loads_on, put_loads_on
    use axijoint_joints_planes, only : on_all
-   use axijoint_joints_residual, only : load_norm, ratio, set_reference
+   use axijoint_joints_residual, only : load_norm, ratio, set_reference, residual_record_type, ratios_of
    use axijoint_joints_response, only : load_response
    use axijoint_joints_scene, only : scene_type, elastic_stress
    use axijoint_joints_states, only : increment_state_type
@@ -52,6 +52,10 @@ module axijoint_joints_increments
       type(memory_type), allocatable :: memory(:, :)
       !> Convergence path
       type(iteration_type), allocatable :: path(:)
+      !> What the iterations left out of balance, one entry a step in equilibrium, and the last if it failed
+      type(residual_record_type), allocatable :: residuals(:)
+      !> Whether the last of them is of a step in equilibrium
+      logical :: noted = .true.
       !> What ended the increments before their time: too little memory
       type(error_type), allocatable :: failure
    end type history_type
@@ -89,7 +93,7 @@ contains
       real(wp) :: peak_norm
       integer :: i
 
-      allocate (history%path(0), history%states(0))
+      allocate (history%path(0), history%states(0), history%residuals(0))
       field = new_joint_field(size(scene%points), size(scene%planes%angle), size(scene%equations%modes), &
                               size(scene%floating))
       scene%loads = new_loads_on(scene%floating, size(scene%points))
@@ -140,6 +144,7 @@ contains
             end if
             field = before  ! what ran away is no state to show
             call put_loads(from)
+            call judge_states(scene%model, scene%points, field)  ! none was, before the first load
             return
          end if
          field = before
@@ -202,6 +207,7 @@ contains
             end if
             call balance_step(scene, control%tolerance, control%max_iterations, now, field, &
                               history%path, history%verdict)
+            call note_residual(scene, field, increment, step%load_factor, history)
             if (.not. history%verdict%converged) return
             balanced = stress
             scene%loads%stress = max(scene%loads%stress, maxval(abs(field%stress), 3))
@@ -229,6 +235,30 @@ contains
 
    end subroutine run_increments
 
+   !> Note what a step left out of balance; one that failed is forgotten at the next
+   subroutine note_residual(scene, field, increment, load_factor, history)
+      !> What residuals are measured by
+      type(scene_type), intent(in) :: scene
+      !> The state, with what is not transferred
+      type(joint_field_type), intent(in) :: field
+      !> Increment, and sum of the load factors
+      integer, intent(in) :: increment
+      real(wp), intent(in) :: load_factor
+      !> Takes the entry
+      type(history_type), intent(inout) :: history
+
+      type(residual_record_type) :: record
+
+      record = ratios_of(scene%measure, field%pending)
+      record%increment = increment
+      record%load_factor = load_factor
+      if (size(history%residuals) > 0 .and. .not. history%noted) then
+         history%residuals = history%residuals(:size(history%residuals) - 1)
+      end if
+      history%residuals = [history%residuals, record]
+      history%noted = history%verdict%converged
+   end subroutine note_residual
+
    !> Balance the last step again, after the response of the structure was corrected
    subroutine balance_again(scene, field, history)
       !> Joint points, their corrected response, planes
@@ -243,6 +273,10 @@ contains
                  control => scene%model%increments(size(scene%model%increments)))
          call balance_step(scene, control%tolerance, control%max_iterations, last, field, history%path, &
                            history%verdict, warm=.true.)
+      end associate
+      history%noted = .false.  ! in the place of the last
+      associate (last => history%path(size(history%path)))
+         call note_residual(scene, field, last%increment, last%load_factor, history)
       end associate
       history%memory = field%memory
       if (history%verdict%converged) call commit_field(scene%model, scene%points, field)

@@ -12,7 +12,8 @@ module axijoint_joints_residual
    use axijoint_model_mesh, only : mesh_type
    implicit none
    private
-   public :: measure_type, strictest_type, new_measure, set_reference, strictest, residual_norm, load_norm, ratio
+   public :: measure_type, strictest_type, residual_record_type, new_measure, set_reference, strictest, ratios_of
+   public :: residual_norm, load_norm, ratio
 
    !> A residual this small beside the forces of the increment is rounding: smaller parts and harmonics are not
    !> resolved beyond it
@@ -53,6 +54,17 @@ module axijoint_joints_residual
       !> Where it is: a node of the part, and place of the mode; zero if it is the whole
       integer :: node = 0, mode = 0
    end type strictest_type
+
+   !> What the iterations left out of balance in a load step
+   type :: residual_record_type
+      !> Increment, and sum of the load factors
+      integer :: increment = 0
+      real(wp) :: load_factor = 0.0_wp
+      !> Of the whole structure to the loads (Eq. 17)
+      real(wp) :: whole = 0.0_wp
+      !> Part by part and harmonic by harmonic to what the joints would carry of the increment, shape (parts, modes)
+      real(wp), allocatable :: ratio(:, :)
+   end type residual_record_type
 
 contains
 
@@ -138,20 +150,38 @@ contains
       !> The largest ratio
       type(strictest_type) :: found
 
-      real(wp), allocatable :: forces(:, :)
+      type(residual_record_type) :: record
       integer :: place(2)
 
-      forces = squares(measure, residual)
-      found%whole = ratio(sqrt(sum(forces)), measure%loads)
+      record = ratios_of(measure, residual)
+      found%whole = record%whole
       found%ratio = found%whole
-      forces = merge(paper_share, 1.0_wp, paper)*ratio(sqrt(forces), measure%reference)
-      if (size(forces) == 0) return
-      place = maxloc(forces)
-      if (all(measure%reference <= 0.0_wp) .or. .not. forces(place(1), place(2)) > found%whole) return
-      found%ratio = forces(place(1), place(2))
+      if (size(record%ratio) == 0) return
+      record%ratio = merge(paper_share, 1.0_wp, paper)*record%ratio
+      place = maxloc(record%ratio)
+      if (.not. record%ratio(place(1), place(2)) > found%whole) return
+      found%ratio = record%ratio(place(1), place(2))
       found%node = measure%part_node(place(1))
       found%mode = place(2)
    end function strictest
+
+   !> Residual forces over the reference, of the whole and part by part and harmonic by harmonic
+   pure function ratios_of(measure, residual) result(record)
+      !> The measure
+      type(measure_type), intent(in) :: measure
+      !> Amplitudes of joint stress out of balance, shape (3, points, modes)
+      real(wp), intent(in) :: residual(:, :, :)
+      !> The ratios; those by parts are zero if the increment loads no joint
+      type(residual_record_type) :: record
+
+      real(wp), allocatable :: squared(:, :)
+
+      squared = squares(measure, residual)
+      record%whole = ratio(sqrt(sum(squared)), measure%loads)
+      allocate (record%ratio, mold=squared)
+      record%ratio = 0.0_wp
+      if (any(measure%reference > 0.0_wp)) record%ratio = ratio(sqrt(squared), measure%reference)
+   end function ratios_of
 
    !> Norm of the residual forces r = N*^T e of joint stress: the ring forces on all equations, squared and
    !> integrated round the circle, which is the sum over m of |r_m|^2 / c_m for generalized forces r_m (Psi^r of

@@ -13,6 +13,7 @@ module axijoint_output_hdf5
    use axijoint_output_hdf5_sections, only : write_section_groups, write_cut_group
    use axijoint_output_in_situ, only : write_in_situ_group
    use axijoint_output_joint_proportion, only : write_proportion_arrays
+   use axijoint_output_residuals, only : write_residual_arrays
    use axijoint_output_run, only : run_type, status_name
    implicit none
    private
@@ -329,6 +330,7 @@ contains
          call file%write("/convergence/n_slip", (path%n_slip), "Points that slip; (step)")
          call file%write("/convergence/n_open", (path%n_open), "Points that are open; (step)")
       end associate
+      call write_residual_arrays(file, results)
       call file%attribute("/convergence", "residual_ratio", results%residual_ratio)
       call file%attribute("/convergence", "tolerance", results%tolerance)
    end subroutine write_convergence

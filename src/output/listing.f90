@@ -23,6 +23,7 @@ module axijoint_output_listing
    use axijoint_output_listing_sweep, only : picture_type, write_pictures
    use axijoint_output_listing_stress, only : write_stresses, write_nodal_stresses, &
       write_joint_results
+   use axijoint_output_residuals, only : write_residuals
    use axijoint_output_run, only : run_type
    use axijoint_output_text_file, only : text_file_type
    use axijoint_base_text, only : to_text
@@ -73,6 +74,7 @@ contains
       call write_equations(file, results)
       call write_left_out(file, results)
       call write_convergence(file, model%method, results)
+      call write_residuals(file, results)
       call write_displacements(file, model, results)
       call write_total_displacements(file, model, results)
       call write_stresses(file, model, results)

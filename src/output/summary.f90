@@ -14,6 +14,7 @@ module axijoint_output_summary
    use axijoint_output_listing_budget, only : largest_error_text
    use axijoint_output_joint_proportion, only : proportions_json
    use axijoint_output_json, only : json_string, json_number, json_integers, json_strings
+   use axijoint_output_residuals, only : residuals_json
    use axijoint_output_run, only : run_type, status_name, status_error
    use axijoint_output_text_file, only : text_file_type
    use axijoint_output_totals, only : count_states, n_unknowns
@@ -56,6 +57,7 @@ contains
       call put_pair(file, "planes", json_number(model%n_planes))
       call put_pair(file, "iterations", json_number(size(results%path)))
       call put_pair(file, "residual_ratio", json_number(results%residual_ratio))
+      call put_pair(file, "residuals", residuals_json(results))
       call put_pair(file, "mismatch", json_number(results%mismatch))
       call put_pair(file, "tolerance", json_number(results%tolerance))
       call put_pair(file, "method", json_string(lower(trim(method_names(model%method)))))
