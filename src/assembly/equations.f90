@@ -1,6 +1,6 @@
 !> The equations of all harmonics: matrices, factors, solution
 module axijoint_assembly_equations
-   use axijoint_assembly_dofs, only : gather, expand
+   use axijoint_assembly_dofs, only : gather, expand, collect
    use axijoint_assembly_harmonic, only : harmonic_product
    use axijoint_assembly_mode_classes, only : mode_classes
    use axijoint_assembly_stiffness, only : stiffness_type, new_stiffness, assemble_parts
@@ -292,34 +292,9 @@ contains
 
       associate (system => equations%systems(equations%system(k)))
          force = harmonic_product(equations%classes(system%class), system%harmonic, &
-                                  on_unknowns(equations, k, displacement))
+                                  collect(equations%classes(system%class)%dofs, displacement))
       end associate
    end function elastic_force
-
-   !> Values of the unknowns from displacement components
-   function on_unknowns(equations, k, displacement) result(vector)
-      !> The equations
-      type(equations_type), intent(in) :: equations
-      !> Place of the mode
-      integer, intent(in) :: k
-      !> Displacement amplitudes, shape (3, nodes)
-      real(wp), intent(in) :: displacement(:, :)
-      !> Unknowns, shape (n_equations)
-      real(wp), allocatable :: vector(:)
-
-      integer :: node, i
-
-      associate (dofs => equations%classes(equations%systems(equations%system(k))%class)%dofs)
-         allocate (vector(dofs%n_equations))
-         do node = 1, size(displacement, 2)
-            do i = 1, 3
-               if (dofs%equation(i, node) > 0) then
-                  vector(dofs%equation(i, node)) = dofs%factor(i, node)*displacement(i, node)
-               end if
-            end do
-         end do
-      end associate
-   end function on_unknowns
 
    !> Backward error |b - K u| / (|K| |u| + |b|) of one mode, maximum norms
    function backward_error(equations, k, force, displacement) result(ratio)

@@ -23,7 +23,7 @@ module axijoint_assembly_stiffness
    use axijoint_order_graph, only : graph_type
    implicit none
    private
-   public :: stiffness_type, new_stiffness, assemble_parts, any_harmonic, n_parts
+   public :: stiffness_type, new_stiffness, assemble_parts, element_blocks, any_harmonic, n_parts, least_elements
 
    !> Fewer elements are not worth waking the threads for
    integer, parameter :: least_elements = 1000
@@ -250,23 +250,42 @@ contains
       !> First and last place of the nodes whose rows are added to
       integer, intent(in) :: from, to
 
-      type(solid_point_type) :: points(max_element_points)
-      type(dilatation_type) :: dilatation
       real(wp) :: blocks(2, 3, 3, max_blocks)
-      integer :: n, n_points, i
+      integer :: i
 
-      n = model%mesh%element_size(element)
-      n_points = references(n)%n_points
-      associate (nodes => model%mesh%element_nodes(:n, element))
-         call solid_points(model%mesh%coordinates(:, nodes), references(n), points(:n_points))
-         call new_dilatation(points(:n_points), references(n), dilatation)
-         call solid_blocks(points(:n_points), n, kernels(model%mesh%element_material(element)), &
-                           blocks(:, :, :, :n_blocks(n)), dilatation)
+      call element_blocks(model, references, kernels, element, blocks)
+      associate (nodes => model%mesh%element_nodes(:model%mesh%element_size(element), element))
          do i = 1, size(classes)
             call scatter(classes(i), nodes, blocks, from, to)
          end do
       end associate
    end subroutine add_element
+
+   !> Integrate the blocks of one element
+   subroutine element_blocks(model, references, kernels, element, blocks)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Kinds of elements, by number of nodes
+      type(reference_type), intent(in) :: references(3:)
+      !> Kernels of the materials
+      type(stiffness_kernel_type), intent(in) :: kernels(:)
+      !> Element
+      integer, intent(in) :: element
+      !> The blocks, the first of which are in use
+      real(wp), intent(inout) :: blocks(2, 3, 3, max_blocks)
+
+      type(solid_point_type) :: points(max_element_points)
+      type(dilatation_type) :: dilatation
+      integer :: n, n_points
+
+      n = model%mesh%element_size(element)
+      n_points = references(n)%n_points
+      call solid_points(model%mesh%coordinates(:, model%mesh%element_nodes(:n, element)), references(n), &
+                        points(:n_points))
+      call new_dilatation(points(:n_points), references(n), dilatation)
+      call solid_blocks(points(:n_points), n, kernels(model%mesh%element_material(element)), &
+                        blocks(:, :, :, :n_blocks(n)), dilatation)
+   end subroutine element_blocks
 
    !> Add one point of a joint; its stiffness is free of the harmonic: part A
    subroutine add_joint_point(point, classes)

@@ -4,7 +4,7 @@ module axijoint_element_joint_law
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: joint_law_type, memory_type, admit_stress, trial_stress, admit, renew, state_of
+   public :: joint_law_type, memory_type, admit_stress, trial_stress, admit, renew, state_of, lost_at_opening
    public :: law_elastic, law_paper, slip_components, slip_resultant, opening_reversible, opening_bond
    public :: state_stick, state_slip, state_open
    public :: xi, eta, theta
@@ -179,6 +179,21 @@ contains
       end if
       if (memory%broken) cohesion = 0.0_wp
    end subroutine strength
+
+   !> Shear stress that a point loses at once when it opens: what its cohesion carries then
+   pure real(wp) function lost_at_opening(law, memory, trial) result(lost)
+      !> Properties of the joint
+      type(joint_law_type), intent(in) :: law
+      !> Memory of the point
+      type(memory_type), intent(in) :: memory
+      !> Trial stress
+      real(wp), intent(in) :: trial(3)
+
+      real(wp) :: cohesion, friction
+
+      call strength(law, memory, cohesion, friction)
+      lost = min(cohesion, maxval(abs(trial([xi, theta]))))
+   end function lost_at_opening
 
    !> Cut one shear stress to the yield stress, its sign kept
    pure subroutine cut_component(i, cohesion, friction, trial, stress, tangent)

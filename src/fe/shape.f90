@@ -3,7 +3,7 @@ module axijoint_fe_shape
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: shape_element, shape_line, n_corners, natural_positions
+   public :: shape_element, shape_line, lagrange, n_corners, natural_positions
 
    !> Natural coordinates of the nine nodes of a quadrilateral, shape (2, 9):
    !> corners counterclockwise, mid-sides, centre
@@ -114,6 +114,25 @@ contains
          derivative(1:3) = [x - 0.5_wp, x + 0.5_wp, -2.0_wp*x]
       end if
    end subroutine shape_line
+
+   !> The polynomials that are one at one place and zero at the others
+   pure function lagrange(places, x) result(values)
+      !> The places
+      real(wp), intent(in) :: places(:)
+      !> Where
+      real(wp), intent(in) :: x
+      !> The values, one a place
+      real(wp) :: values(size(places))
+
+      integer :: i, j
+
+      values = 1.0_wp
+      do i = 1, size(places)
+         do j = 1, size(places)
+            if (j /= i) values(i) = values(i)*(x - places(j))/(places(i) - places(j))
+         end do
+      end do
+   end function lagrange
 
    !> Bilinear functions of the four corners
    pure subroutine bilinear(x, y, shape, derivative)

@@ -1,0 +1,277 @@
+!> Stiffness of all harmonics in blocks of two nodes, every node with its three components: no factor
+!> will be made of it, only products, so nothing is said about which components are held
+!>
+!> A block has two numbers for each pair of components, as in `element/blocks`: A and C, or S and zero,
+!> of K_m = c_m (A + m S + m^2 C).
+module axijoint_assembly_node_blocks
+   use omp_lib, only : omp_get_max_threads
+   use axijoint_assembly_support, only : support_point_type, support_stiffness
+   use axijoint_assembly_stiffness, only : element_blocks, least_elements
+   use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_large_pages, only : zero_large_pages
+   use axijoint_base_sort, only : sort_short
+   use axijoint_element_blocks, only : n_blocks, pack_blocks
+   use axijoint_element_joint, only : joint_stiffness
+   use axijoint_element_solid, only : stiffness_kernel_type, new_stiffness_kernel
+   use axijoint_fe_fourier, only : circle_integral
+   use axijoint_fe_reference, only : reference_type
+   use axijoint_model_joint_points, only : model_joint_point_type
+   use axijoint_model_material, only : elasticity
+   use axijoint_model_mesh, only : max_element_nodes, n_elements
+   use axijoint_model_model, only : model_type, element_references
+   use axijoint_order_graph, only : graph_type
+   implicit none
+   private
+   public :: node_blocks_type, new_node_blocks, assemble_blocks, block_product, harmonic_block
+
+   !> Unknowns of the largest element, and its blocks of two nodes
+   integer, parameter :: max_unknowns = 3*max_element_nodes
+   integer, parameter :: max_blocks = max_element_nodes*(max_element_nodes + 1)/2
+
+   !> Lower triangle by rows of blocks
+   type :: node_blocks_type
+      !> Place of each node in the order of the rows
+      integer, allocatable :: place(:)
+      !> First block of each row, shape (nodes + 1)
+      integer(i8), allocatable :: row_start(:)
+      !> Column of each block, ascending in a row, the diagonal last
+      integer, allocatable :: column(:)
+      !> The blocks, shape (3, 3, 2, blocks): component of the column, component of the row, number
+      real(wp), allocatable :: parts(:, :, :, :)
+   end type node_blocks_type
+
+contains
+
+   !> Pattern of the blocks
+   subroutine new_node_blocks(blocks, graph, order)
+      !> The blocks, without numbers
+      type(node_blocks_type), intent(out) :: blocks
+      !> Graph of the nodes
+      type(graph_type), intent(in) :: graph
+      !> order(k) is the k-th node
+      integer, intent(in) :: order(:)
+
+      integer(i8) :: n
+      integer :: k, l, other
+
+      allocate (blocks%place(graph%n), blocks%row_start(graph%n + 1))
+      allocate (blocks%column(graph%n + size(graph%neighbour, kind=i8)/2))
+      blocks%place(order) = [(k, k=1, graph%n)]
+      n = 0
+      do k = 1, graph%n
+         blocks%row_start(k) = n + 1
+         do l = graph%start(order(k)), graph%start(order(k) + 1) - 1
+            other = blocks%place(graph%neighbour(l))
+            if (other > k) cycle
+            n = n + 1
+            blocks%column(n) = other
+         end do
+         call sort_short(blocks%column(blocks%row_start(k):n))
+         n = n + 1
+         blocks%column(n) = k
+      end do
+      blocks%row_start(graph%n + 1) = n + 1
+   end subroutine new_node_blocks
+
+   !> Integrate all elements, joints and springs. Every thread adds to rows of its own, element by
+   !> element, so that sums do not depend on the number of threads
+   subroutine assemble_blocks(blocks, model, joint_points, support_points)
+      !> The blocks
+      type(node_blocks_type), intent(inout) :: blocks
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Points of all joints, and of all springs
+      type(model_joint_point_type), intent(in) :: joint_points(:)
+      type(support_point_type), intent(in) :: support_points(:)
+
+      integer :: k, n_ranges
+
+      allocate (blocks%parts(3, 3, 2, blocks%row_start(size(blocks%row_start)) - 1))
+      call clear(blocks%parts, size(blocks%parts, 4))
+      n_ranges = merge(omp_get_max_threads(), 1, n_elements(model%mesh) > least_elements)
+      !$omp parallel do schedule(static, 1) if (n_ranges > 1)
+      do k = 1, n_ranges
+         call assemble_rows(blocks, model, joint_points, support_points, share(k - 1) + 1, share(k))
+      end do
+      !$omp end parallel do
+
+   contains
+
+      !> The first k shares of the rows
+      pure integer function share(k)
+         !> Number of shares
+         integer, intent(in) :: k
+
+         share = int(size(blocks%place, kind=i8)*k/n_ranges)
+      end function share
+
+   end subroutine assemble_blocks
+
+   !> Put zeros into blocks, in large pages
+   subroutine clear(parts, n)
+      !> Number of blocks
+      integer, intent(in) :: n
+      !> The blocks
+      real(wp), intent(inout) :: parts(18, n)
+
+      call zero_large_pages(parts)
+   end subroutine clear
+
+   !> Add to a range of rows
+   subroutine assemble_rows(blocks, model, joint_points, support_points, from, to)
+      !> The blocks
+      type(node_blocks_type), intent(inout) :: blocks
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Points of all joints, and of all springs
+      type(model_joint_point_type), intent(in) :: joint_points(:)
+      type(support_point_type), intent(in) :: support_points(:)
+      !> First and last row
+      integer, intent(in) :: from, to
+
+      type(stiffness_kernel_type) :: kernels(size(model%materials))
+      type(reference_type) :: references(3:9)
+      real(wp) :: local(2, 3, 3, max_blocks), matrix(max_unknowns, max_unknowns)
+      integer :: k, n
+
+      references = element_references(model)
+      do k = 1, size(kernels)
+         kernels(k) = new_stiffness_kernel(elasticity(model%materials(k)))
+      end do
+      do k = 1, n_elements(model%mesh)
+         n = model%mesh%element_size(k)
+         associate (nodes => model%mesh%element_nodes(:n, k))
+            if (.not. any(blocks%place(nodes) >= from .and. blocks%place(nodes) <= to)) cycle
+            call element_blocks(model, references, kernels, k, local)
+            call scatter(blocks, nodes, local, from, to)
+         end associate
+      end do
+      do k = 1, size(joint_points)
+         associate (point => joint_points(k))
+            n = 2*point%n_pairs
+            call joint_stiffness(point%joint_point_type, point%base, &
+                                 matrix(:3*n, :3*n))
+            call pack_blocks(n, matrix, blocks=local)
+            call scatter(blocks, point%nodes(:n), local, from, to)
+         end associate
+      end do
+      do k = 1, size(support_points)
+         associate (point => support_points(k))
+            n = point%n_pairs
+            call support_stiffness(point, matrix(:3*n, :3*n))
+            call pack_blocks(n, matrix, blocks=local)
+            call scatter(blocks, point%nodes(:n), local, from, to)
+         end associate
+      end do
+   end subroutine assemble_rows
+
+   !> Add the blocks of an element
+   pure subroutine scatter(blocks, nodes, local, from, to)
+      !> The blocks
+      type(node_blocks_type), intent(inout) :: blocks
+      !> Nodes of the element
+      integer, intent(in) :: nodes(:)
+      !> Its blocks, of the nodes i >= j column by column
+      real(wp), intent(in) :: local(2, 3, 3, max_blocks)
+      !> First and last row that are added to
+      integer, intent(in) :: from, to
+
+      integer(i8) :: k
+      integer :: place(size(nodes)), i, j, c, p
+
+      place = blocks%place(nodes)
+      p = 0
+      do j = 1, size(nodes)
+         do i = j, size(nodes)
+            p = p + 1
+            if (max(place(i), place(j)) < from .or. max(place(i), place(j)) > to) cycle
+            k = block_at(blocks, max(place(i), place(j)), min(place(i), place(j)))
+            do c = 1, 2
+               if (place(i) >= place(j)) then
+                  blocks%parts(:, :, c, k) = blocks%parts(:, :, c, k) + local(c, :, :, p)
+               else
+                  blocks%parts(:, :, c, k) = blocks%parts(:, :, c, k) + transpose(local(c, :, :, p))
+               end if
+            end do
+         end do
+      end do
+   end subroutine scatter
+
+   !> Place of a block
+   pure integer(i8) function block_at(blocks, row, column)
+      !> The blocks
+      type(node_blocks_type), intent(in) :: blocks
+      !> Row and column
+      integer, intent(in) :: row, column
+
+      block_at = blocks%row_start(row + 1) - 1
+      do while (blocks%column(block_at) > column)
+         block_at = block_at - 1
+      end do
+   end function block_at
+
+   !> Factors of the two numbers of a block's entries in K_m
+   pure subroutine harmonic_factors(harmonic, first, second)
+      !> Harmonic m
+      integer, intent(in) :: harmonic
+      !> The factors of the first numbers, shape (3, 3), and that of the second
+      real(wp), intent(out) :: first(3, 3), second
+
+      first = circle_integral(harmonic)
+      first(3, 1:2) = harmonic*circle_integral(harmonic)
+      first(1:2, 3) = harmonic*circle_integral(harmonic)
+      second = real(harmonic, wp)**2*circle_integral(harmonic)
+   end subroutine harmonic_factors
+
+   !> A block of K_m
+   pure function harmonic_block(blocks, k, harmonic) result(block)
+      !> The blocks
+      type(node_blocks_type), intent(in) :: blocks
+      !> Place of the block
+      integer(i8), intent(in) :: k
+      !> Harmonic m
+      integer, intent(in) :: harmonic
+      !> Its values, shape (component of the column, component of the row)
+      real(wp) :: block(3, 3)
+
+      real(wp) :: first(3, 3), second
+
+      call harmonic_factors(harmonic, first, second)
+      block = first*blocks%parts(:, :, 1, k) + second*blocks%parts(:, :, 2, k)
+   end function harmonic_block
+
+   !> y = K_m x, in the order of the rows
+   pure subroutine block_product(blocks, harmonic, x, y)
+      !> The blocks
+      type(node_blocks_type), intent(in) :: blocks
+      !> Harmonic m
+      integer, intent(in) :: harmonic
+      !> x, shape (3, nodes)
+      real(wp), intent(in), contiguous :: x(:, :)
+      !> y, same shape
+      real(wp), intent(out), contiguous :: y(:, :)
+
+      real(wp) :: first(3, 3), second, b(3, 3), own(3), total(3)
+      integer(i8) :: k
+      integer :: i, j
+
+      call harmonic_factors(harmonic, first, second)
+      y = 0.0_wp
+      do i = 1, size(x, 2)
+         own = x(:, i)
+         total = 0.0_wp
+         do k = blocks%row_start(i), blocks%row_start(i + 1) - 2
+            j = blocks%column(k)
+            b = first*blocks%parts(:, :, 1, k) + second*blocks%parts(:, :, 2, k)
+            total(1) = total(1) + b(1, 1)*x(1, j) + b(2, 1)*x(2, j) + b(3, 1)*x(3, j)
+            total(2) = total(2) + b(1, 2)*x(1, j) + b(2, 2)*x(2, j) + b(3, 2)*x(3, j)
+            total(3) = total(3) + b(1, 3)*x(1, j) + b(2, 3)*x(2, j) + b(3, 3)*x(3, j)
+            y(:, j) = y(:, j) + b(:, 1)*own(1) + b(:, 2)*own(2) + b(:, 3)*own(3)
+         end do
+         k = blocks%row_start(i + 1) - 1
+         b = first*blocks%parts(:, :, 1, k) + second*blocks%parts(:, :, 2, k)
+         y(:, i) = y(:, i) + total + b(:, 1)*own(1) + b(:, 2)*own(2) + b(:, 3)*own(3)
+      end do
+   end subroutine block_product
+
+end module axijoint_assembly_node_blocks
