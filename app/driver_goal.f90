@@ -1,7 +1,7 @@
 !> Rounds of refinement of a job that has an error target
 module axijoint_driver_goal
    use omp_lib, only : omp_get_wtime
-   use axijoint_analysis_goal, only : mark_type, mark_of, goal_error, refine_further, too_large
+   use axijoint_analysis_goal, only : goal_error, refine_further, too_large
    use axijoint_analysis_results, only : results_type, round_type
    use axijoint_analysis_static, only : analyse_combination
    use axijoint_analysis_structure, only : structure_type, build_structure
@@ -50,14 +50,13 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(refinement_type) :: refinement, before
-      type(mark_type), allocatable :: marks(:)
       integer :: worst
       logical :: changed, back
 
-      allocate (rounds(0), marks(size(model%combinations)))
+      allocate (rounds(0))
       back = .false.
       do
-         call solve_round(refinement, model, structure, results, marks, rounds, worst, timer, progress, error)
+         call solve_round(refinement, model, structure, results, rounds, worst, timer, progress, error)
          if (back) then
             rounds = rounds(:size(rounds) - 1)  ! this one stands there already
             return
@@ -72,8 +71,7 @@ contains
                if (last%error <= model%error_goal%target) return  ! met, or not known
                if (size(rounds) >= model%error_goal%most_rounds) return
                before = refinement
-               call refine_further(model, results(worst)%budget, size(rounds) == 1, last%error, last%n_unknowns, &
-                                   refinement, changed)
+               call refine_further(model, results(worst)%budget, last%n_unknowns, refinement, changed)
                if (.not. changed) return
             end if
          end associate
@@ -134,7 +132,7 @@ contains
    end subroutine take_options
 
    !> Solve all combinations, and note what the round came to
-   subroutine solve_round(refinement, model, structure, results, marks, rounds, worst, timer, progress, error)
+   subroutine solve_round(refinement, model, structure, results, rounds, worst, timer, progress, error)
       !> How the job was refined
       type(refinement_type), intent(in) :: refinement
       !> The job
@@ -143,8 +141,6 @@ contains
       type(structure_type), intent(inout), target :: structure
       !> Results of its combinations
       type(results_type), allocatable, intent(out) :: results(:)
-      !> What the round before had to say on each combination; then what this one has
-      type(mark_type), intent(inout) :: marks(:)
       !> One more round
       type(round_type), allocatable, intent(inout) :: rounds(:)
       !> The combination with the largest error, or the first that did not converge
@@ -157,7 +153,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(round_type) :: round
-      real(wp) :: errors(size(marks)), start
+      real(wp) :: errors(size(model%combinations)), start
       integer :: k
 
       start = omp_get_wtime()
@@ -174,10 +170,9 @@ contains
       if (allocated(error)) then
          round%failure = 'could not be solved ('//error%message//')'
       else if (.not. allocated(round%failure)) then
-         errors = [(goal_error(model, results(k), marks(k)), k=1, size(results))]
+         errors = [(goal_error(model, results(k)), k=1, size(results))]
          worst = maxloc(errors, 1)
          round%error = errors(worst)
-         marks = [(mark_of(model, results(k)), k=1, size(results))]
       end if
       round%mesh = refinement%mesh
       round%nodes = maxval(model%mesh%element_size)

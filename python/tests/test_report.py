@@ -159,13 +159,13 @@ class Reports(unittest.TestCase):
         summary = json.loads(pathlib.Path(f"{path}.json").read_text(encoding="utf-8"))
         page = self.page("case3")
         for source, share in summary["errors"].items():
-            if source != "largest":
+            if source != "in_words":
                 self.assertIn(source, page.texts["th"])
                 for value in share.values():
                     self.assertIn(markup.number(value), page.texts["td"])
-        largest = summary["errors"]["largest"].removeprefix("largest: ")
-        self.assertIn(f"Largest: {largest}", page.texts["p"].replace("\u00a0", " "))
-        self.assertIn(largest, page.texts["td"])
+        said = summary["errors"]["in_words"]
+        self.assertIn(f"In words: {said}", page.texts["p"].replace("\u00a0", " "))
+        self.assertIn(said, page.texts["td"])
 
     def test_error_budget_of_other_sources(self):
         job = unittest.mock.Mock(verdict="converged", summary={"errors": {

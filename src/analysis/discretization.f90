@@ -1,14 +1,15 @@
 !> The discretization error of a run: energy norm, displacements, joint stresses
 module axijoint_analysis_discretization
    use omp_lib, only : omp_get_wtime
-   use axijoint_analysis_joint_error, only : nodal_error_type, elastic_joint_error
+   use axijoint_analysis_largest_values, only : largest_vector, largest_elastic_stress
+   use axijoint_analysis_mesh_error, only : mesh_error_type, away_from_infinite
    use axijoint_analysis_results, only : results_type
    use axijoint_analysis_solid_error, only : solid_errors
    use axijoint_analysis_structure, only : structure_type
    use axijoint_assembly_loading, only : loading_type
    use axijoint_assembly_support, only : add_support_force
-   use axijoint_base_kinds, only : wp, pi
-   use axijoint_fe_mode, only : mode_type, mode_integral, meridional, circumferential
+   use axijoint_base_kinds, only : wp
+   use axijoint_fe_mode, only : mode_integral
    use axijoint_joints_field, only : joint_field_type, stress_amplitude
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_planes, only : new_view
@@ -18,13 +19,10 @@ module axijoint_analysis_discretization
    private
    public :: estimate_discretization
 
-   !> Most angles at which the largest displacement is looked for
-   integer, parameter :: most_angles = 64
-
 contains
 
    !> Estimate the discretization error
-   subroutine estimate_discretization(model, structure, loading, field, largest_stress, nodal, results)
+   subroutine estimate_discretization(model, structure, loading, field, largest_stress, mesh_error, results)
       !> The job
       type(model_type), intent(in) :: model
       !> Joints and springs
@@ -33,10 +31,10 @@ contains
       type(loading_type), intent(in) :: loading
       !> State of the joints
       type(joint_field_type), intent(in) :: field
-      !> Largest stress of joints that yield, of all increments
-      real(wp), intent(in) :: largest_stress
+      !> Largest stress of points of joints that yield, of all increments; not allocated if none can
+      real(wp), allocatable, intent(in) :: largest_stress(:)
       !> Errors of the displacements of nodes, and of joints that yield
-      type(nodal_error_type), intent(in) :: nodal
+      type(mesh_error_type), intent(in) :: mesh_error
       !> Results, stresses and all; takes the estimate
       type(results_type), intent(inout) :: results
 
@@ -54,34 +52,37 @@ contains
          estimate%mode_relative = sqrt(ratio(estimate%error_energy, estimate%energy))
          estimate%relative = sqrt(ratio(sum(estimate%error_energy), sum(estimate%energy)))
          estimate%element = ratio(sum(error, 1), sum(estimate%energy))
-         ! displacements that loads work on are off by the square of the error in the energy norm: by more than
-         ! nodes show where stresses are infinite
          total = results%displacement
          if (size(field%offset) > 0) call add_motions(structure%scene%floating, field%offset, total)
          estimate%largest_displacement = largest_vector(results%modes, total)
-         estimate%displacement = max(estimate%relative**2, ratio(largest_vector(results%modes, nodal%displacement), &
-                                                                 estimate%largest_displacement))
+         estimate%displacement = ratio(largest_vector(results%modes, mesh_error%displacement), &
+                                       estimate%largest_displacement)
          estimate%joint_stress = joint_stress_error()
-         estimate%seconds = nodal%seconds + omp_get_wtime() - start
+         estimate%seconds = structure%fine%seconds + mesh_error%seconds + omp_get_wtime() - start
       end associate
 
    contains
 
       !> Error of joint stresses, relative; negative if there are no joints or if it is not known
       real(wp) function joint_stress_error() result(error)
-         real(wp) :: largest
+         real(wp) :: largest, scale
          integer, allocatable :: elastic(:)
 
          error = -1.0_wp
          if (size(structure%joint_points) == 0) return
-         largest = nodal%joint_stress
+         largest = mesh_error%joint_stress
          if (size(structure%yielding) > 0 .and. largest < 0.0_wp) return
          elastic = pack([(k, k=1, size(structure%joint_points))], &
-                        .not. can_yield_at(model, structure%joint_points%material))
-         largest = max(0.0_wp, largest, elastic_joint_error( &
+                        structure%judged .and. .not. can_yield_at(model, structure%joint_points%material))
+         largest = max(0.0_wp, largest, largest_elastic_stress( &
             structure%joint_points(elastic), new_view(results%plane_angles, results%modes), &
-            nodal%displacement))
-         error = ratio(largest, max(largest_stress, maxval(abs(results%joint_stress))))
+            mesh_error%jump(:, elastic, :)))
+         scale = maxval(maxval(maxval(abs(results%joint_stress), 3), 1), mask=structure%judged)
+         if (allocated(largest_stress)) then
+            scale = max(scale, maxval(largest_stress, mask=structure%judged(structure%yielding)))
+         end if
+         if (.not. all(structure%judged)) largest = away_from_infinite*largest
+         error = ratio(largest, scale)
       end function joint_stress_error
 
       !> Energy of the joints in one mode
@@ -119,32 +120,6 @@ contains
       end function spring_energy
 
    end subroutine estimate_discretization
-
-   !> Largest displacement vector at any node and angle
-   pure real(wp) function largest_vector(modes, amplitude) result(largest)
-      !> The modes
-      type(mode_type), intent(in) :: modes(:)
-      !> Displacement amplitudes, shape (3, nodes, modes)
-      real(wp), intent(in) :: amplitude(:, :, :)
-
-      real(wp), allocatable :: total(:, :)
-      real(wp) :: angle
-      integer :: j, k, n
-
-      allocate (total(3, size(amplitude, 2)))
-      n = min(4*(maxval(modes%harmonic) + 1), most_angles)
-      largest = 0.0_wp
-      do j = 0, n - 1
-         angle = 2.0_wp*pi*j/n
-         total = 0.0_wp
-         do k = 1, size(modes)
-            total(:2, :) = total(:2, :) + meridional(modes(k), angle)*amplitude(:2, :, k)
-            total(3, :) = total(3, :) + circumferential(modes(k), angle)*amplitude(3, :, k)
-         end do
-         largest = max(largest, maxval(sum(total**2, 1)))
-      end do
-      largest = sqrt(largest)
-   end function largest_vector
 
    !> Twice the energy of a joint per area; a direction without stiffness has none
    pure real(wp) function energy_density(stress, stiffness) result(density)

@@ -1,16 +1,15 @@
-!> What each approximation leaves of the error of a run, side by side, and what
-!> would halve the largest
+!> What each approximation leaves of the error of a run, side by side and in all, and what
+!> would halve it
 module axijoint_analysis_error_budget
    use axijoint_analysis_results, only : results_type, error_share_type
    use axijoint_analysis_response_tail, only : response_tail
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
-   use axijoint_joints_joint_errors, only : joint_error_type
    use axijoint_joints_residual, only : ratio
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: new_budget, largest_share
+   public :: new_budget, sum_of_shares, is_known
 
 contains
 
@@ -35,10 +34,11 @@ contains
                                    to_text(nint(1.4142*(model%n_planes - 1)) + 1)//' in CONTROL')
       budget(4) = error_share_type(source='iteration', remedy='half the tolerance in INCREMENTS')
       if (yields) then
-         call take(results%joint_errors%planes, budget(3))
-         call take(results%joint_errors%iteration, budget(4))
+         call take(results%joint_errors(2), budget(3))
+         call take(results%joint_errors(1), budget(4))
       else
          budget(3:4)%displacement = 0.0_wp
+         if (size(results%joint_stress) > 0) budget(2:4)%joint_stress = 0.0_wp
       end if
       budget(5) = error_share_type(source='solver', remedy='less contrast of the stiffnesses')
       ! a backward error is a relative change of the data, which the condition number passes on at most
@@ -62,7 +62,7 @@ contains
       if (any(model%mesh%element_size < 5)) then
          share%remedy = 'elements 0.7 (for stresses 0.5) times as large'
       else
-         share%remedy = 'elements 0.7 times as large'
+         share%remedy = 'elements 0.6 times as large'
       end if
    end function discretization_share
 
@@ -86,7 +86,7 @@ contains
       share%source = 'harmonics'
       share%remedy = 'harmonics: M = '//to_text(max(1, nint(1.4142*model%max_harmonic)))//' in CONTROL'
       share%displacement = 0.0_wp
-      if (yields) call take(results%joint_errors%harmonics, share)
+      if (yields) call take(results%joint_errors(3), share)
       share%load = 0.0_wp
       do k = 1, size(model%truncations)
          associate (cut => model%truncations(k))
@@ -106,26 +106,46 @@ contains
    !> Take an estimate of the joints
    pure subroutine take(error, share)
       !> The estimate
-      type(joint_error_type), intent(in) :: error
+      type(error_share_type), intent(in) :: error
       !> The share
       type(error_share_type), intent(inout) :: share
 
       share%displacement = error%displacement
-      share%joint_stress = error%stress
+      share%joint_stress = error%joint_stress
       share%seconds = error%seconds
    end subroutine take
 
-   !> Place of the share that leaves most of joint stress or, if no joints yield, of
-   !> displacement; 0 if all are zero or unknown
-   pure integer function largest_share(budget) result(place)
+   !> All shares together, each quantity without those that are not known; negative if none is
+   pure function sum_of_shares(budget) result(total)
       !> The budget
       type(error_share_type), intent(in) :: budget(:)
+      !> The sums
+      type(error_share_type) :: total
 
-      real(wp) :: size_of(size(budget))
+      total%source = 'sum'
+      total%energy = known_sum((budget%energy))
+      total%displacement = known_sum((budget%displacement))
+      total%joint_stress = known_sum((budget%joint_stress))
+      total%seconds = sum(budget%seconds)
+   end function sum_of_shares
 
-      size_of = max(budget%displacement, budget%joint_stress)
-      place = maxloc(size_of, 1)
-      if (.not. size_of(place) > 0.0_wp) place = 0
-   end function largest_share
+   !> Sum of what is known
+   pure real(wp) function known_sum(values)
+      !> Values, negative if not known
+      real(wp), intent(in) :: values(:)
+
+      known_sum = -1.0_wp
+      if (any(values >= 0.0_wp)) known_sum = sum(values, mask=values >= 0.0_wp)
+   end function known_sum
+
+   !> Whether all shares of a quantity are known; the solver has none of joint stress
+   pure logical function is_known(budget, values)
+      !> The budget
+      type(error_share_type), intent(in) :: budget(:)
+      !> The shares of a quantity
+      real(wp), intent(in) :: values(:)
+
+      is_known = all(values >= 0.0_wp .or. budget%source == 'solver')
+   end function is_known
 
 end module axijoint_analysis_error_budget

@@ -79,8 +79,9 @@ contains
          estimate%n_factors = equations%n_kept + min(equations%n_workers, n - equations%n_kept)
       end associate
       estimate%bytes = program_bytes + others%mesh + standing_bytes(equations) + parts_bytes(equations) &
-         + kept_bytes(equations) + others%joints &
-         + max(passing_bytes(equations) + others%loads, others%joint_work*equations%n_workers, &
+         + kept_bytes(equations) + others%joints + others%fine &
+         + max(passing_bytes(equations) + others%loads + others%fine_work*equations%n_workers, &
+               others%joint_work*equations%n_workers, &
                output_bytes + others%loads + others%stresses)
       if (kind == solver_sparse) estimate%bytes = estimate%bytes + sparse_bytes
    end subroutine estimate_job

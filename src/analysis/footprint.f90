@@ -19,6 +19,9 @@ module axijoint_analysis_footprint
    integer(i8), parameter :: newton_vectors = 100
    !> Bytes of a node in the mesh, its elements, graph, orders and equations, as measured
    integer(i8), parameter :: mesh_bytes = 520
+   !> Bytes of a node of the fine mesh besides its stiffness, and what its vectors and blocks take, as measured
+   integer(i8), parameter :: fine_mesh_bytes = 250
+   real(wp), parameter :: fine_work_bytes = 900.0_wp
 
    !> Bytes
    type :: footprint_type
@@ -32,6 +35,8 @@ module axijoint_analysis_footprint
       integer(i8) :: joints = 0
       !> What a thread takes to form a flexibility
       integer(i8) :: joint_work = 0
+      !> The mesh of elements half as large, for estimates of errors, and what a thread takes for one
+      integer(i8) :: fine = 0, fine_work = 0
    contains
       !> All that comes after planning
       procedure :: coming
@@ -56,9 +61,9 @@ contains
       references = element_references(model)
       nodes = n_nodes(model%mesh)
       footprint%mesh = mesh_bytes*nodes
-      footprint%loads = 15*nodes*n_modes*real_bytes  ! displacements, two kinds of loads twice
-      footprint%loads = footprint%loads + 3*nodes*n_modes*real_bytes &  ! errors of nodes
-         + sum(interpolation_bytes(model%mesh%element_size, references(model%mesh%element_size)%n_points))
+      footprint%loads = 21*nodes*n_modes*real_bytes  ! displacements, two kinds of loads twice, errors of nodes
+      footprint%fine = sum(fine_bytes(model%mesh%element_size))
+      footprint%fine_work = nint(sum(fine_nodes(model%mesh%element_size))*fine_work_bytes, i8)
       footprint%stresses = 3*nodes + 6*sum(int(references(model%mesh%element_size)%n_points, i8)) &
          + 6*nodes &  ! smoothed to nodes
          + 6*sum(merge(1_i8, 4_i8, model%mesh%element_size <= 4))  ! at samples
@@ -81,42 +86,45 @@ contains
       if (jumps == 0) footprint%joint_work = 0
    end function data_footprint
 
-   !> Memory of the polynomials that are fitted round an element, in a grid
-   elemental integer(i8) function interpolation_bytes(n_nodes, n_points) result(bytes)
-      !> Nodes and points of the element
-      integer, intent(in) :: n_nodes, n_points
+   !> Memory of the fine level for an element: the nodes that it has there, with the blocks of stiffness that
+   !> these have on and below the diagonal
+   elemental integer(i8) function fine_bytes(n_nodes) result(bytes)
+      !> Nodes of the element
+      integer, intent(in) :: n_nodes
 
-      !> Bytes of the descriptors
-      integer(i8), parameter :: overhead = 700
-      integer(i8) :: functions, patch
+      !> Bytes of a block, and of a node in its mesh
+      integer(i8), parameter :: block_bytes = 18*real_bytes + 4
 
-      select case (n_nodes)
-      case (3)
-         functions = 6
-         patch = 12
-      case (4)
-         functions = 10
-         patch = 16
-      case (6)
-         functions = 10
-         patch = 37
-      case (8)
-         functions = 15
-         patch = 40
-      case default
-         functions = 15
-         patch = 49
-      end select
-      bytes = overhead + 4*patch + real_bytes*functions*(patch + 3*n_points)
-      if (n_nodes > 4 .and. n_points < 7) bytes = bytes + real_bytes*functions*3*(n_points + 9)
-   end function interpolation_bytes
+      bytes = nint(fine_nodes(n_nodes)*(blocks_of(n_nodes)*block_bytes + fine_mesh_bytes), i8)
+   end function fine_bytes
+
+   !> Fine nodes of an element among many
+   elemental real(wp) function fine_nodes(n_nodes)
+      !> Nodes of the element
+      integer, intent(in) :: n_nodes
+
+      !> Of elements of 3 to 9 nodes: four times those of a coarse one
+      real(wp), parameter :: number(3:9) = [2.0_wp, 4.0_wp, 0.0_wp, 8.0_wp, 0.0_wp, 12.0_wp, 16.0_wp]
+
+      fine_nodes = number(n_nodes)
+   end function fine_nodes
+
+   !> Neighbours of a node that come before it, and itself, on average
+   elemental real(wp) function blocks_of(n_nodes)
+      !> Nodes of the elements
+      integer, intent(in) :: n_nodes
+
+      real(wp), parameter :: number(3:9) = [4.0_wp, 5.0_wp, 0.0_wp, 6.25_wp, 0.0_wp, 8.3_wp, 8.5_wp]
+
+      blocks_of = number(n_nodes)
+   end function blocks_of
 
    !> Most that is there at once after planning: stresses come when the flexibilities are formed
    elemental integer(i8) function coming(self)
       !> The bytes
       class(footprint_type), intent(in) :: self
 
-      coming = self%loads + self%joints + max(self%stresses, self%joint_work)
+      coming = self%loads + self%joints + self%fine + max(self%stresses, self%joint_work, self%fine_work)
    end function coming
 
 end module axijoint_analysis_footprint

@@ -8,12 +8,12 @@ module axijoint_analysis_goal
    use axijoint_model_request, only : error_goal_type, refinement_type, goal_joints, goal_displacement, goal_energy
    implicit none
    private
-   public :: mark_type, mark_of, goal_error, refine_further, too_large
+   public :: goal_error, refine_further, too_large
 
    !> How one source of error is brought down
    type :: rule_type
-      !> Estimates of a first round are multiplied by this before they count: so far too low were the worst of
-      !> them where the error was known, at corners that make stresses infinite and with bonds
+      !> Its estimates are multiplied by this before they count: about the most that true errors were, of nine in
+      !> ten scenes
       real(wp) :: safety = 1.0_wp
       !> Part of the target that is left to it
       real(wp) :: part = 0.0_wp
@@ -22,90 +22,26 @@ module axijoint_analysis_goal
       real(wp) :: order = 1.0_wp
    end type rule_type
 
-   !> What one round has to say to the next
-   type :: mark_type
-      private
-      !> Sum of the estimates
-      real(wp) :: estimate = 0.0_wp
-      !> Largest value of what the goal is about; zero if that is no single number, or not settled
-      real(wp) :: largest = 0.0_wp
-      !> Most nodes of an element
-      integer :: nodes = 0
-   end type mark_type
-
-   !> From the second round on, the sum of the estimates is multiplied by this
-   real(wp), parameter :: margin = 1.3_wp
-   !> Estimates of elements of different order are comparable to this factor
-   real(wp), parameter :: kinship = 1.5_wp
-   !> Two rounds tell how good the estimates are if they fall by this factor between them
-   real(wp), parameter :: distinct = 1.3_wp
-   !> Estimates of a first round are expected to be so many times too low when the next is planned
-   real(wp), parameter :: usual = 2.0_wp
    !> Least and most that the numbers of a source are multiplied by in a round
-   real(wp), parameter :: least = 1.3_wp, most_mesh = 2.0_wp, most_numbers = 5.0_wp
+   real(wp), parameter :: least = 1.3_wp, most_mesh = 2.5_wp, most_numbers = 5.0_wp
    !> A source that is brought down is to fall to this part of what is left to it: a round more costs more
-   real(wp), parameter :: aim = 0.9_wp
+   real(wp), parameter :: aim = 0.8_wp
    !> What 8-node elements in the place of 4-node ones divide the error of displacements by, about, and how
    !> many times the unknowns they have
-   real(wp), parameter :: quadratic_gain = 15.0_wp, quadratic_growth = 3.0_wp
+   real(wp), parameter :: quadratic_gain = 4.0_wp, quadratic_growth = 3.0_wp
    !> Elements are made larger again by so much at most where they become quadratic
    real(wp), parameter :: coarsest = 0.5_wp
 
 contains
 
-   !> What a round has to say to the next
-   pure type(mark_type) function mark_of(model, results) result(mark)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Its results
-      type(results_type), intent(in) :: results
-
-      integer :: i
-
-      mark%nodes = maxval(model%mesh%element_size)
-      mark%estimate = sum([(max(0.0_wp, share_of(results%budget(i), model%error_goal)), i=1, size(results%budget))])
-      select case (model%error_goal%quantity)
-      case (goal_displacement)
-         mark%largest = results%discretization%largest_displacement
-      case (goal_joints)
-         if (size(results%joint_stress) > 0) mark%largest = maxval(abs(results%joint_stress))
-      end select
-      if (is_loose(results%budget, model%error_goal)) mark%largest = 0.0_wp
-   end function mark_of
-
-   !> Whether the iteration leaves so much that the results tell nothing about other errors
-   pure logical function is_loose(budget, goal)
-      !> The budget
-      type(error_share_type), intent(in) :: budget(:)
-      !> The goal
-      type(error_goal_type), intent(in) :: goal
-
-      type(rule_type) :: rule
-      integer :: i
-
-      is_loose = .false.
-      rule = rule_of('iteration', goal%quantity)
-      do i = 1, size(budget)
-         if (budget(i)%source == 'iteration') is_loose = share_of(budget(i), goal) > rule%part*goal%target
-      end do
-   end function is_loose
-
-   !> The error that a target is compared with, on the safe side; negative if a share that there
-   !> must be is not known. In the first round it is the sum of the shares of the quantity that the goal is
-   !> about, each times its factor. From the second round on the estimates of both rounds are taken to be
-   !> too low by the same factor, which the change of the largest value tells:
-   !>
-   !>    error_1 - error_2 = c (estimate_1 - estimate_2)
-   pure real(wp) function goal_error(model, results, before) result(error)
+   !> The error that a target is compared with, on the safe side: the sum of the shares of the quantity that
+   !> the goal is about, each times its factor; negative if a share that there must be is not known
+   pure real(wp) function goal_error(model, results) result(error)
       !> The job, and its goal
       type(model_type), intent(in) :: model
       !> Its results
       type(results_type), intent(in) :: results
-      !> What the round before had to say; that of no round has no estimate
-      type(mark_type), intent(in) :: before
 
-      type(mark_type) :: now
-      real(wp) :: factor
       integer :: i
 
       error = -1.0_wp
@@ -114,18 +50,11 @@ contains
             if (budget(i)%source == 'discretization' .and. share_of(budget(i), goal) < 0.0_wp) return
             if (budget(i)%load >= 1.0_wp) return  ! what a concentrated load does has no limit
          end do
-         now = mark_of(model, results)
-         if (before%estimate >= distinct*now%estimate .and. before%largest > 0.0_wp .and. now%largest > 0.0_wp) then
-            factor = abs(before%largest/now%largest - 1.0_wp)/(before%estimate - now%estimate)
-            if (before%nodes /= now%nodes) factor = kinship*factor
-            error = margin*max(1.0_wp, factor)*now%estimate
-         else
-            error = sum([(safety_of(budget(i), goal)*max(0.0_wp, share_of(budget(i), goal)), i=1, size(budget))])
-         end if
+         error = sum([(safety_of(budget(i), goal)*max(0.0_wp, share_of(budget(i), goal)), i=1, size(budget))])
       end associate
    end function goal_error
 
-   !> Factor on a share in the first round
+   !> Factor on a share
    pure real(wp) function safety_of(share, goal)
       !> The share
       type(error_share_type), intent(in) :: share
@@ -169,28 +98,24 @@ contains
 
       select case (source)
       case ('discretization')
-         rule = rule_type(safety=merge(2.0_wp, 3.0_wp, quantity == goal_energy), part=0.45_wp, order=order(quantity))
+         rule = rule_type(safety=1.4_wp, part=0.5_wp, order=order(quantity))
       case ('harmonics')
-         rule = rule_type(safety=2.0_wp, part=0.2_wp, order=1.5_wp)
+         rule = rule_type(safety=1.3_wp, part=0.25_wp, order=1.5_wp)
       case ('planes')
-         rule = rule_type(safety=1.5_wp, part=0.3_wp, order=1.25_wp)
+         rule = rule_type(safety=1.2_wp, part=0.2_wp, order=1.25_wp)
       case ('iteration')
-         rule = rule_type(safety=1.5_wp, part=0.05_wp, order=1.0_wp)
+         rule = rule_type(safety=1.1_wp, part=0.05_wp, order=1.0_wp)
       case default
          rule = rule_type()
       end select
    end function rule_of
 
    !> Raise what leaves more than its part of the target
-   pure subroutine refine_further(model, budget, first, error, n_unknowns, refinement, changed)
+   pure subroutine refine_further(model, budget, n_unknowns, refinement, changed)
       !> The job as it was solved, and its goal
       type(model_type), intent(in) :: model
       !> What its approximations leave
       type(error_share_type), intent(in) :: budget(:)
-      !> Whether this was the first round
-      logical, intent(in) :: first
-      !> Its error, from `goal_error`
-      real(wp), intent(in) :: error
       !> Unknowns that it had
       integer, intent(in) :: n_unknowns
       !> How it was refined; further on return
@@ -199,20 +124,14 @@ contains
       logical, intent(out) :: changed
 
       type(rule_type) :: rule
-      real(wp) :: excess, room, need, factor
-      logical :: loose
+      real(wp) :: excess, room, need
       integer :: i
 
       changed = .false.
       need = 0.0_wp
-      loose = is_loose(budget, model%error_goal)
-      factor = usual
-      if (.not. first) factor = max(usual, error/sum([(max(0.0_wp, share_of(budget(i), model%error_goal)), &
-                                                      i=1, size(budget))]))
       do i = 1, size(budget)
          rule = rule_of(budget(i)%source, model%error_goal%quantity)
-         excess = merge(max(rule%safety, usual), factor, loose)*share_of(budget(i), model%error_goal) &
-                  /(max(rule%part, tiny(1.0_wp))*model%error_goal%target)
+         excess = rule%safety*share_of(budget(i), model%error_goal)/(max(rule%part, tiny(1.0_wp))*model%error_goal%target)
          if (.not. excess > aim) cycle
          excess = excess/aim
          select case (budget(i)%source)

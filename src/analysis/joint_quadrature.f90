@@ -5,7 +5,7 @@ module axijoint_analysis_joint_quadrature
    use axijoint_element_joint, only : joint_point_type, new_joint_point, lower_node
    use axijoint_element_joint_law, only : admit
    use axijoint_fe_quadrature, only : gauss_rule
-   use axijoint_fe_shape, only : shape_line
+   use axijoint_fe_shape, only : lagrange
    use axijoint_joints_field, only : joint_field_type, trial_of
    use axijoint_joints_planes, only : analyse
    use axijoint_joints_scene, only : scene_type
@@ -126,27 +126,8 @@ contains
 
       k = course%first - 1 + minloc(abs(course%x(:course%n) - x), 1)
       call admit(scene%model%joint_materials(scene%points(k)%material)%law, field%memory(k, plane), &
-                 matmul(course%trial(:, :course%n), course_of(course, x)), stress, tangent)
+                 matmul(course%trial(:, :course%n), lagrange(course%x(:course%n), x)), stress, tangent)
    end function law_stress
-
-   !> The polynomials that are one at one point and zero at the others
-   pure function course_of(course, x) result(values)
-      !> The joint
-      type(course_type), intent(in) :: course
-      !> Natural coordinate
-      real(wp), intent(in) :: x
-      !> The values, one a point
-      real(wp) :: values(course%n)
-
-      integer :: i, j
-
-      values = 1.0_wp
-      do i = 1, course%n
-         do j = 1, course%n
-            if (j /= i) values(i) = values(i)*(x - course%x(j))/(course%x(i) - course%x(j))
-         end do
-      end do
-   end function course_of
 
    !> Whether the stresses at the ends and in the middle lie on the course of those at the points
    logical function is_smooth(scene, field, plane, course)
@@ -165,7 +146,7 @@ contains
       is_smooth = .true.
       do i = -1, 1
          stress = law_stress(scene, field, plane, course, real(i, wp)) &
-            - matmul(course%stress(:, :course%n), course_of(course, real(i, wp)))
+            - matmul(course%stress(:, :course%n), lagrange(course%x(:course%n), real(i, wp)))
          is_smooth = is_smooth .and. maxval(abs(stress)) <= smooth*maxval(abs(course%trial(:, :course%n)))
       end do
    end function is_smooth

@@ -2,10 +2,10 @@
 module axijoint_analysis_results
    use axijoint_analysis_discretization_error, only : discretization_error_type
    use axijoint_analysis_in_situ, only : in_situ_type
+   use axijoint_analysis_singular_places, only : singular_place_type
    use axijoint_base_kinds, only : wp, i8
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_field, only : iteration_type
-   use axijoint_joints_joint_errors, only : joint_errors_type
    use axijoint_joints_residual, only : residual_record_type
    use axijoint_joints_states, only : increment_state_type
    implicit none
@@ -205,11 +205,13 @@ module axijoint_analysis_results
       !> How far in-situ stress is out of balance with weight, supports and joints
       type(in_situ_type) :: in_situ
       !> Errors that iteration, planes and harmonics leave in joints that yield
-      type(joint_errors_type) :: joint_errors
+      type(error_share_type) :: joint_errors(3)
       !> What the approximations leave of the error, side by side
       type(error_share_type), allocatable :: budget(:)
       !> What the mesh leaves of the error
       type(discretization_error_type) :: discretization
+      !> Where stresses are infinite
+      type(singular_place_type), allocatable :: singular(:)
       !> Rounds of refinement; allocated if the job has a target
       type(round_type), allocatable :: rounds(:)
       !> What stiffer joints would change: of soft laws, of stiff laws; none if all are sensible

@@ -1,7 +1,8 @@
 !> Displacements of the whole body, harmonic by harmonic
 module axijoint_analysis_solution
    use omp_lib, only : omp_get_wtime
-   use axijoint_analysis_interpolation_error, only : interpolation_type, interpolation_force
+   use axijoint_analysis_fine_difference, only : difference_type, find_difference
+   use axijoint_analysis_fine_level, only : fine_level_type, fine_load_type
    use axijoint_analysis_results, only : mode_solve_type
    use axijoint_assembly_equations, only : equations_type, solve_mode, refine_mode, &
                                            backward_error, condition_estimate
@@ -22,8 +23,7 @@ contains
    !> Displacements under loads and excess joint stress, a step of refinement in them. A factor
    !> that is not kept is made, used for all that needs it, and given up.
    subroutine solve_displacements(equations, model, loading, points, excess, displacement, solves, &
-                                  factor_share, error, interpolation, correction, &
-                                  seconds)
+                                  factor_share, error, level, load, difference)
       !> Equations of all modes, assembled
       type(equations_type), intent(inout) :: equations
       !> The job, for the words of an error
@@ -41,12 +41,10 @@ contains
       real(wp), intent(out) :: factor_share
       !> Singular stiffness, or out of memory
       type(error_type), allocatable, intent(out) :: error
-      !> What elements cannot interpolate, and errors of the nodes from that, excess stress fixed,
-      !> shape (3, nodes, modes)
-      type(interpolation_type), intent(in), optional :: interpolation
-      real(wp), intent(inout), optional :: correction(:, :, :)
-      !> Time of a thread that these errors took [second]
-      real(wp), intent(inout), optional :: seconds
+      !> The fine level and its loads, which take the differences to the solution there: of linear jobs
+      type(fine_level_type), intent(in), optional :: level
+      type(fine_load_type), intent(in), optional :: load
+      type(difference_type), intent(inout), optional :: difference
 
       type(workspace_type), allocatable :: spaces(:)
       real(wp), allocatable :: force(:, :)  ! threads have small stacks
@@ -77,12 +75,8 @@ contains
                   end if
                end do
                before_errors = omp_get_wtime()
-               if (present(interpolation)) then
-                  do i = 1, size(modes)
-                     k = modes(i)
-                     call solve_mode(equations, k, interpolation_force(model, interpolation, &
-                        equations%modes(k)%harmonic, displacement(:, :, k)), correction(:, :, k))
-                  end do
+               if (present(difference)) then
+                  call find_difference(level, equations, s, load, displacement, points, excess, difference)
                end if
                times(3, s) = omp_get_wtime() - before_errors
             end associate
@@ -92,7 +86,7 @@ contains
       end do
       !$omp end parallel do
       factor_share = sum(times(2, :) - times(1, :))/max(tiny(1.0_wp), sum(times(4, :) - times(1, :)))
-      if (present(seconds)) seconds = seconds + sum(times(3, :))/size(spaces)
+      if (present(difference)) difference%seconds = sum(times(3, :))/size(spaces)
       call report_failure(equations, model, error)
    end subroutine solve_displacements
 

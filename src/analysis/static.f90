@@ -1,12 +1,13 @@
 !> Static analysis of a structure under its loads, told in order
 module axijoint_analysis_static
-   use omp_lib, only : omp_get_wtime
    use axijoint_analysis_cuts, only : cut_resultants
    use axijoint_analysis_discretization, only : estimate_discretization
    use axijoint_analysis_error_budget, only : new_budget
+   use axijoint_analysis_fine_difference, only : difference_type, new_difference
+   use axijoint_analysis_fine_level, only : new_fine_load
    use axijoint_analysis_in_situ_balance, only : in_situ_balance
-   use axijoint_analysis_joint_error, only : nodal_error_type, new_nodal_error, answer_of_joints
    use axijoint_analysis_left_out, only : what_was_left_out
+   use axijoint_analysis_mesh_error, only : mesh_error_type, new_mesh_error
    use axijoint_analysis_motion, only : motion_text
    use axijoint_analysis_nodal_stress, only : smooth_stress
    use axijoint_analysis_recovery, only : recover
@@ -16,6 +17,7 @@ module axijoint_analysis_static
    use axijoint_analysis_solution, only : solve_displacements
    use axijoint_analysis_stiffer_joints, only : compare_stiffer
    use axijoint_analysis_structure, only : structure_type, build_structure
+   use axijoint_analysis_yielding_errors, only : estimate_yielding_errors
    use axijoint_assembly_force, only : elastic_joint_stress
    use axijoint_assembly_loading, only : new_loading
    use axijoint_base_error, only : error_type
@@ -26,7 +28,6 @@ module axijoint_analysis_static
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_increments, only : history_type, run_increments, final_factors, &
                                           loads_of_increments, compare_loops, balance_again
-   use axijoint_joints_joint_errors, only : measure_type, estimate_joint_errors, change_of_displacement
    use axijoint_joints_planes, only : planes_type, new_view, on_all
    use axijoint_joints_residual, only : strictest_type, strictest
    use axijoint_joints_scene, only : mismatch_of, stand_where_they_are
@@ -83,19 +84,19 @@ contains
 
       type(joint_field_type) :: field
       type(history_type) :: history
-      type(nodal_error_type) :: nodal
+      type(mesh_error_type) :: mesh_error
 
       results%modes = structure%modes
       results%orderings = structure%orderings
       results%left_out = what_was_left_out(model, structure)
       results%solver = structure%equations%solver
+      results%singular = structure%singular
       results%in_situ = in_situ_balance(model, combination)
       call timer%push(phase_joints)
-      call new_nodal_error(model, size(results%modes), nodal)
       if (size(structure%yielding) > 0) then
-         call solve_joints(model, structure, combination, history, field, nodal, results, progress, error)
+         call solve_joints(model, structure, combination, history, field, mesh_error, results, progress, error)
       else
-         call solve_linear(model, structure, combination, history, field, nodal, results, timer, error)
+         call solve_linear(model, structure, combination, history, field, mesh_error, results, timer, error)
       end if
       if (allocated(error)) then
          call timer%pop()
@@ -107,7 +108,7 @@ contains
       call timer%push(phase_recover)
       call recover(model, structure, history%loading, history%peak, field, results)
       call smooth_stress(model, results)
-      call estimate_discretization(model, structure, history%loading, field, history%largest_stress, nodal, results)
+      call estimate_discretization(model, structure, history%loading, field, history%largest_stress, mesh_error, results)
       call cut_resultants(model, structure, history%loading, field, results)
       if (size(field%offset) > 0) call add_motions(structure%scene%floating, field%offset, results%displacement)
       results%converged = results%converged .and. max(results%residual_ratio, results%mismatch) &
@@ -122,7 +123,7 @@ contains
 
    !> Joints that yield: the increments on the condensed structure, then the
    !> displacements of the whole
-   subroutine solve_joints(model, structure, combination, history, field, nodal, results, progress, error)
+   subroutine solve_joints(model, structure, combination, history, field, mesh_error, results, progress, error)
       !> The job
       type(model_type), intent(in), target :: model
       !> The structure, factored and condensed
@@ -133,8 +134,8 @@ contains
       type(history_type), intent(out) :: history
       !> State of all joints
       type(joint_field_type), intent(out) :: field
-      !> Takes errors of the nodes and of joint stresses
-      type(nodal_error_type), intent(inout) :: nodal
+      !> Takes what the mesh leaves of the error
+      type(mesh_error_type), intent(out) :: mesh_error
       !> Results that take displacements and convergence
       type(results_type), intent(inout) :: results
       !> Where to show progress
@@ -144,7 +145,7 @@ contains
 
       type(joint_field_type) :: yielding
       type(joint_field_type), allocatable :: other
-      real(wp) :: factor_share, start
+      real(wp) :: factor_share
 
       structure%scene%model => model
       structure%scene%equations => structure%equations
@@ -176,18 +177,14 @@ contains
       end if
       call solve_displacements(structure%equations, model, history%loading, structure%scene%points, &
                                yielding%excess, results%displacement, results%solves, factor_share, &
-                               error, nodal%interpolation, nodal%displacement, nodal%seconds)
-      deallocate (nodal%interpolation%pieces)
+                               error)
       if (allocated(error)) return
       call mend_mismatch(model, structure, history, yielding, results, error)
       if (allocated(error)) return
       results%residuals = history%residuals
       results%residual_part_node = model%mesh%node_label(structure%scene%measure%part_node)
       call name_idle_motions(model, structure, history, results)
-      if (results%converged) call estimate_errors(structure, history, yielding, other, results)
-      start = omp_get_wtime()
-      call answer_of_joints(structure%scene, history, yielding, nodal%displacement, nodal%joint_stress)
-      nodal%seconds = nodal%seconds + omp_get_wtime() - start
+      call estimate_yielding_errors(structure, history, yielding, other, results, mesh_error)
       results%plane_angles = structure%planes%angle
       call elastic_field(model, structure, structure%planes, history%loading%case_factor, &
                          results%displacement, field)
@@ -285,42 +282,8 @@ contains
 
    end subroutine mend_mismatch
 
-   !> Errors that iteration, planes and harmonics leave. The paper's loop is another
-   !> approximation: its errors are the difference to equilibrium on total jumps, if
-   !> that was found, and the errors of that.
-   subroutine estimate_errors(structure, history, yielding, other, results)
-      !> The structure, condensed
-      type(structure_type), intent(inout) :: structure
-      !> What the increments came to
-      type(history_type), intent(in) :: history
-      !> State of the joints that yield, and that of the other kind of loop
-      type(joint_field_type), intent(in) :: yielding
-      type(joint_field_type), allocatable, intent(in) :: other
-      !> Results with displacements; take the errors
-      type(results_type), intent(inout) :: results
-
-      type(measure_type) :: measure
-      real(wp), allocatable :: total(:, :, :)
-
-      total = results%displacement
-      call add_motions(structure%scene%floating, yielding%offset, total)
-      measure%work = sum(history%loading%right*total)
-      measure%displacement = maxval(abs(total))
-      measure%stress = history%largest_stress
-      associate (scene => structure%scene, errors => results%joint_errors)
-         if (scene%method /= method_transfer) then
-            call estimate_joint_errors(scene, yielding, history%memory, measure, errors)
-         else if (allocated(other)) then
-            call estimate_joint_errors(scene, other, other%memory, measure, errors)
-            errors%iteration%stress = results%other_loop
-            errors%iteration%displacement = change_of_displacement( &
-               scene, other%excess - yielding%excess, measure=measure)
-         end if
-      end associate
-   end subroutine estimate_errors
-
    !> Joints that stay elastic: one solution
-   subroutine solve_linear(model, structure, combination, history, field, nodal, results, timer, error)
+   subroutine solve_linear(model, structure, combination, history, field, mesh_error, results, timer, error)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure, assembled
@@ -331,8 +294,8 @@ contains
       type(history_type), intent(out) :: history
       !> State of all joints
       type(joint_field_type), intent(out) :: field
-      !> Takes errors of the nodes and of joint stresses
-      type(nodal_error_type), intent(inout) :: nodal
+      !> Takes what the mesh leaves of the error
+      type(mesh_error_type), intent(out) :: mesh_error
       !> Results that take displacements and convergence
       type(results_type), intent(inout) :: results
       !> Times of the phases
@@ -341,6 +304,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(planes_type) :: planes
+      type(difference_type) :: difference
       real(wp), allocatable :: none(:, :, :)
       real(wp) :: factor_share
 
@@ -352,12 +316,14 @@ contains
       allocate (results%path(0), results%residuals(0), results%residual_part_node(0), none(3, 0, size(structure%modes)))
       results%states = loads_of_increments(model, combination)
       if (.not. model%sweep%wanted) results%states = results%states(size(results%states):)
+      call new_difference(size(results%displacement, 2), size(structure%joint_points), size(structure%modes), &
+                          difference)
       call timer%push(phase_joints)
       call solve_displacements(structure%equations, model, history%loading, &
                                structure%joint_points(:0), none, results%displacement, &
-                               results%solves, factor_share, error, nodal%interpolation, &
-                               nodal%displacement, nodal%seconds)
-      deallocate (nodal%interpolation%pieces)
+                               results%solves, factor_share, error, structure%fine, &
+                               new_fine_load(structure%fine, structure%modes, history%loading), difference)
+      call new_mesh_error(difference, mesh_error)
       call timer%pop(phase_factor, factor_share)
       if (allocated(error)) return
       results%converged = .true.  ! if the residual says so, too

@@ -1,7 +1,9 @@
 !> What all load combinations of a job share: modes, joints, factored equations
 module axijoint_analysis_structure
+   use axijoint_analysis_fine_level, only : fine_level_type, new_fine_level
    use axijoint_analysis_footprint, only : footprint_type, data_footprint
    use axijoint_analysis_results, only : ordering_type
+   use axijoint_analysis_singular_places, only : singular_place_type, find_singular_places, judged_points
    use axijoint_assembly_equations, only : equations_type, plan_equations, assemble_equations
    use axijoint_assembly_factors, only : plan_factors, factorize_equations, report_failure
    use axijoint_assembly_mechanism, only : check_mechanism
@@ -44,6 +46,11 @@ module axijoint_analysis_structure
       !> Planes that joint results are shown on: all, while the scene leaves out those
       !> that are like others
       type(planes_type) :: planes
+      !> The same on a mesh of elements half as large, for estimates of errors
+      type(fine_level_type) :: fine
+      !> Where stresses are infinite, and whether the stress of a joint point, far enough from there, is judged
+      type(singular_place_type), allocatable :: singular(:)
+      logical, allocatable :: judged(:)
       !> Orders of the nodes side by side
       type(ordering_type), allocatable :: orderings(:)
    end type structure_type
@@ -76,6 +83,14 @@ contains
       call factorize_equations(structure%equations, model, error)
       call timer%pop()
       if (allocated(error)) return
+      call timer%push(phase_assemble)
+      call new_fine_level(model, structure%equations, structure%fine)
+      structure%singular = find_singular_places(model, structure%fine%mesh)
+      associate (points => structure%joint_points)
+         structure%judged = judged_points(model%mesh, structure%singular, &
+                                          reshape([(points(k)%position, k=1, size(points))], [2, size(points)]))
+      end associate
+      call timer%pop()
       call timer%push(phase_joints)
       associate (points => structure%joint_points)
          structure%yielding = pack([(k, k=1, size(points))], can_yield_at(model, points%material))

@@ -12,7 +12,7 @@ module axijoint_assembly_loading
    use axijoint_model_model, only : model_type, on_axis
    implicit none
    private
-   public :: loading_type, new_loading, in_situ_joint_stress
+   public :: loading_type, new_loading, in_situ_joint_stress, add_external, new_initial_state, still_force
 
    !> Loads
    type :: loading_type
@@ -47,13 +47,12 @@ contains
       !> The loads
       type(loading_type), intent(out) :: loading
 
-      real(wp), allocatable :: stress(:, :), internal(:, :), still(:, :)
+      real(wp), allocatable :: still(:, :)
       integer :: k
 
       associate (n => n_nodes(model%mesh))
          allocate (loading%external(3, n, size(modes)), source=0.0_wp)
          allocate (still(3, n), source=0.0_wp)
-         allocate (internal(3, n))
       end associate
       loading%case_factor = combination%factor
       do k = 1, size(modes)
@@ -70,16 +69,42 @@ contains
       if (.not. allocated(loading%held) .and. .not. loading%initial%present) return
       do k = 1, size(modes)
          if (allocated(loading%held)) still = loading%held(:, :, k)
-         call solid_force(model, loading%initial, k, modes(k), still, internal)
-         stress = elastic_joint_stress(joint_points, joint_jump(joint_points, still))
-         if (same_mode(modes(k), mode_type(0, family_symmetric))) then
-            stress = stress + in_situ_joint_stress(model, joint_points, combination%factor)
-         end if
-         internal = internal + joint_force(joint_points, modes(k)%harmonic, stress, size(still, 2))
-         call add_support_force(supports, modes(k)%harmonic, still, internal)
-         loading%right(:, :, k) = loading%right(:, :, k) - internal
+         loading%right(:, :, k) = loading%right(:, :, k) - still_force(model, joint_points, supports, loading%initial, &
+                                                                       k, modes(k), still, combination%factor)
       end do
    end subroutine new_loading
+
+   !> Nodal forces of solids, joints and springs in one mode while the unknowns are zero: of held
+   !> displacements and of initial stresses
+   function still_force(model, joint_points, supports, initial, k, mode, still, factor) result(force)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Points of all joints, and of all springs
+      type(model_joint_point_type), intent(in) :: joint_points(:)
+      type(support_point_type), intent(in) :: supports(:)
+      !> Stress of the solids without strain
+      type(initial_state_type), intent(in) :: initial
+      !> Place of the mode, and the mode
+      integer, intent(in) :: k
+      type(mode_type), intent(in) :: mode
+      !> Displacement amplitudes, shape (3, nodes)
+      real(wp), intent(in) :: still(:, :)
+      !> Factors of the load cases
+      real(wp), intent(in) :: factor(:)
+      !> Forces on components, same shape
+      real(wp), allocatable :: force(:, :)
+
+      real(wp), allocatable :: stress(:, :)
+
+      allocate (force, mold=still)
+      call solid_force(model, initial, k, mode, still, force)
+      stress = elastic_joint_stress(joint_points, joint_jump(joint_points, still))
+      if (same_mode(mode, mode_type(0, family_symmetric))) then
+         stress = stress + in_situ_joint_stress(model, joint_points, factor)
+      end if
+      force = force + joint_force(joint_points, mode%harmonic, stress, size(still, 2))
+      call add_support_force(supports, mode%harmonic, still, force)
+   end function still_force
 
    !> Add the external forces of one mode: on edges, nodal circles and masses
    subroutine add_external(model, mode, factor, force)

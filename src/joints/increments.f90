@@ -41,15 +41,17 @@ module axijoint_joints_increments
       real(wp), allocatable :: runaway(:, :, :), motion(:)
       !> Sum of the load factors of the last step in equilibrium
       real(wp) :: reached = 0.0_wp
-      !> Largest joint stress at the end of a step: what errors are measured by, for joints that
-      !> were unloaded have none at the end
-      real(wp) :: largest_stress = 0.0_wp
+      !> Largest joint stress at the end of a step, of each point: what errors are measured by, for joints
+      !> that were unloaded have none at the end
+      real(wp), allocatable :: largest_stress(:)
       !> States at the ends of the increments before the last; none unless the job
       !> wants its bodies swept
       type(increment_state_type), allocatable :: states(:)
       !> What the points remembered in the last step, before its slip was added, shape
       !> (points, planes)
       type(memory_type), allocatable :: memory(:, :)
+      !> What they remembered at its beginning, before bonds broke and points softened in it
+      type(memory_type), allocatable :: start(:, :)
       !> Convergence path
       type(iteration_type), allocatable :: path(:)
       !> What the iterations left out of balance, one entry a step in equilibrium, and the last if it failed
@@ -94,6 +96,7 @@ contains
       integer :: i
 
       allocate (history%path(0), history%states(0), history%residuals(0))
+      allocate (history%largest_stress(size(scene%points)), source=0.0_wp)
       field = new_joint_field(size(scene%points), size(scene%planes%angle), size(scene%equations%modes), &
                               size(scene%floating))
       scene%loads = new_loads_on(scene%floating, size(scene%points))
@@ -184,9 +187,11 @@ contains
          type(step_type), intent(in) :: step
 
          type(iteration_type) :: now
+         type(memory_type), allocatable :: start(:, :)
          real(wp), allocatable :: stress(:, :, :)
          real(wp) :: norm
 
+         start = field%memory
          associate (control => scene%model%increments(increment))
             call put_loads(step)
             history%verdict%converged = .false.
@@ -212,11 +217,12 @@ contains
             balanced = stress
             scene%loads%stress = max(scene%loads%stress, maxval(abs(field%stress), 3))
             history%memory = field%memory
+            call move_alloc(start, history%start)
             if (scene%method /= method_transfer) then
                call commit_field(scene%model, scene%points, field)
             end if
             history%reached = step%load_factor
-            history%largest_stress = max(history%largest_stress, maxval(abs(field%stress)))
+            history%largest_stress = max(history%largest_stress, maxval(maxval(abs(field%stress), 3), 1))
          end associate
       end subroutine try_step
 

@@ -1,231 +1,265 @@
-!> What iteration, planes and harmonics leave of the error of joints, estimated by
-!> one linear step each on the condensed structure: with the residual that is
-!> left, with the residual on more planes, with the excess stress above M
+!> What iteration, planes and harmonics leave of the error of joints: the state is found again on the
+!> condensed structure, wholly balanced, on more planes, with more harmonics
 module axijoint_joints_joint_errors
    use omp_lib, only : omp_get_wtime
    use axijoint_base_kinds, only : wp
-   use axijoint_element_joint_law, only : memory_type
-   use axijoint_fe_fourier, only : circle_integral
+   use axijoint_element_joint_law, only : memory_type, lost_at_opening, eta
    use axijoint_fe_mode, only : mode_type, family_symmetric, family_antisymmetric
-   use axijoint_joints_field, only : joint_field_type, admit_jump
-   use axijoint_joints_newton, only : newton_type, new_newton, correction, at_points
-   use axijoint_joints_planes, only : planes_type, new_planes, synthesize, analyse
-   use axijoint_joints_response, only : jumps
-   use axijoint_joints_scene, only : scene_type, evaluate, views
+   use axijoint_joints_field, only : joint_field_type, trial_of
+   use axijoint_joints_planes, only : planes_type, new_planes, synthesize
+   use axijoint_joints_response, only : response_type, jumps
+   use axijoint_joints_scene, only : scene_type
+   use axijoint_joints_settle, only : find_again
    use axijoint_linalg_lapack, only : matrix_vector
    use axijoint_model_model, only : method_newton
    implicit none
    private
-   public :: joint_error_type, joint_errors_type, measure_type, estimate_joint_errors, change_of_displacement
+   public :: joint_change_type, joint_changes_type, find_joint_changes, change_between, largest_change
 
-   !> Tolerance of the linear solutions: of an error one digit is enough
-   real(wp), parameter :: tolerance = 0.1_wp
+   !> Intervals between planes are divided by this
+   integer, parameter :: finer = 4
 
-   !> An error of the joints
-   type :: joint_error_type
-      !> Of the joint stress, over the largest of all increments; negative if it is not known
-      real(wp) :: stress = -1.0_wp
-      !> Of displacements: root mean square of the jumps, over the largest displacement, or of the work of
-      !> the loads, over that, whichever is more
-      real(wp) :: displacement = -1.0_wp
+   !> Powers of the harmonic that the stiffness of bodies may grow
+   !> like, and that which is told by harmonic 1, in which bodies move without strain
+   real(wp), parameter :: least_power = 0.5_wp, most_power = 3.0_wp, rigid_power = 2.0_wp
+
+   !> What an approximation changes of the joints
+   type :: joint_change_type
+      !> Whether a state was found without it
+      logical :: known = .false.
+      !> Largest change of a joint stress on the planes of the job [stress]
+      real(wp) :: stress = 0.0_wp
+      !> Change of the excess stress, amplitudes, shape (3, points, modes), and of the floating motions
+      real(wp), allocatable :: excess(:, :, :), offset(:)
+      !> Largest jump in harmonics above M [length]
+      real(wp) :: beyond = 0.0_wp
       !> Time that the estimate took [second]
       real(wp) :: seconds = 0.0_wp
-   end type joint_error_type
+   end type joint_change_type
 
-   !> What errors are measured by
-   type :: measure_type
-      !> Work of the loads [force x length]
-      real(wp) :: work = 0.0_wp
-      !> Largest displacement [length]
-      real(wp) :: displacement = 0.0_wp
-      !> Largest joint stress, of all increments [stress]
-      real(wp) :: stress = 0.0_wp
-   end type measure_type
-
-   !> The errors by what leaves them
-   type :: joint_errors_type
-      type(joint_error_type) :: iteration, planes, harmonics
-   end type joint_errors_type
+   !> The changes by what makes them
+   type :: joint_changes_type
+      type(joint_change_type) :: iteration, planes, harmonics
+   end type joint_changes_type
 
 contains
 
-   !> Estimate the errors of a state in equilibrium on total jumps
-   subroutine estimate_joint_errors(scene, field, memory, measure, errors)
-      !> What does not change; the loads are in its response
+   !> The change from one state to another on the same planes
+   function change_between(scene, before, after, judged) result(change)
+      !> The joints
+      type(scene_type), intent(in) :: scene
+      !> The states
+      type(joint_field_type), intent(in) :: before, after
+      !> Whether the stress of a point counts, shape (points)
+      logical, intent(in) :: judged(:)
+      !> The change
+      type(joint_change_type) :: change
+
+      change%known = .true.
+      change%stress = largest_change(scene, before, after, 1, judged)
+      change%excess = after%excess - before%excess
+      change%offset = after%offset - before%offset
+   end function change_between
+
+   !> Largest change of a stress between two states, the second perhaps on so many times more planes. A point
+   !> that is nearer to its opening than a few times the change of its normal stress may open or close: then its
+   !> cohesion counts, too
+   pure real(wp) function largest_change(scene, before, after, step, judged) result(largest)
+      !> The joints
+      type(scene_type), intent(in) :: scene
+      !> The states
+      type(joint_field_type), intent(in) :: before, after
+      !> Intervals of the second between planes of the first
+      integer, intent(in) :: step
+      !> Whether the stress of a point counts, shape (points)
+      logical, intent(in) :: judged(:)
+
+      !> So many times
+      real(wp), parameter :: reach = 2.0_wp
+      real(wp) :: trial(3), earlier(3)
+      integer :: k, j, l
+
+      largest = 0.0_wp
+      do j = 1, size(before%stress, 3)
+         l = 1 + step*(j - 1)
+         do k = 1, size(judged)
+            if (.not. judged(k)) cycle
+            largest = max(largest, maxval(abs(after%stress(:, k, l) - before%stress(:, k, j))))
+            earlier = trial_of(scene%model, scene%points, k, j, before%jump(:, k, j), before)
+            trial = trial_of(scene%model, scene%points, k, l, after%jump(:, k, l), after)
+            if (abs(trial(eta)) > reach*abs(trial(eta) - earlier(eta))) cycle
+            largest = max(largest, lost_at_opening(scene%model%joint_materials(scene%points(k)%material)%law, &
+                                                   after%memory(k, l), trial))
+         end do
+      end do
+   end function largest_change
+
+   !> Changes by more planes and harmonics
+   subroutine find_joint_changes(scene, balanced, start, judged, changes)
+      !> The joints; the loads are in its response
       type(scene_type), intent(inout) :: scene
-      !> The state
-      type(joint_field_type), intent(in) :: field
-      !> What its points remembered in its increment, shape (points, planes)
-      type(memory_type), intent(in) :: memory(:, :)
-      !> What the errors are measured by
-      type(measure_type), intent(in) :: measure
-      !> The errors
-      type(joint_errors_type), intent(out) :: errors
+      !> Their state, balanced, with the memory of the beginning of its increment
+      type(joint_field_type), intent(in) :: balanced
+      !> What its points remembered at the beginning of its increment, shape (points, planes)
+      type(memory_type), intent(in) :: start(:, :)
+      !> Whether the stress of a point counts, shape (points)
+      logical, intent(in) :: judged(:)
+      !> Takes the changes
+      type(joint_changes_type), intent(inout) :: changes
 
-      type(joint_field_type), allocatable :: state
       type(planes_type) :: planes
-      type(newton_type) :: newton
+      type(response_type) :: response
+      type(joint_field_type), allocatable :: on_more, with_more
       integer :: n, step, method
+      type(memory_type), allocatable :: memory(:, :)
+      real(wp) :: clock
 
+      if (scene%planes%folds == 0) then  ! harmonic 0 alone: all planes are alike
+         changes%planes = no_change(balanced)
+         changes%harmonics = no_change(balanced)
+         return
+      end if
+      clock = omp_get_wtime()
       method = scene%method
       scene%method = method_newton
-      n = scene%model%n_planes - 1
-      allocate (state)
-      state = on_planes(field, memory, 1, size(field%jump, 3))
-      call linearize(scene, state, newton)
-      call iteration_error(scene, newton, measure, errors%iteration)
       planes = scene%planes
-      step = max(2, (4*maxval(scene%equations%modes%harmonic) + n - 1)/n)  ! for products of harmonics up to 2 M
+      n = scene%model%n_planes - 1
+      step = max(finer, (4*maxval(scene%equations%modes%harmonic) + n - 1)/n)  ! for products of harmonics up to 2 M
       scene%planes = new_planes(step*n + 1, scene%equations%modes, whole=planes%folds == 1)
-      state = on_planes(field, memory, step, size(scene%planes%angle))
-      call planes_error(scene, state, newton, measure, errors%planes)
-      call harmonics_error(scene, state, newton, step*n + 1, measure, errors%harmonics)
+      allocate (on_more, source=on_planes(balanced, step, size(scene%planes%angle)))
+      memory = on_planes_memory(start, step, size(scene%planes%angle))
+      call find_again(scene, memory, on_more, changes%planes%known)
+      changes%planes%stress = largest_change(scene, balanced, on_more, step, judged)
+      changes%planes%excess = on_more%excess - balanced%excess
+      changes%planes%offset = on_more%offset - balanced%offset
+      changes%planes%seconds = omp_get_wtime() - clock
+      clock = omp_get_wtime()
+      call add_harmonics(scene, step*n + 1, on_more, with_more, response)
+      if (allocated(with_more)) then
+         call find_again(scene, memory, with_more, changes%harmonics%known)
+         associate (m => size(scene%equations%modes))
+            changes%harmonics%stress = largest_change(scene, on_more, with_more, 1, judged)
+            changes%harmonics%excess = with_more%excess(:, :, :m) - on_more%excess
+            changes%harmonics%offset = with_more%offset - on_more%offset
+            with_more%excess(:, :, :m) = 0.0_wp
+            changes%harmonics%beyond = sqrt(maxval(sum(synthesize(scene%planes, jumps(scene%response, with_more%excess, &
+                                                                                  free=.false.))**2, 1)))
+         end associate
+         call take_back(response, scene%response)
+      else
+         changes%harmonics = no_change(on_more)
+      end if
       scene%planes = planes
       scene%method = method
-   end subroutine estimate_joint_errors
+      changes%harmonics%seconds = omp_get_wtime() - clock
+   end subroutine find_joint_changes
 
-   !> A state with so many times more planes. A new plane remembers what the plane
-   !> before it does
-   pure function on_planes(field, memory, step, count) result(state)
+   !> No change of a state
+   pure function no_change(field) result(change)
       !> The state
       type(joint_field_type), intent(in) :: field
-      !> What its points remembered, shape (points, planes)
-      type(memory_type), intent(in) :: memory(:, :)
+      !> The change
+      type(joint_change_type) :: change
+
+      change%known = .true.
+      change%excess = 0.0_wp*field%excess
+      change%offset = 0.0_wp*field%offset
+   end function no_change
+
+   !> A state with so many times more planes
+   pure function on_planes(field, step, count) result(state)
+      !> The state
+      type(joint_field_type), intent(in) :: field
       !> How many times, and the number of planes then
       integer, intent(in) :: step, count
-      !> The state there; its jumps and stresses are those of the plane before
+      !> The state there; its stresses are those of the plane before
       type(joint_field_type) :: state
 
       integer :: j, place(count)
 
       place = [((j - 1)/step + 1, j=1, count)]
       state = field
-      state%memory = memory(:, place)
+      state%memory = on_planes_memory(field%memory, step, count)
       state%jump = field%jump(:, :, place)
       state%stress = field%stress(:, :, place)
-      state%carried = state%stress
+      state%carried = field%carried(:, :, place)
       state%moved = field%moved(:, :, place)
       state%state = field%state(:, place)
-      state%share = 1.0_wp
    end function on_planes
 
-   !> Linearize the laws about a state
-   subroutine linearize(scene, state, newton)
-      !> What does not change
-      type(scene_type), intent(in) :: scene
-      !> The state; takes jumps and stresses on the planes of the scene
-      type(joint_field_type), intent(inout) :: state
-      !> The laws about it
-      type(newton_type), intent(out) :: newton
+   !> What is remembered on so many times more planes: of slip what lies between the neighbours of a new
+   !> plane, else what the plane before it does
+   pure function on_planes_memory(memory, step, count) result(finer)
+      !> Memory, shape (points, planes)
+      type(memory_type), intent(in) :: memory(:, :)
+      !> How many times, and the number of planes then
+      integer, intent(in) :: step, count
+      !> Memory on the planes
+      type(memory_type) :: finer(size(memory, 1), count)
 
-      real(wp), allocatable :: residual(:, :, :)
+      real(wp) :: share
+      integer :: j, k, place, next
 
-      allocate (residual, mold=state%excess)
-      call evaluate(scene, state, residual)
-      state%carried = state%stress
-      newton = new_newton(scene, state)
-   end subroutine linearize
+      do j = 1, count
+         place = (j - 1)/step + 1
+         next = 1 + mod(place, size(memory, 2))
+         share = real(mod(j - 1, step), wp)/step
+         finer(:, j) = memory(:, place)
+         do k = 1, size(memory, 1)
+            finer(k, j)%slip = (1.0_wp - share)*memory(k, place)%slip + share*memory(k, next)%slip
+         end do
+      end do
+   end function on_planes_memory
 
-   !> Error by the residual that the iteration left
-   subroutine iteration_error(scene, newton, measure, error)
-      !> What does not change
-      type(scene_type), intent(in) :: scene
-      !> The laws about the state
-      type(newton_type), intent(in) :: newton
-      !> What the error is measured by
-      type(measure_type), intent(in) :: measure
-      !> The error
-      type(joint_error_type), intent(out) :: error
-
-      real(wp) :: clock
-
-      clock = omp_get_wtime()
-      call effect(scene, newton, measure, error)
-      error%seconds = omp_get_wtime() - clock
-   end subroutine iteration_error
-
-   !> Error by too few planes: by the residual on more of them
-   subroutine planes_error(scene, state, newton, measure, error)
-      !> What does not change; its planes are more than those of the state
-      type(scene_type), intent(in) :: scene
-      !> The state; takes jumps and stresses on these planes
-      type(joint_field_type), intent(inout) :: state
-      !> Takes the laws about it
-      type(newton_type), intent(out) :: newton
-      !> What the error is measured by
-      type(measure_type), intent(in) :: measure
-      !> The error
-      type(joint_error_type), intent(out) :: error
-
-      real(wp) :: clock
-
-      clock = omp_get_wtime()
-      call linearize(scene, state, newton)
-      call effect(scene, newton, measure, error)
-      error%seconds = omp_get_wtime() - clock
-   end subroutine planes_error
-
-   !> Error by the harmonics above M: the excess stress has some, up to 2 M are looked
-   !> at. They give jumps of their own, and those change the lower harmonics.
-   subroutine harmonics_error(scene, state, newton, n_planes, measure, error)
-      !> What does not change
-      type(scene_type), intent(in) :: scene
-      !> The state, and the laws about it, on many planes
-      type(joint_field_type), intent(in) :: state
-      type(newton_type), intent(inout) :: newton
+   !> Extend the scene to harmonics up to 2 M
+   subroutine add_harmonics(scene, n_planes, field, extended, before)
+      !> The scene; its planes and response are extended
+      type(scene_type), intent(inout) :: scene
       !> Planes from 0 to pi
       integer, intent(in) :: n_planes
-      !> What the error is measured by
-      type(measure_type), intent(in) :: measure
-      !> The error
-      type(joint_error_type), intent(out) :: error
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> The same with more harmonics, in which there is nothing yet; not allocated if there are none
+      type(joint_field_type), allocatable, intent(out) :: extended
+      !> Takes what is to be put back
+      type(response_type), intent(out) :: before
 
       type(mode_type), allocatable :: modes(:)
-      type(planes_type) :: planes
-      type(joint_field_type), allocatable :: other
-      real(wp), allocatable :: excess(:, :, :), more(:, :, :), high(:, :, :)
-      real(wp) :: clock
+      integer :: n, last
 
-      clock = omp_get_wtime()
-      modes = modes_above(scene%equations%modes)
-      if (size(modes) == 0) then  ! nothing repeats round the circle: harmonic 0 alone
-         error = joint_error_type(0.0_wp, 0.0_wp, 0.0_wp)
-         return
-      end if
-      planes = planes_above(scene, modes, n_planes)
-      allocate (other)
-      other = state
-      excess = state%jump  ! for its shape
-      more = state%jump
-      call admit_jump(scene%model, scene%points, state%jump, views(scene, 1.0_wp), other, excess)
-      high = synthesize(planes, jumps_above(scene, modes, analyse(planes, excess)))
-      call admit_jump(scene%model, scene%points, state%jump + high, views(scene, 1.0_wp), other, more)
-      newton%rest = at_points(newton%by_jump, high)
-      ! what k times these jumps gives belongs to their own harmonics
-      newton%residual = analyse(scene%planes, more - excess)
-      call effect(scene, newton, measure, error, high)
-      error%seconds = omp_get_wtime() - clock
-   end subroutine harmonics_error
-
-   !> The planes of the scene for the modes above M
-   pure function planes_above(scene, modes, n_planes) result(planes)
-      !> What does not change
-      type(scene_type), intent(in) :: scene
-      !> Modes above M
-      type(mode_type), intent(in) :: modes(:)
-      !> Planes from 0 to pi
-      integer, intent(in) :: n_planes
-      !> The planes, for these modes alone
-      type(planes_type) :: planes
-
-      associate (below => scene%equations%modes)
-         planes = new_planes(n_planes, [below, modes], whole=scene%planes%folds == 1)
-         planes%meridional = planes%meridional(size(below) + 1:, :)
-         planes%circumferential = planes%circumferential(size(below) + 1:, :)
-         planes%meridional_back = planes%meridional_back(:, size(below) + 1:)
-         planes%circumferential_back = planes%circumferential_back(:, size(below) + 1:)
+      associate (above => modes_above(scene%equations%modes))
+         if (size(above) == 0) return
+         modes = [scene%equations%modes, above]
       end associate
-   end function planes_above
+      n = size(scene%equations%modes)
+      last = maxloc(scene%equations%modes%harmonic, 1)
+      associate (response => scene%response)
+         before%system = response%system
+         call move_alloc(response%free, before%free)
+         response%system = [response%system, spread(response%system(last), 1, size(modes) - n)]
+         response%scale = shares_above(scene, modes, last, field)
+         allocate (response%free(3, size(scene%points), size(modes)), source=0.0_wp)
+         response%free(:, :, :n) = before%free
+      end associate
+      scene%planes = new_planes(n_planes, modes, whole=scene%planes%folds == 1)
+      allocate (extended, source=field)
+      deallocate (extended%excess, extended%pending)
+      allocate (extended%excess(3, size(scene%points), size(modes)), source=0.0_wp)
+      extended%excess(:, :, :n) = field%excess
+      extended%pending = 0.0_wp*extended%excess
+   end subroutine add_harmonics
+
+   !> Put the response back as it was
+   subroutine take_back(before, response)
+      !> As it was
+      type(response_type), intent(inout) :: before
+      !> The response
+      type(response_type), intent(inout) :: response
+
+      response%system = before%system
+      call move_alloc(before%free, response%free)
+      deallocate (response%scale)
+   end subroutine take_back
 
    !> Modes that follow those of a job, up to 2 M
    pure function modes_above(modes) result(above)
@@ -247,100 +281,64 @@ contains
       end do
    end function modes_above
 
-   !> Jumps that excess stress gives in harmonics whose flexibility was not computed:
-   !> that of the highest harmonic, in the share that is left if the stiffness of the
-   !> bodies grows like m. Its mean share phi of 1/k is k/(k + K) with that stiffness K.
-   function jumps_above(scene, modes, excess) result(jump)
+   !> Flexibilities of harmonics that were not computed, over that of the highest. A joint of the stiffness k
+   !> before bodies of the stiffness K takes up the share k/(k + K) of a stress; K of the bodies grows
+   !> like a power of m, which the two highest harmonics tell
+   function shares_above(scene, modes, last, field) result(scale)
       !> What does not change
       type(scene_type), intent(in) :: scene
-      !> The modes
+      !> The modes, those of the scene first
       type(mode_type), intent(in) :: modes(:)
-      !> Amplitudes of the excess stress, shape (3, points, modes)
-      real(wp), intent(in), contiguous :: excess(:, :, :)
-      !> Amplitudes of the jumps, same shape
-      real(wp) :: jump(3, size(excess, 2), size(excess, 3))
+      !> The highest of the scene
+      integer, intent(in) :: last
+      !> State of the joints, for the excess stress that is looked at
+      type(joint_field_type), intent(in) :: field
+      !> The factors, 1 for those of the scene
+      real(wp), allocatable :: scale(:)
 
-      real(wp) :: share, growth
-      integer :: i, k, last, n
+      real(wp) :: stiffness(2), power
+      integer :: k, m(2), place(2)
 
-      last = maxloc(scene%equations%modes%harmonic, 1)
-      associate (matrix => scene%response%flexibilities(scene%response%system(last))%matrix)
-         share = 0.0_wp
-         n = 0
-         do k = 1, size(scene%points)
-            associate (base => scene%points(k)%base)
-               do i = 1, 3
-                  if (.not. base(i) > 0.0_wp) cycle
-                  share = share + matrix(3*(k - 1) + i, 3*(k - 1) + i)*base(i)
-                  n = n + 1
-               end do
-            end associate
-         end do
-         share = min(1.0_wp, max(epsilon(1.0_wp), share/max(1, n)))
-         do k = 1, size(modes)
-            growth = real(modes(k)%harmonic, wp)/scene%equations%modes(last)%harmonic
-            call matrix_vector(matrix, excess(:, :, k), jump(:, :, k))
-            jump(:, :, k) = jump(:, :, k)/(share + growth*(1.0_wp - share))
-         end do
-      end associate
-   end function jumps_above
+      place(2) = last
+      m(2) = modes(last)%harmonic
+      m(1) = maxval(scene%equations%modes%harmonic, mask=scene%equations%modes%harmonic < m(2))
+      place(1) = findloc(scene%equations%modes%harmonic, m(1), 1)
+      do k = 1, 2
+         stiffness(k) = body_stiffness(scene, place(k), field%excess(:, :, last))
+      end do
+      power = 1.0_wp
+      if (m(1) > 0) then
+         power = log(stiffness(2)/stiffness(1))/log(real(m(2), wp)/m(1))
+         power = min(merge(rigid_power, most_power, m(1) == 1), max(least_power, power))
+      end if
+      allocate (scale(size(modes)), source=1.0_wp)
+      do k = size(scene%equations%modes) + 1, size(modes)
+         scale(k) = (1.0_wp + stiffness(2))/(1.0_wp + stiffness(2)*(real(modes(k)%harmonic, wp)/m(2))**power)
+      end do
+   end function shares_above
 
-   !> Change of joint stress and of displacements if the laws were linear
-   subroutine effect(scene, newton, measure, error, high)
+   !> Stiffness of the bodies over that of the joints, for a distribution of excess stress
+   function body_stiffness(scene, place, excess) result(stiffness)
       !> What does not change
       type(scene_type), intent(in) :: scene
-      !> The laws about the state, with the residual that changes it
-      type(newton_type), intent(in) :: newton
-      !> What the error is measured by
-      type(measure_type), intent(in) :: measure
-      !> Takes stress and displacement
-      type(joint_error_type), intent(out) :: error
-      !> Jumps in harmonics above M, shape (3, points, planes); none if absent
-      real(wp), intent(in), optional :: high(:, :, :)
+      !> Place of the mode
+      integer, intent(in) :: place
+      !> The stress, shape (3, points)
+      real(wp), intent(in) :: excess(:, :)
+      !> The ratio
+      real(wp) :: stiffness
 
-      real(wp), allocatable :: change(:, :, :), stress(:, :, :)
+      real(wp) :: jump(3, size(excess, 2)), work(2)
+      integer :: k
 
-      change = correction(scene, newton, tolerance)
-      stress = newton%rest + at_points(newton%by_jump, &
-         synthesize(scene%planes, jumps(scene%response, change, free=.false.)))
-      error%stress = maxval(abs(stress))/max(tiny(1.0_wp), measure%stress)
-      error%displacement = change_of_displacement(scene, change, high, measure)
-   end subroutine effect
-
-   !> Change of displacements when the excess stress changes: of the jumps; and of the
-   !> work of the loads, by reciprocity that of the change on the jumps that they give
-   function change_of_displacement(scene, change, high, measure) result(changed)
-      !> What does not change
-      type(scene_type), intent(in) :: scene
-      !> Change of the excess stress, shape (3, points, modes)
-      real(wp), intent(in), contiguous :: change(:, :, :)
-      !> Change of the jumps in harmonics above M, shape (3, points, planes); none if absent
-      real(wp), intent(in), optional :: high(:, :, :)
-      !> What it is measured by
-      type(measure_type), intent(in) :: measure
-      !> The larger of both, relative
-      real(wp) :: changed
-
-      real(wp), allocatable :: jump(:, :, :)
-      real(wp) :: work
-      integer :: k, p
-
-      jump = synthesize(scene%planes, jumps(scene%response, change, free=.false.))
-      if (present(high)) jump = jump + high
-      work = 0.0_wp
-      do k = 1, size(change, 3)
-         do p = 1, size(change, 2)
-            work = work + scene%points(p)%weight*circle_integral(scene%equations%modes(k)%harmonic) &
-               *dot_product(change(:, p, k), scene%response%free(:, p, k))
-         end do
+      call matrix_vector(scene%response%flexibilities(scene%response%system(place))%matrix, excess, jump)
+      work = tiny(1.0_wp)
+      do k = 1, size(excess, 2)
+         associate (point => scene%points(k))
+            work = work + point%weight*[sum(excess(:, k)**2), sum(excess(:, k)*point%base*jump(:, k))]
+         end associate
       end do
-      changed = 0.0_wp
-      do p = 1, size(jump, 2)
-         changed = changed + scene%points(p)%weight*sum(jump(:, p, :)**2)
-      end do
-      changed = sqrt(changed/(sum(scene%points%weight)*size(jump, 3)))
-      changed = max(changed/max(tiny(1.0_wp), measure%displacement), &
-                    abs(work)/max(tiny(1.0_wp), abs(measure%work)))
-   end function change_of_displacement
+      stiffness = max(epsilon(1.0_wp), work(1)/work(2) - 1.0_wp)
+   end function body_stiffness
 
 end module axijoint_joints_joint_errors

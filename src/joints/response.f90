@@ -32,6 +32,8 @@ module axijoint_joints_response
       type(flexibility_type), allocatable :: flexibilities(:)
       !> System of each mode
       integer, allocatable :: system(:)
+      !> Factor of each mode on its flexibility; allocated if some are taken from another harmonic
+      real(wp), allocatable :: scale(:)
       !> Jumps from the loads, joints elastic, shape (3, points, modes)
       real(wp), allocatable :: free(:, :, :)
       !> Largest displacement from the loads, joints elastic, shape (modes)
@@ -200,6 +202,7 @@ contains
       do k = 1, size(excess, 3)
          call matrix_vector(response%flexibilities(response%system(k))%matrix, excess(:, :, k), &
                              jump(:, :, k))
+         if (allocated(response%scale)) jump(:, :, k) = response%scale(k)*jump(:, :, k)
       end do
       !$omp end parallel do
       if (free) jump = jump + response%free

@@ -141,7 +141,7 @@ contains
       !> Share of each motion
       real(wp), intent(in) :: share(:)
       !> Amplitudes, shape (3, points, modes)
-      real(wp) :: jump(3, size(scene%points), size(scene%equations%modes))
+      real(wp) :: jump(3, size(scene%points), size(scene%response%free, 3))
 
       integer :: z
 
@@ -224,10 +224,12 @@ contains
       do k = 1, size(stress, 3)
          do p = 1, size(stress, 2)
             stress(:, p, k) = scene%points(p)%base*scene%response%free(:, p, k)
-            if (same_mode(scene%equations%modes(k), mode_type(0, family_symmetric))) then
-               stress(:, p, k) = stress(:, p, k) + field%initial(:, p)
-            end if
          end do
+      end do
+      do k = 1, size(scene%equations%modes)
+         if (same_mode(scene%equations%modes(k), mode_type(0, family_symmetric))) then
+            stress(:, :, k) = stress(:, :, k) + field%initial
+         end if
       end do
    end function elastic_stress
 

@@ -10,7 +10,7 @@ module axijoint_output_brief
    use axijoint_model_model, only : model_type
    use axijoint_output_headings, only : mark_not_converged
    use axijoint_output_joint_proportion, only : proportions_text, stiffer_laws_text
-   use axijoint_output_listing_budget, only : largest_error_text
+   use axijoint_output_listing_budget, only : sum_text, remedy_text, singular_text
    use axijoint_output_pending, only : join_path
    use axijoint_output_totals, only : peak_type, largest_displacement, largest_pressure, &
       count_states, n_unknowns
@@ -57,7 +57,11 @@ contains
          line("equilibrium error", to_text(results%equilibrium_error)//" on the whole, "// &
          to_text(results%part_error)//" on the worst part")// &
          displacement_line(model, results)
-      if (allocated(results%budget)) text = text//line("error estimates", largest_error_text(results%budget))
+      if (len(singular_text(model, results)) > 0) text = text//line("infinite stresses", singular_text(model, results))
+      if (allocated(results%budget)) then
+         text = text//line("error estimates", sum_text(results))
+         if (len(remedy_text(results%budget)) > 0) text = text//line("about half with", remedy_text(results%budget))
+      end if
       text = text// &
          line("time, peak memory", seconds_text(timer%seconds(phase_total))//" s, "// &
          to_text(nint(peak_memory_mb()))//" MB")// &

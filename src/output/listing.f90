@@ -10,7 +10,7 @@ module axijoint_output_listing
    use axijoint_output_headings, only : write_lines, rule, mark_not_converged
    use axijoint_output_in_situ, only : write_in_situ
    use axijoint_output_joint_proportion, only : write_proportions
-   use axijoint_output_listing_budget, only : write_left_out, write_budget, write_rounds
+   use axijoint_output_listing_budget, only : write_left_out, write_budget, write_singular, write_rounds
    use axijoint_output_listing_mesh, only : write_nodes, write_restraints, write_elements, write_joints
    use axijoint_output_listing_loads, only : write_loads, write_truncations, write_supports, &
       write_combinations
@@ -86,6 +86,7 @@ contains
       call write_face_reactions(file, model, results)
       call write_equilibrium(file, model, results)
       call write_budget(file, results)
+      call write_singular(file, model, results)
       call write_rounds(file, results)
       call write_pictures(file, size(results%states), pictures)
       call write_times(file, results, timer)

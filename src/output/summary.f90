@@ -1,6 +1,6 @@
 !> Summary of a run in JSON, for scripts
 module axijoint_output_summary
-   use axijoint_analysis_results, only : results_type
+   use axijoint_analysis_results, only : results_type, error_share_type
    use axijoint_base_kinds, only : wp
    use axijoint_base_system, only : peak_memory_mb
    use axijoint_base_timer, only : timer_type, phase_names, phase_read, phase_assemble, &
@@ -10,9 +10,10 @@ module axijoint_output_summary
    use axijoint_fe_mode, only : family_symmetric, family_antisymmetric
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type, method_names
+   use axijoint_analysis_error_budget, only : sum_of_shares
    use axijoint_output_in_situ, only : in_situ_json
-   use axijoint_output_listing_budget, only : largest_error_text
    use axijoint_output_joint_proportion, only : proportions_json
+   use axijoint_output_listing_budget, only : sum_text
    use axijoint_output_json, only : json_string, json_number, json_integers, json_strings
    use axijoint_output_residuals, only : residuals_json
    use axijoint_output_run, only : run_type, status_name, status_error
@@ -73,6 +74,7 @@ contains
       call put_pair(file, "in_situ", in_situ_json(model, results%in_situ))
       call put_pair(file, "left_out", left_out_text(results))
       call put_pair(file, "errors", errors_text(results))
+      call put_pair(file, "singular", singular_json(model, results))
       call put_pair(file, "error_seconds", error_seconds_text(results))
       if (allocated(results%rounds)) call put_pair(file, "rounds", rounds_text(results))
       call put_pair(file, "seconds", seconds_text(timer))
@@ -139,6 +141,32 @@ contains
       json = json//"}"
    end function error_seconds_text
 
+   !> Where stresses are infinite
+   pure function singular_json(model, results) result(json)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> A JSON array
+      character(len=:), allocatable :: json
+
+      integer :: i
+
+      json = "[]"
+      if (.not. allocated(results%singular)) return
+      json = "["
+      do i = 1, size(results%singular)
+         if (i > 1) json = json//", "
+         associate (place => results%singular(i))
+            json = json//'{"node": '//json_number(model%mesh%node_label(place%node))//', "r": '// &
+               json_number(model%mesh%coordinates(1, place%node))//', "z": '// &
+               json_number(model%mesh%coordinates(2, place%node))//', "exponent": '//json_number(place%exponent)// &
+               ', "distance": '//json_number(place%distance)//'}'
+         end associate
+      end do
+      json = json//"]"
+   end function singular_json
+
    !> Estimates of the errors by what leaves them
    pure function errors_text(results) result(json)
       !> Results
@@ -152,15 +180,23 @@ contains
       if (.not. allocated(results%budget)) return
       json = "{"
       do i = 1, size(results%budget)
-         associate (share => results%budget(i))
-            json = json//'"'//trim(share%source)//'": {"energy": '//known(share%energy)// &
-               ', "displacement": '//known(share%displacement)//', "joint_stress": '// &
-               known(share%joint_stress)//', "load": '//known(share%load)//'}, '
-         end associate
+         json = json//share_text(results%budget(i))
       end do
-      json = json//'"largest": '//json_string(largest_error_text(results%budget))//'}'
+      json = json//share_text(sum_of_shares(results%budget))//'"in_words": '//json_string(sum_text(results))//'}'
 
    contains
+
+      !> Errors that a source leaves, with a comma
+      pure function share_text(share) result(json)
+         !> The source
+         type(error_share_type), intent(in) :: share
+         !> JSON
+         character(len=:), allocatable :: json
+
+         json = '"'//trim(share%source)//'": {"energy": '//known(share%energy)// &
+                ', "displacement": '//known(share%displacement)//', "joint_stress": '// &
+                known(share%joint_stress)//', "load": '//known(share%load)//'}, '
+      end function share_text
 
       !> A share; null if it is not known
       pure function known(value) result(json)

@@ -119,7 +119,7 @@ def swept(program, folder):
 def back_again(program, folder):
     """A round that does not fit into the memory: the results are those of the round before"""
     summary, _ = solved(program, folder, 'plain', FACING.replace('ERROR\n2, DISPL\n', ''))
-    limit = str(int(summary['peak_memory_mb']) + 12)
+    limit = str(int(summary['peak_memory_mb']) + 20)
     deck = write(folder, 'back.dat', FACING.replace('2, DISPL', '1E-9, DISPL, 20, 100000000'))
     ran = program.run('run', deck, '-o', folder, '--memory', limit, '--solver', 'band')
     faults = ran.ended_with(0)

@@ -10,7 +10,7 @@ def known(job):
 
 
 def errors(job):
-    """The largest contribution in words, then all of them as a table."""
+    """Displacement and joint stress in all, in words, then all contributions as a table."""
     budget, seconds = job.summary["errors"], job.summary.get("error_seconds")
     seconds = seconds if isinstance(seconds, dict) else {}
     shares = {source: share for source, share in budget.items() if isinstance(share, dict)}
@@ -24,13 +24,13 @@ def errors(job):
 
 
 def line(job):
-    """The largest contribution in words; None if it is not known."""
-    largest = job.summary["errors"].get("largest") if known(job) else None
-    return largest.removeprefix("largest: ") if isinstance(largest, str) else None
+    """Displacement and joint stress in all, in words; None if they are not known."""
+    said = job.summary["errors"].get("in_words") if known(job) else None
+    return said if isinstance(said, str) else None
 
 
 def _sentence(key, value):
-    text = value.removeprefix(f"{key}: ") if isinstance(value, str) else number(value) if is_number(value) else str(value)
+    text = value if isinstance(value, str) else number(value) if is_number(value) else str(value)
     return tag("p", f"{words(key).capitalize()}: ", tag("strong", running(text)))
 
 

@@ -123,7 +123,7 @@ def _outcome(job):
         words = "from Newton's method" if job.summary.get("method") == "transfer" else \
             "that the transfer of stresses to 3 % would leave"
         rows.append(("joint stress, difference", f"{number(other)} of the largest, {words}"))
-    rows.append(("largest error", budget.line(job)))
+    rows.append(("errors", budget.line(job)))
     rows.append(("largest displacement", _at(extremes(result)["length"][1], job.units.length)))
     joints = result.joints()
     if joints.rows:
