@@ -1,0 +1,201 @@
+"""Scenes for the estimates of errors, as decks on any mesh: corners, edges of contact, stiff and soft bodies, bonds,
+friction, heat, histories. Lengths in m, forces in MN."""
+import os
+import sys
+from dataclasses import dataclass, replace
+
+ROOT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..")
+sys.path.insert(0, os.path.join(ROOT, "test", "decks"))
+from hard_scenes import eccentric_disc
+
+RESULTANT = ("RESULTANT", "REVERSIBLE")
+BOND = ("RESULTANT", "BOND")
+
+
+@dataclass(frozen=True)
+class Setting:
+    """How a scene is computed: kind of element ("8R": reduced rule, "4B": B-bar), elements of the coarse mesh along
+    each side times `n`, ratio of the largest to the least element towards corners, `slender`: elements along r
+    times so many; M, planes, tolerance, method"""
+    kind: str = "8"
+    n: float = 1.0
+    grade: float = 1.0
+    slender: float = 1.0
+    harmonic: int = 4
+    planes: int = 17
+    tolerance: float = 1e-8
+    method: str = "NEWTON"
+
+    @property
+    def nodes(self):
+        """Nodes of an element"""
+        return int(self.kind[0])
+
+    def fine(self, n=5.0, grade=30.0):
+        """The setting of a reference: 8-node elements, many, small at corners"""
+        return replace(self, kind="8", n=n, grade=grade, slender=1.0)
+
+
+class Scene:
+    """A deck that is being written"""
+
+    def __init__(self, title, setting):
+        self.setting = setting
+        order = (3 if setting.kind == "4B" else 2, 2 if setting.kind == "8R" else 3)
+        self.lines = ["TITLE", title, "CONTROL", f"{setting.harmonic}, {setting.planes}, 2, {order[1]}, , "
+                      f"{'BBAR' if setting.kind == '4B' else ''}, {setting.method}"]
+
+    def add(self, section, *cards):
+        """Cards of a section"""
+        self.lines.append(section)
+        self.lines += [card if "," in card else card + "," for card in cards]
+        return self
+
+    def block(self, body, material, n1, n2, corners, towards=(0, 0)):
+        """A block; `towards` is 1 or 2 along each direction where elements are small at the first or second end"""
+        s = self.setting
+        counts = [max(1, round(n1*s.n*s.slender)), max(1, round(n2*s.n))]
+        ratios = [{0: 1.0, 1: s.grade, 2: 1/s.grade}[side] for side in towards]
+        return self.add("BLOCKS", f"{body}, {material}, {s.nodes}, {counts[0]}, {counts[1]}, {ratios[0]:.6g}, "
+                        f"{ratios[1]:.6g}", ", ".join(f"{x:.10g}" for x in corners))
+
+    def law(self, number, k, cohesion=None, friction=None, details=None):
+        """A law with k along xi and theta, 2 k along eta; elastic without cohesion"""
+        if cohesion is None:
+            return self.add("LAWS", f"{number}, {k:g}, {2*k:g}, {k:g}, , , ELASTIC, GAUSS")
+        self.add("LAWS", f"{number}, {k:g}, {2*k:g}, {k:g}, {cohesion:g}, {friction:g}, PAPER, GAUSS")
+        return self.add("LAWDETAILS", f"{number}, {', '.join(details)}") if details else self
+
+    def text(self, *increments):
+        """The deck; increments are factors, perhaps with a load case"""
+        cards = [f"{factor:g}, {self.setting.tolerance:g}, , {case}" for factor, case in increments or ((1, ""),)]
+        return "\n".join(self.add("INCREMENTS", *cards).lines) + "\nEND\n"
+
+
+def pile(setting, *, k=1e4, cohesion=None, friction=None, details=RESULTANT, young=(2e4, 2e4), head=False,
+         loads=("1, LATERAL, 0.4", "1, MOMENT, 0.8"), springs=False):
+    """The paper's pile in its socket; `head`: the joint on its head opens and slips like the shaft"""
+    scene = Scene("Pile in a socket", setting)
+    scene.add("MATERIALS", f"1, {young[0]:g}, 0.17", f"2, {young[1]:g}, 0.17")
+    scene.law(1, k, cohesion, friction, details if cohesion is not None else None).law(2, k)
+    scene.block(1, 1, 4, 2, (0, -.5, .5, 0), (2, 2)).block(1, 1, 4, 8, (0, 0, .5, 1), (2, 0))
+    scene.block(2, 2, 6, 8, (.5, 0, 2, 1), (1, 0)).block(2, 2, 4, 4, (0, 1, .5, 2), (2, 1))
+    scene.block(2, 2, 6, 4, (.5, 1, 2, 2), (1, 1))
+    scene.add("FACES", "1, 1, 0, -.5, .5, -.5", "2, 1, .5, 0, .5, 1", "3, 2, .5, 0, .5, 1", "4, 1, 0, 1, .5, 1",
+              "5, 2, 0, 1, .5, 1", "6, 2, 0, 2, 2, 2")
+    scene.add("INTERFACES", "1, 2, 3", f"{1 if head else 2}, 4, 5")
+    if springs:
+        scene.add("SPRINGS", "6, 2e4, 1e4, 1e4")
+    else:
+        scene.add("FIXEDFACES", "6, 111")
+    return scene.add("RESULTANTS", *loads).text()
+
+
+def notch(setting, m=1, ratio=1.0):
+    """A ring with a re-entrant corner, pressed by cos m theta; its flange perhaps of another material"""
+    scene = Scene("Notch", setting).add("HARMONICS", str(m))
+    scene.add("MATERIALS", "1, 2e4, 0.3", f"2, {2e4*ratio:g}, 0.2")
+    scene.block(1, 1, 4, 4, (.5, -1, 1, 0), (2, 2)).block(1, 1, 4, 4, (.5, 0, 1, 1), (2, 1))
+    scene.block(1, 1 if ratio == 1.0 else 2, 6, 4, (1, 0, 2, 1), (1, 1))
+    scene.add("FACES", "1, 1, .5, -1, 1, -1", "2, 1, .5, 1, 2, 1", "3, 1, 2, 0, 2, 1").add("FIXEDFACES", "1, 111")
+    return scene.add("PRESSURES", f"3, {m}, 1, 1", f"2, {m}, .5, .5").text()
+
+
+def built_in(setting, poisson=0.3):
+    """A thick tube built in at its foot, pushed sideways at its top: corners of a support"""
+    scene = Scene("Built in", setting).add("HARMONICS", "1").add("MATERIALS", f"1, 2e4, {poisson:g}")
+    scene.block(1, 1, 4, 8, (.5, 0, 1, 2), (2, 1)).add("FACES", "1, 1, .5, 0, 1, 0", "2, 1, .5, 2, 1, 2")
+    return scene.add("FIXEDFACES", "1, 111").add("RESULTANTS", "2, LATERAL, 1").text()
+
+
+def skew(setting, m=2):
+    """Four distorted blocks"""
+    scene = Scene("Distorted quadrilaterals", setting).add("HARMONICS", str(m)).add("MATERIALS", "1, 2e4, 0.3")
+    for corners in ((.5, 0, .9, .1, .8, .7, .5, .5), (.9, .1, 1.6, 0, 1.5, .6, .8, .7),
+                    (.5, .5, .8, .7, 1, 1.2, .5, 1.1), (.8, .7, 1.5, .6, 1.4, 1.2, 1, 1.2)):
+        scene.block(1, 1, 4, 4, corners)
+    scene.add("FACES", "1, 1, .5, 0, .9, .1", "2, 1, 1.5, .6, 1.4, 1.2").add("FIXEDFACES", "1, 111")
+    return scene.add("PRESSURES", f"2, {m}, 1, 1").text()
+
+
+def cone(setting, share=0.8):
+    """An elastic plug in a cone, pressed and twisted: an inclined joint that slips in part"""
+    scene = Scene("Plug in a cone", replace(setting, harmonic=0, planes=2)).add("MATERIALS", "1, 2e4, 0.2")
+    scene.law(1, 2e4, 0.0, 30.0, RESULTANT)
+    scene.block(1, 1, 3, 8, (0, 0, .3, 0, .6, .6, 0, .6), (2, 2))
+    scene.block(2, 1, 3, 8, (.3, 0, .9, 0, 1.2, .6, .6, .6), (1, 2))
+    scene.add("FACES", "1, 1, .3, 0, .6, .6", "2, 1, 0, .6, .6, .6", "3, 2, .3, 0, .6, .6", "4, 2, .9, 0, 1.2, .6")
+    scene.add("INTERFACES", "1, 1, 3").add("FIXEDFACES", "4, 111")
+    scene.add("CASE", "1, pressed").add("RESULTANTS", "2, AXIAL, -1").add("CASE", "2, twisted")
+    scene.add("RESULTANTS", f"2, TORQUE, {0.3*share:g}").add("COMBINE", "1, 1, 1, 2, 1")
+    return scene.text((1, 1), (1, 2))
+
+
+def footing(setting, e=0.4):
+    """A footing that stands on soil without tension, pressed beyond the middle: an edge of contact"""
+    scene = Scene("Footing", setting).add("MATERIALS", "1, 3e4, 0.2", "2, 50, 0.3").law(1, 1e3, 0.0, 30.0, RESULTANT)
+    scene.block(1, 1, 6, 2, (0, 0, 1, .4), (2, 1)).block(2, 2, 6, 6, (0, -3, 1, 0), (2, 2))
+    scene.block(2, 2, 6, 6, (1, -3, 4, 0), (1, 2))
+    scene.add("FACES", "1, 1, 0, 0, 1, 0", "2, 1, 0, .4, 1, .4", "3, 2, 0, 0, 1, 0", "4, 2, 0, -3, 4, -3",
+              "5, 2, 4, -3, 4, 0")
+    scene.add("INTERFACES", "1, 3, 1").add("FIXEDFACES", "4, 111", "5, 111")
+    return scene.add("RESULTANTS", "2, AXIAL, -1", f"2, MOMENT, {e:g}").text()
+
+
+def soil_pile(setting, steps=((1, 1), (1, 2))):
+    """A pile in the ground: stress of the ground and weight, then a lateral load on its head"""
+    scene = Scene("Pile in the ground", setting).add("MATERIALS", "1, 2e4, 0.2, 0.02", "2, 50, 0.3, 0.02")
+    scene.law(1, 2e3, 0.0, 25.0, RESULTANT).law(2, 2e3)
+    scene.block(1, 1, 2, 8, (0, -4, .5, 0), (2, 2)).block(2, 2, 6, 8, (.5, -4, 4, 0), (1, 2))
+    scene.block(2, 2, 2, 3, (0, -6, .5, -4), (2, 2)).block(2, 2, 6, 3, (.5, -6, 4, -4), (1, 2))
+    scene.add("FACES", "1, 1, 0, 0, .5, 0", "2, 1, .5, -4, .5, 0", "3, 2, .5, -4, .5, 0", "4, 1, 0, -4, .5, -4",
+              "5, 2, 0, -4, .5, -4", "6, 2, 0, -6, 4, -6", "7, 2, 4, -6, 4, 0")
+    scene.add("INTERFACES", "1, 2, 3", "2, 4, 5").add("FIXEDFACES", "6, 111", "7, 111").add("CASE", "1, weight")
+    scene.add("GRAVITY", "-1").add("INSITU", "1, 0, 0.02, 0.5", "2, 0, 0.02, 0.5").add("CASE", "2, lateral")
+    scene.add("RESULTANTS", "1, LATERAL, 0.04").add("COMBINE", "1, 1, 1, 2, 1")
+    return scene.text(*steps)
+
+
+def shrunk_on(setting, torque=0.5):
+    """A shaft in a hub shrunk on by an initial pressure, twisted: slip from the mouth inwards"""
+    scene = Scene("Hub on a shaft", replace(setting, harmonic=0, planes=2)).add("MATERIALS", "1, 2e4, 0.3")
+    scene.add("LAWS", "1, 5e4, 1e5, 5e4, 0, 20, PAPER, GAUSS")
+    scene.add("LAWDETAILS", "1, RESULTANT, REVERSIBLE, , , , , -1.0")
+    scene.block(1, 1, 3, 4, (0, -1, .5, 0), (2, 2)).block(1, 1, 3, 8, (0, 0, .5, 1), (2, 1))
+    scene.block(2, 1, 3, 8, (.5, 0, 1, 1), (1, 1))
+    scene.add("FACES", "1, 1, 0, -1, .5, -1", "2, 1, .5, 0, .5, 1", "3, 2, .5, 0, .5, 1", "4, 2, 1, 0, 1, 1")
+    scene.add("INTERFACES", "1, 2, 3").add("FIXEDFACES", "4, 111")
+    return scene.add("RESULTANTS", f"1, TORQUE, {torque:g}").text()
+
+
+def heated(setting):
+    """A plug that is heated, more on one side, in a block: pressed round its mouth, open beside"""
+    scene = Scene("Heated plug", setting).add("MATERIALS", "1, 2e4, 0.2, , 1e-5", "2, 2e4, 0.2, , 1e-5")
+    scene.law(1, 1e4, 0.0, 30.0, RESULTANT).law(2, 1e4)
+    scene.block(1, 1, 3, 6, (0, 0, .5, 1), (2, 2)).block(2, 2, 5, 6, (.5, 0, 2, 1), (1, 2))
+    scene.block(2, 2, 3, 3, (0, -.5, .5, 0), (2, 2)).block(2, 2, 5, 3, (.5, -.5, 2, 0), (1, 2))
+    scene.add("FACES", "1, 1, .5, 0, .5, 1", "2, 2, .5, 0, .5, 1", "3, 1, 0, 0, .5, 0", "4, 2, 0, 0, .5, 0",
+              "5, 2, 0, -.5, 2, -.5")
+    scene.add("INTERFACES", "1, 1, 2", "2, 3, 4").add("FIXEDFACES", "5, 111")
+    return scene.add("TEMPERATURES", "1, 0, 20, , ", "1, 1, 0, 60, ").text()
+
+
+def peg(setting, mesh=None):
+    """The peg of inputs/peg.dat, on blocks or on a mesh of Gmsh"""
+    scene = Scene("Peg", setting).add("MATERIALS", "1, 2e4, 0.17").law(1, 1e4, 0.0, 30.0)
+    if mesh:
+        scene.lines += [f"GMSH, {mesh}"]
+        scene.add("GROUPS", "BODY, 1, 1, peg", "BODY, 2, 1, block", "FACE, 1, , free end", "FACE, 2, , top of the block",
+                  "JOINT, 1, , shaft")
+    else:
+        scene.block(1, 1, 4, 2, (0, -.5, .5, 0), (2, 2)).block(1, 1, 4, 8, (0, 0, .5, 1), (2, 0))
+        scene.block(2, 1, 6, 8, (.5, 0, 2, 1), (1, 0))
+        scene.add("FACES", "1, 1, 0, -.5, .5, -.5", "2, 2, .5, 1, 2, 1", "3, 1, .5, 0, .5, 1", "4, 2, .5, 0, .5, 1")
+        scene.add("INTERFACES", "1, 3, 4")
+    return scene.add("FIXEDFACES", "2, 111").add("RESULTANTS", "1, LATERAL, 0.4").text()
+
+
+def disc(setting, e=0.5, young=1e4):
+    """A rigid disc on a joint without tension, pressed beyond the middle"""
+    return eccentric_disc(e, n=round(4*setting.n), planes=setting.planes, harmonic=setting.harmonic, young=young,
+                          nodes=setting.nodes, method=setting.method, tolerance=setting.tolerance)

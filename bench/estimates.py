@@ -1,0 +1,238 @@
+"""Whether the estimates of errors hold: true errors over estimates, source by source. See scripts/bench."""
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+import estimate_scenes as scenes
+from estimate_scenes import BOND, Setting
+from found_errors import displacement_error, joint_error, read
+
+MESHES = os.path.join(os.path.dirname(os.path.realpath(__file__)), "meshes")
+BAND, SHARE, MOST = (0.5, 2.0), 0.9, 3.0
+ROUNDING = 1e-9  # a relative error below is that of the arithmetic, and not judged
+KINDS = ("3", "4", "4B", "6", "8", "8R", "9")
+
+
+@dataclass
+class Row:
+    """A scene in a setting beside a better one, for one source of error"""
+    source: str
+    name: str
+    scene: callable
+    setting: Setting
+    better: Setting
+    options: dict = field(default_factory=dict)
+    other: dict = None  # options of the better one, if they differ
+
+    def deck(self):
+        """The deck"""
+        return self.scene(self.setting, **self.options)
+
+    def reference(self):
+        """The better deck"""
+        return self.scene(self.better, **(self.options if self.other is None else self.other))
+
+
+def mesh_rows():
+    """Meshes: the same harmonics and planes on a mesh of many elements, small at the corners"""
+    def row(name, scene, setting, fine=None, **options):
+        return Row("mesh", f"{name}, {setting.kind}", scene, setting, fine or setting.fine(), options)
+
+    friction = {"cohesion": 0.0, "friction": 30.0}
+    bond = {"cohesion": 0.5, "friction": 30.0, "details": BOND}
+    linear = replace(Setting(), harmonic=1, planes=5)
+    for kind in KINDS:
+        yield row("pile, elastic joints", scenes.pile, replace(linear, kind=kind))
+        yield row("pile, friction", scenes.pile, Setting(kind), **friction)
+        yield row("notch", scenes.notch, replace(linear, kind=kind), m=1)
+        yield row("distorted blocks", scenes.skew, replace(linear, kind=kind, harmonic=2), Setting("9", n=8, harmonic=2))
+    for kind in ("4", "8"):
+        setting = Setting(kind)
+        yield row("pile, joints x 10", scenes.pile, setting, k=1e5, **friction)
+        yield row("pile, joints x 0.01", scenes.pile, setting, k=1e2, **friction)
+        yield row("pile, elastic joints x 100", scenes.pile, replace(linear, kind=kind), k=1e6)
+        yield row("pile, joints x 100", scenes.pile, setting, k=1e6, **friction)
+        yield row("pile, bonded", scenes.pile, setting, **bond)
+        yield row("pile, bonded, head too", scenes.pile, setting, head=True, **bond)
+        yield row("pile, cohesion that comes back", scenes.pile, setting, cohesion=0.5, friction=0.0)
+        yield row("stiff pile", scenes.pile, setting, young=(2e7, 2e4), **friction)
+        yield row("soft pile", scenes.pile, setting, young=(2e2, 2e4), **friction)
+        yield row("pile, graded", scenes.pile, replace(setting, n=2, grade=10), **friction)
+        yield row("pile, needles", scenes.pile, replace(setting, slender=0.25, n=2), **friction)
+        yield row("pile on springs", scenes.pile, replace(linear, kind=kind), springs=True)
+        few = replace(setting, harmonic=2, planes=9)
+        yield row("pile pushed at 30 degrees and twisted", scenes.pile, few, few.fine(n=3), loads=("1, LATERAL, 0.4, 30", "1, TORQUE, 0.05"), **friction)
+        yield row("notch, m = 0", scenes.notch, replace(linear, kind=kind), m=0)
+        yield row("notch, m = 1, graded", scenes.notch, replace(linear, kind=kind, n=2, grade=10), m=1)
+        yield row("notch, two materials", scenes.notch, replace(linear, kind=kind), m=1, ratio=10.0)
+        yield row("built in", scenes.built_in, replace(linear, kind=kind))
+        yield row("cone", scenes.cone, setting)
+        yield row("footing", scenes.footing, setting, setting.fine(n=3))
+        yield row("pile in the ground", scenes.soil_pile, setting, setting.fine(n=3))
+        yield row("hub", scenes.shrunk_on, setting)
+        yield row("heated plug", scenes.heated, setting)
+    for kind in ("4B", "8R"):
+        yield row("built in, nu = 0.49", scenes.built_in, replace(linear, kind=kind), poisson=0.49)
+    for kind, mesh in (("3", "peg_3"), ("4", "peg_4"), ("6", "peg_6"), ("6", "peg_6_graded")):
+        yield Row("mesh", f"peg, Gmsh, {mesh[4:]}", scenes.peg, Setting(kind), Setting().fine(), {"mesh": mesh + ".msh"}, {})
+
+
+def circle_scenes():
+    """Scenes for harmonics and planes, on coarse meshes"""
+    friction = {"cohesion": 0.0, "friction": 30.0}
+    yield "pile, friction", scenes.pile, "8", friction
+    yield "pile, joints x 10", scenes.pile, "4", friction | {"k": 1e5}
+    yield "pile, no friction", scenes.pile, "8", {"cohesion": 0.0, "friction": 0.0}
+    yield "pile, cohesion that comes back", scenes.pile, "4", {"cohesion": 0.5, "friction": 0.0}
+    yield "stiff pile", scenes.pile, "4", friction | {"young": (2e7, 2e4)}
+    yield "footing", scenes.footing, "4", {}
+    yield "pile in the ground", scenes.soil_pile, "4", {}
+    yield "heated plug", scenes.heated, "4", {}
+    yield "peg", scenes.peg, "4", {}
+    yield "rigid disc, e = 0.3 R", scenes.disc, "4", {"e": 0.3}
+    yield "rigid disc, e = 0.6 R", scenes.disc, "4", {"e": 0.6}
+
+
+def harmonic_rows():
+    """Harmonics: four times as many, on the same mesh and planes"""
+    for name, scene, kind, options in circle_scenes():
+        for m in (4, 8):
+            setting = Setting(kind, harmonic=m, planes=12*m + 1)
+            yield Row("harmonics", f"{name}, M = {m}", scene, setting, replace(setting, harmonic=min(24, 4*m)), options)
+
+
+def plane_rows():
+    """Planes: eight times as many intervals, the same mesh and harmonics"""
+    for name, scene, kind, options in circle_scenes():
+        for planes in (9, 17):
+            setting = Setting(kind, harmonic=4, planes=planes)
+            yield Row("planes", f"{name}, {planes} planes", scene, setting, replace(setting, planes=8*planes - 7), options)
+
+
+def iteration_rows():
+    """The iteration: a tolerance of 1e-11"""
+    friction = {"cohesion": 0.0, "friction": 30.0}
+    for name, scene, options in (("pile, friction", scenes.pile, friction), ("footing", scenes.footing, {}),
+                                 ("pile, joints x 10", scenes.pile, friction | {"k": 1e5})):
+        for method, tolerances in (("NEWTON", (1e-1, 1e-3)), ("TOTAL", (1e-1, 1e-2, 1e-4)), ("ANDERSON", (1e-2, 1e-5)),
+                                   ("TRANSFER", (0.03,))):
+            for tolerance in tolerances:
+                setting = Setting("4", tolerance=tolerance, method=method)
+                yield Row("iteration", f"{name}, {method} to {tolerance:g}", scene, setting,
+                          replace(setting, tolerance=1e-11, method="NEWTON"), options)
+
+
+class Runs:
+    """Runs of decks, each once"""
+
+    def __init__(self, program, folder, pool, codes=(0,)):
+        self.program, self.folder, self.pool, self.codes, self.begun = program, folder, pool, codes, {}
+
+    def begin(self, deck):
+        """Begin the run of a deck"""
+        if deck not in self.begun:
+            self.begun[deck] = self.pool.submit(self.run, deck, os.path.join(self.folder, f"job{len(self.begun)}"))
+
+    def run(self, deck, path):
+        """Path of the results of a deck; None if it failed"""
+        with open(path + ".dat", "w", encoding="ascii") as file:
+            file.write(deck)
+        found = subprocess.run([self.program, "run", path + ".dat", "-o", self.folder], capture_output=True, text=True,
+                               check=False, env=os.environ | {"OMP_NUM_THREADS": "1"})
+        if found.returncode in self.codes:
+            return path
+        print(f"exit code {found.returncode}: {(found.stderr.strip() or found.stdout)[-600:]}", file=sys.stderr)
+        return None
+
+    def result(self, deck):
+        """Path of the results of a deck that was begun; None if it failed"""
+        return self.begun[deck].result()
+
+    def ratios(self, row):
+        """True errors and estimates of displacement and joint stress; None where there is nothing to compare"""
+        paths = [self.result(deck) for deck in (row.deck(), row.reference())]
+        if None in paths:
+            return None
+        own, better = map(read, paths)
+        estimate = own.summary["errors"]["discretization" if row.source == "mesh" else row.source]
+        pairs = [(displacement_error(own, better), estimate["displacement"])]
+        true = joint_error(own, better)
+        pairs.append(None if true is None else (true, estimate["joint_stress"]))
+        return pairs
+
+
+def judged(pair):
+    """True over estimated error; None if there is nothing to judge, infinity if there is no estimate"""
+    if pair is None or pair[0] < ROUNDING and (pair[1] or 0.0) < ROUNDING:
+        return None
+    return pair[0]/pair[1] if pair[1] else np.inf
+
+
+def shown(pair):
+    """A pair and its ratio in columns"""
+    if pair is None:
+        return " "*34
+    ratio = judged(pair)
+    mark = " " if ratio is None or BAND[0] <= ratio <= BAND[1] else "!" if ratio > MOST else "*"
+    return (f"{100*pair[0]:10.4f} {100*(pair[1] if pair[1] is not None else np.nan):10.4f} "
+            f"{'       -' if ratio is None else f'{ratio:8.2f}'}{mark}   ")
+
+
+def verdict(found):
+    """A line for each source and whether the bars are met"""
+    met = True
+    for source in [*dict.fromkeys(source for source, _ in found), "all"]:
+        ratios = np.array([ratio for own, ratio in found if source in (own, "all")])
+        share, most = np.mean((ratios >= BAND[0]) & (ratios <= BAND[1])), ratios.max()
+        good = share >= SHARE and most <= MOST
+        print(f"{source:10} {len(ratios):4d} figures, {100*share:5.1f} % within {BAND[0]:g} and {BAND[1]:g}, "
+              f"largest {most:.2f}, least {ratios.min():.2f}, median {np.median(ratios):.2f}: {'met' if good else 'MISSED'}")
+        met = good if source == "all" else met
+    return met
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--axijoint", required=True)
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--only", default="")
+    args = parser.parse_args()
+    rows = [*mesh_rows(), *harmonic_rows(), *plane_rows(), *iteration_rows()]
+    rows = [row for row in rows if args.only in f"{row.source}: {row.name}"]
+    if args.quick:
+        rows = rows[::6]
+    print(f"True error over its estimate, displacement (largest error over the largest) and joint stress (the same)\n"
+          f"Bars: of all figures {100*SHARE:g} % between {BAND[0]:g} and {BAND[1]:g}, none above {MOST:g}\n"
+          f"{len(rows)} rows; * outside the band, ! above {MOST:g}\n")
+    print(f"{'source':10} {'scene':46} {'disp. true':>10} {'estimate':>10} {'ratio':>8}    {'joint true':>10} "
+          f"{'estimate':>10} {'ratio':>8}   [%]")
+    found, failed = [], 0
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(2) as pool:
+        for mesh in os.listdir(MESHES):
+            shutil.copy(os.path.join(MESHES, mesh), folder)
+        runs = Runs(args.axijoint, folder, pool)
+        for row in rows:
+            runs.begin(row.deck())
+            runs.begin(row.reference())
+        for row in rows:
+            pairs = runs.ratios(row)
+            if pairs is None:
+                failed += 1
+                print(f"{row.source:10} {row.name:46} did not run")
+                continue
+            print(f"{row.source:10} {row.name:46} {shown(pairs[0])}{shown(pairs[1])}", flush=True)
+            found += [(row.source, judged(pair)) for pair in pairs if judged(pair) is not None]
+    print()
+    met = verdict(found)
+    sys.exit(0 if met and not failed else 1)
+
+
+if __name__ == "__main__":
+    main()

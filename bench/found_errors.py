@@ -1,0 +1,125 @@
+"""Errors that a run of axijoint has beside a better one: displacements of its nodes, stresses of its joints"""
+import json
+import os
+import sys
+
+import numpy as np
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "python"))
+from axijoint import elements
+from axijoint.result import open_result
+
+ANGLES = 64  # most angles at which a largest displacement is looked for, as in the program
+# Natural coordinates of the points of a joint, by number
+PLACES = {1: (0.0,), 2: (-3**-0.5, 3**-0.5), 3: (-0.6**0.5, 0.0, 0.6**0.5)}
+CENTROID, LOBATTO = 1, 3
+
+
+def read(path):
+    """A result and its summary"""
+    result = open_result(path + ".h5")
+    with open(path + ".json", encoding="utf-8") as file:
+        result.summary = json.load(file)
+    return result
+
+
+def largest_vector(amplitudes):
+    """Largest vector of (harmonic, family) -> amplitudes (nodes, 3) at any node and angle"""
+    count = min(ANGLES, 4*(max(m for m, _ in amplitudes) + 1))
+    largest = 0.0
+    for angle in 2*np.pi*np.arange(count)/count:
+        total = 0.0
+        for (m, family), values in amplitudes.items():
+            c, s = np.cos(m*angle), np.sin(m*angle)
+            total = total + values*([c, c, s] if family == 1 else [s, s, -c])
+        largest = max(largest, np.sum(total**2, axis=1).max())
+    return np.sqrt(largest)
+
+
+def amplitudes_of(result):
+    """(harmonic, family) -> amplitudes at the nodes"""
+    return dict(zip(zip(map(int, result.harmonic), map(int, result.family)), result.displacement_amplitude))
+
+
+def at_nodes_of(coarse, fine):
+    """Amplitudes of a fine result at the nodes of a coarse one, each in its body"""
+    mesh = coarse.mesh
+    found = {mode: np.full((len(mesh.coordinates), 3), np.nan) for mode in amplitudes_of(fine)}
+    body = np.zeros(len(mesh.coordinates), int)
+    for element, own in enumerate(mesh.element_body):
+        body[mesh.nodes_of(element)] = own
+    node, element, natural = fine.mesh.locate(mesh.coordinates)
+    keep = fine.mesh.element_body[element] == body[node]
+    node, element, natural = node[keep], element[keep], natural[keep]
+    for size in np.unique(fine.mesh.element_size[element]):
+        chosen = np.flatnonzero(fine.mesh.element_size[element] == size)
+        shape, _ = elements.shape_functions(int(size), natural[chosen])
+        nodes = fine.mesh.element_nodes[element[chosen], :size]
+        for mode, values in amplitudes_of(fine).items():
+            found[mode][node[chosen]] = np.einsum("pn,pnc->pc", shape, values[nodes])
+    return found
+
+
+def displacement_error(coarse, fine):
+    """Largest error of a displacement over the largest displacement"""
+    own, better = amplitudes_of(coarse), at_nodes_of(coarse, fine)
+    zero = np.zeros_like(next(iter(own.values())))
+    wrong = {mode: own.get(mode, zero) - better.get(mode, zero) for mode in own | better}
+    return largest_vector(wrong)/largest_vector(own)
+
+
+class JointStresses:
+    """Stresses along the joints of a result: between the points of a joint by the polynomial through them"""
+
+    def __init__(self, result):
+        mesh = result.mesh
+        self.ends = mesh.coordinates[mesh.joint_nodes[:, :2]]
+        self.law = mesh.joint_material
+        self.owner = result.read("joints/joint") - 1
+        self.position, self.stress = result.read("joints/position"), result.read("joints/stress")
+        self.planes = result.read("joints/planes")
+        self.first = {}
+        for point, joint in enumerate(self.owner):
+            self.first.setdefault(int(joint), point)
+        rule = result.read("joint_materials/rule")[self.law]
+        self.places = [PLACES[1] if own == CENTROID else np.linspace(-1, 1, size//2) if own == LOBATTO
+                       else PLACES[size//2] for own, size in zip(rule, mesh.joint_size)]
+
+    def at(self, place, law, direction):
+        """Stresses on all planes at a place, of the joint there along a direction"""
+        start, along = self.ends[:, 0], self.ends[:, 1] - self.ends[:, 0]
+        length = np.hypot(*along.T)
+        share = ((place - start)*along).sum(1)/length**2
+        off = np.hypot(*(place - start - share[:, None]*along).T) + length*np.maximum(0, abs(share - 0.5) - 0.5)
+        turned = abs(along[:, 0]*direction[1] - along[:, 1]*direction[0])/length > 1e-3*np.hypot(*direction)
+        joint = int(np.argmin(off + 1e9*(turned | (self.law != law))))
+        places = self.places[joint]
+        weights = [np.prod([(2*share[joint] - 1 - b)/(a - b) for b in places if b != a]) for a in places]
+        return sum(weight*self.stress[:, self.first[joint] + k] for k, weight in enumerate(weights))
+
+
+def at_angles(angles, planes, values):
+    """Values on planes at other angles, straight between neighbours: the same where the angles are planes"""
+    if planes[-1] > np.pi + 1e-9:  # round the whole circle
+        planes, values = np.append(planes, 2*np.pi), np.concatenate([values, values[:1]])
+    return np.stack([np.interp(angles, planes, column) for column in values.T], axis=-1)
+
+
+def joint_error(coarse, fine):
+    """Largest error of a joint stress over the largest, at the points and planes of the coarse result that are not
+    too near to infinite stresses; None without joints"""
+    own, better = JointStresses(coarse), JointStresses(fine)
+    if not len(own.position):
+        return None
+    judged = np.ones(len(own.position), bool)
+    for place in coarse.summary["singular"]:
+        judged &= np.hypot(*(own.position - (place["r"], place["z"])).T) >= place["distance"]
+    if not judged.any():
+        judged[:] = True
+    wrong = largest = 0.0
+    for point in np.flatnonzero(judged):
+        joint = own.owner[point]
+        exact = better.at(own.position[point], own.law[joint], own.ends[joint, 1] - own.ends[joint, 0])
+        wrong = max(wrong, abs(at_angles(own.planes, better.planes, exact) - own.stress[:, point]).max())
+        largest = max(largest, abs(own.stress[:, point]).max())
+    return wrong/largest
