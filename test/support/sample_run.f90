@@ -5,6 +5,7 @@ module axijoint_test_sample_run
    use axijoint_deck_source, only : source_type, add_file, add_card
    use axijoint_element_joint_law, only : state_stick, state_slip, state_open
    use axijoint_fe_mode, only : mode_type
+   use axijoint_joints_residual, only : residual_record_type
    use axijoint_model_model, only : model_type
    use axijoint_test_scenes, only : new_scene
    implicit none
@@ -67,6 +68,9 @@ contains
       results%path%iteration = [1, 2, 3]
       results%path%ratio = [0.5_wp, 0.25_wp, 0.125_wp]
       results%path%load_factor = 1.0_wp
+      results%residuals = [residual_record_type(increment=1, load_factor=1.0_wp, whole=0.125_wp, &
+                                                ratio=reshape([0.25_wp, 0.5_wp], [1, 2]))]
+      results%residual_part_node = [1]
       results%displacement = reshape(numbers(3*n_nodes*2, 1.0e-3_wp), [3, n_nodes, 2])
       results%reaction = reshape(numbers(3*n_nodes*2, -0.5_wp), [3, n_nodes, 2])
       results%point_element = [(1, k=1, n_points)]
