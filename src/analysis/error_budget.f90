@@ -41,9 +41,24 @@ contains
          if (size(results%joint_stress) > 0) budget(2:4)%joint_stress = 0.0_wp
       end if
       budget(5) = error_share_type(source='solver', remedy='less contrast of the stiffnesses')
-      ! a backward error is a relative change of the data, which the condition number passes on at most
-      budget(5)%displacement = maxval(results%solves%backward_error*results%solves%condition)
+      budget(5)%displacement = solver_error(results)
    end function new_budget
+
+   !> What rounding in the solver leaves of the displacements, over the largest
+   pure real(wp) function solver_error(results) result(error)
+      !> Results
+      type(results_type), intent(in) :: results
+
+      !> A further step of refinement would correct by about as much as the last did; what the matrix itself lost to
+      !> rounding is as much again
+      real(wp), parameter :: safety = 2.0_wp
+      real(wp) :: by_condition
+
+      ! a backward error is a relative change of the data, which the condition number passes on at most
+      by_condition = maxval(results%solves%backward_error*results%solves%condition)
+      error = ratio(safety*sum(results%solves%correction), results%discretization%largest_displacement)
+      error = min(error, by_condition)
+   end function solver_error
 
    !> Elements too large or of too low an order
    pure function discretization_share(model, results) result(share)

@@ -44,6 +44,10 @@ contains
       if (size(results%path) > 0) then
          call remark_on_end(model, structure, history, results, remarks)
          call remark_on_accuracy(model, structure, field, results, remarks)
+      else if (.not. results%converged .and. allocated(results%budget)) then
+         call add(remarks, 'rounding in the solver leaves displacements uncertain by '// &
+                  to_text(results%budget(size(results%budget))%displacement)// &
+                  ' of the largest: stiffnesses out of all proportion?')
       else if (.not. results%converged) then
          call add(remarks, 'the equations are ill-conditioned (condition number '// &
                   to_text(maxval(results%solves%condition))//', residual '// &
@@ -87,6 +91,17 @@ contains
          return
       end if
       if (results%converged .or. allocated(results%mechanism)) return
+      if (results%unsettled > 0.0_wp) then
+         call add(remarks, 'forces are balanced to the tolerance, but the iterations leave displacements or joint '// &
+                  'stresses uncertain by '//to_text(results%unsettled)//' of the largest, more than 10 times it')
+         return
+      end if
+      if (allocated(results%budget)) then
+         call add(remarks, 'forces are balanced to the tolerance, but rounding in the solver leaves displacements '// &
+                  'uncertain by '//to_text(results%budget(size(results%budget))%displacement)// &
+                  ' of the largest, more than 10 times it')
+         return
+      end if
       if (history%verdict%converged) then
          call add(remarks, 'the joints are balanced to the tolerance, the whole structure is not: rounding; '// &
                   'a tolerance of '//to_text(10.0_wp*max(results%residual_ratio, results%mismatch))//' can be reached')

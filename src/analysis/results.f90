@@ -42,6 +42,8 @@ module axijoint_analysis_results
       !> Backward error after one step of iterative refinement,
       !> max |b - K u| / (|K| |u| + |b|)
       real(wp) :: backward_error = 0.0_wp
+      !> Largest correction by that step [length]
+      real(wp) :: correction = 0.0_wp
       !> Estimate of the condition number |K| |K^-1| in the 1-norm (a lower bound,
       !> seldom more than three times too small)
       real(wp) :: condition = 0.0_wp
@@ -181,6 +183,9 @@ module axijoint_analysis_results
       !> it is measured on; empty for a linear job
       type(residual_record_type), allocatable :: residuals(:)
       integer, allocatable :: residual_part_node(:)
+      !> Error of displacements or joint stresses that the iterations leave, where it is more than the tolerance
+      !> claims; zero if it is not
+      real(wp) :: unsettled = 0.0_wp
       !> Residual-force ratio at the end (Eq. 17), from the whole structure
       real(wp) :: residual_ratio = 0.0_wp
       !> Forces of the joint stress that belongs to the bodies' relative displacements but not to

@@ -68,7 +68,7 @@ contains
                   force = loading%right(:, :, k) + joint_force(points, equations%modes(k)%harmonic, &
                                                                excess(:, :, k), size(displacement, 2))
                   call solve_mode(equations, k, force, displacement(:, :, k))
-                  call refine_mode(equations, k, force, displacement(:, :, k))
+                  call refine_mode(equations, k, force, displacement(:, :, k), solves(k)%correction)
                   call report_solve(equations, k, force, displacement(:, :, k), solves(k))
                   if (allocated(loading%held)) then
                      displacement(:, :, k) = displacement(:, :, k) + loading%held(:, :, k)

@@ -1,6 +1,7 @@
 !> Static analysis of a structure under its loads, told in order
 module axijoint_analysis_static
    use axijoint_analysis_cuts, only : cut_resultants
+   use axijoint_analysis_corrections, only : correct_rounding, keep_claim, solver_keeps_claim
    use axijoint_analysis_discretization, only : estimate_discretization
    use axijoint_analysis_error_budget, only : new_budget
    use axijoint_analysis_fine_difference, only : difference_type, new_difference
@@ -113,7 +114,10 @@ contains
       if (size(field%offset) > 0) call add_motions(structure%scene%floating, field%offset, results%displacement)
       results%converged = results%converged .and. max(results%residual_ratio, results%mismatch) &
          <= results%tolerance
-      if (results%converged) results%budget = new_budget(model, history%loading%case_factor, results)
+      if (results%converged) then
+         results%budget = new_budget(model, history%loading%case_factor, results)
+         results%converged = solver_keeps_claim(results)
+      end if
       call timer%push(phase_joints)
       call compare_stiffer(model, structure, combination, history, field, results, progress)
       call timer%pop()
@@ -179,7 +183,9 @@ contains
                                yielding%excess, results%displacement, results%solves, factor_share, &
                                error)
       if (allocated(error)) return
-      call mend_mismatch(model, structure, history, yielding, results, error)
+      call correct_rounding(model, structure, history, yielding, results, error)
+      if (allocated(error)) return
+      call keep_claim(model, structure, history, yielding, results, error)
       if (allocated(error)) return
       results%residuals = history%residuals
       results%residual_part_node = model%mesh%node_label(structure%scene%measure%part_node)
@@ -222,65 +228,6 @@ contains
          results%idle = [results%idle, name]
       end do
    end subroutine name_idle_motions
-
-   !> See how far the relative displacements of the bodies are from those that the laws saw;
-   !> where that matters, correct the response by the difference and balance the joints again
-   subroutine mend_mismatch(model, structure, history, yielding, results, error)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The structure, condensed
-      type(structure_type), intent(inout) :: structure
-      !> What the increments came to; takes further iterations
-      type(history_type), intent(inout) :: history
-      !> State of the joints that yield
-      type(joint_field_type), intent(inout) :: yielding
-      !> Results with displacements; take those of the corrected state, and the mismatch
-      type(results_type), intent(inout) :: results
-      !> Out of memory
-      type(error_type), allocatable, intent(out) :: error
-
-      integer, parameter :: most_corrections = 4
-      !> Part of the tolerance that is no matter
-      real(wp), parameter :: part = 0.1_wp
-      real(wp), allocatable :: jump(:, :, :)
-      type(strictest_type) :: found
-      real(wp) :: factor_share
-      integer :: k
-
-      associate (scene => structure%scene)
-         do k = 0, most_corrections
-            jump = mismatch_of(scene, yielding, results%displacement)
-            found = strictest(scene%measure, elastic_stress(jump), paper=scene%method == method_transfer)
-            results%mismatch = found%ratio
-            if (.not. results%converged .or. scene%method == method_transfer) return
-            if (results%mismatch <= part*results%tolerance .or. k == most_corrections) return
-            scene%response%free = scene%response%free + jump
-            call balance_again(scene, yielding, history)
-            results%converged = history%verdict%converged
-            results%path = history%path
-            call solve_displacements(structure%equations, model, history%loading, scene%points, &
-                                     yielding%excess, results%displacement, results%solves, factor_share, error)
-            if (allocated(error)) return
-         end do
-      end associate
-
-   contains
-
-      !> Stress of the jumps in the elastic structure
-      function elastic_stress(jump) result(stress)
-         !> Amplitudes, shape (3, points, modes)
-         real(wp), intent(in) :: jump(:, :, :)
-         !> Amplitudes, same shape
-         real(wp) :: stress(3, size(jump, 2), size(jump, 3))
-
-         integer :: m
-
-         do m = 1, size(jump, 3)
-            stress(:, :, m) = elastic_joint_stress(structure%scene%points, jump(:, :, m))
-         end do
-      end function elastic_stress
-
-   end subroutine mend_mismatch
 
    !> Joints that stay elastic: one solution
    subroutine solve_linear(model, structure, combination, history, field, mesh_error, results, timer, error)

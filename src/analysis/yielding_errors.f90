@@ -25,7 +25,7 @@ module axijoint_analysis_yielding_errors
    use axijoint_model_model, only : method_newton, method_transfer
    implicit none
    private
-   public :: estimate_yielding_errors
+   public :: estimate_yielding_errors, iteration_error
 
 contains
 
@@ -81,6 +81,35 @@ contains
       end associate
    end subroutine estimate_yielding_errors
 
+   !> What the iteration left, by the state in which the joints are wholly balanced
+   subroutine iteration_error(structure, history, field, results, balanced, share)
+      !> The structure, condensed
+      type(structure_type), intent(inout), target :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> State of the joints that yield, of a method on total jumps
+      type(joint_field_type), intent(in) :: field
+      !> Results with displacements
+      type(results_type), intent(in) :: results
+      !> The state wholly balanced
+      type(joint_field_type), allocatable, intent(out) :: balanced
+      !> The error
+      type(error_share_type), intent(out) :: share
+
+      type(joint_change_type) :: change
+      real(wp), allocatable :: displacement(:, :, :)
+
+      associate (scene => structure%scene)
+         allocate (balanced, source=field)
+         balanced%memory = history%memory
+         call settle_by_newton(scene, balanced)
+         change = change_between(scene, field, balanced, structure%judged(structure%yielding))
+         displacement = results%displacement
+         call add_motions(scene%floating, field%offset, displacement)
+         call take_share(structure, history, results, largest_vector(results%modes, displacement), change, share)
+      end associate
+   end subroutine iteration_error
+
    !> Balance the joints wholly
    subroutine settle_by_newton(scene, field)
       !> The scene
@@ -111,6 +140,8 @@ contains
       !> Takes stress, displacement and time
       type(error_share_type), intent(inout) :: share
 
+      !> Displacements below this part of those with elastic joints are rounding: all loads were taken away
+      real(wp), parameter :: none = 1.0e-9_wp
       real(wp), allocatable :: displacement(:, :, :)
       real(wp) :: start
 
@@ -123,7 +154,8 @@ contains
       call add_motions(structure%scene%floating, change%offset, displacement)
       share%joint_stress = ratio(max(change%stress, elastic_change(structure, displacement)), &
                                  stress_scale(structure, history, results%displacement))
-      share%displacement = ratio(largest_vector(results%modes, displacement) + change%beyond, largest)
+      share%displacement = ratio(largest_vector(results%modes, displacement) + change%beyond, &
+                                 max(largest, none*history%largest_elastic))
       share%seconds = share%seconds + omp_get_wtime() - start
    end subroutine take_share
 

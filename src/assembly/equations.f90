@@ -233,7 +233,7 @@ contains
    end subroutine solve_mode
 
    !> One step of iterative refinement
-   subroutine refine_mode(equations, k, force, displacement)
+   subroutine refine_mode(equations, k, force, displacement, correction)
       !> The equations, factored
       type(equations_type), intent(in) :: equations
       !> Place of the mode
@@ -242,6 +242,8 @@ contains
       real(wp), intent(in) :: force(:, :)
       !> Displacement amplitudes, shape (3, nodes)
       real(wp), intent(inout) :: displacement(:, :)
+      !> Largest correction: what rounding did to the solution before, and about what it leaves
+      real(wp), intent(out) :: correction
 
       real(wp), allocatable :: b(:, :)
 
@@ -250,6 +252,7 @@ contains
          b(:, 1) = gather(dofs, force) - elastic_force(equations, k, displacement)
          call equations%systems(equations%system(k))%factor%solve(b)
          displacement = displacement + expand(dofs, b(:, 1))
+         correction = maxval([0.0_wp, abs(b)])
       end associate
    end subroutine refine_mode
 

@@ -41,6 +41,8 @@ module axijoint_joints_increments
       real(wp), allocatable :: runaway(:, :, :), motion(:)
       !> Sum of the load factors of the last step in equilibrium
       real(wp) :: reached = 0.0_wp
+      !> Largest displacement that the loads of a step would give if all joints held
+      real(wp) :: largest_elastic = 0.0_wp
       !> Largest joint stress at the end of a step, of each point: what errors are measured by, for joints
       !> that were unloaded have none at the end
       real(wp), allocatable :: largest_stress(:)
@@ -234,6 +236,7 @@ contains
          call new_loading(scene%model, all_points, supports, scene%equations%modes, &
                           combination_type(combination%label, step%case_factor), history%loading)
          call load_response(scene%equations, scene%points, history%loading, scene%response)
+         history%largest_elastic = maxval([history%largest_elastic, scene%response%largest])
          call put_loads_on(scene%floating, history%loading%external, scene%loads)
          call report_failure(scene%equations, scene%model, history%failure)
          call set_initial_stress(scene%model, scene%points, step%case_factor, field)
@@ -266,18 +269,24 @@ contains
    end subroutine note_residual
 
    !> Balance the last step again, after the response of the structure was corrected
-   subroutine balance_again(scene, field, history)
+   subroutine balance_again(scene, field, history, tolerance)
       !> Joint points, their corrected response, planes
       type(scene_type), intent(inout) :: scene
       !> State of the joints
       type(joint_field_type), intent(inout) :: field
       !> What the increments came to; its path goes on
       type(history_type), intent(inout) :: history
+      !> Tolerance on the residual ratio; that of the increment if absent
+      real(wp), intent(in), optional :: tolerance
+
+      real(wp) :: allowed
 
       field%memory = history%memory
       associate (last => history%path(size(history%path)), &
                  control => scene%model%increments(size(scene%model%increments)))
-         call balance_step(scene, control%tolerance, control%max_iterations, last, field, history%path, &
+         allowed = control%tolerance
+         if (present(tolerance)) allowed = tolerance
+         call balance_step(scene, allowed, control%max_iterations, last, field, history%path, &
                            history%verdict, warm=.true.)
       end associate
       history%noted = .false.  ! in the place of the last
