@@ -28,8 +28,9 @@ program classical
    use axijoint_joints_increments, only : history_type, run_increments
    use axijoint_joints_planes, only : synthesize, analyse
    use axijoint_joints_residual, only : residual_norm, load_norm, ratio
+   use axijoint_joints_scene, only : views
    use axijoint_linalg_lapack, only : use_one_blas_thread
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, method_total
    implicit none
 
    !> More sweeps are not made
@@ -183,7 +184,8 @@ contains
          call new_loading(model, structure%joint_points, structure%support_points, equations%modes, &
                           model%combinations(1), loading)
          norm = load_norm(equations, loading)
-         field = new_joint_field(size(scene%points), size(scene%planes%angle), size(equations%modes))
+         scene%method = method_total
+         field = new_joint_field(size(scene%points), size(scene%planes%angle), size(equations%modes), size(scene%floating))
          allocate (jump, residual, mold=field%excess)
          allocate (excess, mold=field%jump)
          field_of_loop = loading%right
@@ -200,9 +202,9 @@ contains
             end do
             !$omp end parallel do
             total = synthesize(scene%planes, jump)
-            call admit_jump(model, scene%points, total, field, excess)
+            call admit_jump(model, scene%points, total, views(scene, 1.0_wp), field, excess)
             residual = analyse(scene%planes, excess) - field%excess
-            if (ratio(residual_norm(equations, scene%points, residual), norm) <= model%increments(1)%tolerance) exit
+            if (ratio(residual_norm(scene%measure, residual), norm) <= model%increments(1)%tolerance) exit
             field%excess = field%excess + residual
          end do
       end associate
