@@ -82,7 +82,7 @@ contains
       if (allocated(results%idle)) then
          do i = 1, size(results%idle)
             call add(remarks, 'nothing resists and nothing loads it: '//trim(results%idle(i))// &
-                     '; its share in that motion is arbitrary')
+                     '; joints are moved by it as little as can be')
          end do
       end if
       if (history%verdict%at_rounding) then
