@@ -5,8 +5,8 @@ module axijoint_joints_approach
    use axijoint_element_joint_law, only : xi, eta, theta
    use axijoint_joints_field, only : joint_field_type, trial_of
    use axijoint_joints_mechanism, only : mechanism_type, find_mechanism
-   use axijoint_joints_planes, only : synthesize
-   use axijoint_joints_scene, only : scene_type, evaluate, elastic_stress, motion_of
+   use axijoint_joints_planes, only : synthesize, analyse
+   use axijoint_joints_scene, only : scene_type, evaluate, elastic_stress, motion_of, share_of_motions
    implicit none
    private
    public :: approach
@@ -19,11 +19,13 @@ module axijoint_joints_approach
 contains
 
    !> Move the parts that joints do not hold under load until they do
-   subroutine approach(scene, sticking, field, residual, moved)
+   subroutine approach(scene, sticking, before, field, residual, moved)
       !> The scene
       type(scene_type), intent(in) :: scene
       !> Whether points with any friction or cohesion count as sticking where they touch
       logical, intent(in) :: sticking
+      !> Jumps of the state that the load step begins with, shape (3, points, planes)
+      real(wp), intent(in) :: before(:, :, :)
       !> State of the joints, its stresses evaluated; points that touch or stand open carry no shear where they stand
       type(joint_field_type), intent(inout) :: field
       !> Excess stress that is not transferred
@@ -45,7 +47,7 @@ contains
          if (.not. way < huge(way)) return
          moved = .true.
          field%offset = field%offset + way*mechanism%motion
-         call stand_free(way*jump, field)
+         call stand_free(scene, way*jump, before, field)
          call evaluate(scene, field, residual)
       end do
    end subroutine approach
@@ -76,20 +78,26 @@ contains
       end do
    end function way_to_contact
 
-   !> Points that stood open start without shear where they stand after a motion
-   pure subroutine stand_free(jump, field)
-      !> Jumps of the motion, shape (3, points, planes)
-      real(wp), intent(in) :: jump(:, :, :)
-      !> State of the joints before it
+   !> Points that stood open start without shear where rigid motions bring them: what the bodies would deform if
+   !> all joints held has not happened when they touch
+   subroutine stand_free(scene, jump, before, field)
+      !> The scene
+      type(scene_type), intent(in) :: scene
+      !> Jumps of the motion, and of the state that the load step begins with, shape (3, points, planes)
+      real(wp), intent(in) :: jump(:, :, :), before(:, :, :)
+      !> State of the joints before the motion
       type(joint_field_type), intent(inout) :: field
 
+      real(wp), allocatable :: place(:, :, :)
       integer :: i, j, k
 
+      place = analyse(scene%planes, field%jump - before)
+      place = before + jump + synthesize(scene%planes, motion_of(scene, share_of_motions(scene, place)))
       do j = 1, size(jump, 3)
          do k = 1, size(jump, 2)
             if (any(abs(field%stress(:, k, j)) > 0.0_wp)) cycle
             do i = xi, theta, theta - xi
-               field%memory(k, j)%slip(i) = field%jump(i, k, j) + jump(i, k, j)
+               field%memory(k, j)%slip(i) = place(i, k, j)
             end do
          end do
       end do

@@ -84,6 +84,8 @@ module axijoint_joints_balance
       logical :: ran = .false., leaked = .false.
       integer :: n_steps = 0
       type(anderson_type) :: memory
+      !> Jumps of the state that the load step begins with, shape (3, points, planes)
+      real(wp), allocatable :: begun(:, :, :)
       !> States of the last iterate, and the iteration that changed them last, shape
       !> (points, planes)
       integer, allocatable :: before(:, :), changed(:, :)
@@ -115,7 +117,7 @@ contains
       type(joint_field_type), allocatable :: start, astray
       type(watch_type) :: watch
       type(newton_type) :: newton
-      real(wp), allocatable :: residual(:, :, :)
+      real(wp), allocatable :: residual(:, :, :), begun(:, :, :)
       logical :: again, soft, moved
       integer :: k
 
@@ -128,10 +130,12 @@ contains
          call break_as_newton(scene, tolerance, most, field)
       end if
       if (soft) field%share = scene%first_share
+      begun = field%jump
       call look_again(scene, 1.0_wp, field, residual, newton)
-      if (scene%method /= method_transfer) call approach(scene, .true., field, residual, moved)
+      if (scene%method /= method_transfer) call approach(scene, .true., begun, field, residual, moved)
       start = field
       watch = new_watch(scene, field)
+      call move_alloc(begun, watch%begun)
       if (scene%method == method_newton) then
          newton = new_newton(scene, field, 1.0_wp)
          call find_mechanism(scene, field, .false., verdict%mechanism)
@@ -465,7 +469,7 @@ contains
          ! near to equilibrium, so exactly that one step can reach the tolerance
          if (ratio < near) accuracy = min(accuracy, max(strict, part*tolerance/max(tiny(ratio), ratio)))
          if (.not. field%leak > 0.0_wp) then
-            call approach(scene, .true., field, residual, moved)
+            call approach(scene, .true., watch%begun, field, residual, moved)
             if (moved) newton = new_newton(scene, field, ratio)
          end if
          if (field%leak > 0.0_wp) accuracy = max(strict, min(accuracy, 0.1_wp*field%leak))
@@ -475,7 +479,7 @@ contains
          call newton_step(scene, ratio, accuracy, largest, newton, field, residual, made, &
                           more=merge(bold, careful, watch%falls .or. watch%far), radius=watch%radius)
          if (.not. made .and. .not. field%leak > 0.0_wp) then  ! what slips may stop farther on
-            call approach(scene, .false., field, residual, made)
+            call approach(scene, .false., watch%begun, field, residual, made)
             if (made) newton = new_newton(scene, field, ratio)
          end if
          watch%ran = .not. made
@@ -490,7 +494,7 @@ contains
          field%excess = field%excess + residual
          if (scene%method == method_total) then
             call evaluate(scene, field, residual)
-            call approach(scene, .true., field, residual, moved)
+            call approach(scene, .true., watch%begun, field, residual, moved)
             call balance_motions(scene, field)
          end if
       end if

@@ -15,7 +15,8 @@ module axijoint_joints_scene
    use axijoint_model_model, only : model_type, method_newton, method_transfer
    implicit none
    private
-   public :: scene_type, evaluate, views, mismatch_of, elastic_stress, motion_of, stand_where_they_are
+   public :: scene_type, evaluate, views, mismatch_of, elastic_stress, motion_of, share_of_motions, &
+             stand_where_they_are
 
    !> Stiffness k h/E of joints that Newton's method lets the laws see at a time, and that a state is judged by
    real(wp), parameter :: newton_view = 10.0_wp, judged_view = 1.0e2_wp
@@ -161,22 +162,11 @@ contains
       !> The state
       type(joint_field_type), intent(inout) :: field
 
-      real(wp), dimension(size(scene%floating), size(scene%floating)) :: matrix
-      real(wp), dimension(size(scene%floating)) :: right, share
-      real(wp), dimension(3, size(scene%points), size(scene%equations%modes)) :: jump, motion
-      integer :: info, k, z
+      real(wp) :: motion(3, size(scene%points), size(scene%equations%modes)), share(size(scene%floating))
+      integer :: k, z
 
       if (size(scene%floating) == 0) return
-      jump = jumps(scene%response, field%excess, free=.true.)
-      do z = 1, size(scene%floating)
-         share = 0.0_wp
-         share(z) = 1.0_wp
-         matrix(:, z) = works_of(motion_of(scene, share))
-      end do
-      right = works_of(jump)
-      call invert(matrix, info)
-      if (info /= 0) return
-      share = matmul(matrix, right)
+      share = share_of_motions(scene, jumps(scene%response, field%excess, free=.true.))
       motion = motion_of(scene, share)
       do k = 1, size(scene%points)
          do z = 1, 3
@@ -184,6 +174,29 @@ contains
          end do
       end do
       field%offset = field%offset + share
+   end subroutine stand_where_they_are
+
+   !> Share of the floating motions in jumps: what is left of these does no work on them in elastic joints
+   function share_of_motions(scene, jump) result(share)
+      !> The scene
+      type(scene_type), intent(in) :: scene
+      !> Amplitudes, shape (3, points, modes)
+      real(wp), intent(in) :: jump(:, :, :)
+      !> Share of each motion; zero if joints do not tell them apart
+      real(wp) :: share(size(scene%floating))
+
+      real(wp) :: matrix(size(share), size(share)), unit(size(share))
+      integer :: info, z
+
+      share = 0.0_wp
+      if (size(share) == 0) return
+      do z = 1, size(share)
+         unit = 0.0_wp
+         unit(z) = 1.0_wp
+         matrix(:, z) = works_of(motion_of(scene, unit))
+      end do
+      call invert(matrix, info)
+      if (info == 0) share = matmul(matrix, works_of(jump))
 
    contains
 
@@ -207,7 +220,7 @@ contains
          end do
       end function works_of
 
-   end subroutine stand_where_they_are
+   end function share_of_motions
 
    !> Joint stress of the loads if all joints held, with the stress before loading
    function elastic_stress(scene, field) result(stress)
