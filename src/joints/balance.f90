@@ -44,6 +44,8 @@ module axijoint_joints_balance
    !> Change of the jumps by the first steps, in displacements with elastic joints: of several states the near one is
    !> found. It grows as steps want more
    real(wp), parameter :: first_radius = 3.0_wp
+   !> The loop on total jumps no longer balances rigid motions after so many sweeps without a better residual
+   integer, parameter :: most_moves = 25
    !> Iterations in which a point that changes its state counts as restless
    integer, parameter :: recent = 12
    !> Jumps so many times larger than the displacements with elastic joints are no
@@ -80,6 +82,8 @@ module axijoint_joints_balance
       integer :: best_at = 0
       !> Whether the last residual was the best, and whether steps are long whatever it does
       logical :: falls = .true., far = .false.
+      !> Whether the loop on total jumps balances rigid motions by themselves
+      logical :: moves = .true.
       !> Whether a step of Newton's was not made, whether weak springs were tried, and steps made with those of now
       logical :: ran = .false., leaked = .false.
       integer :: n_steps = 0
@@ -115,6 +119,9 @@ contains
       type(iteration_type), allocatable :: steps(:)
       !> The state at the start, and the last that ran away
       type(joint_field_type), allocatable :: start, astray
+      !> The state when weak springs were taken away, and how strong they were
+      type(joint_field_type), allocatable :: held
+      real(wp) :: springs, leak
       type(watch_type) :: watch
       type(newton_type) :: newton
       real(wp), allocatable :: residual(:, :, :), begun(:, :, :)
@@ -123,6 +130,7 @@ contains
 
       allocate (residual, mold=field%excess)
       allocate (steps(0))
+      springs = 0.0_wp
       soft = scene%method == method_newton
       if (present(warm)) soft = soft .and. .not. warm
       soft = soft .and. scene%first_share < 1.0_wp
@@ -151,7 +159,13 @@ contains
          call look(scene, k, steps(k)%ratio, field, watch, verdict)
          if (verdict%ran_away .or. verdict%stalled) then
             if (verdict%ran_away) astray = field
-            if (.not. (soft .or. may_go_far() .or. may_hold_weakly())) exit
+            if (.not. (soft .or. may_go_far() .or. may_hold_weakly() .or. may_weaken())) exit
+            if (may_weaken()) then  ! taken away too early
+               springs = max(last_leak, leak_factor*springs)
+               field = held
+               call begin_again(leak=springs)
+               cycle
+            end if
             field = start
             if (soft) then
                soft = .false.
@@ -164,7 +178,12 @@ contains
             end if
             cycle
          end if
+         leak = field%leak
          call go_on(scene, tolerance, field, residual, watch, verdict, again)
+         if (leak > 0.0_wp .and. .not. field%leak > 0.0_wp) then
+            springs = leak
+            held = field
+         end if
          if (verdict%converged) exit
          if (verdict%mechanism%loaded) then
             if (.not. may_hold_weakly()) exit
@@ -196,6 +215,11 @@ contains
       logical function may_go_far() result(may)
          may = scene%method == method_newton .and. verdict%stalled .and. .not. (watch%far .or. watch%leaked) .and. k < most
       end function may_go_far
+
+      !> Whether weaker springs may do where none do not
+      logical function may_weaken() result(may)
+         may = .not. soft .and. field%leak <= 0.0_wp .and. springs > last_leak .and. k < most
+      end function may_weaken
 
       !> Whether weak springs may still help
       logical function may_hold_weakly() result(may)
@@ -316,6 +340,7 @@ contains
          watch%best_at = k
       end if
       watch%falls = watch%best_at == k
+      watch%moves = watch%moves .and. k <= watch%best_at + most_moves
       verdict%stalled = scene%method == method_newton .and. k > watch%best_at + patience
    end subroutine look
 
@@ -495,7 +520,8 @@ contains
          if (scene%method == method_total) then
             call evaluate(scene, field, residual)
             call approach(scene, .true., watch%begun, field, residual, moved)
-            call balance_motions(scene, field)
+            ! motions and excess stress may go on against each other without end: then the loop goes on alone
+            if (watch%moves) call balance_motions(scene, field)
          end if
       end if
       call look_again(scene, ratio, field, residual, newton)
