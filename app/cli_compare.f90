@@ -5,7 +5,7 @@ module axijoint_cli_compare
    use axijoint_base_text, only : nearest_word
    use axijoint_cli, only : word_type
    use axijoint_compare_tolerances, only : tolerances_type, special_type, name_type
-   use axijoint_deck_token, only : read_real, read_integer, token_good
+   use axijoint_deck_text_token, only : read_real, read_integer, token_good
    implicit none
    private
    public :: compare_type, read_compare

@@ -4,12 +4,12 @@ module axijoint_driver_check
    use axijoint_base_error, only : exit_ok, exit_deck
    use axijoint_base_text, only : to_text
    use axijoint_cli, only : word_type
-   use axijoint_deck_diagnostics, only : diagnostics_type, render
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, render
+   use axijoint_deck_text_source, only : source_type
    use axijoint_job_reader, only : read_job
-   use axijoint_deck_source, only : source_type
-   use axijoint_model_modes, only : used_modes
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type
+   use axijoint_model_modes, only : used_modes
    implicit none
    private
    public :: check_decks

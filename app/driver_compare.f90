@@ -5,10 +5,10 @@ module axijoint_driver_compare
    use axijoint_cli, only : word_type
    use axijoint_cli_compare, only : compare_type, read_compare
    use axijoint_compare_compare, only : compare_listings
-   use axijoint_compare_own_format, only : own_format_text
-   use axijoint_compare_reader, only : read_file
-   use axijoint_compare_totals, only : add_totals
-   use axijoint_compare_table, only : listing_type, words_type
+   use axijoint_compare_read_own_format, only : own_format_text
+   use axijoint_compare_read_reader, only : read_file
+   use axijoint_compare_table_table, only : listing_type, words_type
+   use axijoint_compare_table_totals, only : add_totals
    use axijoint_driver_run, only : print_error
    implicit none
    private

@@ -1,15 +1,15 @@
 !> `axijoint estimate`: what decks would cost
 module axijoint_driver_estimate
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
-   use axijoint_analysis_estimate, only : estimate_type, estimate_job
+   use axijoint_analysis_core_estimate, only : estimate_type, estimate_job
    use axijoint_assembly_pattern, only : node_graph
    use axijoint_base_error, only : error_type, exit_ok, exit_deck
    use axijoint_base_kinds, only : wp
    use axijoint_cli, only : command_type
-   use axijoint_deck_diagnostics, only : diagnostics_type, render
-   use axijoint_job_reader, only : read_job
-   use axijoint_deck_source, only : source_type
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, render
+   use axijoint_deck_text_source, only : source_type
    use axijoint_driver_run, only : print_error
+   use axijoint_job_reader, only : read_job
    use axijoint_linalg_lapack, only : product_rate
    use axijoint_model_model, only : model_type, yielding_nodes
    use axijoint_solver_choice, only : solver_band, solver_sparse, solver_names, orders_type, &

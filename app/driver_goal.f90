@@ -1,22 +1,22 @@
 !> Rounds of refinement of a job that has an error target
 module axijoint_driver_goal
    use omp_lib, only : omp_get_wtime
-   use axijoint_analysis_goal, only : goal_error, refine_further, too_large
-   use axijoint_analysis_results, only : results_type, round_type
+   use axijoint_analysis_core_results, only : results_type, round_type
+   use axijoint_analysis_core_structure, only : structure_type, build_structure
+   use axijoint_analysis_error_goal, only : goal_error, refine_further, too_large
    use axijoint_analysis_static, only : analyse_combination
-   use axijoint_analysis_structure, only : structure_type, build_structure
    use axijoint_base_error, only : error_type, fatal_error, exit_deck
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : progress_type, show_progress
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type, phase_read
    use axijoint_cli, only : command_type
-   use axijoint_deck_diagnostics, only : diagnostics_type, render
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, render
+   use axijoint_deck_text_source, only : source_type
    use axijoint_job_reader, only : read_job
-   use axijoint_deck_source, only : source_type
    use axijoint_model_model, only : model_type
    use axijoint_model_request, only : refinement_type
-   use axijoint_output_totals, only : n_unknowns
+   use axijoint_output_file_totals, only : n_unknowns
    implicit none
    private
    public :: refine_to_goal, take_options

@@ -1,23 +1,23 @@
 !> `axijoint run`: decks to results
 module axijoint_driver_run
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
-   use axijoint_analysis_results, only : results_type, remark_type, round_type
-   use axijoint_analysis_remarks, only : remark_on_goal
+   use axijoint_analysis_core_remarks, only : remark_on_goal
+   use axijoint_analysis_core_results, only : results_type, remark_type, round_type
+   use axijoint_analysis_core_structure, only : structure_type, build_structure
    use axijoint_analysis_static, only : analyse_combination
-   use axijoint_analysis_structure, only : structure_type, build_structure
    use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_not_converged, exit_singular
    use axijoint_base_progress, only : progress_type, show_progress, clear_progress
    use axijoint_base_system, only : error_output_is_terminal
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type, phase_read, phase_write
-   use axijoint_driver_goal, only : refine_to_goal, take_options
    use axijoint_cli, only : command_type, word_type
-   use axijoint_deck_diagnostics, only : diagnostics_type, render, warning_texts
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, render, warning_texts
+   use axijoint_deck_text_source, only : source_type
+   use axijoint_driver_goal, only : refine_to_goal, take_options
    use axijoint_job_reader, only : read_job
-   use axijoint_deck_source, only : source_type
    use axijoint_model_model, only : model_type
-   use axijoint_output_output, only : check_output, write_output, write_error_summary
    use axijoint_output_brief, only : brief_text
+   use axijoint_output_output, only : check_output, write_output, write_error_summary
    use omp_lib, only : omp_set_num_threads
    implicit none
    private

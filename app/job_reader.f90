@@ -1,14 +1,14 @@
 !> Reads a deck and judges what the cards alone do not tell: whether in-situ stress is in balance
 module axijoint_job_reader
-   use axijoint_analysis_in_situ, only : in_situ_type, in_situ_part_type, in_situ_boundary_type, misfit_type, &
+   use axijoint_analysis_core_in_situ, only : in_situ_type, in_situ_part_type, in_situ_boundary_type, misfit_type, &
       told_share, refused_share
-   use axijoint_analysis_in_situ_balance, only : in_situ_balance
-   use axijoint_analysis_in_situ_boundaries, only : place_of
+   use axijoint_analysis_core_in_situ_balance, only : in_situ_balance
+   use axijoint_analysis_core_in_situ_boundaries, only : place_of
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text, percent_text
-   use axijoint_deck_diagnostics, only : diagnostics_type, add_error, add_warning
    use axijoint_deck_reader, only : read_deck
-   use axijoint_deck_source, only : source_type
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, add_warning
+   use axijoint_deck_text_source, only : source_type
    use axijoint_model_model, only : model_type
    use axijoint_model_request, only : refinement_type
    implicit none

@@ -8,10 +8,10 @@
 !> are the least of so many runs of each, one after the other in turn.
 program classical
    use, intrinsic :: iso_fortran_env, only : output_unit
-   use axijoint_analysis_results, only : results_type, mode_solve_type
-   use axijoint_analysis_solution, only : solve_displacements
+   use axijoint_analysis_core_results, only : results_type, mode_solve_type
+   use axijoint_analysis_core_solution, only : solve_displacements
+   use axijoint_analysis_core_structure, only : structure_type, build_structure
    use axijoint_analysis_static, only : analyse_model
-   use axijoint_analysis_structure, only : structure_type, build_structure
    use axijoint_assembly_equations, only : solve_mode, worth_threads
    use axijoint_assembly_force, only : joint_force, joint_jump
    use axijoint_assembly_loading, only : loading_type, new_loading
@@ -21,9 +21,9 @@ program classical
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type, phase_assemble, phase_factor, phase_joints
    use axijoint_bench_measure, only : seconds, stop_on, fail
-   use axijoint_deck_diagnostics, only : diagnostics_type
    use axijoint_deck_reader, only : read_deck
-   use axijoint_deck_source, only : source_type
+   use axijoint_deck_text_diagnostics, only : diagnostics_type
+   use axijoint_deck_text_source, only : source_type
    use axijoint_joints_field, only : joint_field_type, new_joint_field, admit_jump
    use axijoint_joints_increments, only : history_type, run_increments
    use axijoint_joints_planes, only : synthesize, analyse

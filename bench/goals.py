@@ -1,6 +1,6 @@
 """Whether ERROR keeps what it promises: true errors at the end over targets, from coarse decks. See scripts/bench.
 
-The rules of src/analysis/goal.f90 follow from how far true errors were from estimates in the rows of estimates.py.
+The rules of src/analysis/error/goal.f90 follow from how far true errors were from estimates in the rows of estimates.py.
 These scenes are others: other stiffnesses, friction, loads and materials. They were written down before any was run,
 and no rule was changed afterwards."""
 import argparse

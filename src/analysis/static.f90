@@ -1,24 +1,24 @@
 !> Static analysis of a structure under its loads, told in order
 module axijoint_analysis_static
-   use axijoint_analysis_cuts, only : cut_resultants
-   use axijoint_analysis_corrections, only : correct_rounding, keep_claim, solver_keeps_claim
-   use axijoint_analysis_discretization, only : estimate_discretization
+   use axijoint_analysis_core_cuts, only : cut_resultants
+   use axijoint_analysis_core_in_situ_balance, only : in_situ_balance
+   use axijoint_analysis_core_increment_fields, only : elastic_field
+   use axijoint_analysis_core_left_out, only : what_was_left_out
+   use axijoint_analysis_core_motion, only : motion_text
+   use axijoint_analysis_core_nodal_stress, only : smooth_stress
+   use axijoint_analysis_core_recovery, only : recover
+   use axijoint_analysis_core_remarks, only : remarks_on, mechanism_text
+   use axijoint_analysis_core_results, only : results_type
+   use axijoint_analysis_core_solution, only : solve_displacements
+   use axijoint_analysis_core_structure, only : structure_type, build_structure
    use axijoint_analysis_error_budget, only : new_budget
+   use axijoint_analysis_error_corrections, only : correct_rounding, keep_claim, solver_keeps_claim
+   use axijoint_analysis_error_discretization, only : estimate_discretization
+   use axijoint_analysis_error_stiffer_joints, only : compare_stiffer
+   use axijoint_analysis_error_yielding_errors, only : estimate_yielding_errors
    use axijoint_analysis_fine_difference, only : difference_type, new_difference
    use axijoint_analysis_fine_level, only : new_fine_load
-   use axijoint_analysis_in_situ_balance, only : in_situ_balance
-   use axijoint_analysis_left_out, only : what_was_left_out
-   use axijoint_analysis_mesh_error, only : mesh_error_type, new_mesh_error
-   use axijoint_analysis_motion, only : motion_text
-   use axijoint_analysis_nodal_stress, only : smooth_stress
-   use axijoint_analysis_recovery, only : recover
-   use axijoint_analysis_remarks, only : remarks_on, mechanism_text
-   use axijoint_analysis_results, only : results_type
-   use axijoint_analysis_increment_fields, only : elastic_field
-   use axijoint_analysis_solution, only : solve_displacements
-   use axijoint_analysis_stiffer_joints, only : compare_stiffer
-   use axijoint_analysis_structure, only : structure_type, build_structure
-   use axijoint_analysis_yielding_errors, only : estimate_yielding_errors
+   use axijoint_analysis_fine_mesh_error, only : mesh_error_type, new_mesh_error
    use axijoint_assembly_force, only : elastic_joint_stress
    use axijoint_assembly_loading, only : new_loading
    use axijoint_base_error, only : error_type

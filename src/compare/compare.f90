@@ -4,9 +4,9 @@ module axijoint_compare_compare
    use axijoint_base_text, only : count_of, to_text
    use axijoint_compare_judge, only : table_result_type, judge_tables, largest_values
    use axijoint_compare_match, only : match_type, match_rows
-   use axijoint_compare_numbering, only : numbering_type
    use axijoint_compare_report, only : print_table, print_only
-   use axijoint_compare_table, only : listing_type, table_type, words_type, find_column, &
+   use axijoint_compare_table_numbering, only : numbering_type
+   use axijoint_compare_table_table, only : listing_type, table_type, words_type, find_column, &
       kind_angle, kind_word, kind_names
    use axijoint_compare_tolerances, only : tolerances_type, is_skipped
    implicit none

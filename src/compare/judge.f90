@@ -1,9 +1,9 @@
 !> Differences of two tables
 module axijoint_compare_judge
    use axijoint_base_kinds, only : wp
-   use axijoint_compare_cell, only : cell_type, cell_number, cell_blank, cell_word, cell_overflow
    use axijoint_compare_match, only : match_type
-   use axijoint_compare_table, only : table_type, listing_type, find_column, kind_names, kind_word
+   use axijoint_compare_table_cell, only : cell_type, cell_number, cell_blank, cell_word, cell_overflow
+   use axijoint_compare_table_table, only : table_type, listing_type, find_column, kind_names, kind_word
    use axijoint_compare_tolerances, only : tolerances_type, allowed_difference, floor_difference, &
       is_skipped
    implicit none

@@ -2,8 +2,8 @@
 module axijoint_compare_keys
    use axijoint_base_kinds, only : wp
    use axijoint_base_sort, only : ascending_order
-   use axijoint_compare_cell, only : cell_number, cell_word
-   use axijoint_compare_table, only : table_type, find_column, kind_label, kind_key, &
+   use axijoint_compare_table_cell, only : cell_number, cell_word
+   use axijoint_compare_table_table, only : table_type, find_column, kind_label, kind_key, &
       kind_coordinate, kind_angle
    implicit none
    private

@@ -1,10 +1,10 @@
 !> Which row of one table is which of another
 module axijoint_compare_match
    use axijoint_base_kinds, only : wp
-   use axijoint_compare_cell, only : cell_type, cell_number
    use axijoint_compare_keys, only : key_type, keys_type, row_keys, chosen_keys, candidates
-   use axijoint_compare_numbering, only : numbering_type, learn, same_numbers, known_partner
-   use axijoint_compare_table, only : table_type, find_column, kind_label, kind_coordinate, kind_word
+   use axijoint_compare_table_cell, only : cell_type, cell_number
+   use axijoint_compare_table_numbering, only : numbering_type, learn, same_numbers, known_partner
+   use axijoint_compare_table_table, only : table_type, find_column, kind_label, kind_coordinate, kind_word
    implicit none
    private
    public :: match_type, match_rows

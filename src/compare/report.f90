@@ -2,11 +2,11 @@
 module axijoint_compare_report
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text, count_of
-   use axijoint_compare_cell, only : cell_type, cell_number, cell_blank, cell_overflow, &
-      cell_not_a_number, cell_infinite
    use axijoint_compare_judge, only : table_result_type, column_result_type
    use axijoint_compare_match, only : match_type
-   use axijoint_compare_table, only : table_type, words_type, kind_names, table_title, kind_word, &
+   use axijoint_compare_table_cell, only : cell_type, cell_number, cell_blank, cell_overflow, &
+      cell_not_a_number, cell_infinite
+   use axijoint_compare_table_table, only : table_type, words_type, kind_names, table_title, kind_word, &
       find_column
    implicit none
    private

@@ -1,7 +1,7 @@
 !> What two files may differ by
 module axijoint_compare_tolerances
    use axijoint_base_kinds, only : wp
-   use axijoint_compare_cell, only : cell_type
+   use axijoint_compare_table_cell, only : cell_type
    implicit none
    private
    public :: tolerances_type, special_type, allowed_difference, floor_difference, is_skipped

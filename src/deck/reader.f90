@@ -1,44 +1,44 @@
 !> From a deck to a model
 module axijoint_deck_reader
-   use axijoint_deck_arrange, only : sort_nodes_and_elements, sort_joints
    use axijoint_deck_check_axis, only : check_slivers, check_holes
    use axijoint_deck_check_elements, only : check_elements
    use axijoint_deck_check_joints, only : check_joints, check_joint_edges
+   use axijoint_deck_check_locking, only : warn_of_locking
    use axijoint_deck_check_mesh, only : snap_to_axis, check_used, check_coincident, check_near, &
       check_hanging, check_touching
    use axijoint_deck_check_overlap, only : check_overlap
-   use axijoint_deck_control, only : read_control, check_planes
-   use axijoint_deck_diagnostics, only : diagnostics_type, add_error
-   use axijoint_deck_draft, only : draft_type, new_draft, corners_known
-   use axijoint_deck_edges, only : edge_table_type, new_edge_table, check_edges
-   use axijoint_deck_elements, only : draft_elements
-   use axijoint_deck_faces, only : number_faces, lay_faces
-   use axijoint_deck_generate_blocks, only : draft_blocks
-   use axijoint_deck_generate_lines, only : draft_nodes, draft_lines
+   use axijoint_deck_check_unused, only : warn_of_unused
    use axijoint_deck_gmsh_faces, only : number_group_faces, lay_group_faces
    use axijoint_deck_gmsh_groups, only : read_groups
    use axijoint_deck_gmsh_import, only : gmsh_import_type, read_mesh_file
    use axijoint_deck_gmsh_joints, only : lay_group_joints
    use axijoint_deck_gmsh_solids, only : draft_gmsh
-   use axijoint_deck_interfaces, only : refer_interfaces, lay_interfaces
-   use axijoint_deck_joints, only : draft_joints
-   use axijoint_deck_law_details, only : read_law_details
-   use axijoint_deck_layout, only : section_law_details, section_control, section_nodes, section_lines, section_elements, &
+   use axijoint_deck_load_loads, only : read_loads, check_properties
+   use axijoint_deck_mesh_arrange, only : sort_nodes_and_elements, sort_joints
+   use axijoint_deck_mesh_draft, only : draft_type, new_draft, corners_known
+   use axijoint_deck_mesh_edges, only : edge_table_type, new_edge_table, check_edges
+   use axijoint_deck_mesh_elements, only : draft_elements
+   use axijoint_deck_mesh_faces, only : number_faces, lay_faces
+   use axijoint_deck_mesh_generate_blocks, only : draft_blocks
+   use axijoint_deck_mesh_generate_lines, only : draft_nodes, draft_lines
+   use axijoint_deck_mesh_interfaces, only : refer_interfaces, lay_interfaces
+   use axijoint_deck_mesh_joints, only : draft_joints
+   use axijoint_deck_mesh_places, only : group_places, new_point_tree, point_tree_type, same_place
+   use axijoint_deck_property_law_details, only : read_law_details
+   use axijoint_deck_property_properties, only : properties_type, read_properties
+   use axijoint_deck_request_control, only : read_control, check_planes
+   use axijoint_deck_request_refinement, only : refine_sections, read_error_goal, can_refine_mesh
+   use axijoint_deck_request_requests, only : read_lines, read_cuts, place_lines, place_cuts, &
+      gather_supported_faces
+   use axijoint_deck_request_sweep, only : read_sweep
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
+   use axijoint_deck_text_layout, only : section_law_details, section_control, section_nodes, section_lines, section_elements, &
       section_blocks, section_groups, section_materials, section_laws, section_joints, section_faces, &
       section_chains, section_interfaces, section_increments, section_output, section_orthotropic, &
       section_sections, section_cuts, section_sweep, section_fixed_faces, section_moved_faces, section_springs, section_error
-   use axijoint_deck_loads, only : read_loads, check_properties
-   use axijoint_deck_places, only : group_places, new_point_tree, point_tree_type, same_place
-   use axijoint_deck_locking, only : warn_of_locking
-   use axijoint_deck_properties, only : properties_type, read_properties
-   use axijoint_deck_refinement, only : refine_sections, read_error_goal, can_refine_mesh
-   use axijoint_deck_requests, only : read_lines, read_cuts, place_lines, place_cuts, &
-      gather_supported_faces
-   use axijoint_deck_sections, only : sections_type, read_sections
-   use axijoint_deck_source, only : source_type
-   use axijoint_deck_source_reader, only : read_source
-   use axijoint_deck_sweep, only : read_sweep
-   use axijoint_deck_unused, only : warn_of_unused
+   use axijoint_deck_text_sections, only : sections_type, read_sections
+   use axijoint_deck_text_source, only : source_type
+   use axijoint_deck_text_source_reader, only : read_source
    use axijoint_model_model, only : model_type, element_references
    use axijoint_model_request, only : refinement_type
    implicit none

@@ -1,6 +1,6 @@
 !> A finished run in a dozen lines, for the terminal
 module axijoint_output_brief
-   use axijoint_analysis_results, only : results_type
+   use axijoint_analysis_core_results, only : results_type
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_system, only : peak_memory_mb
    use axijoint_base_text, only : to_text
@@ -8,12 +8,12 @@ module axijoint_output_brief
    use axijoint_element_joint_law, only : state_stick, state_slip, state_open
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type
-   use axijoint_output_headings, only : mark_not_converged
-   use axijoint_output_joint_proportion, only : proportions_text, stiffer_laws_text
-   use axijoint_output_listing_budget, only : sum_text, remedy_text, singular_text
-   use axijoint_output_pending, only : join_path
-   use axijoint_output_totals, only : peak_type, largest_displacement, largest_pressure, &
+   use axijoint_output_file_headings, only : mark_not_converged
+   use axijoint_output_file_pending, only : join_path
+   use axijoint_output_file_totals, only : peak_type, largest_displacement, largest_pressure, &
       count_states, n_unknowns
+   use axijoint_output_listing_budget, only : sum_text, remedy_text, singular_text
+   use axijoint_output_table_joint_proportion, only : proportions_text, stiffer_laws_text
    implicit none
    private
    public :: brief_text

@@ -1,27 +1,27 @@
 !> The files of a run: all of them complete under their final names, or none
 module axijoint_output_output
-   use axijoint_analysis_results, only : results_type
-   use axijoint_analysis_structure, only : structure_type
+   use axijoint_analysis_core_results, only : results_type
+   use axijoint_analysis_core_structure, only : structure_type
    use axijoint_base_error, only : error_type, fatal_error, exit_io, exit_internal
    use axijoint_base_system, only : path_kind, is_directory, same_file, path_absent, path_file, &
       path_directory, path_link, error_text
    use axijoint_base_timer, only : timer_type
-   use axijoint_deck_source, only : source_type, card_file
+   use axijoint_deck_text_source, only : source_type, card_file
    use axijoint_model_mesh, only : n_joints
    use axijoint_model_model, only : model_type
-   use axijoint_output_echo, only : deck_path
-   use axijoint_output_hdf5, only : write_results
-   use axijoint_output_hdf5_file, only : hdf5_file_type
-   use axijoint_output_listing, only : write_listing
+   use axijoint_output_file_echo, only : deck_path
+   use axijoint_output_file_hdf5, only : hdf5_file_type
+   use axijoint_output_file_pending, only : join_path, sync_names
+   use axijoint_output_file_run, only : run_type, new_run
+   use axijoint_output_file_text, only : text_file_type
+   use axijoint_output_hdf5_results, only : write_results
+   use axijoint_output_listing_contents, only : write_listing
    use axijoint_output_listing_solution, only : convergence_text
    use axijoint_output_listing_sweep, only : picture_type, new_picture
-   use axijoint_output_pending, only : join_path, sync_names
-   use axijoint_output_run, only : run_type, new_run
    use axijoint_output_summary, only : write_summary, write_failure_summary
-   use axijoint_output_swept_mesh, only : swept_mesh_type
-   use axijoint_output_text_file, only : text_file_type
    use axijoint_output_vtkhdf_bodies, only : write_bodies
    use axijoint_output_vtkhdf_joints, only : write_joint_surfaces
+   use axijoint_output_vtkhdf_swept_mesh, only : swept_mesh_type
    implicit none
    private
    public :: check_output, write_output, write_error_summary

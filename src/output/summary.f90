@@ -1,8 +1,10 @@
 !> Summary of a run in JSON, for scripts
 module axijoint_output_summary
-   use axijoint_analysis_results, only : results_type, error_share_type
+   use axijoint_analysis_core_results, only : results_type, error_share_type
+   use axijoint_analysis_error_budget, only : sum_of_shares
    use axijoint_base_kinds, only : wp
    use axijoint_base_system, only : peak_memory_mb
+   use axijoint_base_text, only : lower
    use axijoint_base_timer, only : timer_type, phase_names, phase_read, phase_assemble, &
       phase_factor, phase_joints, phase_recover, phase_write, phase_total
    use axijoint_base_version, only : program_name, program_version
@@ -10,16 +12,14 @@ module axijoint_output_summary
    use axijoint_fe_mode, only : family_symmetric, family_antisymmetric
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type, method_names
-   use axijoint_analysis_error_budget, only : sum_of_shares
-   use axijoint_output_in_situ, only : in_situ_json
-   use axijoint_output_joint_proportion, only : proportions_json
+   use axijoint_output_file_json, only : json_string, json_number, json_integers, json_strings
+   use axijoint_output_file_run, only : run_type, status_name, status_error
+   use axijoint_output_file_text, only : text_file_type
+   use axijoint_output_file_totals, only : count_states, n_unknowns
    use axijoint_output_listing_budget, only : sum_text
-   use axijoint_output_json, only : json_string, json_number, json_integers, json_strings
-   use axijoint_output_residuals, only : residuals_json
-   use axijoint_output_run, only : run_type, status_name, status_error
-   use axijoint_output_text_file, only : text_file_type
-   use axijoint_output_totals, only : count_states, n_unknowns
-   use axijoint_base_text, only : lower
+   use axijoint_output_table_in_situ, only : in_situ_json
+   use axijoint_output_table_joint_proportion, only : proportions_json
+   use axijoint_output_table_residuals, only : residuals_json
    use axijoint_solver_choice, only : solver_names
    implicit none
    private

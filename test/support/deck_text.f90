@@ -2,9 +2,9 @@
 module axijoint_test_deck_text
    use axijoint_base_system, only : process_id
    use axijoint_base_text, only : to_text
-   use axijoint_deck_diagnostics, only : diagnostics_type, render
    use axijoint_deck_reader, only : read_deck
-   use axijoint_deck_source, only : source_type
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, render
+   use axijoint_deck_text_source, only : source_type
    use axijoint_model_model, only : model_type
    implicit none
    private

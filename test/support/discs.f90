@@ -1,6 +1,6 @@
 !> Discs on a held one, condensed to the joints between them: what the modules of the joint iterations are tested on
 module axijoint_test_discs
-   use axijoint_analysis_structure, only : structure_type, build_structure
+   use axijoint_analysis_core_structure, only : structure_type, build_structure
    use axijoint_assembly_loading, only : loading_type, new_loading
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp

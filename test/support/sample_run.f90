@@ -1,8 +1,8 @@
 !> A small job with made-up results that no two numbers of which are equal
 module axijoint_test_sample_run
-   use axijoint_analysis_results, only : results_type
+   use axijoint_analysis_core_results, only : results_type
    use axijoint_base_kinds, only : wp, pi
-   use axijoint_deck_source, only : source_type, add_file, add_card
+   use axijoint_deck_text_source, only : source_type, add_file, add_card
    use axijoint_element_joint_law, only : state_stick, state_slip, state_open
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_residual, only : residual_record_type

@@ -1,0 +1,100 @@
+!> Resultants of the stresses on cuts z = const
+module axijoint_analysis_core_cuts
+   use axijoint_analysis_core_cut_loads, only : plane_type, edge_load_excess, spring_excess, joint_excess, &
+                                           mass_excess
+   use axijoint_analysis_core_results, only : results_type, n_resultants
+   use axijoint_analysis_core_rigid, only : rigid_resultants
+   use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_assembly_loading, only : loading_type
+   use axijoint_assembly_solid_force, only : solid_force
+   use axijoint_base_kinds, only : wp
+   use axijoint_joints_field, only : joint_field_type, stress_amplitude
+   use axijoint_model_mesh, only : n_elements, n_nodes
+   use axijoint_model_model, only : model_type
+   use axijoint_model_request, only : cut_type
+   implicit none
+   private
+   public :: cut_resultants
+
+   !> Nodes this near to a cut, over the extent of the mesh, are on it
+   real(wp), parameter :: on_cut = 1.0e-9_wp
+
+contains
+
+   !> Fill the resultants on all cuts: the work of the stresses on a motion that is
+   !> rigid above the cut and zero below, with the elements' own functions between,
+   !> that is, the resultant of the stresses' nodal forces above the cut. It balances
+   !> the nodal loads above. Where a load is spread over an element that the cut passes
+   !> through, what nodal forces count too much or too little of it is taken off.
+   !> So the cut balances the loads above it, wherever it is.
+   subroutine cut_resultants(model, structure, loading, field, results)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Joints and springs
+      type(structure_type), intent(in) :: structure
+      !> Loads at the end
+      type(loading_type), intent(in) :: loading
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> Results; displacements are there already
+      type(results_type), intent(inout) :: results
+
+      type(plane_type), allocatable :: planes(:)
+      real(wp), allocatable :: force(:, :), stress(:, :)
+      integer :: k, c
+
+      allocate (results%cut_resultants(n_resultants, size(model%cuts)), source=0.0_wp)
+      if (size(model%cuts) == 0) return
+      allocate (force(3, n_nodes(model%mesh)))
+      allocate (planes(size(model%cuts)))
+      do c = 1, size(planes)
+         planes(c) = new_plane(model, model%cuts(c))
+      end do
+      do k = 1, size(results%modes)
+         if (results%modes(k)%harmonic > 1) cycle  ! no resultants
+         associate (mode => results%modes(k), displacement => results%displacement(:, :, k), &
+                    case_factor => loading%case_factor)
+            call solid_force(model, loading%initial, k, mode, displacement, force)
+            stress = stress_amplitude(structure%joint_points, mode, displacement, field, k)
+            do c = 1, size(planes)
+               associate (plane => planes(c), total => results%cut_resultants(:, c))
+                  total = total + rigid_resultants(plane%position, mode, &
+                     merge(force, 0.0_wp, spread(plane%above .and. plane%cut, 1, 3))) &
+                     - edge_load_excess(model, plane, mode, case_factor) &
+                     - spring_excess(model, plane, mode, displacement) &
+                     - joint_excess(model, plane, mode, stress) &
+                     - mass_excess(model, plane, mode, case_factor)
+               end associate
+            end do
+         end associate
+      end do
+   end subroutine cut_resultants
+
+   !> Nodes above and below a cut. A node on the cut is below it: loads there act
+   !> below; but at the top of what is cut they act above
+   pure function new_plane(model, cut) result(plane)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The cut
+      type(cut_type), intent(in) :: cut
+      !> The nodes
+      type(plane_type) :: plane
+
+      real(wp) :: tolerance
+      integer :: element
+
+      allocate (plane%cut(n_nodes(model%mesh)), source=.false.)
+      do element = 1, n_elements(model%mesh)
+         if (cut%body > 0 .and. model%mesh%element_body(element) /= cut%body) cycle
+         plane%cut(model%mesh%element_nodes(:model%mesh%element_size(element), element)) = .true.
+      end do
+      associate (x => model%mesh%coordinates)
+         tolerance = on_cut*maxval(maxval(x, 2) - minval(x, 2))
+         plane%position = x
+         plane%position(2, :) = x(2, :) - cut%z
+      end associate
+      plane%above = plane%position(2, :) > tolerance
+      if (.not. any(plane%above .and. plane%cut)) plane%above = plane%position(2, :) >= -tolerance
+   end function new_plane
+
+end module axijoint_analysis_core_cuts

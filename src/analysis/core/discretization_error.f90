@@ -1,0 +1,32 @@
+!> Estimate of what the mesh leaves of the error
+module axijoint_analysis_core_discretization_error
+   use axijoint_base_kinds, only : wp
+   implicit none
+   private
+   public :: discretization_error_type
+
+   !> Estimate of the discretization error. The energy norm is that of stresses, of the whole
+   !> circle: its square is twice the energy, 1/2 integral of stress^T D^-1 stress
+   type :: discretization_error_type
+      !> Energy of the error in each mode, shape (modes) [force length]
+      real(wp), allocatable :: error_energy(:)
+      !> Energy of the solution in each mode: solids, joints and springs, shape (modes)
+      real(wp), allocatable :: energy(:)
+      !> Error over solution of each mode in the energy norm, shape (modes)
+      real(wp), allocatable :: mode_relative(:)
+      !> The same of all modes together
+      real(wp) :: relative = 0.0_wp
+      !> Part of each element in the square of `relative`, shape (elements): the energy of its
+      !> error in all modes over that of the whole solution
+      real(wp), allocatable :: element(:)
+      !> Largest displacement of a node [length]
+      real(wp) :: largest_displacement = 0.0_wp
+      !> Largest error of a displacement over the largest displacement
+      real(wp) :: displacement = 0.0_wp
+      !> Largest error of a joint stress over the largest joint stress; negative without joints
+      real(wp) :: joint_stress = -1.0_wp
+      !> Time that the estimate took [second]
+      real(wp) :: seconds = 0.0_wp
+   end type discretization_error_type
+
+end module axijoint_analysis_core_discretization_error

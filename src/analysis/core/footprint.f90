@@ -1,0 +1,130 @@
+!> Memory that a job takes besides its equations
+module axijoint_analysis_core_footprint
+   use axijoint_base_kinds, only : wp, i8
+   use axijoint_fe_reference, only : reference_type
+   use axijoint_model_joint_points, only : model_joint_point_type
+   use axijoint_model_mesh, only : n_nodes
+   use axijoint_model_model, only : model_type, element_references, can_yield_at, yielding_nodes
+   implicit none
+   private
+   public :: footprint_type, data_footprint
+
+   !> Bytes of a real
+   integer(i8), parameter :: real_bytes = storage_size(1.0_wp)/8
+   !> Numbers of a joint point on a plane: jumps, stresses, states, slip, slopes, and copies
+   integer(i8), parameter :: plane_numbers = 60
+
+   !> Vectors that the linear solutions of Newton's method touch; more are there for those that need
+   !> them, but joints a thousand times as stiff as usual do with these
+   integer(i8), parameter :: newton_vectors = 100
+   !> Bytes of a node in the mesh, its elements, graph, orders and equations, as measured
+   integer(i8), parameter :: mesh_bytes = 520
+   !> Bytes of a node of the fine mesh besides its stiffness, and what its vectors and blocks take, as measured
+   integer(i8), parameter :: fine_mesh_bytes = 250
+   real(wp), parameter :: fine_work_bytes = 900.0_wp
+
+   !> Bytes
+   type :: footprint_type
+      !> Mesh and what is numbered on it, which stand once the equations are planned
+      integer(i8) :: mesh = 0
+      !> Loads and displacements, which stand while the equations are solved
+      integer(i8) :: loads = 0
+      !> Reactions and stresses, which come after
+      integer(i8) :: stresses = 0
+      !> Flexibilities and state of the joints that can yield
+      integer(i8) :: joints = 0
+      !> What a thread takes to form a flexibility
+      integer(i8) :: joint_work = 0
+      !> The mesh of elements half as large, for estimates of errors, and what a thread takes for one
+      integer(i8) :: fine = 0, fine_work = 0
+   contains
+      !> All that comes after planning
+      procedure :: coming
+   end type footprint_type
+
+contains
+
+   !> Memory of loads, results and joints
+   pure function data_footprint(model, n_modes, n_systems, joint_points) result(footprint)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Modes, and matrices
+      integer, intent(in) :: n_modes, n_systems
+      !> Points of all joints
+      type(model_joint_point_type), intent(in) :: joint_points(:)
+      !> The bytes
+      type(footprint_type) :: footprint
+
+      type(reference_type) :: references(3:9)
+      integer(i8) :: nodes, jumps, unknowns
+
+      references = element_references(model)
+      nodes = n_nodes(model%mesh)
+      footprint%mesh = mesh_bytes*nodes
+      footprint%loads = 21*nodes*n_modes*real_bytes  ! displacements, two kinds of loads twice, errors of nodes
+      footprint%fine = sum(fine_bytes(model%mesh%element_size))
+      footprint%fine_work = nint(sum(fine_nodes(model%mesh%element_size))*fine_work_bytes, i8)
+      footprint%stresses = 3*nodes + 6*sum(int(references(model%mesh%element_size)%n_points, i8)) &
+         + 6*nodes &  ! smoothed to nodes
+         + 6*sum(merge(1_i8, 4_i8, model%mesh%element_size <= 4))  ! at samples
+      if (model%gauss_quadratic < 3) then  ! by the full rule
+         footprint%stresses = footprint%stresses + 6*9*count(model%mesh%element_size > 4, kind=i8)
+      end if
+      footprint%stresses = footprint%stresses*n_modes*real_bytes
+      jumps = 3*count(can_yield_at(model, joint_points%material), kind=i8)
+      unknowns = 3*count(yielding_nodes(model), kind=i8)
+      footprint%joints = real_bytes*(n_systems*jumps**2 &
+                                     + plane_numbers*jumps/3*max(model%n_planes, n_modes) &
+                                     + jumps*n_modes*min(newton_vectors, jumps*n_modes))
+      if (model%sweep%wanted .and. size(model%increments) > 1) then
+         ! jumps, stresses and states are kept; one earlier increment at a time is solved again
+         footprint%joints = footprint%joints + real_bytes*(size(model%increments, kind=i8) - 1) &
+            *jumps/3*(7*model%n_planes + 3*n_modes)
+         footprint%stresses = 2*footprint%stresses + footprint%loads
+      end if
+      footprint%joint_work = real_bytes*(unknowns**2 + 2*unknowns*jumps + 2*jumps**2)
+      if (jumps == 0) footprint%joint_work = 0
+   end function data_footprint
+
+   !> Memory of the fine level for an element: the nodes that it has there, with the blocks of stiffness that
+   !> these have on and below the diagonal
+   elemental integer(i8) function fine_bytes(n_nodes) result(bytes)
+      !> Nodes of the element
+      integer, intent(in) :: n_nodes
+
+      !> Bytes of a block, and of a node in its mesh
+      integer(i8), parameter :: block_bytes = 18*real_bytes + 4
+
+      bytes = nint(fine_nodes(n_nodes)*(blocks_of(n_nodes)*block_bytes + fine_mesh_bytes), i8)
+   end function fine_bytes
+
+   !> Fine nodes of an element among many
+   elemental real(wp) function fine_nodes(n_nodes)
+      !> Nodes of the element
+      integer, intent(in) :: n_nodes
+
+      !> Of elements of 3 to 9 nodes: four times those of a coarse one
+      real(wp), parameter :: number(3:9) = [2.0_wp, 4.0_wp, 0.0_wp, 8.0_wp, 0.0_wp, 12.0_wp, 16.0_wp]
+
+      fine_nodes = number(n_nodes)
+   end function fine_nodes
+
+   !> Neighbours of a node that come before it, and itself, on average
+   elemental real(wp) function blocks_of(n_nodes)
+      !> Nodes of the elements
+      integer, intent(in) :: n_nodes
+
+      real(wp), parameter :: number(3:9) = [4.0_wp, 5.0_wp, 0.0_wp, 6.25_wp, 0.0_wp, 8.3_wp, 8.5_wp]
+
+      blocks_of = number(n_nodes)
+   end function blocks_of
+
+   !> Most that is there at once after planning: stresses come when the flexibilities are formed
+   elemental integer(i8) function coming(self)
+      !> The bytes
+      class(footprint_type), intent(in) :: self
+
+      coming = self%loads + self%joints + self%fine + max(self%stresses, self%joint_work, self%fine_work)
+   end function coming
+
+end module axijoint_analysis_core_footprint

@@ -1,0 +1,110 @@
+!> The motion in which a structure runs away, in words
+module axijoint_analysis_core_motion
+   use axijoint_assembly_rigid_motion, only : solid_parts
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_text, only : to_text
+   use axijoint_fe_mode, only : mode_type, is_torsion, mode_name
+   use axijoint_model_mesh, only : mesh_type
+   implicit none
+   private
+   public :: motion_text
+
+   !> Rigid motions below this share of the largest displacement are none
+   real(wp), parameter :: rigid_share = 0.1_wp
+
+   !> A rigid motion of a part
+   type :: motion_type
+      !> Largest displacement in it
+      real(wp) :: size = 0.0_wp
+      !> Its part, mode, and name
+      integer :: part = 0, mode = 0
+      character(len=16) :: name = ''
+   end type motion_type
+
+contains
+
+   !> Which part moves most, and how
+   function motion_text(mesh, modes, displacement) result(text)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The modes
+      type(mode_type), intent(in) :: modes(:)
+      !> Displacements that ran away, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
+      !> Such as 'the part with node 5 slides sideways (harmonic 1 symmetric)'
+      character(len=:), allocatable :: text
+
+      type(motion_type) :: largest
+      integer, allocatable :: part(:), nodes(:)
+      integer :: p, k, place(3)
+
+      call solid_parts(mesh, part)
+      do p = 1, maxval(part)
+         nodes = pack([(k, k=1, size(part))], part == p)
+         do k = 1, size(modes)
+            call compare(p, k, mesh%coordinates(:, nodes), modes(k), displacement(:, nodes, k), largest)
+         end do
+      end do
+      place = maxloc(abs(displacement))
+      if (largest%size > rigid_share*maxval(abs(displacement))) then
+         place(2) = findloc(part, largest%part, 1)
+         place(3) = largest%mode
+      else
+         largest%name = 'gives way'
+      end if
+      text = 'the part with node '//to_text(mesh%node_label(place(2)))//' '//trim(largest%name)// &
+         ' (harmonic '//mode_name(modes(place(3)))//')'
+   end function motion_text
+
+   !> Keep the largest of the rigid motions of a part in a mode: those that fit its
+   !> displacements best, tilting about its middle
+   subroutine compare(part, k, x, mode, displacement, largest)
+      !> The part, and place of the mode
+      integer, intent(in) :: part, k
+      !> r and z of its nodes, shape (2, nodes)
+      real(wp), intent(in) :: x(:, :)
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> Displacement amplitudes, shape (3, nodes)
+      real(wp), intent(in) :: displacement(:, :)
+      !> The largest so far
+      type(motion_type), intent(inout) :: largest
+
+      real(wp) :: z(size(x, 2))
+
+      z = x(2, :) - sum(x(2, :))/size(x, 2)
+      associate (r => x(1, :), u => displacement(1, :), v => displacement(2, :), w => displacement(3, :))
+         if (is_torsion(mode)) then
+            call keep('turns about z', maxval(r)*ratio_of(sum(r*w), sum(r**2)))
+         else if (mode%harmonic == 0) then
+            call keep('moves along z', sum(v)/size(r))
+         else if (mode%harmonic == 1) then
+            call keep('slides sideways', sum(u - w)/(2*size(r)))
+            call keep('tilts', maxval(hypot(r, z))*ratio_of(sum(r*v - z*(u - w)), sum(r**2 + 2.0_wp*z**2)))
+         end if
+      end associate
+
+   contains
+
+      !> Keep a motion if it is larger
+      subroutine keep(name, amount)
+         !> Its name
+         character(len=*), intent(in) :: name
+         !> Largest displacement in it
+         real(wp), intent(in) :: amount
+
+         if (abs(amount) > largest%size) largest = motion_type(abs(amount), part, k, name)
+      end subroutine keep
+
+      !> Quotient, zero of a single point on the axis
+      pure real(wp) function ratio_of(a, b)
+         !> Parts
+         real(wp), intent(in) :: a, b
+
+         ratio_of = 0.0_wp
+         if (b > 0.0_wp) ratio_of = a/b
+      end function ratio_of
+
+   end subroutine compare
+
+end module axijoint_analysis_core_motion

@@ -1,0 +1,230 @@
+!> Stresses, reactions and equilibrium from the displacements
+module axijoint_analysis_core_recovery
+   use axijoint_analysis_core_results, only : results_type, axial, lateral, moment, torque, &
+                                         lateral_90, moment_90, n_resultants
+   use axijoint_analysis_core_rigid, only : rigid_resultants
+   use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_assembly_equations, only : on_equations, worth_threads
+   use axijoint_assembly_force, only : joint_force
+   use axijoint_assembly_loading, only : loading_type
+   use axijoint_assembly_rigid_motion, only : solid_parts
+   use axijoint_assembly_solid_force, only : solid_force
+   use axijoint_assembly_support, only : add_support_force
+   use axijoint_base_kinds, only : wp
+   use axijoint_element_solid, only : solid_point_type, solid_points
+   use axijoint_fe_mode, only : mode_type, same_mode, mode_integral, is_torsion, family_symmetric
+   use axijoint_fe_quadrature, only : max_element_points
+   use axijoint_fe_reference, only : reference_type
+   use axijoint_joints_field, only : joint_field_type, stress_amplitude
+   use axijoint_joints_residual, only : ratio, load_norm
+   use axijoint_model_mesh, only : n_elements, n_nodes
+   use axijoint_model_model, only : model_type, element_references, held_components, on_axis
+   implicit none
+   private
+   public :: recover
+
+contains
+
+   !> Fill stresses, reactions, the residual ratio and the equilibrium error.
+   !> All forces come from the stresses, point by point, not from the assembled
+   !> matrices, so that the ratio judges the whole path from mesh to solution.
+   subroutine recover(model, structure, loading, peak, field, results)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Joints, springs, equations
+      type(structure_type), intent(in) :: structure
+      !> Loads at the end, and the largest of the run: errors are measured by the
+      !> largest, which do not vanish with unloading
+      type(loading_type), intent(in) :: loading, peak
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> Results; displacements are there already
+      type(results_type), intent(inout) :: results
+
+      real(wp), dimension(size(results%modes)) :: unbalanced, scale
+      real(wp), dimension(n_resultants, size(results%modes)) :: applied, resultant, reacted
+      real(wp), allocatable :: unbalance(:, :, :)
+      real(wp), allocatable :: internal(:, :), force(:, :)  ! threads have small stacks
+      integer, allocatable :: part(:)
+      integer :: k
+
+      call new_points(model, results)
+      call solid_parts(model%mesh, part)
+      allocate (unbalance(n_resultants, maxval(part), size(results%modes)))
+      allocate (results%reaction, mold=results%displacement)
+      !$omp parallel do schedule(dynamic) private(internal, force) &
+      !$omp if (worth_threads(structure%equations))
+      do k = 1, size(results%modes)
+         associate (mode => results%modes(k), reaction => results%reaction(:, :, k))
+            force = loading%external(:, :, k)
+            internal = internal_force(k)
+            unbalanced(k) = sum(on_equations(structure%equations, k, force - internal)**2) &
+               /mode_integral(mode)
+            reaction = merge(internal - force, 0.0_wp, held(model, mode))
+            internal = internal - spring_force(k)
+            reaction = reaction - spring_force(k)
+            applied(:, k) = rigid_resultants(model%mesh%coordinates, mode, force)
+            resultant(:, k) = rigid_resultants(model%mesh%coordinates, mode, peak%external(:, :, k))
+            reacted(:, k) = rigid_resultants(model%mesh%coordinates, mode, reaction)
+            unbalance(:, :, k) = part_resultants(model, mode, part, force - internal + reaction)
+            ! displacements and temperatures load without external forces
+            scale(k) = sum(abs(peak%external(:, :, k))) &
+               + sum(abs(peak%right(:, :, k) - peak%external(:, :, k)))
+         end associate
+      end do
+      !$omp end parallel do
+      results%applied = sum(applied, 2)
+      results%reacted = sum(reacted, 2)
+      results%part_unbalance = sum(unbalance, 3)
+      results%part_node = [(findloc(part, k, 1), k=1, maxval(part))]
+      results%residual_ratio = ratio(sqrt(sum(unbalanced)), &
+                                     load_norm(structure%equations, peak))
+      associate (largest => sum(resultant, 2), &
+                 whole => reshape(results%applied + results%reacted, [n_resultants, 1]))
+         results%equilibrium_error = imbalance(model, largest, sum(scale), whole)
+         results%part_error = imbalance(model, largest, sum(scale), results%part_unbalance)
+      end associate
+
+   contains
+
+      !> Nodal forces of solids, joints and springs in one mode; fills the stress
+      function internal_force(k) result(internal)
+         !> Place of the mode
+         integer, intent(in) :: k
+         !> Forces on components, shape (3, nodes)
+         real(wp), allocatable :: internal(:, :)
+
+         allocate (internal, mold=results%displacement(:, :, k))
+         call solid_force(model, loading%initial, k, results%modes(k), &
+                          results%displacement(:, :, k), internal, results%stress(:, :, k))
+         internal = internal + spring_force(k) + joint_force(structure%joint_points, &
+            results%modes(k)%harmonic, stress_amplitude(structure%joint_points, &
+            results%modes(k), results%displacement(:, :, k), field, k), size(internal, 2))
+      end function internal_force
+
+      !> Nodal forces that hold the springs in one mode
+      function spring_force(k) result(force)
+         !> Place of the mode
+         integer, intent(in) :: k
+         !> Forces on components, shape (3, nodes)
+         real(wp), allocatable :: force(:, :)
+
+         allocate (force(3, n_nodes(model%mesh)), source=0.0_wp)
+         call add_support_force(structure%support_points, results%modes(k)%harmonic, &
+                                results%displacement(:, :, k), force)
+      end function spring_force
+
+   end subroutine recover
+
+   !> Place the Gauss points of all elements
+   subroutine new_points(model, results)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results that take elements and positions of the points
+      type(results_type), intent(inout) :: results
+
+      type(solid_point_type) :: points(max_element_points)
+      type(reference_type) :: references(3:9)
+      integer :: element, n, last
+
+      associate (mesh => model%mesh)
+         references = element_references(model)
+         n = sum(references(mesh%element_size)%n_points)
+         allocate (results%point_element(n), results%point_position(2, n))
+         allocate (results%stress(6, n, size(results%modes)))
+         last = 0
+         do element = 1, n_elements(mesh)
+            associate (reference => references(mesh%element_size(element)))
+               call solid_points(mesh%coordinates(:, mesh%element_nodes(:reference%n_nodes, element)), &
+                                 reference, points(:reference%n_points))
+            end associate
+            do n = 1, references(mesh%element_size(element))%n_points
+               last = last + 1
+               results%point_element(last) = element
+               results%point_position(:, last) = points(n)%position
+            end do
+         end do
+      end associate
+   end subroutine new_points
+
+   !> Components that supports hold. On the axis the pole conditions hold the
+   !> rest: only v in harmonic 0, and u and w together in harmonic 1, are left
+   pure function held(model, mode)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> Shape (3, nodes)
+      logical :: held(3, size(model%mesh%node_label))
+
+      logical :: pole(size(model%mesh%node_label))
+
+      held = held_components(model, mode)
+      if (is_torsion(mode)) then
+         held(1:2, :) = .false.
+      else if (mode%harmonic == 0) then
+         held(3, :) = .false.
+      end if
+      pole = on_axis(model%mesh)
+      if (mode%harmonic == 1) then
+         held(1, :) = held(1, :) .or. pole .and. held(3, :)
+         held(3, :) = held(3, :) .or. pole .and. held(1, :)
+         held(2, :) = held(2, :) .and. .not. pole
+      else
+         held(1, :) = held(1, :) .and. .not. pole
+         held(3, :) = held(3, :) .and. .not. pole
+         if (mode%harmonic > 1) held(2, :) = held(2, :) .and. .not. pole
+      end if
+   end function held
+
+   !> Resultants of nodal forces of one mode on each part
+   pure function part_resultants(model, mode, part, force) result(resultant)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> Part of each node
+      integer, intent(in) :: part(:)
+      !> Generalized forces on components, shape (3, nodes)
+      real(wp), intent(in) :: force(:, :)
+      !> The resultants, shape (n_resultants, parts)
+      real(wp) :: resultant(n_resultants, maxval(part))
+
+      integer :: k
+
+      resultant = 0.0_wp
+      if (mode%harmonic > 1) return  ! no resultants
+      do k = 1, size(resultant, 2)
+         resultant(:, k) = rigid_resultants(model%mesh%coordinates, mode, &
+                                            merge(force, 0.0_wp, spread(part == k, 1, 3)))
+      end do
+   end function part_resultants
+
+   !> Largest resultant out of balance: forces over the largest resultant force
+   !> of the loads, moments over the largest moment. Where the loads have no
+   !> resultant, the sum of their sizes stands for it.
+   pure function imbalance(model, applied, scale, unbalance) result(error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Resultants of the loads
+      real(wp), intent(in) :: applied(n_resultants)
+      !> Sum of the absolute generalized forces applied
+      real(wp), intent(in) :: scale
+      !> Resultants out of balance, shape (n_resultants, any)
+      real(wp), intent(in) :: unbalance(:, :)
+      !> The error
+      real(wp) :: error
+
+      !> Resultants below this share of the forces are taken for zero
+      real(wp), parameter :: no_resultant = 1.0e-6_wp
+      real(wp) :: force, turning
+
+      force = maxval(abs(applied([axial, lateral, lateral_90])))
+      if (force <= no_resultant*scale) force = scale
+      turning = max(maxval(abs(applied([moment, torque, moment_90]))), &
+                    force*maxval(abs(model%mesh%coordinates)))
+      error = max(ratio(maxval(abs(unbalance([axial, lateral, lateral_90], :))), force), &
+                  ratio(maxval(abs(unbalance([moment, torque, moment_90], :))), turning))
+   end function imbalance
+
+end module axijoint_analysis_core_recovery

@@ -1,0 +1,286 @@
+!> Sentences about results that the user should know
+module axijoint_analysis_core_remarks
+   use axijoint_analysis_core_motion, only : motion_text
+   use axijoint_analysis_core_pins, only : pin_text
+   use axijoint_analysis_core_proportion_remarks, only : proportion_remarks
+   use axijoint_analysis_core_results, only : results_type, remark_type
+   use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_base_kinds, only : wp, degree
+   use axijoint_base_text, only : to_text
+   use axijoint_element_joint_law, only : opening_reversible
+   use axijoint_joints_field, only : joint_field_type, iteration_type, n_across_gaps
+   use axijoint_joints_increments, only : history_type
+   use axijoint_model_model, only : model_type, method_transfer
+   use axijoint_model_request, only : goal_names
+   implicit none
+   private
+   public :: remarks_on, remark_on_goal, mechanism_text
+
+   !> Joints whose k h/E is above this are of no sensible proportion
+   real(wp), parameter :: stiffest = 1.0e4_wp
+   !> Tolerances above this deserve a word
+   real(wp), parameter :: coarse_tolerance = 1.0e-3_wp
+
+contains
+
+   !> What the user should know about the results
+   function remarks_on(model, structure, history, field, results) result(remarks)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, for its joint points
+      type(structure_type), intent(in) :: structure
+      !> How the increments ended
+      type(history_type), intent(in) :: history
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> The results
+      type(results_type), intent(in) :: results
+      !> The sentences, each of which fits a line of the listing
+      type(remark_type), allocatable :: remarks(:)
+
+      character(len=:), allocatable :: pins
+
+      allocate (remarks(0))
+      if (size(results%path) > 0) then
+         call remark_on_end(model, structure, history, results, remarks)
+         call remark_on_accuracy(model, structure, field, results, remarks)
+      else if (.not. results%converged .and. allocated(results%budget)) then
+         call add(remarks, 'rounding in the solver leaves displacements uncertain by '// &
+                  to_text(results%budget(size(results%budget))%displacement)// &
+                  ' of the largest: stiffnesses out of all proportion?')
+      else if (.not. results%converged) then
+         call add(remarks, 'the equations are ill-conditioned (condition number '// &
+                  to_text(maxval(results%solves%condition))//', residual '// &
+                  to_text(results%residual_ratio)//'): stiffnesses out of all proportion?')
+      end if
+      pins = pin_text(model, structure, history%loading, field, results)
+      if (len(pins) > 0) call add(remarks, pins)
+      remarks = [remarks, proportion_remarks(model, results)]
+   end function remarks_on
+
+   !> Why the increments ended as they did
+   subroutine remark_on_end(model, structure, history, results, remarks)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, for its joint points
+      type(structure_type), intent(in) :: structure
+      !> How the increments ended
+      type(history_type), intent(in) :: history
+      !> The results
+      type(results_type), intent(in) :: results
+      !> The sentences, to be continued
+      type(remark_type), allocatable, intent(inout) :: remarks(:)
+
+      integer :: i
+
+      if (allocated(results%mechanism)) then
+         call add(remarks, results%mechanism)
+      else if (.not. results%converged) then
+         call add(remarks, 'the last equilibrium was at the load factor '// &
+                                         to_text(history%reached))
+      end if
+      if (allocated(results%idle)) then
+         do i = 1, size(results%idle)
+            call add(remarks, 'nothing resists and nothing loads it: '//trim(results%idle(i))// &
+                     '; joints are moved by it as little as can be')
+         end do
+      end if
+      if (history%verdict%at_rounding) then
+         call add(remarks, 'rounding allows no smaller residual ratio: the stress of open joints so '// &
+                  'stiff is large; a tolerance of '//to_text(10.0_wp*results%residual_ratio)//' can be reached')
+         return
+      end if
+      if (results%converged .or. allocated(results%mechanism)) return
+      if (results%unsettled > 0.0_wp) then
+         call add(remarks, 'forces are balanced to the tolerance, but the iterations leave displacements or joint '// &
+                  'stresses uncertain by '//to_text(results%unsettled)//' of the largest, more than 10 times it')
+         return
+      end if
+      if (allocated(results%budget)) then
+         call add(remarks, 'forces are balanced to the tolerance, but rounding in the solver leaves displacements '// &
+                  'uncertain by '//to_text(results%budget(size(results%budget))%displacement)// &
+                  ' of the largest, more than 10 times it')
+         return
+      end if
+      if (history%verdict%converged) then
+         call add(remarks, 'the joints are balanced to the tolerance, the whole structure is not: rounding; '// &
+                  'a tolerance of '//to_text(10.0_wp*max(results%residual_ratio, results%mismatch))//' can be reached')
+         return
+      end if
+      if (.not. history%verdict%stalled) then
+         call add(remarks, 'INCREMENTS allows no more iterations')
+         return
+      end if
+      if (.not. any(history%verdict%restless)) then
+         call add(remarks, 'the residual ratio does not fall any more, though no joint point changes its state'// &
+                  advice(model, structure))
+         return
+      end if
+      call add(remarks, to_text(count(history%verdict%restless))//' joint points on '// &
+         'planes change their state for ever'//period_text(results%path)// &
+         restless_text(model, structure, history, results)//advice(model, structure))
+   end subroutine remark_on_end
+
+   !> After how many iterations the path repeats itself, in words
+   pure function period_text(path) result(text)
+      !> Convergence path
+      type(iteration_type), intent(in) :: path(:)
+      !> Words; empty if it does not
+      character(len=:), allocatable :: text
+
+      real(wp), parameter :: alike = 1.0e-2_wp
+      integer, parameter :: longest = 12
+      integer :: n, p
+
+      text = ''
+      n = size(path)
+      do p = 1, min(longest, (n - 1)/3)
+         associate (last => path(n - 2*p + 1:n), before => path(n - 3*p + 1:n - p))
+            if (any(last%n_slip /= before%n_slip .or. last%n_open /= before%n_open)) cycle
+            if (any(abs(last%ratio - before%ratio) > alike*before%ratio)) cycle
+         end associate
+         text = ', alike every '//to_text(p)//' iterations'
+         return
+      end do
+   end function period_text
+
+   !> What helps: only cohesion that comes back when a point closes makes the law jump
+   pure function advice(model, structure) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, for its joint points
+      type(structure_type), intent(in) :: structure
+      !> Words
+      character(len=:), allocatable :: text
+
+      text = ''
+      associate (laws => model%joint_materials(structure%scene%points%material)%law)
+         if (any(laws%cohesion > 0.0_wp .and. laws%opening == opening_reversible)) then
+            text = ': try BOND in LAWDETAILS'
+         end if
+      end associate
+   end function advice
+
+   !> The first of the points that change their state for ever
+   function restless_text(model, structure, history, results) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, for its joint points
+      type(structure_type), intent(in) :: structure
+      !> How the increments ended
+      type(history_type), intent(in) :: history
+      !> The results
+      type(results_type), intent(in) :: results
+      !> Joint and plane, in brackets
+      character(len=:), allocatable :: text
+
+      integer :: place(2)
+
+      text = ''
+      place = findloc(history%verdict%restless, .true.)
+      if (any(place == 0)) return
+      text = ' (joint '//to_text(model%mesh%joint_label(structure%scene%points(place(1))%joint))// &
+         ' at theta = '//to_text(results%plane_angles(place(2))/degree)//', ...)'
+   end function restless_text
+
+   !> How far results that are there can be trusted
+   subroutine remark_on_accuracy(model, structure, field, results, remarks)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, for its joint points
+      type(structure_type), intent(in) :: structure
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> The results
+      type(results_type), intent(in) :: results
+      !> The sentences, to be continued
+      type(remark_type), allocatable, intent(inout) :: remarks(:)
+
+      real(wp) :: widest
+      integer :: n
+
+      if (model%method == method_transfer) then
+         call n_across_gaps(model, structure%joint_points, field, n, widest)
+         if (n > 0) call add(remarks, 'pressure across an open gap at '//to_text(n)// &
+            ' joint points on planes (widest '//to_text(widest)// &
+            '): stress accumulated, as in the paper')
+         if (any(model%joint_materials%law%gap > 0.0_wp)) then
+            call add(remarks, 'the loop of TRANSFER knows no gap before loading: those of LAWDETAILS are left out')
+         end if
+      end if
+      if (results%tolerance > coarse_tolerance) then
+         call add(remarks, 'a tolerance of '//to_text(results%tolerance)// &
+            ' leaves joint stresses several per cent wrong (default 1E-6)')
+      end if
+      if (results%part_error > max(results%tolerance, coarse_tolerance)) then
+         call add(remarks, 'forces of '//to_text(results%part_error)// &
+            ' of the load are not balanced on some part: see EQUILIBRIUM')
+      end if
+      associate (last => results%path(size(results%path)))
+         if (last%n_slip + last%n_open > 0 .and. all(model%harmonics > 0)) then
+            call add(remarks, 'joints that open or slip act in harmonic 0, '// &
+               'which HARMONICS leaves out: results may be far off')
+         end if
+      end associate
+      if (maxval(results%modes%harmonic) + 1 == model%n_planes) then
+         call add(remarks, 'w of the highest harmonic vanishes on all planes: '// &
+            'nothing of it is transferred (M + 2 planes avoid that)')
+      end if
+   end subroutine remark_on_accuracy
+
+   !> Whether the rounds of refinement met the target, and if not, why
+   subroutine remark_on_goal(model, results)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The results, with their rounds
+      type(results_type), intent(inout) :: results
+
+      character(len=:), allocatable :: why
+
+      if (.not. results%converged) return
+      associate (last => results%rounds(size(results%rounds)), goal => model%error_goal)
+         if (last%error >= 0.0_wp .and. last%error <= goal%target) return
+         if (allocated(last%failure)) then
+            why = 'round '//to_text(size(results%rounds))//' '//last%failure//'; these are the results of round '// &
+                  to_text(size(results%rounds) - 1)
+         else if (last%error < 0.0_wp) then
+            why = 'the error of '//trim(goal_names(goal%quantity))//' is not known'
+            if (any(model%truncations%left_out >= 1.0_wp)) why = why//', as some load is concentrated in points'
+         else if (size(results%rounds) >= goal%most_rounds) then
+            why = 'so many rounds are allowed'
+         else if (goal%mesh_too) then
+            why = 'more unknowns are not allowed'
+         else
+            why = 'its mesh is not of BLOCKS alone, or cards call nodes by number'
+         end if
+         call add(results%remarks, 'the error target of '//to_text(100.0_wp*goal%target)//' % was not met in '// &
+                  to_text(size(results%rounds))//' rounds: '//why)
+      end associate
+   end subroutine remark_on_goal
+
+   !> Add a sentence
+   subroutine add(remarks, text)
+      !> The sentences
+      type(remark_type), allocatable, intent(inout) :: remarks(:)
+      !> One more
+      character(len=*), intent(in) :: text
+
+      remarks = [remarks, remark_type(text)]
+   end subroutine add
+
+   !> A mechanism in words
+   function mechanism_text(model, reached, results) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Load factor of the last equilibrium
+      real(wp), intent(in) :: reached
+      !> Results with the displacements that ran away
+      type(results_type), intent(in) :: results
+      !> The sentence
+      character(len=:), allocatable :: text
+
+      text = 'no equilibrium beyond the load factor '//to_text(reached)//': '// &
+         motion_text(model%mesh, results%modes, results%displacement)//'; results are those there'
+   end function mechanism_text
+
+end module axijoint_analysis_core_remarks

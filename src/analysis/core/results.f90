@@ -1,0 +1,230 @@
+!> Everything that a run computes and the output reports
+module axijoint_analysis_core_results
+   use axijoint_analysis_core_discretization_error, only : discretization_error_type
+   use axijoint_analysis_core_in_situ, only : in_situ_type
+   use axijoint_analysis_fine_singular_places, only : singular_place_type
+   use axijoint_base_kinds, only : wp, i8
+   use axijoint_fe_mode, only : mode_type
+   use axijoint_joints_field, only : iteration_type
+   use axijoint_joints_residual, only : residual_record_type
+   use axijoint_joints_states, only : increment_state_type
+   implicit none
+   private
+   public :: results_type, mode_solve_type, ordering_type, remark_type, nodal_stress_type, &
+             error_share_type, round_type, stiffer_type
+   public :: axial, lateral, moment, torque, lateral_90, moment_90, n_resultants
+
+   !> Index of a resultant: force along z
+   integer, parameter :: axial = 1
+   !> Index of a resultant: force along theta = 0
+   integer, parameter :: lateral = 2
+   !> Index of a resultant: moment about the line theta = pi/2 through the
+   !> origin; positive lifts the side theta = 0 towards +z, as the MOMENT load
+   integer, parameter :: moment = 3
+   !> Index of a resultant: moment about z
+   integer, parameter :: torque = 4
+   !> Indices of resultants: force along theta = 90 degrees, and the moment that
+   !> lifts that side
+   integer, parameter :: lateral_90 = 5, moment_90 = 6
+   !> Number of resultants
+   integer, parameter :: n_resultants = 6
+
+   !> How well the equations of one mode were solved
+   type :: mode_solve_type
+      !> Harmonic and family
+      type(mode_type) :: mode
+      !> Number of equations
+      integer :: n_equations = 0
+      !> Entries of the factor (fill and all)
+      integer(i8) :: factor_entries = 0
+      !> Smallest ratio of a pivot to the diagonal entry it started from
+      real(wp) :: smallest_pivot = 0.0_wp
+      !> Backward error after one step of iterative refinement,
+      !> max |b - K u| / (|K| |u| + |b|)
+      real(wp) :: backward_error = 0.0_wp
+      !> Largest correction by that step [length]
+      real(wp) :: correction = 0.0_wp
+      !> Estimate of the condition number |K| |K^-1| in the 1-norm (a lower bound,
+      !> seldom more than three times too small)
+      real(wp) :: condition = 0.0_wp
+   end type mode_solve_type
+
+   !> How wide an order of the nodes is
+   type :: ordering_type
+      !> Name of the order
+      character(len=22) :: name = ''
+      !> Half-bandwidth and profile of the graph of the nodes
+      integer :: bandwidth = 0
+      integer(i8) :: profile = 0
+      !> Entries of the factor on the graph of the nodes
+      integer(i8) :: fill = 0
+   end type ordering_type
+
+   !> A sentence about the results
+   type :: remark_type
+      !> The sentence
+      character(len=:), allocatable :: text
+   end type remark_type
+
+   !> What one approximation leaves of the error, estimated. Relative values; negative
+   !> if not known
+   type :: error_share_type
+      !> The approximation
+      character(len=14) :: source = ''
+      !> Of the stresses, in the energy norm
+      real(wp) :: energy = -1.0_wp
+      !> Of the displacements
+      real(wp) :: displacement = -1.0_wp
+      !> Of the joint stress, over the largest
+      real(wp) :: joint_stress = -1.0_wp
+      !> Of a load given as a function of theta: root mean square that is left out
+      real(wp) :: load = -1.0_wp
+      !> Time that the estimate took [second]
+      real(wp) :: seconds = 0.0_wp
+      !> What would halve it
+      character(len=:), allocatable :: remedy
+   end type error_share_type
+
+   !> A round of a job that is refined until its error is below a target
+   type :: round_type
+      !> Elements of BLOCKS along each side, times so many
+      real(wp) :: mesh = 1.0_wp
+      !> Most nodes of an element; M; planes; unknowns in all
+      integer :: nodes = 0, harmonic = 0, planes = 0, n_unknowns = 0
+      !> Estimate of the error that the target is about; negative if not known
+      real(wp) :: error = -1.0_wp
+      !> What happened to the round, if it brought no results
+      character(len=:), allocatable :: failure
+      !> Time of the round [second]
+      real(wp) :: seconds = 0.0_wp
+   end type round_type
+
+   !> What would change if the joints of some laws, soft or stiff out of proportion to the bodies, were ten
+   !> times as stiff
+   type :: stiffer_type
+      !> The laws (indices), all on one side of what is sensible
+      integer, allocatable :: laws(:)
+      !> Whether the changes below were found
+      logical :: known = .false.
+      !> Changes of the largest displacement and of the largest joint stress, over these
+      real(wp) :: displacement = 0.0_wp, joint_stress = 0.0_wp
+      !> Largest changes of any displacement and of any joint stress, over the largest
+      real(wp) :: displacement_anywhere = 0.0_wp, joint_stress_anywhere = 0.0_wp
+   end type stiffer_type
+
+   !> Stresses smoothed to the nodes. A node has a value for each material that it
+   !> touches: stresses jump from one to the other. Joints have nodes of their own
+   !> on both sides
+   type :: nodal_stress_type
+      !> Node and material (indices) of each value, ascending
+      integer, allocatable :: node(:), material(:)
+      !> Value of each node of each element, shape (max_element_nodes, elements);
+      !> zeros beyond
+      integer, allocatable :: value_of(:, :)
+      !> Amplitudes in the order of the stresses at the Gauss points, shape
+      !> (6, values, modes)
+      real(wp), allocatable :: amplitude(:, :, :)
+   end type nodal_stress_type
+
+   !> Results of a run. Amplitudes belong to a mode: u, v ~ cos(m theta),
+   !> w ~ sin(m theta) in the symmetric family, ~ sin and -cos in the other.
+   type :: results_type
+      !> Whether every increment reached its tolerance
+      logical :: converged = .false.
+      !> Largest difference of joint stress, over the largest, to the paper's loop at 3 %
+      !> (to Newton's method, if the paper's loop was used); negative if not known
+      real(wp) :: other_loop = -1.0_wp
+      !> The mechanism that ended the job, in words; allocated if there was one
+      character(len=:), allocatable :: mechanism
+      !> Number of the load combination; 0 if there is one only
+      integer :: combination = 0
+      !> Modes that were solved, ascending
+      type(mode_type), allocatable :: modes(:)
+      !> Solver that was used, one of the `solver_` parameters
+      integer :: solver = 0
+      !> Orders of the nodes side by side
+      type(ordering_type), allocatable :: orderings(:)
+      !> One entry for each mode
+      type(mode_solve_type), allocatable :: solves(:)
+      !> Displacement amplitudes u, v, w, shape (3, nodes, modes) [length]
+      real(wp), allocatable :: displacement(:, :, :)
+      !> Generalized reactions of fixed components and springs, shape (3, nodes, modes):
+      !> work over the whole circle on unit amplitudes [force]
+      real(wp), allocatable :: reaction(:, :, :)
+      !> Element (index) of each solid Gauss point, ascending
+      integer, allocatable :: point_element(:)
+      !> r and z of each solid Gauss point, shape (2, points)
+      real(wp), allocatable :: point_position(:, :)
+      !> Stress amplitudes at solid Gauss points, shape (6, points, modes), in
+      !> the order r, z, theta, rz (they go with u, v); r-theta, z-theta (with w)
+      real(wp), allocatable :: stress(:, :, :)
+      !> The same smoothed to the nodes
+      type(nodal_stress_type) :: nodal
+      !> Angles of the planes of the joint results [radian]
+      real(wp), allocatable :: plane_angles(:)
+      !> Joint (index) of each joint point, ascending
+      integer, allocatable :: joint_point_joint(:)
+      !> r and z of each joint point, shape (2, joint points)
+      real(wp), allocatable :: joint_point_position(:, :)
+      !> Relative displacement xi, eta, theta, shape (3, joint points, planes) [length]
+      real(wp), allocatable :: joint_jump(:, :, :)
+      !> Joint stress tau_xi, sigma, tau_theta, shape (3, joint points, planes)
+      real(wp), allocatable :: joint_stress(:, :, :)
+      !> Stick, slip or open, shape (joint points, planes); `state_` parameters
+      integer, allocatable :: joint_state(:, :)
+      !> States at the ends of the increments, the last one being that of these results;
+      !> the others are there only if the job wants its bodies swept
+      type(increment_state_type), allocatable :: states(:)
+      !> Convergence path; empty for a linear job
+      type(iteration_type), allocatable :: path(:)
+      !> Motions that nothing resists and no load acts on, in words
+      character(len=80), allocatable :: idle(:)
+      !> What the iterations left out of balance step by step, and a node of each part of the structure that
+      !> it is measured on; empty for a linear job
+      type(residual_record_type), allocatable :: residuals(:)
+      integer, allocatable :: residual_part_node(:)
+      !> Error of displacements or joint stresses that the iterations leave, where it is more than the tolerance
+      !> claims; zero if it is not
+      real(wp) :: unsettled = 0.0_wp
+      !> Residual-force ratio at the end (Eq. 17), from the whole structure
+      real(wp) :: residual_ratio = 0.0_wp
+      !> Forces of the joint stress that belongs to the bodies' relative displacements but not to
+      !> those that the laws saw, over the loads: rounding of very stiff joints
+      real(wp) :: mismatch = 0.0_wp
+      !> Tolerance on the residual-force ratio
+      real(wp) :: tolerance = 0.0_wp
+      !> Resultants of the applied loads and of the reactions
+      real(wp) :: applied(n_resultants) = 0.0_wp, reacted(n_resultants) = 0.0_wp
+      !> Resultants of the stresses on the cuts of the deck, shape (n_resultants, cuts): of
+      !> the part above a cut on the part below, moments about r = 0 at the cut
+      real(wp), allocatable :: cut_resultants(:, :)
+      !> A node of each part of the mesh that solid elements hold together
+      integer, allocatable :: part_node(:)
+      !> Resultants of the forces on each part that nothing balances, shape (n_resultants, parts)
+      real(wp), allocatable :: part_unbalance(:, :)
+      !> Largest sum of applied and reacted resultants, over those of the loads
+      real(wp) :: equilibrium_error = 0.0_wp
+      !> Largest unbalance of a part, over the resultants of the loads. Joint
+      !> forces out of balance cancel in the whole, but not on the parts
+      real(wp) :: part_error = 0.0_wp
+      !> How far in-situ stress is out of balance with weight, supports and joints
+      type(in_situ_type) :: in_situ
+      !> Errors that iteration, planes and harmonics leave in joints that yield
+      type(error_share_type) :: joint_errors(3)
+      !> What the approximations leave of the error, side by side
+      type(error_share_type), allocatable :: budget(:)
+      !> What the mesh leaves of the error
+      type(discretization_error_type) :: discretization
+      !> Where stresses are infinite
+      type(singular_place_type), allocatable :: singular(:)
+      !> Rounds of refinement; allocated if the job has a target
+      type(round_type), allocatable :: rounds(:)
+      !> What stiffer joints would change: of soft laws, of stiff laws; none if all are sensible
+      type(stiffer_type), allocatable :: stiffer(:)
+      !> What was not modelled because it is zero or like something else
+      type(remark_type), allocatable :: left_out(:)
+      !> What the user should know about the results
+      type(remark_type), allocatable :: remarks(:)
+   end type results_type
+
+end module axijoint_analysis_core_results

@@ -1,0 +1,202 @@
+!> What all load combinations of a job share: modes, joints, factored equations
+module axijoint_analysis_core_structure
+   use axijoint_analysis_core_footprint, only : footprint_type, data_footprint
+   use axijoint_analysis_core_results, only : ordering_type
+   use axijoint_analysis_fine_level, only : fine_level_type, new_fine_level
+   use axijoint_analysis_fine_singular_places, only : singular_place_type, find_singular_places, judged_points
+   use axijoint_assembly_equations, only : equations_type, plan_equations, assemble_equations
+   use axijoint_assembly_factors, only : plan_factors, factorize_equations, report_failure
+   use axijoint_assembly_mechanism, only : check_mechanism
+   use axijoint_assembly_pattern, only : node_graph
+   use axijoint_assembly_support, only : support_point_type, new_support_points
+   use axijoint_base_error, only : error_type
+   use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_memory, only : require_memory
+   use axijoint_base_progress, only : progress_type, show_progress
+   use axijoint_base_text, only : to_text
+   use axijoint_base_timer, only : timer_type, phase_assemble, phase_factor, phase_joints
+   use axijoint_fe_mode, only : mode_type
+   use axijoint_joints_floating, only : new_floating_motions
+   use axijoint_joints_planes, only : planes_type, new_planes
+   use axijoint_joints_residual, only : new_measure
+   use axijoint_joints_response, only : new_response
+   use axijoint_joints_scene, only : scene_type
+   use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points, stiffness_ratio
+   use axijoint_model_model, only : model_type, can_yield, can_yield_at, yielding_nodes
+   use axijoint_model_modes, only : used_modes
+   use axijoint_order_graph, only : bandwidth, profile, fill
+   use axijoint_solver_choice, only : orders_type, new_orders
+   implicit none
+   private
+   public :: structure_type, build_structure, reuses_factors
+
+   !> A structure ready to be loaded
+   type :: structure_type
+      !> Modes to solve
+      type(mode_type), allocatable :: modes(:)
+      !> Points of all joints, and of all springs
+      type(model_joint_point_type), allocatable :: joint_points(:)
+      type(support_point_type), allocatable :: support_points(:)
+      !> Equations of all modes, factored
+      type(equations_type), allocatable :: equations
+      !> Joints that can yield, condensed; empty if none can
+      type(scene_type) :: scene
+      !> Their places among all joint points
+      integer, allocatable :: yielding(:)
+      !> Planes that joint results are shown on: all, while the scene leaves out those
+      !> that are like others
+      type(planes_type) :: planes
+      !> The same on a mesh of elements half as large, for estimates of errors
+      type(fine_level_type) :: fine
+      !> Where stresses are infinite, and whether the stress of a joint point, far enough from there, is judged
+      type(singular_place_type), allocatable :: singular(:)
+      logical, allocatable :: judged(:)
+      !> Orders of the nodes side by side
+      type(ordering_type), allocatable :: orderings(:)
+   end type structure_type
+
+contains
+
+   !> Assemble and factor the equations of all modes
+   subroutine build_structure(model, structure, timer, progress, error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(out) :: structure
+      !> Times of the phases
+      type(timer_type), intent(inout) :: timer
+      !> Where to show progress
+      type(progress_type), intent(inout) :: progress
+      !> Singular stiffness, or out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: k
+
+      call timer%push(phase_assemble)
+      call assemble(model, structure, progress, error)
+      call timer%pop()
+      if (allocated(error)) return
+      call timer%push(phase_factor)
+      if (structure%equations%n_kept > 0) then
+         call show_progress(progress, 'factoring '//to_text(structure%equations%n_kept)//' harmonics')
+      end if
+      call factorize_equations(structure%equations, model, error)
+      call timer%pop()
+      if (allocated(error)) return
+      call timer%push(phase_assemble)
+      call new_fine_level(model, structure%equations, structure%fine)
+      structure%singular = find_singular_places(model, structure%fine%mesh)
+      associate (points => structure%joint_points)
+         structure%judged = judged_points(model%mesh, structure%singular, &
+                                          reshape([(points(k)%position, k=1, size(points))], [2, size(points)]))
+      end associate
+      call timer%pop()
+      call timer%push(phase_joints)
+      associate (points => structure%joint_points)
+         structure%yielding = pack([(k, k=1, size(points))], can_yield_at(model, points%material))
+         structure%scene%points = points(structure%yielding)
+      end associate
+      if (size(structure%yielding) > 0) then
+         call show_progress(progress, 'condensing to '//to_text(size(structure%yielding))//' joint points')
+         structure%scene%planes = new_planes(model%n_planes, structure%modes)
+         structure%planes = new_planes(model%n_planes, structure%modes, whole=.true.)
+         structure%scene%proportion = stiffness_ratio(structure%scene%points)
+         structure%scene%first_share = share_seen_first(model, structure%scene)
+         associate (points => structure%joint_points)
+            call new_floating_motions(model, pack(points, .not. can_yield_at(model, points%material)), &
+                                      structure%support_points, structure%modes, structure%scene%points, &
+                                      structure%scene%floating)
+         end associate
+         call new_measure(model%mesh, structure%equations, structure%scene%points, structure%scene%measure)
+         call new_response(structure%equations, structure%scene%points, structure%scene%response, error)
+         if (.not. allocated(error)) call report_failure(structure%equations, model, error)
+      end if
+      call timer%pop()
+   end subroutine build_structure
+
+   !> Assemble the equations of all modes
+   subroutine assemble(model, structure, progress, error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(inout) :: structure
+      !> Where to show progress
+      type(progress_type), intent(inout) :: progress
+      !> A mechanism, or out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(orders_type) :: orders
+      type(footprint_type) :: others
+
+      structure%joint_points = new_joint_points(model)
+      structure%support_points = new_support_points(model)
+      structure%modes = used_modes(model)
+      call require_memory(0_i8, 'the solvers', model%memory_limit, error)
+      if (allocated(error)) return
+      call check_mechanism(model, structure%joint_points, structure%support_points, &
+                           structure%modes, error)
+      if (allocated(error)) return
+      call show_progress(progress, 'assembling '//to_text(size(structure%modes))//' modes')
+      call new_orders(orders, node_graph(model%mesh), yielding_nodes(model), error)
+      if (allocated(error)) return
+      structure%orderings = compare_orders(orders)
+      call plan_equations(structure%equations, model, structure%modes, orders, error)
+      if (allocated(error)) return
+      others = data_footprint(model, size(structure%modes), size(structure%equations%systems), &
+                              structure%joint_points)
+      call plan_factors(structure%equations, reuses_factors(model), others%coming(), &
+                        model%memory_limit, error)
+      if (allocated(error)) return
+      call assemble_equations(structure%equations, model, structure%joint_points, &
+                              structure%support_points)
+   end subroutine assemble
+
+   !> Whether the factors are needed more than once: by several load combinations, or by joints,
+   !> which take flexibilities, then displacements, or to show earlier increments
+   pure logical function reuses_factors(model)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      reuses_factors = size(model%combinations) > 1 .or. can_yield(model) &
+         .or. model%sweep%wanted .and. size(model%increments) > 1
+   end function reuses_factors
+
+   !> Share of the joint stiffness that Newton's method begins with: what is about
+   !> the stiffness of the bodies. Cohesion makes yield depend on the size of the
+   !> stress, not on its direction alone; then the share would mislead.
+   pure real(wp) function share_seen_first(model, scene) result(share)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Joint points that can yield, and their stiffness in proportion to the bodies
+      type(scene_type), intent(in) :: scene
+
+      !> Power of ten of k h/E that Newton's method needs no help for
+      integer, parameter :: easy = 0
+
+      share = 1.0_wp
+      if (any(model%joint_materials(scene%points%material)%law%cohesion > 0.0_wp)) return
+      share = 10.0_wp**min(0, easy - floor(log10(max(tiny(1.0_wp), scene%proportion))))
+   end function share_seen_first
+
+   !> Bandwidth, profile and fill of the orders side by side
+   pure function compare_orders(orders) result(orderings)
+      !> The orders
+      type(orders_type), intent(in) :: orders
+      !> Reverse Cuthill-McKee, Sloan, nested dissection
+      type(ordering_type) :: orderings(3)
+
+      associate (graph => orders%graph)
+         orderings = [ordering_type('reverse Cuthill-McKee', &
+                                    bandwidth(graph, orders%cuthill_mckee), &
+                                    profile(graph, orders%cuthill_mckee), &
+                                    fill(graph, orders%cuthill_mckee)), &
+                      ordering_type('Sloan', bandwidth(graph, orders%sloan), &
+                                    profile(graph, orders%sloan), &
+                                    fill(graph, orders%sloan)), &
+                      ordering_type('nested dissection', bandwidth(graph, orders%dissection), &
+                                    profile(graph, orders%dissection), &
+                                    fill(graph, orders%dissection))]
+      end associate
+   end function compare_orders
+
+end module axijoint_analysis_core_structure

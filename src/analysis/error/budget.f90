@@ -1,0 +1,166 @@
+!> What each approximation leaves of the error of a run, side by side and in all, and what
+!> would halve it
+module axijoint_analysis_error_budget
+   use axijoint_analysis_core_results, only : results_type, error_share_type
+   use axijoint_analysis_error_response_tail, only : response_tail
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_text, only : to_text
+   use axijoint_joints_residual, only : ratio
+   use axijoint_model_model, only : model_type
+   implicit none
+   private
+   public :: new_budget, sum_of_shares, is_known
+
+contains
+
+   !> Put the estimates of a run together
+   pure function new_budget(model, case_factor, results) result(budget)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Factors of its load cases, shape (cases)
+      real(wp), intent(in) :: case_factor(:)
+      !> Results with the estimates of their parts
+      type(results_type), intent(in) :: results
+      !> Discretization, harmonics, planes, iteration, solver
+      type(error_share_type), allocatable :: budget(:)
+
+      logical :: yields
+
+      yields = size(results%path) > 0
+      allocate (budget(5))
+      budget(1) = discretization_share(model, results)
+      budget(2) = harmonics_share(model, case_factor, results, yields)
+      budget(3) = error_share_type(source='planes', remedy='planes: '// &
+                                   to_text(nint(1.4142*(model%n_planes - 1)) + 1)//' in CONTROL')
+      budget(4) = error_share_type(source='iteration', remedy='half the tolerance in INCREMENTS')
+      if (yields) then
+         call take(results%joint_errors(2), budget(3))
+         call take(results%joint_errors(1), budget(4))
+      else
+         budget(3:4)%displacement = 0.0_wp
+         if (size(results%joint_stress) > 0) budget(2:4)%joint_stress = 0.0_wp
+      end if
+      budget(5) = error_share_type(source='solver', remedy='less contrast of the stiffnesses')
+      budget(5)%displacement = solver_error(results)
+   end function new_budget
+
+   !> What rounding in the solver leaves of the displacements, over the largest
+   pure real(wp) function solver_error(results) result(error)
+      !> Results
+      type(results_type), intent(in) :: results
+
+      !> A further step of refinement would correct by about as much as the last did; what the matrix itself lost to
+      !> rounding is as much again
+      real(wp), parameter :: safety = 2.0_wp
+      real(wp) :: by_condition
+
+      ! a backward error is a relative change of the data, which the condition number passes on at most
+      by_condition = maxval(results%solves%backward_error*results%solves%condition)
+      error = ratio(safety*sum(results%solves%correction), results%discretization%largest_displacement)
+      error = min(error, by_condition)
+   end function solver_error
+
+   !> Elements too large or of too low an order
+   pure function discretization_share(model, results) result(share)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> Their share
+      type(error_share_type) :: share
+
+      share%source = 'discretization'
+      share%energy = results%discretization%relative
+      share%displacement = results%discretization%displacement
+      share%joint_stress = results%discretization%joint_stress
+      share%seconds = results%discretization%seconds
+      if (any(model%mesh%element_size < 5)) then
+         share%remedy = 'elements 0.7 (for stresses 0.5) times as large'
+      else
+         share%remedy = 'elements 0.6 times as large'
+      end if
+   end function discretization_share
+
+   !> Harmonics above M, of the loads and of joints that open and slip
+   pure function harmonics_share(model, case_factor, results, yields) result(share)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Factors of its load cases, shape (cases)
+      real(wp), intent(in) :: case_factor(:)
+      !> Results
+      type(results_type), intent(in) :: results
+      !> Whether joints yield
+      logical, intent(in) :: yields
+      !> Their share
+      type(error_share_type) :: share
+
+      real(wp), allocatable :: amplitude(:)
+      integer, allocatable :: harmonic(:)
+      integer :: k
+
+      share%source = 'harmonics'
+      share%remedy = 'harmonics: M = '//to_text(max(1, nint(1.4142*model%max_harmonic)))//' in CONTROL'
+      share%displacement = 0.0_wp
+      if (yields) call take(results%joint_errors(3), share)
+      share%load = 0.0_wp
+      do k = 1, size(model%truncations)
+         associate (cut => model%truncations(k))
+            if (abs(case_factor(cut%case)) > 0.0_wp) share%load = max(share%load, cut%left_out)
+         end associate
+      end do
+      if (.not. share%load > 0.0_wp) return
+      harmonic = results%modes%harmonic
+      amplitude = [(sqrt(maxval(sum(results%displacement(:, :, k)**2, 1))), k=1, size(results%modes))]
+      share%displacement = share%displacement &
+                           + ratio(response_tail(harmonic, amplitude), &
+                                   results%discretization%largest_displacement)
+      share%energy = sqrt(ratio(response_tail(harmonic, results%discretization%energy), &
+                                sum(results%discretization%energy)))
+   end function harmonics_share
+
+   !> Take an estimate of the joints
+   pure subroutine take(error, share)
+      !> The estimate
+      type(error_share_type), intent(in) :: error
+      !> The share
+      type(error_share_type), intent(inout) :: share
+
+      share%displacement = error%displacement
+      share%joint_stress = error%joint_stress
+      share%seconds = error%seconds
+   end subroutine take
+
+   !> All shares together, each quantity without those that are not known; negative if none is
+   pure function sum_of_shares(budget) result(total)
+      !> The budget
+      type(error_share_type), intent(in) :: budget(:)
+      !> The sums
+      type(error_share_type) :: total
+
+      total%source = 'sum'
+      total%energy = known_sum((budget%energy))
+      total%displacement = known_sum((budget%displacement))
+      total%joint_stress = known_sum((budget%joint_stress))
+      total%seconds = sum(budget%seconds)
+   end function sum_of_shares
+
+   !> Sum of what is known
+   pure real(wp) function known_sum(values)
+      !> Values, negative if not known
+      real(wp), intent(in) :: values(:)
+
+      known_sum = -1.0_wp
+      if (any(values >= 0.0_wp)) known_sum = sum(values, mask=values >= 0.0_wp)
+   end function known_sum
+
+   !> Whether all shares of a quantity are known; the solver has none of joint stress
+   pure logical function is_known(budget, values)
+      !> The budget
+      type(error_share_type), intent(in) :: budget(:)
+      !> The shares of a quantity
+      real(wp), intent(in) :: values(:)
+
+      is_known = all(values >= 0.0_wp .or. budget%source == 'solver')
+   end function is_known
+
+end module axijoint_analysis_error_budget

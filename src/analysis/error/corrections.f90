@@ -1,0 +1,153 @@
+!> What becomes of a state that the iterations found, before it counts: rounding of stiff joints is corrected, and
+!> the iterations go on until the errors that they leave are what the tolerance claims
+module axijoint_analysis_error_corrections
+   use axijoint_analysis_core_results, only : results_type, error_share_type
+   use axijoint_analysis_core_solution, only : solve_displacements
+   use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_analysis_error_yielding_errors, only : iteration_error
+   use axijoint_assembly_force, only : elastic_joint_stress
+   use axijoint_base_error, only : error_type
+   use axijoint_base_kinds, only : wp
+   use axijoint_joints_field, only : joint_field_type
+   use axijoint_joints_increments, only : history_type, balance_again
+   use axijoint_joints_residual, only : strictest_type, strictest
+   use axijoint_joints_scene, only : scene_type, mismatch_of
+   use axijoint_model_model, only : model_type, method_transfer
+   implicit none
+   private
+   public :: correct_rounding, keep_claim, solver_keeps_claim
+
+   !> A tolerance claims that displacements and joint stresses are as near to equilibrium as so many times it, over
+   !> the largest
+   real(wp), parameter :: claimed = 10.0_wp
+   !> k h/E above which it claims balanced forces: how they are distributed over the points of an element is not
+   !> determined by them, and displacements are by so much less certain as joints are stiffer
+   real(wp), parameter :: stiff = 1.0e2_wp
+
+contains
+
+   !> See how far the relative displacements of the bodies are from those that the laws saw;
+   !> where that matters, correct the response by the difference and balance the joints again
+   subroutine correct_rounding(model, structure, history, yielding, results, error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, condensed
+      type(structure_type), intent(inout) :: structure
+      !> What the increments came to; takes further iterations
+      type(history_type), intent(inout) :: history
+      !> State of the joints that yield
+      type(joint_field_type), intent(inout) :: yielding
+      !> Results with displacements; take those of the corrected state, and the mismatch
+      type(results_type), intent(inout) :: results
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      integer, parameter :: most_corrections = 4
+      !> Part of the tolerance that is no matter
+      real(wp), parameter :: part = 0.1_wp
+      real(wp), allocatable :: jump(:, :, :)
+      type(strictest_type) :: found
+      real(wp) :: factor_share
+      integer :: k
+
+      associate (scene => structure%scene)
+         do k = 0, most_corrections
+            jump = mismatch_of(scene, yielding, results%displacement)
+            found = strictest(scene%measure, elastic_stress(jump), paper=scene%method == method_transfer)
+            results%mismatch = found%ratio
+            if (.not. results%converged .or. scene%method == method_transfer) return
+            if (results%mismatch <= part*results%tolerance .or. k == most_corrections) return
+            scene%response%free = scene%response%free + jump
+            call balance_again(scene, yielding, history)
+            results%converged = history%verdict%converged
+            results%path = history%path
+            call solve_displacements(structure%equations, model, history%loading, scene%points, &
+                                     yielding%excess, results%displacement, results%solves, factor_share, error)
+            if (allocated(error)) return
+         end do
+      end associate
+
+   contains
+
+      !> Stress of the jumps in the elastic structure
+      function elastic_stress(jump) result(stress)
+         !> Amplitudes, shape (3, points, modes)
+         real(wp), intent(in) :: jump(:, :, :)
+         !> Amplitudes, same shape
+         real(wp) :: stress(3, size(jump, 2), size(jump, 3))
+
+         integer :: m
+
+         do m = 1, size(jump, 3)
+            stress(:, :, m) = elastic_joint_stress(structure%scene%points, jump(:, :, m))
+         end do
+      end function elastic_stress
+
+   end subroutine correct_rounding
+
+   !> Iterate on until the errors that iterations leave are what the tolerance claims. What does not come
+   !> there has not converged. (The paper's loop claims no more than its residual ratio.)
+   subroutine keep_claim(model, structure, history, yielding, results, error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, condensed
+      type(structure_type), intent(inout), target :: structure
+      !> What the increments came to; takes further iterations
+      type(history_type), intent(inout) :: history
+      !> State of the joints that yield
+      type(joint_field_type), intent(inout) :: yielding
+      !> Results with displacements; take those of the state
+      type(results_type), intent(inout) :: results
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      integer, parameter :: most_attempts = 3
+      !> Part of the tolerance that would do if errors fell with it
+      real(wp), parameter :: part = 0.3_wp
+      type(error_share_type) :: share
+      type(joint_field_type), allocatable :: balanced
+      real(wp) :: factor_share, tolerance, excess
+      integer :: k
+
+      associate (scene => structure%scene)
+         if (.not. results%converged .or. scene%method == method_transfer) return
+         tolerance = results%tolerance
+         do k = 0, most_attempts
+            call iteration_error(structure, history, yielding, results, balanced, share)
+            excess = share%displacement
+            if (scene%proportion <= stiff) excess = max(excess, share%joint_stress)
+            excess = excess/claim(scene, results%tolerance)
+            if (excess <= 1.0_wp) return
+            if (k == most_attempts) exit
+            tolerance = part*tolerance/excess
+            call balance_again(scene, yielding, history, tolerance)
+            results%path = history%path
+            if (.not. history%verdict%converged) exit
+            call solve_displacements(structure%equations, model, history%loading, scene%points, &
+                                     yielding%excess, results%displacement, results%solves, factor_share, error)
+            if (allocated(error)) return
+         end do
+         results%converged = .false.
+         results%unsettled = excess*claimed*results%tolerance
+      end associate
+   end subroutine keep_claim
+
+   !> Error that a tolerance claims
+   pure real(wp) function claim(scene, tolerance)
+      !> The scene, with the proportion of its joints
+      type(scene_type), intent(in) :: scene
+      !> The tolerance
+      real(wp), intent(in) :: tolerance
+
+      claim = claimed*tolerance*max(1.0_wp, scene%proportion/stiff)
+   end function claim
+
+   !> Whether the error that the solver leaves is what the tolerance claims
+   pure logical function solver_keeps_claim(results) result(keeps)
+      !> Results with their budget
+      type(results_type), intent(in) :: results
+
+      keeps = results%budget(size(results%budget))%displacement <= claimed*results%tolerance
+   end function solver_keeps_claim
+
+end module axijoint_analysis_error_corrections

@@ -1,0 +1,139 @@
+!> The discretization error of a run: energy norm, displacements, joint stresses
+module axijoint_analysis_error_discretization
+   use omp_lib, only : omp_get_wtime
+   use axijoint_analysis_core_results, only : results_type
+   use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_analysis_error_largest_values, only : largest_vector, largest_elastic_stress
+   use axijoint_analysis_error_solid_error, only : solid_errors
+   use axijoint_analysis_fine_mesh_error, only : mesh_error_type, away_from_infinite
+   use axijoint_assembly_loading, only : loading_type
+   use axijoint_assembly_support, only : add_support_force
+   use axijoint_base_kinds, only : wp
+   use axijoint_fe_mode, only : mode_integral
+   use axijoint_joints_field, only : joint_field_type, stress_amplitude
+   use axijoint_joints_floating, only : add_motions
+   use axijoint_joints_planes, only : new_view
+   use axijoint_joints_residual, only : ratio
+   use axijoint_model_model, only : model_type, can_yield_at
+   implicit none
+   private
+   public :: estimate_discretization
+
+contains
+
+   !> Estimate the discretization error
+   subroutine estimate_discretization(model, structure, loading, field, largest_stress, mesh_error, results)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Joints and springs
+      type(structure_type), intent(in) :: structure
+      !> The loads
+      type(loading_type), intent(in) :: loading
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> Largest stress of points of joints that yield, of all increments; not allocated if none can
+      real(wp), allocatable, intent(in) :: largest_stress(:)
+      !> Errors of the displacements of nodes, and of joints that yield
+      type(mesh_error_type), intent(in) :: mesh_error
+      !> Results, stresses and all; takes the estimate
+      type(results_type), intent(inout) :: results
+
+      real(wp), allocatable :: error(:, :), energy(:, :), total(:, :, :)
+      real(wp) :: start
+      integer :: k
+
+      start = omp_get_wtime()
+      call solid_errors(model, loading%initial, results%modes, results%displacement, results%stress, &
+                        error, energy)
+      associate (estimate => results%discretization)
+         estimate%error_energy = sum(error, 2)
+         estimate%energy = sum(energy, 2) + [(joint_energy(k) + spring_energy(k), &
+                                              k=1, size(results%modes))]
+         estimate%mode_relative = sqrt(ratio(estimate%error_energy, estimate%energy))
+         estimate%relative = sqrt(ratio(sum(estimate%error_energy), sum(estimate%energy)))
+         estimate%element = ratio(sum(error, 1), sum(estimate%energy))
+         total = results%displacement
+         if (size(field%offset) > 0) call add_motions(structure%scene%floating, field%offset, total)
+         estimate%largest_displacement = largest_vector(results%modes, total)
+         estimate%displacement = ratio(largest_vector(results%modes, mesh_error%displacement), &
+                                       estimate%largest_displacement)
+         estimate%joint_stress = joint_stress_error()
+         estimate%seconds = structure%fine%seconds + mesh_error%seconds + omp_get_wtime() - start
+      end associate
+
+   contains
+
+      !> Error of joint stresses, relative; negative if there are no joints or if it is not known
+      real(wp) function joint_stress_error() result(error)
+         real(wp) :: largest, scale
+         integer, allocatable :: elastic(:)
+
+         error = -1.0_wp
+         if (size(structure%joint_points) == 0) return
+         largest = mesh_error%joint_stress
+         if (size(structure%yielding) > 0 .and. largest < 0.0_wp) return
+         elastic = pack([(k, k=1, size(structure%joint_points))], &
+                        structure%judged .and. .not. can_yield_at(model, structure%joint_points%material))
+         largest = max(0.0_wp, largest, largest_elastic_stress( &
+            structure%joint_points(elastic), new_view(results%plane_angles, results%modes), &
+            mesh_error%jump(:, elastic, :)))
+         scale = maxval(maxval(maxval(abs(results%joint_stress), 3), 1), mask=structure%judged)
+         if (allocated(largest_stress)) then
+            scale = max(scale, maxval(largest_stress, mask=structure%judged(structure%yielding)))
+         end if
+         if (.not. all(structure%judged)) largest = away_from_infinite*largest
+         error = ratio(largest, scale)
+      end function joint_stress_error
+
+      !> Energy of the joints in one mode
+      real(wp) function joint_energy(k)
+         !> Place of the mode
+         integer, intent(in) :: k
+
+         real(wp), allocatable :: stress(:, :)
+         integer :: i
+
+         allocate (stress, source=stress_amplitude(structure%joint_points, results%modes(k), &
+                                                   results%displacement(:, :, k), field, k))
+         joint_energy = 0.0_wp
+         do i = 1, size(structure%joint_points)
+            associate (point => structure%joint_points(i))
+               joint_energy = joint_energy + 0.5_wp*point%weight*energy_density( &
+                  stress(:, i), model%joint_materials(point%material)%law%stiffness)
+            end associate
+         end do
+         joint_energy = mode_integral(results%modes(k))*joint_energy
+      end function joint_energy
+
+      !> Energy of the springs in one mode
+      real(wp) function spring_energy(k)
+         !> Place of the mode
+         integer, intent(in) :: k
+
+         real(wp), allocatable :: force(:, :)
+
+         allocate (force, mold=results%displacement(:, :, k))
+         force = 0.0_wp
+         call add_support_force(structure%support_points, results%modes(k)%harmonic, &
+                                results%displacement(:, :, k), force)
+         spring_energy = 0.5_wp*sum(force*results%displacement(:, :, k))
+      end function spring_energy
+
+   end subroutine estimate_discretization
+
+   !> Twice the energy of a joint per area; a direction without stiffness has none
+   pure real(wp) function energy_density(stress, stiffness) result(density)
+      !> tau_xi, sigma, tau_theta
+      real(wp), intent(in) :: stress(3)
+      !> k_xi, k_eta, k_theta
+      real(wp), intent(in) :: stiffness(3)
+
+      integer :: i
+
+      density = 0.0_wp
+      do i = 1, 3
+         if (stiffness(i) > 0.0_wp) density = density + stress(i)**2/stiffness(i)
+      end do
+   end function energy_density
+
+end module axijoint_analysis_error_discretization

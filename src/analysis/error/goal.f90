@@ -1,0 +1,225 @@
+!> Refinement of a job until its error budget is below a target
+module axijoint_analysis_error_goal
+   use axijoint_analysis_core_results, only : error_share_type, results_type
+   use axijoint_base_kinds, only : wp
+   use axijoint_model_mesh, only : n_nodes
+   use axijoint_model_model, only : model_type
+   use axijoint_model_modes, only : used_modes, greatest_divisor
+   use axijoint_model_request, only : error_goal_type, refinement_type, goal_joints, goal_displacement, goal_energy
+   implicit none
+   private
+   public :: goal_error, refine_further, too_large
+
+   !> How one source of error is brought down
+   type :: rule_type
+      !> Its estimates are multiplied by this before they count: about the most that true errors were, of nine in
+      !> ten scenes
+      real(wp) :: safety = 1.0_wp
+      !> Part of the target that is left to it
+      real(wp) :: part = 0.0_wp
+      !> The error falls at least with this power of the number of elements along a side, of harmonics, of
+      !> intervals between planes, of the inverse of the tolerance
+      real(wp) :: order = 1.0_wp
+   end type rule_type
+
+   !> Least and most that the numbers of a source are multiplied by in a round
+   real(wp), parameter :: least = 1.3_wp, most_mesh = 2.5_wp, most_numbers = 5.0_wp
+   !> A source that is brought down is to fall to this part of what is left to it: a round more costs more
+   real(wp), parameter :: aim = 0.8_wp
+   !> What 8-node elements in the place of 4-node ones divide the error of displacements by, about, and how
+   !> many times the unknowns they have
+   real(wp), parameter :: quadratic_gain = 4.0_wp, quadratic_growth = 3.0_wp
+   !> Elements are made larger again by so much at most where they become quadratic
+   real(wp), parameter :: coarsest = 0.5_wp
+
+contains
+
+   !> The error that a target is compared with, on the safe side: the sum of the shares of the quantity that
+   !> the goal is about, each times its factor; negative if a share that there must be is not known
+   pure real(wp) function goal_error(model, results) result(error)
+      !> The job, and its goal
+      type(model_type), intent(in) :: model
+      !> Its results
+      type(results_type), intent(in) :: results
+
+      integer :: i
+
+      error = -1.0_wp
+      associate (budget => results%budget, goal => model%error_goal)
+         do i = 1, size(budget)
+            if (budget(i)%source == 'discretization' .and. share_of(budget(i), goal) < 0.0_wp) return
+            if (budget(i)%load >= 1.0_wp) return  ! what a concentrated load does has no limit
+         end do
+         error = sum([(safety_of(budget(i), goal)*max(0.0_wp, share_of(budget(i), goal)), i=1, size(budget))])
+      end associate
+   end function goal_error
+
+   !> Factor on a share
+   pure real(wp) function safety_of(share, goal)
+      !> The share
+      type(error_share_type), intent(in) :: share
+      !> The goal
+      type(error_goal_type), intent(in) :: goal
+
+      type(rule_type) :: rule
+
+      rule = rule_of(share%source, goal%quantity)
+      safety_of = rule%safety
+   end function safety_of
+
+   !> A share of the quantity that the goal is about; negative if not known
+   pure real(wp) function share_of(share, goal)
+      !> The share
+      type(error_share_type), intent(in) :: share
+      !> The goal
+      type(error_goal_type), intent(in) :: goal
+
+      select case (goal%quantity)
+      case (goal_joints)
+         share_of = share%joint_stress
+         ! of loads that M cuts off there is an estimate of the displacements only
+         if (share%load > 0.0_wp) share_of = max(share_of, share%displacement)
+      case (goal_energy)
+         share_of = merge(share%energy, share%displacement, share%energy >= 0.0_wp)
+      case default
+         share_of = share%displacement
+      end select
+   end function share_of
+
+   !> How a source is brought down
+   pure type(rule_type) function rule_of(source, quantity) result(rule)
+      !> Name of the source
+      character(len=*), intent(in) :: source
+      !> What is asked for, one of the `goal_` parameters
+      integer, intent(in) :: quantity
+
+      ! orders of meshes at corners that make stresses infinite, for displacements, joint stresses, energy norm
+      real(wp), parameter :: order(3) = [1.0_wp, 1.5_wp, 0.75_wp]  ! JOINTS, DISPL, ENERGY
+
+      select case (source)
+      case ('discretization')
+         rule = rule_type(safety=1.4_wp, part=0.5_wp, order=order(quantity))
+      case ('harmonics')
+         rule = rule_type(safety=1.3_wp, part=0.25_wp, order=1.5_wp)
+      case ('planes')
+         rule = rule_type(safety=1.2_wp, part=0.2_wp, order=1.25_wp)
+      case ('iteration')
+         rule = rule_type(safety=1.1_wp, part=0.05_wp, order=1.0_wp)
+      case default
+         rule = rule_type()
+      end select
+   end function rule_of
+
+   !> Raise what leaves more than its part of the target
+   pure subroutine refine_further(model, budget, n_unknowns, refinement, changed)
+      !> The job as it was solved, and its goal
+      type(model_type), intent(in) :: model
+      !> What its approximations leave
+      type(error_share_type), intent(in) :: budget(:)
+      !> Unknowns that it had
+      integer, intent(in) :: n_unknowns
+      !> How it was refined; further on return
+      type(refinement_type), intent(inout) :: refinement
+      !> Whether anything could be raised
+      logical, intent(out) :: changed
+
+      type(rule_type) :: rule
+      real(wp) :: excess, room, need
+      integer :: i
+
+      changed = .false.
+      need = 0.0_wp
+      do i = 1, size(budget)
+         rule = rule_of(budget(i)%source, model%error_goal%quantity)
+         excess = rule%safety*share_of(budget(i), model%error_goal)/(max(rule%part, tiny(1.0_wp))*model%error_goal%target)
+         if (.not. excess > aim) cycle
+         excess = excess/aim
+         select case (budget(i)%source)
+         case ('discretization')
+            need = excess
+         case ('harmonics')
+            call raise_harmonics(model, excess**(1.0_wp/rule%order), refinement, changed)
+         case ('planes')
+            refinement%planes = 1 + ceiling((model%n_planes - 1)*min(most_numbers, excess**(1.0_wp/rule%order)))
+            changed = .true.
+         case ('iteration')
+            refinement%newton = .true.
+            refinement%tolerance = refinement%tolerance/excess
+            changed = .true.
+         end select
+      end do
+      if (refinement%harmonic > 0) refinement%planes = max(refinement%planes, model%n_planes, 2*refinement%harmonic + 1)
+      room = real(model%error_goal%most_unknowns, wp)/n_unknowns
+      if (refinement%harmonic > 0) room = room*(model%max_harmonic + 1)/(refinement%harmonic + 1)
+      if (need > 0.0_wp .and. model%error_goal%mesh_too) call refine_mesh(model, need, room, refinement, changed)
+      changed = changed .and. room >= 1.0_wp
+   end subroutine refine_further
+
+   !> Whether a job has, or may have, more unknowns than its goal allows
+   pure logical function too_large(model)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      too_large = 3.0_wp*n_nodes(model%mesh)*size(used_modes(model)) > model%error_goal%most_unknowns
+   end function too_large
+
+   !> Raise M, by waves that the loads let through
+   pure subroutine raise_harmonics(model, factor, refinement, changed)
+      !> The job as it was solved
+      type(model_type), intent(in) :: model
+      !> M is to be multiplied by this
+      real(wp), intent(in) :: factor
+      !> How it was refined
+      type(refinement_type), intent(inout) :: refinement
+      !> Becomes true if M was raised
+      logical, intent(inout) :: changed
+
+      integer :: step, k
+
+      if (size(model%harmonics) <= model%max_harmonic) return  ! HARMONICS lists them
+      step = 0
+      associate (modes => used_modes(model))
+         do k = 1, size(modes)
+            step = greatest_divisor(step, modes(k)%harmonic)
+         end do
+      end associate
+      step = max(1, step)
+      refinement%harmonic = step*max(model%max_harmonic/step + 1, &
+                                     ceiling(real(model%max_harmonic, wp)/step*min(most_numbers, factor)))
+      changed = .true.
+   end subroutine raise_harmonics
+
+   !> Refine the mesh, as far as there is room for unknowns; 4-node elements become 8-node ones first
+   pure subroutine refine_mesh(model, excess, room, refinement, changed)
+      !> The job as it was solved
+      type(model_type), intent(in) :: model
+      !> The error over what is left to the mesh
+      real(wp), intent(in) :: excess
+      !> The unknowns may become so many times as many
+      real(wp), intent(in) :: room
+      !> How it was refined
+      type(refinement_type), intent(inout) :: refinement
+      !> Becomes true if the mesh was refined
+      logical, intent(inout) :: changed
+
+      real(wp) :: finer, left
+      type(rule_type) :: rule
+      logical :: convert
+
+      rule = rule_of('discretization', model%error_goal%quantity)
+      ! elements with a mean of the volumetric strain have four nodes and are chosen against locking
+      convert = any(model%mesh%element_size == 4) .and. .not. (refinement%quadratic .or. model%mean_dilatation)
+      finer = max(least, excess**(1.0_wp/rule%order))
+      left = room
+      if (convert) then
+         finer = max(coarsest, (excess/quadratic_gain**(rule%order/1.5_wp))**(1.0_wp/rule%order))
+         left = room/quadratic_growth
+      end if
+      finer = min(finer, most_mesh, sqrt(left))
+      if (finer < merge(coarsest, least, convert)) return
+      refinement%quadratic = refinement%quadratic .or. convert
+      refinement%mesh = refinement%mesh*finer
+      changed = .true.
+   end subroutine refine_mesh
+
+end module axijoint_analysis_error_goal

@@ -1,0 +1,105 @@
+!> Polynomials of two coordinates fitted to scattered values
+module axijoint_analysis_error_polynomial_fit
+   use axijoint_base_kinds, only : wp
+   implicit none
+   private
+   public :: max_functions, n_complete, polynomials, slopes, fit_polynomial
+
+   !> Most functions: a complete polynomial of degree 4
+   integer, parameter :: max_functions = 15
+   !> Powers of x and y in the functions, ascending by degree
+   integer, parameter :: powers(2, max_functions) = reshape([0, 0, 1, 0, 0, 1, 2, 0, 1, 1, 0, 2, &
+                                                             3, 0, 2, 1, 1, 2, 0, 3, &
+                                                             4, 0, 3, 1, 2, 2, 1, 3, 0, 4], [2, max_functions])
+   !> A function whose part that is new to the points is a smaller share of it is left out:
+   !> a patch two points wide knows nothing of curvature across
+   real(wp), parameter :: least_share = 0.1_wp
+
+contains
+
+   !> Number of functions of a complete polynomial
+   elemental integer function n_complete(degree)
+      !> Its degree
+      integer, intent(in) :: degree
+
+      n_complete = (degree + 1)*(degree + 2)/2
+   end function n_complete
+
+   !> The functions at a point
+   pure function polynomials(n, x) result(values)
+      !> Number of functions
+      integer, intent(in) :: n
+      !> The point
+      real(wp), intent(in) :: x(2)
+      !> The values
+      real(wp) :: values(n)
+
+      integer :: j
+
+      do j = 1, n
+         values(j) = x(1)**powers(1, j)*x(2)**powers(2, j)
+      end do
+   end function polynomials
+
+   !> Derivatives of the functions at a point by its coordinates
+   pure function slopes(n, x) result(values)
+      !> Number of functions
+      integer, intent(in) :: n
+      !> The point
+      real(wp), intent(in) :: x(2)
+      !> The derivatives, shape (2, functions)
+      real(wp) :: values(2, n)
+
+      integer :: j
+
+      values = 0.0_wp
+      do j = 1, n
+         associate (p => powers(1, j), q => powers(2, j))
+            if (p > 0) values(1, j) = p*x(1)**(p - 1)*x(2)**q
+            if (q > 0) values(2, j) = q*x(1)**p*x(2)**(q - 1)
+         end associate
+      end do
+   end function slopes
+
+   !> Coefficients of the polynomial of least weighted squares, by functions that are orthonormal
+   !> on the points; functions that the points do not determine get none
+   pure subroutine fit_polynomial(x, weight, coefficient)
+      !> The points, about within -1 and 1, shape (2, points), and their weights
+      real(wp), intent(in) :: x(:, :), weight(:)
+      !> Coefficients from the values at the points, shape (functions, points)
+      real(wp), intent(out) :: coefficient(:, :)
+
+      real(wp) :: basis(size(x, 2), size(coefficient, 1))
+      !> Functions that are orthonormal, in terms of the others, by columns
+      real(wp) :: combination(size(coefficient, 1), size(coefficient, 1))
+      real(wp) :: before, share
+      integer :: i, j
+
+      do i = 1, size(x, 2)
+         basis(i, :) = sqrt(weight(i))*polynomials(size(basis, 2), x(:, i))
+      end do
+      combination = 0.0_wp
+      coefficient = 0.0_wp
+      do j = 1, size(basis, 2)
+         combination(j, j) = 1.0_wp
+         before = sum(basis(:, j)**2)
+         do i = 1, j - 1
+            share = dot_product(basis(:, i), basis(:, j))
+            basis(:, j) = basis(:, j) - share*basis(:, i)
+            combination(:j, j) = combination(:j, j) - share*combination(:j, i)
+         end do
+         share = sum(basis(:, j)**2)
+         if (share <= least_share**2*before) then
+            basis(:, j) = 0.0_wp
+            combination(:, j) = 0.0_wp
+            cycle
+         end if
+         basis(:, j) = basis(:, j)/sqrt(share)
+         combination(:, j) = combination(:, j)/sqrt(share)
+         do i = 1, size(x, 2)
+            coefficient(:j, i) = coefficient(:j, i) + combination(:j, j)*(basis(i, j)*sqrt(weight(i)))
+         end do
+      end do
+   end subroutine fit_polynomial
+
+end module axijoint_analysis_error_polynomial_fit

@@ -1,0 +1,263 @@
+!> Error of the stresses of solids: recovered stresses against those of the elements
+module axijoint_analysis_error_solid_error
+   use axijoint_analysis_error_patch_recovery, only : sampling_type, new_samplings, patches_type, &
+                                                new_patches, patch_work_type, find_patch, fit_patch
+   use axijoint_assembly_solid_force, only : initial_state_type, solid_force
+   use axijoint_base_kinds, only : wp
+   use axijoint_element_solid, only : solid_point_type, solid_points
+   use axijoint_fe_mode, only : mode_type, mode_integral
+   use axijoint_fe_quadrature, only : max_element_points
+   use axijoint_fe_reference, only : reference_type
+   use axijoint_linalg_lapack, only : cholesky, inverse_from_cholesky
+   use axijoint_model_material, only : elasticity
+   use axijoint_model_mesh, only : n_elements
+   use axijoint_model_model, only : model_type, element_references
+   implicit none
+   private
+   public :: solid_errors
+
+   !> Order of the rule that integrates the square of the error of quadratic elements: at the
+   !> points of the reduced rule their stresses are best, and the error would seem small
+   integer, parameter :: full_order = 3
+
+   !> What the elements need, the same for all modes
+   type :: fields_type
+      !> The elements with the integration points of the stresses
+      type(reference_type) :: references(3:9)
+      !> Samples of each kind of element, and of the mesh
+      type(sampling_type) :: samplings(3:9)
+      type(patches_type) :: patches
+      !> Point before the first of each element, shape (elements)
+      integer, allocatable :: before(:)
+      !> Stress amplitudes at the points of the full rule, shape (6, points, modes); allocated if
+      !> there are elements with the reduced rule
+      real(wp), allocatable :: stress(:, :, :)
+      !> Stress amplitudes at the samples, shape (6, modes, samples)
+      real(wp), allocatable :: sampled(:, :, :)
+      !> D^-1 of each material, shape (6, 6, materials)
+      real(wp), allocatable :: compliance(:, :, :)
+   end type fields_type
+
+contains
+
+   !> Energies of the error of stress and of the stress itself, element by element
+   subroutine solid_errors(model, initial, modes, displacement, stress, error, energy)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Stress without strain
+      type(initial_state_type), intent(in) :: initial
+      !> The modes
+      type(mode_type), intent(in) :: modes(:)
+      !> Displacement amplitudes, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
+      !> Stress amplitudes at the integration points, shape (6, points, modes)
+      real(wp), intent(in) :: stress(:, :, :)
+      !> Energies, shape (modes, elements)
+      real(wp), allocatable, intent(out) :: error(:, :), energy(:, :)
+
+      type(fields_type) :: fields
+      type(patch_work_type), allocatable :: work  ! threads have small stacks
+      integer :: element
+
+      call new_fields(model, initial, modes, displacement, stress, fields)
+      allocate (error(size(modes), n_elements(model%mesh)), energy(size(modes), n_elements(model%mesh)))
+      !$omp parallel private(work)
+      allocate (work)
+      !$omp do schedule(dynamic, 16)
+      do element = 1, n_elements(model%mesh)
+         if (allocated(fields%stress)) then
+            call element_error(model, fields, fields%stress, element, work, error(:, element), energy(:, element))
+         else
+            call element_error(model, fields, stress, element, work, error(:, element), energy(:, element))
+         end if
+         error(:, element) = mode_integral(modes)*error(:, element)
+         energy(:, element) = mode_integral(modes)*energy(:, element)
+      end do
+      !$omp end do
+      !$omp end parallel
+   end subroutine solid_errors
+
+   !> Stresses at the integration points and at the samples
+   subroutine new_fields(model, initial, modes, displacement, stress, fields)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Stress without strain
+      type(initial_state_type), intent(in) :: initial
+      !> The modes
+      type(mode_type), intent(in) :: modes(:)
+      !> Displacement amplitudes, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
+      !> Stress amplitudes at the integration points, shape (6, points, modes)
+      real(wp), intent(in) :: stress(:, :, :)
+      !> Takes them
+      type(fields_type), intent(out) :: fields
+
+      integer :: element, k, n_points
+
+      if (reduced(model)) then
+         call full_stress(model, initial, modes, displacement, fields)
+      else
+         fields%references = element_references(model)
+      end if
+      fields%samplings = new_samplings(fields%references)
+      call new_patches(model%mesh, fields%samplings, fields%patches)
+      allocate (fields%before(n_elements(model%mesh)))
+      n_points = 0
+      do element = 1, n_elements(model%mesh)
+         fields%before(element) = n_points
+         n_points = n_points + fields%references(model%mesh%element_size(element))%n_points
+      end do
+      allocate (fields%sampled(6, size(modes), size(fields%patches%position, 2)))
+      !$omp parallel do
+      do element = 1, n_elements(model%mesh)
+         if (allocated(fields%stress)) then
+            call take_samples(model, fields, fields%stress, element)
+         else
+            call take_samples(model, fields, stress, element)
+         end if
+      end do
+      !$omp end parallel do
+      allocate (fields%compliance(6, 6, size(model%materials)))
+      do k = 1, size(model%materials)
+         fields%compliance(:, :, k) = inverse_elasticity(elasticity(model%materials(k)))
+      end do
+   end subroutine new_fields
+
+   !> Whether there are elements with the reduced rule
+   pure logical function reduced(model)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      reduced = model%gauss_quadratic < full_order .and. any(model%mesh%element_size > 4)
+   end function reduced
+
+   !> Stresses at the points of the full rule
+   subroutine full_stress(model, initial, modes, displacement, fields)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Stress without strain
+      type(initial_state_type), intent(in) :: initial
+      !> The modes
+      type(mode_type), intent(in) :: modes(:)
+      !> Displacement amplitudes, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
+      !> Takes elements and stresses
+      type(fields_type), intent(inout) :: fields
+
+      type(model_type), allocatable :: full
+      real(wp), allocatable :: force(:, :)
+      integer :: k, n
+
+      allocate (full, source=model)
+      full%gauss_quadratic = full_order
+      fields%references = element_references(full)
+      n = sum(fields%references(model%mesh%element_size)%n_points)
+      allocate (fields%stress(6, n, size(modes)))
+      !$omp parallel do schedule(dynamic) private(force)
+      do k = 1, size(modes)
+         allocate (force, mold=displacement(:, :, k))
+         call solid_force(full, initial, k, modes(k), displacement(:, :, k), force, fields%stress(:, :, k))
+         deallocate (force)
+      end do
+      !$omp end parallel do
+   end subroutine full_stress
+
+   !> Stresses at the samples of an element
+   pure subroutine take_samples(model, fields, stress, element)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Takes the stresses of the samples
+      type(fields_type), intent(inout) :: fields
+      !> Stress amplitudes at the points, shape (6, points, modes)
+      real(wp), intent(in) :: stress(:, :, :)
+      !> The element
+      integer, intent(in) :: element
+
+      integer :: s, i
+
+      associate (n => model%mesh%element_size(element), first => fields%patches%before(element), &
+                 before => fields%before(element))
+         do s = 1, fields%samplings(n)%n
+            fields%sampled(:, :, first + s) = 0.0_wp
+            do i = 1, fields%references(n)%n_points
+               fields%sampled(:, :, first + s) = fields%sampled(:, :, first + s) &
+                  + fields%samplings(n)%matrix(s, i)*stress(:, before + i, :)
+            end do
+         end do
+      end associate
+   end subroutine take_samples
+
+   !> Energies of one element, but for the factor c_m
+   subroutine element_error(model, fields, stress, element, work, error, energy)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Samples, and what belongs to them
+      type(fields_type), intent(in) :: fields
+      !> Stress amplitudes at the points, shape (6, points, modes)
+      real(wp), intent(in) :: stress(:, :, :)
+      !> The element
+      integer, intent(in) :: element
+      !> Room for the patch
+      type(patch_work_type), intent(inout) :: work
+      !> Energy of the error and of the stress, shape (modes)
+      real(wp), intent(out) :: error(:), energy(:)
+
+      type(solid_point_type) :: points(max_element_points)
+      real(wp), allocatable :: recovered(:, :)
+      real(wp) :: position(2, max_element_points)
+      integer :: n, i, s, k
+
+      n = model%mesh%element_size(element)
+      allocate (recovered(6, size(error)))
+      error = 0.0_wp
+      energy = 0.0_wp
+      associate (reference => fields%references(n), &
+                 compliance => fields%compliance(:, :, model%mesh%element_material(element)))
+         call solid_points(model%mesh%coordinates(:, model%mesh%element_nodes(:n, element)), &
+                           reference, points(:reference%n_points))
+         do i = 1, reference%n_points
+            position(:, i) = points(i)%position
+         end do
+         call find_patch(model%mesh, fields%patches, fields%samplings(n)%least_elements, element, work)
+         call fit_patch(model%mesh, fields%patches, fields%samplings(n)%degree, element, &
+                        position(:, :reference%n_points), work)
+         do i = 1, reference%n_points
+            recovered = 0.0_wp
+            do s = 1, work%n_samples
+               recovered = recovered + work%matrix(i, s)*fields%sampled(:, :, work%samples(s))
+            end do
+            associate (point => fields%before(element) + i, weight => 0.5_wp*points(i)%weight)
+               do k = 1, size(error)
+                  error(k) = error(k) + weight*square(compliance, recovered(:, k) - stress(:, point, k))
+                  energy(k) = energy(k) + weight*square(compliance, stress(:, point, k))
+               end do
+            end associate
+         end do
+      end associate
+   end subroutine element_error
+
+   !> x^T A x
+   pure real(wp) function square(a, x)
+      !> A, symmetric
+      real(wp), intent(in) :: a(6, 6)
+      !> x
+      real(wp), intent(in) :: x(6)
+
+      square = dot_product(x, matmul(a, x))
+   end function square
+
+   !> Inverse of an elasticity matrix
+   function inverse_elasticity(d) result(inverse)
+      !> The matrix
+      real(wp), intent(in) :: d(6, 6)
+      !> Its inverse
+      real(wp) :: inverse(6, 6)
+
+      integer :: info
+
+      inverse = d
+      call cholesky(inverse, info)  ! positive definite: the deck's constants are checked
+      call inverse_from_cholesky(inverse)
+   end function inverse_elasticity
+
+end module axijoint_analysis_error_solid_error

@@ -1,0 +1,369 @@
+!> What the approximations leave of the error of a job whose joints yield: the iteration, planes,
+!> harmonics and the mesh, each by a state found again without it
+module axijoint_analysis_error_yielding_errors
+   use omp_lib, only : omp_get_wtime
+   use axijoint_analysis_core_results, only : results_type, error_share_type
+   use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_analysis_error_largest_values, only : largest_vector, largest_elastic_stress
+   use axijoint_analysis_fine_difference, only : difference_type, new_difference, find_difference
+   use axijoint_analysis_fine_joints, only : fine_excess
+   use axijoint_analysis_fine_level, only : fine_level_type, fine_load_type, new_fine_load
+   use axijoint_analysis_fine_mesh_error, only : mesh_error_type, new_mesh_error
+   use axijoint_assembly_equations, only : equations_type, solve_mode
+   use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, release_factor
+   use axijoint_assembly_force, only : joint_force, joint_jump
+   use axijoint_base_kinds, only : wp
+   use axijoint_joints_field, only : joint_field_type
+   use axijoint_joints_floating, only : add_motions
+   use axijoint_joints_increments, only : history_type
+   use axijoint_joints_joint_errors, only : joint_change_type, joint_changes_type, find_joint_changes, change_between, &
+                                           largest_change
+   use axijoint_joints_residual, only : ratio
+   use axijoint_joints_scene, only : scene_type
+   use axijoint_joints_settle, only : settle_wholly, find_again
+   use axijoint_model_joint_points, only : model_joint_point_type
+   use axijoint_model_model, only : method_newton, method_transfer
+   implicit none
+   private
+   public :: estimate_yielding_errors, iteration_error
+
+contains
+
+   !> Estimate all errors. The paper's loop is another approximation: its errors are the difference to
+   !> equilibrium on total jumps, if that was found, and the errors of that
+   subroutine estimate_yielding_errors(structure, history, field, other, results, mesh_error)
+      !> The structure, condensed
+      type(structure_type), intent(inout), target :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> State of the joints that yield
+      type(joint_field_type), intent(in) :: field
+      !> That of Newton's method where the paper's loop was used
+      type(joint_field_type), allocatable, intent(in) :: other
+      !> Results with displacements; take the errors
+      type(results_type), intent(inout) :: results
+      !> Takes those of the mesh
+      type(mesh_error_type), intent(out) :: mesh_error
+
+      type(joint_field_type), allocatable :: balanced
+      type(joint_changes_type) :: changes
+      real(wp), allocatable :: displacement(:, :, :)
+      real(wp) :: start, largest
+
+      start = omp_get_wtime()
+      associate (scene => structure%scene)
+         if (.not. results%converged) then
+            call mesh_error_of_held(structure, history, field, results%displacement, mesh_error)
+            return
+         else if (scene%method /= method_transfer) then
+            allocate (balanced, source=field)
+            balanced%memory = history%memory
+         else if (allocated(other)) then
+            allocate (balanced, source=other)
+         else
+            call mesh_error_of_held(structure, history, field, results%displacement, mesh_error)
+            return
+         end if
+         call settle_by_newton(scene, balanced)
+         displacement = results%displacement
+         call add_motions(scene%floating, field%offset, displacement)
+         largest = largest_vector(results%modes, displacement)
+         displacement = results%displacement
+         changes%iteration = change_between(scene, field, balanced, structure%judged(structure%yielding))
+         changes%iteration%seconds = omp_get_wtime() - start
+         call add_displacement(scene, changes%iteration%excess, displacement)
+         call find_joint_changes(scene, balanced, history%start, &
+                                 structure%judged(structure%yielding), changes)
+         call take_share(structure, history, results, largest, changes%iteration, results%joint_errors(1))
+         call take_share(structure, history, results, largest, changes%planes, results%joint_errors(2))
+         call take_share(structure, history, results, largest, changes%harmonics, results%joint_errors(3))
+         call mesh_error_of_balanced(structure, history, balanced, displacement, mesh_error)
+      end associate
+   end subroutine estimate_yielding_errors
+
+   !> What the iteration left, by the state in which the joints are wholly balanced
+   subroutine iteration_error(structure, history, field, results, balanced, share)
+      !> The structure, condensed
+      type(structure_type), intent(inout), target :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> State of the joints that yield, of a method on total jumps
+      type(joint_field_type), intent(in) :: field
+      !> Results with displacements
+      type(results_type), intent(in) :: results
+      !> The state wholly balanced
+      type(joint_field_type), allocatable, intent(out) :: balanced
+      !> The error
+      type(error_share_type), intent(out) :: share
+
+      type(joint_change_type) :: change
+      real(wp), allocatable :: displacement(:, :, :)
+
+      associate (scene => structure%scene)
+         allocate (balanced, source=field)
+         balanced%memory = history%memory
+         call settle_by_newton(scene, balanced)
+         change = change_between(scene, field, balanced, structure%judged(structure%yielding))
+         displacement = results%displacement
+         call add_motions(scene%floating, field%offset, displacement)
+         call take_share(structure, history, results, largest_vector(results%modes, displacement), change, share)
+      end associate
+   end subroutine iteration_error
+
+   !> Balance the joints wholly
+   subroutine settle_by_newton(scene, field)
+      !> The scene
+      type(scene_type), intent(inout) :: scene
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+
+      integer :: method
+
+      method = scene%method
+      scene%method = method_newton
+      call settle_wholly(scene, field)
+      scene%method = method
+   end subroutine settle_by_newton
+
+   !> An error in relative numbers
+   subroutine take_share(structure, history, results, largest, change, share)
+      !> The structure
+      type(structure_type), intent(inout) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> Results with displacements
+      type(results_type), intent(in) :: results
+      !> Largest displacement
+      real(wp), intent(in) :: largest
+      !> The change of the joints
+      type(joint_change_type), intent(in) :: change
+      !> Takes stress, displacement and time
+      type(error_share_type), intent(inout) :: share
+
+      !> Displacements below this part of those with elastic joints are rounding: all loads were taken away
+      real(wp), parameter :: none = 1.0e-9_wp
+      real(wp), allocatable :: displacement(:, :, :)
+      real(wp) :: start
+
+      start = omp_get_wtime()
+      share%seconds = change%seconds
+      if (.not. change%known) return
+      allocate (displacement, mold=results%displacement)
+      displacement = 0.0_wp
+      call add_displacement(structure%scene, change%excess, displacement)
+      call add_motions(structure%scene%floating, change%offset, displacement)
+      share%joint_stress = ratio(max(change%stress, elastic_change(structure, displacement)), &
+                                 stress_scale(structure, history, results%displacement))
+      share%displacement = ratio(largest_vector(results%modes, displacement) + change%beyond, &
+                                 max(largest, none*history%largest_elastic))
+      share%seconds = share%seconds + omp_get_wtime() - start
+   end subroutine take_share
+
+   !> Largest stress of elastic joints that displacements give, where it is judged
+   function elastic_change(structure, displacement) result(largest)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> Amplitudes, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
+      !> The stress
+      real(wp) :: largest
+
+      real(wp), allocatable :: jump(:, :, :)
+      integer :: k
+
+      associate (points => structure%joint_points(elastic_points(structure)))
+         allocate (jump(3, size(points), size(displacement, 3)))
+         do k = 1, size(displacement, 3)
+            jump(:, :, k) = joint_jump(points, displacement(:, :, k))
+         end do
+         largest = largest_elastic_stress(points, structure%planes, jump)
+      end associate
+   end function elastic_change
+
+   !> Points of elastic joints whose stress is judged
+   pure function elastic_points(structure) result(places)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> Places among all joint points
+      integer, allocatable :: places(:)
+
+      logical :: elastic(size(structure%joint_points))
+      integer :: k
+
+      elastic = structure%judged
+      elastic(structure%yielding) = .false.
+      places = pack([(k, k=1, size(elastic))], elastic)
+   end function elastic_points
+
+   !> Largest joint stress that is judged: of joints that yield in all increments, of others at the end
+   function stress_scale(structure, history, displacement) result(scale)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> Amplitudes, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
+      !> The stress
+      real(wp) :: scale
+
+      scale = max(maxval(history%largest_stress, mask=structure%judged(structure%yielding)), &
+                  elastic_change(structure, displacement))
+   end function stress_scale
+
+   !> Errors of the mesh while the stress of the joints is what it is
+   subroutine mesh_error_of_held(structure, history, field, displacement, error)
+      !> The structure
+      type(structure_type), intent(inout) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> Displacement amplitudes, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
+      !> The errors
+      type(mesh_error_type), intent(out) :: error
+
+      real(wp) :: start
+
+      start = omp_get_wtime()
+      call all_differences(structure, history, structure%fine%coarse_points(structure%yielding), field%excess, &
+                           displacement, error)
+      error%seconds = omp_get_wtime() - start
+   end subroutine mesh_error_of_held
+
+   !> Errors of the mesh: while the stress of the joints is held, as the law gives it along the fine joints,
+   !> then the answer of the joints
+   subroutine mesh_error_of_balanced(structure, history, balanced, displacement, error)
+      !> The structure
+      type(structure_type), intent(inout) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> State of the joints, balanced
+      type(joint_field_type), intent(in) :: balanced
+      !> Displacement amplitudes, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
+      !> The errors
+      type(mesh_error_type), intent(out) :: error
+
+      type(model_joint_point_type), allocatable :: points(:)
+      type(joint_field_type), allocatable :: after
+      real(wp), allocatable :: excess(:, :, :), free(:, :, :), before(:, :, :)
+      real(wp) :: start
+      integer :: k
+      logical :: found
+
+      start = omp_get_wtime()
+      associate (scene => structure%scene)
+         call fine_excess(scene, structure%fine, balanced, displacement, history%loading%case_factor, points, excess)
+         call all_differences(structure, history, points, excess, displacement, error)
+         allocate (after, source=balanced)
+         free = scene%response%free
+         scene%response%free = free + error%jump(:, structure%yielding, :)
+         call find_again(scene, history%start, after, found)
+         call move_alloc(free, scene%response%free)
+         if (found) then
+            error%joint_stress = largest_change(scene, balanced, after, 1, structure%judged(structure%yielding))
+            before = error%displacement
+            call add_displacement(scene, after%excess - balanced%excess, error%displacement)
+            call add_motions(scene%floating, after%offset - balanced%offset, error%displacement)
+            do k = 1, size(before, 3)
+               error%jump(:, :, k) = error%jump(:, :, k) &
+                  + joint_jump(structure%joint_points, error%displacement(:, :, k) - before(:, :, k))
+            end do
+         end if
+      end associate
+      error%seconds = omp_get_wtime() - start
+   end subroutine mesh_error_of_balanced
+
+   !> Errors of all modes while the stress of the joints is held
+   subroutine all_differences(structure, history, points, excess, displacement, error)
+      !> The structure
+      type(structure_type), intent(inout) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> Joint points with excess stress, and its amplitudes, shape (3, points, modes)
+      type(model_joint_point_type), intent(in) :: points(:)
+      real(wp), intent(in) :: excess(:, :, :)
+      !> Displacement amplitudes, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
+      !> Takes the errors
+      type(mesh_error_type), intent(out) :: error
+
+      type(workspace_type), allocatable :: spaces(:)
+      type(difference_type) :: difference
+      type(fine_load_type) :: load
+      logical :: weak(size(structure%modes))
+      integer :: s
+
+      call new_difference(size(displacement, 2), size(structure%joint_points), size(displacement, 3), difference)
+      load = new_fine_load(structure%fine, structure%modes, history%loading)
+      weak = is_weak(history, excess)
+      associate (equations => structure%equations)
+         call new_workspaces(equations, spaces)
+         !$omp parallel do schedule(dynamic) num_threads(size(spaces))
+         do s = 1, size(equations%systems)
+            if (all(weak(equations%systems(s)%modes))) cycle
+            call hold_factor(equations, s, spaces(own()))
+            if (.not. equations%systems(s)%failed) then
+               call find_difference(structure%fine, equations, s, load, displacement, points, excess, difference)
+            end if
+            call release_factor(equations, s, spaces(own()))
+         end do
+         !$omp end parallel do
+      end associate
+      call new_mesh_error(difference, error)
+   end subroutine all_differences
+
+   !> Whether nothing acts in a mode but little excess stress. Its part in the error is as small: all such
+   !> harmonics together had 5 % of the jumps' errors in a pile of M = 8
+   pure function is_weak(history, excess)
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> Excess stress, amplitudes, shape (3, points, modes)
+      real(wp), intent(in) :: excess(:, :, :)
+      !> Shape (modes)
+      logical :: is_weak(size(excess, 3))
+
+      !> Part of the largest excess stress that is little
+      real(wp), parameter :: little = 0.05_wp
+      integer :: k
+
+      do k = 1, size(is_weak)
+         is_weak(k) = maxval(abs(excess(:, :, k))) <= little*maxval(abs(excess)) &
+            .and. .not. any(abs(history%loading%right(:, :, k)) > 0.0_wp)
+      end do
+   end function is_weak
+
+   !> Add the displacements from excess joint stress
+   subroutine add_displacement(scene, excess, displacement)
+      !> The scene
+      type(scene_type), intent(inout) :: scene
+      !> Amplitudes, shape (3, points, modes)
+      real(wp), intent(in) :: excess(:, :, :)
+      !> Displacement amplitudes, shape (3, nodes, modes)
+      real(wp), intent(inout) :: displacement(:, :, :)
+
+      type(workspace_type), allocatable :: spaces(:)
+      real(wp), allocatable :: part(:, :), force(:, :)  ! threads have small stacks
+      integer :: s, i, k
+
+      if (.not. any(abs(excess) > 0.0_wp)) return
+      call new_workspaces(scene%equations, spaces)
+      !$omp parallel do schedule(dynamic) private(i, k, part, force) num_threads(size(spaces))
+      do s = 1, size(scene%equations%systems)
+         call hold_factor(scene%equations, s, spaces(own()))
+         if (scene%equations%systems(s)%failed) cycle
+         do i = 1, size(scene%equations%systems(s)%modes)
+            k = scene%equations%systems(s)%modes(i)
+            force = joint_force(scene%points, scene%equations%modes(k)%harmonic, excess(:, :, k), &
+                                size(displacement, 2))
+            part = force  ! for its shape
+            call solve_mode(scene%equations, k, force, part)
+            displacement(:, :, k) = displacement(:, :, k) + part
+         end do
+         call release_factor(scene%equations, s, spaces(own()))
+      end do
+      !$omp end parallel do
+   end subroutine add_displacement
+
+end module axijoint_analysis_error_yielding_errors

@@ -1,0 +1,169 @@
+!> The job on the fine mesh, as far as estimates of errors need it: stiffness and blocks, no factor
+module axijoint_analysis_fine_level
+   use omp_lib, only : omp_get_wtime
+   use axijoint_analysis_fine_conditions, only : conditions_type, new_conditions
+   use axijoint_analysis_fine_mesh, only : fine_mesh_type, parents_type, new_fine_mesh, ordered
+   use axijoint_analysis_fine_model, only : new_fine_model
+   use axijoint_analysis_fine_smoother, only : smoother_type, new_blocks, order_by_blocks, new_smoother
+   use axijoint_assembly_equations, only : equations_type
+   use axijoint_assembly_loading, only : loading_type, new_initial_state
+   use axijoint_assembly_node_blocks, only : node_blocks_type, new_node_blocks, assemble_blocks
+   use axijoint_assembly_pattern, only : node_graph
+   use axijoint_assembly_solid_force, only : initial_state_type
+   use axijoint_assembly_support, only : support_point_type, new_support_points
+   use axijoint_base_kinds, only : wp
+   use axijoint_element_joint, only : new_joint_point, lower_node
+   use axijoint_fe_mode, only : mode_type
+   use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points, joint_rule
+   use axijoint_model_mesh, only : mesh_type
+   use axijoint_model_model, only : model_type
+   use axijoint_order_graph, only : graph_type
+   implicit none
+   private
+   public :: fine_level_type, fine_load_type, new_fine_level, new_fine_load
+
+   !> The fine level
+   type :: fine_level_type
+      !> The job on the fine mesh
+      type(model_type) :: model
+      !> The fine mesh and what its nodes follow
+      type(fine_mesh_type) :: mesh
+      !> Points of its joints and springs
+      type(model_joint_point_type), allocatable :: joint_points(:)
+      type(support_point_type), allocatable :: support_points(:)
+      !> The same joint points in the joints of the coarse mesh, and the joint points of the coarse
+      !> mesh in the fine joints, with their weights
+      type(model_joint_point_type), allocatable :: on_coarse(:), coarse_points(:)
+      !> Stiffness in blocks of two nodes; all that follows is in the order of its rows
+      type(node_blocks_type) :: stiffness
+      !> What the nodes follow
+      type(parents_type) :: parents
+      !> Which components are free in each class of modes
+      type(conditions_type), allocatable :: conditions(:)
+      !> Blocks of nodes
+      type(smoother_type) :: smoother
+      !> Time that all this took [second]
+      real(wp) :: seconds = 0.0_wp
+   end type fine_level_type
+
+   !> Loads of a combination, as far as the fine level needs them beforehand
+   type :: fine_load_type
+      !> Factor of each load case
+      real(wp), allocatable :: case_factor(:)
+      !> Stress of the solids without strain
+      type(initial_state_type) :: initial
+   end type fine_load_type
+
+contains
+
+   !> Cut the mesh of a job and integrate its stiffness
+   subroutine new_fine_level(model, equations, level)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Its equations, for the classes of modes
+      type(equations_type), intent(in) :: equations
+      !> The fine level
+      type(fine_level_type), intent(out) :: level
+
+      type(graph_type) :: graph
+      integer, allocatable :: block(:), order(:)
+      real(wp) :: start
+      integer :: k
+
+      start = omp_get_wtime()
+      call new_fine_mesh(model%mesh, level%mesh)
+      call new_fine_model(model, level%mesh, level%model)
+      level%joint_points = new_joint_points(level%model)
+      level%support_points = new_support_points(level%model)
+      call place_joint_points(model, level)
+      graph = node_graph(level%model%mesh)
+      block = new_blocks(model%mesh, level%mesh)
+      call order_by_blocks(model%mesh, level%mesh, graph, block, order)
+      call new_node_blocks(level%stiffness, graph, order)
+      level%parents = ordered(level%mesh%parents, order)
+      allocate (level%conditions(size(equations%classes)))
+      do k = 1, size(level%conditions)
+         associate (first => equations%systems(findloc(equations%systems%class, k, 1))%modes(1))
+            call new_conditions(level%mesh, equations%classes(k)%dofs, equations%modes(first), level%stiffness%place, &
+                                level%conditions(k))
+         end associate
+      end do
+      call new_smoother(level%smoother, level%stiffness, block, order)
+      call assemble_blocks(level%stiffness, level%model, level%joint_points, level%support_points)
+      level%seconds = omp_get_wtime() - start
+   end subroutine new_fine_level
+
+   !> Loads of a combination on the fine mesh
+   function new_fine_load(level, modes, loading) result(load)
+      !> The fine level
+      type(fine_level_type), intent(in) :: level
+      !> Modes in use
+      type(mode_type), intent(in) :: modes(:)
+      !> The loads on the coarse mesh
+      type(loading_type), intent(in) :: loading
+      !> Those on the fine mesh
+      type(fine_load_type) :: load
+
+      load%case_factor = loading%case_factor
+      call new_initial_state(level%model, modes, loading%case_factor, load%initial)
+   end function new_fine_load
+
+   !> Place the points of fine joints in coarse ones, and the other way round
+   subroutine place_joint_points(model, level)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Takes the points
+      type(fine_level_type), intent(inout) :: level
+
+      type(model_joint_point_type) :: before
+      real(wp) :: x(3), w(3)
+      integer :: joint, half, k, n, n_fine, n_coarse
+
+      level%coarse_points = new_joint_points(model)
+      level%on_coarse = level%joint_points
+      n_fine = 0
+      n_coarse = 0
+      do joint = 1, size(model%mesh%joint_label)
+         call joint_rule(model%joint_materials(model%mesh%joint_material(joint))%rule, model%mesh%joint_size(joint)/2, &
+                         n, x, w)
+         do k = 1, n
+            n_coarse = n_coarse + 1
+            half = merge(1, 2, x(k) <= 0.0_wp)
+            associate (point => level%coarse_points(n_coarse))
+               before = point
+               point = in_joint(level%model%mesh, 2*joint - 2 + half, 2.0_wp*x(k) + 3.0_wp - 2.0_wp*half)
+               point%weight = before%weight
+               point%base = before%base
+            end associate
+         end do
+         do half = 1, 2
+            do k = 1, n
+               n_fine = n_fine + 1
+               level%on_coarse(n_fine) = in_joint(model%mesh, joint, 0.5_wp*x(k) + half - 1.5_wp)
+               level%joint_points(n_fine)%base = before%base  ! that of the joint's points, whatever their length
+               level%joint_points(n_fine)%proportion = before%proportion
+            end do
+         end do
+      end do
+   end subroutine place_joint_points
+
+   !> A point of a joint
+   pure function in_joint(mesh, joint, x) result(point)
+      !> Its mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The joint
+      integer, intent(in) :: joint
+      !> Natural coordinate
+      real(wp), intent(in) :: x
+      !> The point, without weight
+      type(model_joint_point_type) :: point
+
+      associate (nodes => mesh%joint_nodes(:, joint), n => mesh%joint_size(joint)/2)
+         point%joint_point_type = new_joint_point(mesh%coordinates(:, nodes(lower_node(:n))), x, 0.0_wp)
+         point%joint = joint
+         point%material = mesh%joint_material(joint)
+         point%nodes = nodes
+      end associate
+   end function in_joint
+
+end module axijoint_analysis_fine_level

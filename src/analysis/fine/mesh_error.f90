@@ -1,0 +1,44 @@
+!> What the mesh leaves of the error of displacements and of joint stress: by the difference to the
+!> solution on a mesh of elements half as large
+module axijoint_analysis_fine_mesh_error
+   use axijoint_analysis_fine_difference, only : difference_type
+   use axijoint_base_kinds, only : wp
+   implicit none
+   private
+   public :: mesh_error_type, new_mesh_error
+
+   !> The error over the difference to a mesh of elements half as large: 4/3 where the error falls with
+   !> the square of their size, 16/15 with the fourth power, 1.9 with the power 1.1 of displacements by a
+   !> re-entrant corner. And the difference is found to 5 to 20 %
+   real(wp), parameter, public :: error_over_difference = 1.6_wp
+
+   !> Factor on that of joint stress judged away from where it is infinite: there it converges faster
+   real(wp), parameter, public :: away_from_infinite = 0.75_wp
+
+   !> Errors left by the mesh
+   type :: mesh_error_type
+      !> Of displacements of the nodes, amplitudes, shape (3, nodes, modes); zero where it is not known
+      real(wp), allocatable :: displacement(:, :, :)
+      !> Of the jumps at all joint points, their stress fixed, amplitudes, shape (3, points, modes)
+      real(wp), allocatable :: jump(:, :, :)
+      !> Largest error of a stress of joints that can yield; negative if not known [stress]
+      real(wp) :: joint_stress = -1.0_wp
+      !> Time [second]
+      real(wp) :: seconds = 0.0_wp
+   end type mesh_error_type
+
+contains
+
+   !> The errors from the difference
+   subroutine new_mesh_error(difference, error)
+      !> The difference
+      type(difference_type), intent(in) :: difference
+      !> The errors
+      type(mesh_error_type), intent(out) :: error
+
+      error%displacement = error_over_difference*difference%displacement
+      error%jump = error_over_difference*difference%jump
+      error%seconds = difference%seconds
+   end subroutine new_mesh_error
+
+end module axijoint_analysis_fine_mesh_error

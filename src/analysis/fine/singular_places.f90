@@ -1,0 +1,429 @@
+!> Where stresses are infinite: corners, ends of supports and of materials, edges of stiff joints. There an error
+!> in per cent means nothing; what can be said is the exponent
+module axijoint_analysis_fine_singular_places
+   use axijoint_analysis_fine_mesh, only : fine_mesh_type, find_edge, n_on
+   use axijoint_base_kinds, only : wp, pi
+   use axijoint_base_sort, only : ascending_order
+   use axijoint_element_wedge, only : wedge_type, wedge_exponent
+   use axijoint_fe_shape, only : n_corners
+   use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, n_joints
+   use axijoint_model_model, only : model_type, can_yield_at
+   implicit none
+   private
+   public :: singular_place_type, find_singular_places, judged_points
+
+   !> Stresses that grow more slowly than this are not called infinite
+   real(wp), parameter :: slow = -0.05_wp
+   !> Angles that differ by less count as the same: curved sides are cut into straight ones [radian]
+   real(wp), parameter :: same = 10.0_wp*pi/180.0_wp
+   !> Joint stresses are judged farther from such a place than this part of the joints' length
+   real(wp), parameter :: part = 0.1_wp
+   !> Joints at least as stiff beside the bodies, k/E times that distance, hold them together as seen from
+   !> there: their stress grows as if they were bonded, until as near as E/k
+   real(wp), parameter :: bonding = 1.0_wp
+
+   !> A place
+   type :: singular_place_type
+      !> Node
+      integer :: node = 0
+      !> Stresses go like the distance to this power; -1 < exponent < 0
+      real(wp) :: exponent = 0.0_wp
+      !> Joint stresses that are nearer are not judged; zero if they are not infinite there [length]
+      real(wp) :: distance = 0.0_wp
+   end type singular_place_type
+
+   !> Part of an element at one of its corners
+   type :: sector_type
+      !> Node and element
+      integer :: node = 0, element = 0
+      !> Nodes at the other ends of its sides, counterclockwise
+      integer :: ends(2) = 0
+      !> Angles of its sides, ascending [radian]
+      real(wp) :: from = 0.0_wp, to = 0.0_wp
+      !> Whether a joint on the side can open
+      logical :: opens(2) = .false.
+   end type sector_type
+
+   !> Sectors of all corners: those of a node are listed from start(node) to start(node + 1) - 1
+   type :: corners_type
+      integer, allocatable :: start(:)
+      type(sector_type), allocatable :: sectors(:)
+   end type corners_type
+
+   !> Joints at the nodes
+   type :: joint_places_type
+      !> The first of the nodes that joints hold together at one place; the node itself without joints
+      integer, allocatable :: together(:)
+      !> Whether a joint that cannot open holds the node
+      logical, allocatable :: holds(:)
+      !> Largest stiffness k/E of the joints there, and length of the line of joints; zero without joints
+      real(wp), allocatable :: stiffness(:), length(:)
+   end type joint_places_type
+
+contains
+
+   !> Find the places
+   function find_singular_places(model, fine) result(places)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Edges of its mesh
+      type(fine_mesh_type), intent(in) :: fine
+      !> The places
+      type(singular_place_type), allocatable :: places(:)
+
+      type(corners_type) :: corners
+      type(joint_places_type) :: joints
+      type(sector_type), allocatable :: sectors(:)
+      real(wp) :: exponent
+      integer :: node
+
+      allocate (places(0))
+      corners = corners_of(model, fine)
+      call look_at_joints(model, joints)
+      do node = 1, n_nodes(model%mesh)
+         if (.not. model%mesh%coordinates(1, node) > 0.0_wp) cycle
+         associate (bonded => joints%stiffness(node)*part*joints%length(node) >= bonding, &
+                    distance => part*joints%length(node))
+            if (.not. bonded) then
+               exponent = exponent_of(model, fine, corners%sectors(corners%start(node):corners%start(node + 1) - 1), &
+                                      open=.true.)
+               if (exponent < slow) places = [places, singular_place_type(node, exponent)]
+            else if (joints%together(node) == node) then  ! others are told with the first node of the place
+               sectors = sectors_at(corners, joints%together, node)
+               exponent = exponent_of(model, fine, sectors, open=.false.)
+               ! where other joints hold, they have an edge where one opens
+               if (any(joints%holds .and. joints%together == node)) then
+                  exponent = min(exponent, exponent_of(model, fine, sectors, open=.true.))
+               end if
+               if (exponent < slow) places = [places, singular_place_type(node, exponent, distance)]
+            end if
+         end associate
+      end do
+   end function find_singular_places
+
+   !> Sectors of all nodes that are together
+   function sectors_at(corners, together, node) result(sectors)
+      !> Sectors of all corners
+      type(corners_type), intent(in) :: corners
+      !> First of the nodes that a node is together with
+      integer, intent(in) :: together(:)
+      !> The first
+      integer, intent(in) :: node
+      !> The sectors
+      type(sector_type), allocatable :: sectors(:)
+
+      integer :: k
+
+      allocate (sectors(0))
+      do k = node, size(together)
+         if (together(k) == node) sectors = [sectors, corners%sectors(corners%start(k):corners%start(k + 1) - 1)]
+      end do
+   end function sectors_at
+
+   !> Sectors at the corners of all elements
+   function corners_of(model, fine) result(corners)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Edges of its mesh
+      type(fine_mesh_type), intent(in) :: fine
+      !> The sectors
+      type(corners_type) :: corners
+
+      integer, allocatable :: next(:)
+      integer :: element, i, n, node, k
+      logical :: opens(size(fine%edges))
+
+      opens = .false.
+      do k = 1, n_joints(model%mesh)
+         associate (nodes => model%mesh%joint_nodes(:, k))
+            if (.not. can_yield_at(model, model%mesh%joint_material(k))) cycle
+            opens([find_edge(fine, nodes(1), nodes(2)), find_edge(fine, nodes(4), nodes(3))]) = .true.
+         end associate
+      end do
+      associate (mesh => model%mesh)
+      allocate (corners%start(n_nodes(mesh) + 1), source=0)
+      do element = 1, n_elements(mesh)
+         do i = 1, n_corners(mesh%element_size(element))
+            node = mesh%element_nodes(i, element)
+            corners%start(node + 1) = corners%start(node + 1) + 1
+         end do
+      end do
+      corners%start(1) = 1
+      do node = 1, n_nodes(mesh)
+         corners%start(node + 1) = corners%start(node + 1) + corners%start(node)
+      end do
+      next = corners%start
+      allocate (corners%sectors(corners%start(node) - 1))
+      do element = 1, n_elements(mesh)
+         n = n_corners(mesh%element_size(element))
+         do i = 1, n
+            node = mesh%element_nodes(i, element)
+            corners%sectors(next(node)) = new_sector(mesh, element, i, n)
+            corners%sectors(next(node))%opens = opens(fine%element_edges([i, mod(i + n - 2, n) + 1], element))
+            next(node) = next(node) + 1
+         end do
+      end do
+      end associate
+   end function corners_of
+
+   !> The sector at a corner of an element
+   pure function new_sector(mesh, element, i, n) result(sector)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The element, the corner, and the number of its corners
+      integer, intent(in) :: element, i, n
+      !> The sector
+      type(sector_type) :: sector
+
+      integer :: node, side(2), k
+      real(wp) :: angle(2), way(2)
+
+      node = mesh%element_nodes(i, element)
+      sector%node = node
+      sector%element = element
+      side = [i, mod(i + n - 2, n) + 1]  ! the sides that begin and end here
+      sector%ends = mesh%element_nodes([mod(i, n) + 1, side(2)], element)
+      do k = 1, 2
+         way = mesh%coordinates(:, sector%ends(k)) - mesh%coordinates(:, node)
+         if (mesh%element_size(element) > 4) then  ! tangent of the parabola through the middle
+            way = 4.0_wp*(mesh%coordinates(:, mesh%element_nodes(n + side(k), element)) - mesh%coordinates(:, node)) - way
+         end if
+         angle(k) = atan2(way(2), way(1))
+      end do
+      sector%from = angle(1)
+      sector%to = angle(1) + modulo(angle(2) - angle(1), 2.0_wp*pi)
+   end function new_sector
+
+   !> Find the joints at the nodes
+   subroutine look_at_joints(model, joints)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Takes what was found
+      type(joint_places_type), intent(out) :: joints
+
+      real(wp) :: h
+      integer :: line(n_nodes(model%mesh)), k, i
+
+      line = [(k, k=1, size(line))]
+      joints%together = line
+      allocate (joints%holds(size(line)), source=.false.)
+      allocate (joints%stiffness(size(line)), joints%length(size(line)), source=0.0_wp)
+      associate (mesh => model%mesh, modulus => least_modulus(model), n => n_joints(model%mesh))
+         call unite(reshape(mesh%joint_nodes(:4, :), [4, n]), line)
+         call unite(reshape(mesh%joint_nodes([1, 4, 2, 3], :), [2, 2*n]), joints%together)
+         do k = 1, n
+            associate (nodes => mesh%joint_nodes(:4, k), law => model%joint_materials(mesh%joint_material(k))%law)
+               if (.not. can_yield_at(model, mesh%joint_material(k))) joints%holds(nodes) = .true.
+               h = norm2(mesh%coordinates(:, nodes(2)) - mesh%coordinates(:, nodes(1)))
+               joints%length(line(nodes(1))) = joints%length(line(nodes(1))) + h
+               do i = 1, 2
+                  associate (stiffness => joints%stiffness(joints%together(nodes(i))))
+                     stiffness = max(stiffness, maxval(law%stiffness)/minval(modulus(nodes([i, 5 - i]))))
+                  end associate
+               end do
+            end associate
+         end do
+      end associate
+      joints%length = joints%length(line)
+      joints%stiffness = joints%stiffness(joints%together)
+   end subroutine look_at_joints
+
+   !> Number nodes by the first of those that are in one set with them
+   pure subroutine unite(sets, first)
+      !> Nodes of each set, shape (any, sets)
+      integer, intent(in) :: sets(:, :)
+      !> The first node that is together with a node
+      integer, intent(inout) :: first(:)
+
+      integer :: k
+      logical :: moved
+
+      moved = .true.
+      do while (moved)
+         moved = .false.
+         do k = 1, size(sets, 2)
+            moved = moved .or. any(first(sets(:, k)) /= minval(first(sets(:, k))))
+            first(sets(:, k)) = minval(first(sets(:, k)))
+         end do
+      end do
+   end subroutine unite
+
+   !> Least modulus of the elements at each node
+   pure function least_modulus(model) result(modulus)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Shape (nodes)
+      real(wp) :: modulus(n_nodes(model%mesh))
+
+      integer :: k
+
+      modulus = huge(1.0_wp)
+      do k = 1, n_elements(model%mesh)
+         associate (nodes => model%mesh%element_nodes(:model%mesh%element_size(k), k), &
+                    material => model%materials(model%mesh%element_material(k)))
+            modulus(nodes) = min(modulus(nodes), merge(minval(material%moduli), material%young, material%orthotropic))
+         end associate
+      end do
+   end function least_modulus
+
+   !> The exponent at a node, of the wedges that its sectors form
+   function exponent_of(model, fine, sectors, open) result(exponent)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Edges of its mesh
+      type(fine_mesh_type), intent(in) :: fine
+      !> The sectors
+      type(sector_type), intent(in) :: sectors(:)
+      !> Whether joints that can open are open
+      logical, intent(in) :: open
+      !> The least exponent; zero if stresses are finite, or the material is not isotropic
+      real(wp) :: exponent
+
+      type(sector_type), allocatable :: sorted(:)
+      integer :: first, last, n
+
+      exponent = 0.0_wp
+      if (any(model%materials(model%mesh%element_material(sectors%element))%orthotropic)) return
+      n = size(sectors)
+      sorted = sectors
+      sorted%to = sorted%to - sorted%from
+      sorted%from = modulo(sorted%from, 2.0_wp*pi)
+      sorted%to = sorted%to + sorted%from
+      sorted = sorted(ascending_order((sorted%from)))
+      if (.not. open) then
+         sorted%opens(1) = .false.
+         sorted%opens(2) = .false.
+      end if
+      sorted = cshift(sorted, start_of(sorted) - 1)
+      do first = 2, n  ! ascending beyond a full turn
+         if (sorted(first)%from >= sorted(first - 1)%from) cycle
+         sorted(first:)%from = sorted(first:)%from + 2.0_wp*pi
+         sorted(first:)%to = sorted(first:)%to + 2.0_wp*pi
+      end do
+      first = 1
+      do while (first <= n)
+         last = first
+         do while (last < n)
+            if (.not. follows(sorted(last), sorted(last + 1))) exit
+            last = last + 1
+         end do
+         exponent = min(exponent, wedge_of(model, fine, sorted(first:last)))
+         first = last + 1
+      end do
+   end function exponent_of
+
+   !> Place of a sector before which there is a gap; 1 if there is none
+   pure integer function start_of(sectors) result(place)
+      !> Sectors in the order of their angles
+      type(sector_type), intent(in) :: sectors(:)
+
+      do place = 1, size(sectors)
+         if (.not. follows(sectors(modulo(place - 2, size(sectors)) + 1), sectors(place))) return
+      end do
+      place = 1
+   end function start_of
+
+   !> Whether a sector begins where another ends, and nothing opens between them
+   pure logical function follows(before, after)
+      !> The sectors
+      type(sector_type), intent(in) :: before, after
+
+      follows = abs(modulo(after%from - before%to + pi, 2.0_wp*pi) - pi) < 1.0e-6_wp &
+         .and. .not. (before%opens(2) .or. after%opens(1))
+   end function follows
+
+   !> Exponent of one wedge
+   function wedge_of(model, fine, sectors) result(exponent)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Edges of its mesh
+      type(fine_mesh_type), intent(in) :: fine
+      !> Its sectors, one after the other
+      type(sector_type), intent(in) :: sectors(:)
+      !> The exponent
+      real(wp) :: exponent
+
+      type(wedge_type) :: wedge
+      integer :: k, n, now, before
+
+      exponent = 0.0_wp
+      n = size(sectors)
+      allocate (wedge%ray(1), wedge%young(0), wedge%poisson(0))
+      wedge%ray = sectors(1)%from
+      before = 0
+      do k = 1, n
+         now = model%mesh%element_material(sectors(k)%element)
+         if (now == before) then
+            wedge%ray(size(wedge%ray)) = sectors(k)%to
+         else
+            wedge%ray = [wedge%ray, sectors(k)%to]
+            wedge%young = [wedge%young, model%materials(now)%young]
+            wedge%poisson = [wedge%poisson, model%materials(now)%poisson]
+         end if
+         before = now
+      end do
+      wedge%closed = follows(sectors(n), sectors(1))
+      if (.not. wedge%closed) then
+         wedge%held(:, 1) = held_along(sectors(1)%node, sectors(1)%ends(1))
+         wedge%held(:, 2) = held_along(sectors(n)%node, sectors(n)%ends(2))
+      end if
+      if (is_smooth(wedge)) return
+      exponent = wedge_exponent(wedge) - 1.0_wp
+
+   contains
+
+      !> Components that are held along a side
+      pure function held_along(node, end) result(held)
+         !> Nodes at its ends
+         integer, intent(in) :: node, end
+         !> r, z, theta
+         logical :: held(3)
+
+         associate (edge => fine%edges(find_edge(fine, node, end)))
+            held = all(model%fixed(:, edge%nodes(:n_on(edge))), 2)
+         end associate
+      end function held_along
+
+   end function wedge_of
+
+   !> Whether there is nothing that could make stresses infinite
+   pure logical function is_smooth(wedge)
+      !> The wedge
+      type(wedge_type), intent(in) :: wedge
+
+      associate (angle => wedge%ray(size(wedge%ray)) - wedge%ray(1), n => size(wedge%young))
+         if (wedge%closed) then
+            is_smooth = n == 1
+            if (n == 2) is_smooth = abs(wedge%ray(2) - wedge%ray(1) - pi) < same
+         else
+            is_smooth = n == 1 .and. angle < pi + same .and. all(wedge%held(:, 1) .eqv. wedge%held(:, 2))
+            ! square corners between a face that is held along one direction and a free one mirror half of a body
+            if (n == 1 .and. angle < 0.5_wp*pi + same .and. .not. any(all(wedge%held(:2, :), 1))) is_smooth = .true.
+         end if
+      end associate
+   end function is_smooth
+
+   !> Whether joint stresses at points are judged: those that are far enough from singular places; all, if
+   !> none is
+   function judged_points(mesh, places, positions) result(judged)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The places
+      type(singular_place_type), intent(in) :: places(:)
+      !> r and z of the points, shape (2, points)
+      real(wp), intent(in) :: positions(:, :)
+      !> Shape (points)
+      logical :: judged(size(positions, 2))
+
+      integer :: k, i
+
+      judged = .true.
+      do k = 1, size(places)
+         do i = 1, size(judged)
+            judged(i) = judged(i) .and. norm2(positions(:, i) - mesh%coordinates(:, places(k)%node)) >= places(k)%distance
+         end do
+      end do
+      if (.not. any(judged)) judged = .true.
+   end function judged_points
+
+end module axijoint_analysis_fine_singular_places

@@ -1,0 +1,97 @@
+!> Elements that are too stiff for nearly incompressible materials
+module axijoint_deck_check_locking
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_text, only : to_text
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, add_warning
+   use axijoint_deck_text_layout, only : section_materials, section_orthotropic
+   use axijoint_deck_text_sections, only : sections_type
+   use axijoint_model_material, only : solid_material_type, elasticity
+   use axijoint_model_model, only : model_type
+   implicit none
+   private
+   public :: warn_of_locking
+
+   !> Poisson's ratio above which linear elements lock visibly
+   real(wp), parameter :: largest_ratio = 0.49_wp + 1.0e-9_wp
+
+contains
+
+   !> Warn of nearly incompressible materials in 3-node and plain 4-node elements
+   subroutine warn_of_locking(sections, model, diagnostics)
+      !> The deck
+      type(sections_type), intent(in) :: sections
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      logical :: used(size(model%materials), 3:4)
+      integer :: k, element, n
+
+      used = .false.
+      do element = 1, size(model%mesh%element_size)
+         n = model%mesh%element_size(element)
+         if (n <= 4) used(model%mesh%element_material(element), n) = .true.
+      end do
+      if (model%mean_dilatation) used(:, 4) = .false.
+      do k = 1, size(model%materials)
+         if (.not. any(used(k, :)) .or. effective_ratio(model%materials(k)) <= largest_ratio) cycle
+         if (used(k, 4)) call warn(k, 'plain 4-node', &
+                                   'write BBAR in columns 31-40 of CONTROL, or use 8-node elements '// &
+                                   'with 2 in columns 16-20')
+         if (used(k, 3)) call warn(k, '3-node', &
+                                   'use 4-node elements with BBAR in columns 31-40 of CONTROL, or '// &
+                                   '6-node triangles')
+      end do
+
+   contains
+
+      !> Warn of one material
+      subroutine warn(material, kind, mend)
+         !> The material
+         integer, intent(in) :: material
+         !> Kind of elements, and the remedy
+         character(len=*), intent(in) :: kind, mend
+
+         call add_warning(diagnostics, material_card(sections, material), 0, 0, &
+                          'material '//to_text(model%materials(material)%label)// &
+                          ' is nearly incompressible: '//kind//' elements of it are much too stiff', &
+                          found='nu = '//to_text(effective_ratio(model%materials(material))), mend=mend)
+      end subroutine warn
+
+   end subroutine warn_of_locking
+
+   !> Poisson's ratio of an isotropic solid of the same resistance to a change of
+   !> volume and, on the average, to shear
+   pure real(wp) function effective_ratio(material) result(ratio)
+      !> The material
+      type(solid_material_type), intent(in) :: material
+
+      real(wp) :: d(6, 6), bulk, shear
+
+      ratio = material%poisson
+      if (.not. material%orthotropic) return
+      d = elasticity(material)
+      bulk = sum(d(1:3, 1:3))/9.0_wp
+      shear = (d(4, 4) + d(5, 5) + d(6, 6))/3.0_wp
+      ratio = (3.0_wp*bulk - 2.0_wp*shear)/(6.0_wp*bulk + 2.0_wp*shear)
+   end function effective_ratio
+
+   !> Card of a material
+   pure integer function material_card(sections, material) result(card)
+      !> The deck
+      type(sections_type), intent(in) :: sections
+      !> The material: those of MATERIALS come first, then those of ORTHOTROPIC
+      integer, intent(in) :: material
+
+      associate (isotropic => sections%tables(section_materials), &
+                 orthotropic => sections%tables(section_orthotropic))
+         if (material <= isotropic%n) then
+            card = isotropic%cards(1, material)
+         else
+            card = orthotropic%cards(1, material - isotropic%n)
+         end if
+      end associate
+   end function material_card
+
+end module axijoint_deck_check_locking

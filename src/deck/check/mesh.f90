@@ -1,0 +1,273 @@
+!> The mesh as a whole: nodes without elements, nodes too near to each other,
+!> nodes on foreign edges, bodies that touch
+module axijoint_deck_check_mesh
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_sort, only : refine_order
+   use axijoint_base_text, only : to_text, count_of
+   use axijoint_deck_mesh_draft, only : draft_type, place_text
+   use axijoint_deck_mesh_edges, only : edge_table_type
+   use axijoint_deck_mesh_places, only : point_tree_type, points_near
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, add_warning
+   implicit none
+   private
+   public :: snap_to_axis, check_used, check_coincident, check_near, check_hanging, check_touching
+
+   !> Distance from the axis below which a node is put on it, in extents of the model
+   real(wp), parameter :: axis_tolerance = 1.0e-12_wp
+   !> Least distance of two nodes of a body, in lengths of their shortest edge
+   real(wp), parameter :: least_distance = 1.0e-3_wp
+   !> A node that hangs on an edge is nearer to it than this, in lengths of the shortest
+   !> edge of its elements
+   real(wp), parameter :: hanging_distance = 1.0e-3_wp
+   !> Room for neighbours of a point
+   integer, parameter :: most_near = 64
+
+contains
+
+   !> Put nodes on the axis that only rounding keeps off it
+   subroutine snap_to_axis(draft, diagnostics)
+      !> The mesh
+      type(draft_type), intent(inout) :: draft
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      integer :: node
+
+      do node = 1, draft%n_nodes
+         associate (r => draft%position(1, node))
+            if (.not. r > 0.0_wp .or. r > axis_tolerance*draft%extent) cycle
+            call add_warning(diagnostics, draft%node_card(node), 0, 0, &
+                             'node '//to_text(draft%node_label(node))//' is put on the axis', &
+                             found='r = '//to_text(r), mend='write r = 0')
+            r = 0.0_wp
+         end associate
+      end do
+   end subroutine snap_to_axis
+
+   !> Report nodes that no element uses
+   subroutine check_used(draft, diagnostics)
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      logical, allocatable :: used(:)
+      integer :: node, element
+
+      if (.not. draft%elements_complete) return
+      allocate (used(0:draft%n_nodes), source=.false.)
+      do element = 1, draft%n_elements
+         used(draft%element_nodes(:, element)) = .true.
+      end do
+      do node = 1, draft%n_nodes
+         if (used(node) .or. .not. draft%node_good(node)) cycle
+         call add_error(diagnostics, draft%node_card(node), 0, 0, &
+                        'node '//to_text(draft%node_label(node))//' is used by no element', &
+                        found=place_text(draft%position(:, node)), mend='remove it, or correct the elements')
+      end do
+   end subroutine check_used
+
+   !> Report nodes of one body at the same place
+   subroutine check_coincident(draft, group, diagnostics)
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> Number of each node's place
+      integer, intent(in) :: group(:)
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      integer, allocatable :: order(:)
+      integer :: i, first
+
+      call order_by_place(draft, group, order)
+      first = 1
+      do i = 2, size(order)
+         associate (a => order(first), b => order(i))
+            if (group(a) /= group(b) .or. draft%node_body(a) /= draft%node_body(b)) then
+               first = i
+            else if (draft%node_body(a) > 0 .and. all(draft%node_good([a, b]))) then
+               call add_error(diagnostics, draft%node_card(b), 0, 0, &
+                              'nodes '//to_text(draft%node_label(a))//' and '// &
+                              to_text(draft%node_label(b))//' of body '//to_text(draft%node_body(a))// &
+                              ' are at the same place', found=place_text(draft%position(:, b)), &
+                              allowed='nodes at one place in different bodies only', &
+                              mend='use one node, or give the elements on one side another body')
+            end if
+         end associate
+      end do
+   end subroutine check_coincident
+
+   !> Nodes by place, then body, then number
+   pure subroutine order_by_place(draft, group, order)
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> Number of each node's place
+      integer, intent(in) :: group(:)
+      !> The nodes
+      integer, allocatable, intent(out) :: order(:)
+
+      integer :: i
+
+      order = [(i, i=1, draft%n_nodes)]
+      call refine_order(order, draft%node_body(:draft%n_nodes))
+      call refine_order(order, group)
+   end subroutine order_by_place
+
+   !> Report nodes of one body that nearly coincide
+   subroutine check_near(draft, group, edges, tree, diagnostics)
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> Number of each node's place
+      integer, intent(in) :: group(:)
+      !> Edges
+      type(edge_table_type), intent(in) :: edges
+      !> All nodes
+      type(point_tree_type), intent(in) :: tree
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      real(wp), allocatable :: shortest(:)
+      integer :: node, i, other, n_found, found(most_near)
+
+      call shortest_edges(draft, edges, shortest)
+      do node = 1, draft%n_nodes
+         if (.not. draft%node_good(node) .or. shortest(node) >= huge(1.0_wp)) cycle
+         call points_near(tree, draft%position(:, node), least_distance*shortest(node), found, n_found)
+         do i = 1, n_found
+            other = found(i)
+            if (other >= node .or. group(other) == group(node) .or. .not. draft%node_good(other)) cycle
+            if (draft%node_body(other) /= draft%node_body(node)) cycle
+            call add_error(diagnostics, draft%node_card(node), 0, 0, &
+                           'nodes '//to_text(draft%node_label(other))//' and '// &
+                           to_text(draft%node_label(node))//' of body '//to_text(draft%node_body(node))// &
+                           ' nearly coincide', &
+                           found='a distance of '// &
+                           to_text(norm2(draft%position(:, node) - draft%position(:, other)))// &
+                           ', '//place_text(draft%position(:, node)), &
+                           allowed='at least 0.001 of the shortest edge there, '//to_text(shortest(node)))
+         end do
+      end do
+   end subroutine check_near
+
+   !> Length of the shortest edge of the elements at each node, those across from it
+   !> included (thin elements are no error); huge where there is none
+   pure subroutine shortest_edges(draft, edges, shortest)
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> Edges
+      type(edge_table_type), intent(in) :: edges
+      !> Lengths, shape (nodes)
+      real(wp), allocatable, intent(out) :: shortest(:)
+
+      real(wp), allocatable :: shortest_of(:)
+      integer :: i, k
+
+      allocate (shortest(draft%n_nodes), source=huge(1.0_wp))
+      allocate (shortest_of(draft%n_elements), source=huge(1.0_wp))
+      do i = 1, edges%n
+         associate (nodes => edges%nodes(:, i), least => shortest_of(edges%element(i)))
+            least = min(least, norm2(draft%position(:, nodes(2)) - draft%position(:, nodes(1))))
+         end associate
+      end do
+      do i = 1, edges%n
+         associate (nodes => edges%nodes(:, i))
+            do k = 1, count(nodes > 0)
+               shortest(nodes(k)) = min(shortest(nodes(k)), shortest_of(edges%element(i)))
+            end do
+         end associate
+      end do
+   end subroutine shortest_edges
+
+   !> Report nodes that lie on an outer edge of their body without being its nodes:
+   !> the mesh would gape there
+   subroutine check_hanging(draft, group, edges, tree, diagnostics)
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> Number of each node's place
+      integer, intent(in) :: group(:)
+      !> Edges
+      type(edge_table_type), intent(in) :: edges
+      !> All nodes
+      type(point_tree_type), intent(in) :: tree
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      real(wp), allocatable :: shortest(:)
+      real(wp) :: a(2), side(2), offset(2), length
+      integer :: i, k, n_found, found(most_near)
+
+      call shortest_edges(draft, edges, shortest)
+      do i = 1, edges%n
+         associate (nodes => edges%nodes(:, i))
+            if (edges%twin(i) /= 0 .or. .not. all(draft%node_good(nodes(:2)))) cycle
+            a = draft%position(:, nodes(1))
+            side = draft%position(:, nodes(2)) - a
+            length = norm2(side)
+            if (.not. length > 0.0_wp) cycle
+            call points_near(tree, a + 0.5_wp*side, 0.499_wp*length, found, n_found)
+            do k = 1, n_found
+               if (any(draft%element_nodes(:, edges%element(i)) == found(k))) cycle  ! its own, misplaced
+               if (.not. draft%node_good(found(k))) cycle
+               if (draft%node_body(found(k)) /= draft%node_body(nodes(1))) cycle
+               offset = (draft%position(:, found(k)) - a)/length
+               if (abs(offset(1)*side(2) - offset(2)*side(1)) > hanging_distance*shortest(nodes(1))) cycle
+               if (nodes(3) > 0) then
+                  if (group(nodes(3)) == group(found(k))) cycle  ! reported as coincident
+               end if
+               call add_error(diagnostics, draft%element_card(edges%element(i)), 0, 0, &
+                              'node '//to_text(draft%node_label(found(k)))//' lies on the edge '// &
+                              to_text(draft%node_label(nodes(1)))//'-'// &
+                              to_text(draft%node_label(nodes(2)))//' of element '// &
+                              to_text(draft%element_label(edges%element(i)))//' but is no node of it', &
+                              found=place_text(draft%position(:, found(k))), &
+                              allowed='neighbours in one body with the same nodes along their common side', &
+                              mend='divide both sides alike, or make them two bodies')
+               exit
+            end do
+         end associate
+      end do
+   end subroutine check_hanging
+
+   !> Warn of bodies that touch in nodes without a joint between them
+   subroutine check_touching(draft, group, diagnostics)
+      !> The mesh, joints included
+      type(draft_type), intent(in) :: draft
+      !> Number of each node's place
+      integer, intent(in) :: group(:)
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      logical, allocatable :: joined(:)
+      integer, allocatable :: order(:), pairs(:, :)
+      integer :: i, k, n
+
+      allocate (joined(0:draft%n_nodes), source=.false.)
+      do i = 1, draft%n_joints
+         joined(draft%joint_nodes(:, i)) = .true.
+      end do
+      call order_by_place(draft, group, order)
+      allocate (pairs(3, 0))
+      do i = 2, size(order)
+         associate (a => order(i - 1), b => order(i))
+            if (group(a) /= group(b) .or. draft%node_body(a) == draft%node_body(b)) cycle
+            if (draft%node_body(a) == 0 .or. all(joined([a, b]))) cycle
+            n = 0
+            do k = 1, size(pairs, 2)
+               if (all(pairs(:2, k) == draft%node_body([a, b]))) n = k
+            end do
+            if (n == 0) then
+               pairs = reshape([pairs, draft%node_body([a, b]), 0], [3, size(pairs, 2) + 1])
+               n = size(pairs, 2)
+            end if
+            pairs(3, n) = pairs(3, n) + 1
+         end associate
+      end do
+      do k = 1, size(pairs, 2)
+         call add_warning(diagnostics, 0, 0, 0, &
+                          'bodies '//to_text(pairs(1, k))//' and '//to_text(pairs(2, k))//' touch at '// &
+                          count_of(pairs(3, k), 'node')//' without a joint: they are not connected there', &
+                          mend='lay joints there by INTERFACES, or make them one body')
+      end do
+   end subroutine check_touching
+
+end module axijoint_deck_check_mesh

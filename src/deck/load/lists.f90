@@ -1,0 +1,221 @@
+!> Loads while they are being read
+module axijoint_deck_load_lists
+   use axijoint_base_kinds, only : wp
+   use axijoint_deck_load_modes, only : share_type, truncation_list_type
+   use axijoint_deck_mesh_draft, only : edge_type
+   use axijoint_fe_mode, only : mode_type, same_mode
+   use axijoint_model_load, only : edge_load_type, ring_load_type, body_load_type, &
+      thermal_load_type, prescribed_type, initial_stress_type, edge_support_type
+   use axijoint_model_model, only : model_type
+   implicit none
+   private
+   public :: load_lists_type, move_type, new_load_lists, take_loads
+   public :: add_tractions, add_ring_load, add_temperatures, add_move
+
+   !> A given displacement, and what its card says of it
+   type, extends(prescribed_type) :: move_type
+      !> The card
+      integer :: card = 0
+      !> Whether the component is held in the mode of the card only
+      logical :: only = .false.
+      !> Whether it is a card of nodes, not of a face
+      logical :: of_nodes = .false.
+   end type move_type
+
+   !> Loads; the arrays of `n_` may be longer than these counts
+   type :: load_lists_type
+      !> Nodes of the mesh
+      integer :: n_nodes = 0
+      !> Tractions on edges
+      type(edge_load_type), allocatable :: edge_loads(:)
+      integer :: n_edge_loads = 0
+      !> Loads on nodal circles
+      type(ring_load_type), allocatable :: ring_loads(:)
+      integer :: n_ring_loads = 0
+      !> Forces on masses
+      type(body_load_type), allocatable :: body_loads(:)
+      !> Temperatures, one entry for each case, mode and body
+      type(thermal_load_type), allocatable :: thermal_loads(:)
+      !> Displacements that are given, zeros too
+      type(move_type), allocatable :: moves(:)
+      integer :: n_moves = 0
+      !> In-situ stresses
+      type(initial_stress_type), allocatable :: initial_stresses(:)
+      !> Springs to the ground
+      type(edge_support_type), allocatable :: edge_supports(:)
+      !> What the harmonics leave of the loads
+      type(truncation_list_type) :: truncations
+   end type load_lists_type
+
+contains
+
+   !> Lists without loads
+   pure function new_load_lists(n_nodes) result(lists)
+      !> Number of nodes of the mesh
+      integer, intent(in) :: n_nodes
+      !> The lists
+      type(load_lists_type) :: lists
+
+      lists%n_nodes = n_nodes
+      allocate (lists%edge_loads(64), lists%ring_loads(64), lists%moves(64))
+      allocate (lists%body_loads(0), lists%thermal_loads(0), lists%initial_stresses(0))
+      allocate (lists%edge_supports(0))
+   end function new_load_lists
+
+   !> Add tractions on the edges of a face, in each mode its share
+   pure subroutine add_tractions(lists, case, edges, traction, shares)
+      !> The lists
+      type(load_lists_type), intent(inout) :: lists
+      !> Load case
+      integer, intent(in) :: case
+      !> Edges of the face
+      type(edge_type), intent(in) :: edges(:)
+      !> t_r, t_z, t_theta at the nodes of each edge, shape (3, 3, edges) [stress]
+      real(wp), intent(in) :: traction(:, :, :)
+      !> What each mode takes
+      type(share_type), intent(in) :: shares(:)
+
+      type(edge_load_type) :: load
+      integer :: i, k
+
+      do k = 1, size(shares)
+         do i = 1, size(edges)
+            load = edge_load_type(shares(k)%mode, case, edges(i)%nodes, &
+                                  spread(shares(k)%factor, 2, 3)*traction(:, :, i))
+            if (size(shares) > 1 .and. .not. any(abs(load%traction) > 0.0_wp)) cycle
+            call add_edge_load(lists, load)
+         end do
+      end do
+   end subroutine add_tractions
+
+   !> Add a traction on one edge
+   pure subroutine add_edge_load(lists, load)
+      !> The lists
+      type(load_lists_type), intent(inout) :: lists
+      !> The load
+      type(edge_load_type), intent(in) :: load
+
+      type(edge_load_type), allocatable :: larger(:)
+
+      if (lists%n_edge_loads == size(lists%edge_loads)) then
+         allocate (larger(2*lists%n_edge_loads))
+         larger(:lists%n_edge_loads) = lists%edge_loads
+         call move_alloc(larger, lists%edge_loads)
+      end if
+      lists%n_edge_loads = lists%n_edge_loads + 1
+      lists%edge_loads(lists%n_edge_loads) = load
+   end subroutine add_edge_load
+
+   !> Add a load on a nodal circle
+   pure subroutine add_ring_load(lists, load)
+      !> The lists
+      type(load_lists_type), intent(inout) :: lists
+      !> The load
+      type(ring_load_type), intent(in) :: load
+
+      type(ring_load_type), allocatable :: larger(:)
+
+      if (lists%n_ring_loads == size(lists%ring_loads)) then
+         allocate (larger(2*lists%n_ring_loads))
+         larger(:lists%n_ring_loads) = lists%ring_loads
+         call move_alloc(larger, lists%ring_loads)
+      end if
+      lists%n_ring_loads = lists%n_ring_loads + 1
+      lists%ring_loads(lists%n_ring_loads) = load
+   end subroutine add_ring_load
+
+   !> Add temperatures to those of the same case, mode and body
+   pure subroutine add_temperatures(lists, case, mode, body, nodes, temperature)
+      !> The lists
+      type(load_lists_type), intent(inout) :: lists
+      !> Load case
+      integer, intent(in) :: case
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> Body; 0 for all
+      integer, intent(in) :: body
+      !> Nodes, and their temperatures
+      integer, intent(in) :: nodes(:)
+      real(wp), intent(in) :: temperature(:)
+
+      integer :: k
+
+      do k = size(lists%thermal_loads), 1, -1
+         associate (other => lists%thermal_loads(k))
+            if (other%case == case .and. other%body == body .and. same_mode(other%mode, mode)) exit
+         end associate
+      end do
+      if (k == 0) then
+         call add_temperature_field(lists, case, mode, body)
+         k = size(lists%thermal_loads)
+      end if
+      associate (all_nodes => lists%thermal_loads(k)%temperature)
+         all_nodes(nodes) = all_nodes(nodes) + temperature
+      end associate
+   end subroutine add_temperatures
+
+   !> Add a temperature of zero. The others are moved, not copied: each has a value a node
+   pure subroutine add_temperature_field(lists, case, mode, body)
+      !> The lists
+      type(load_lists_type), intent(inout) :: lists
+      !> Load case
+      integer, intent(in) :: case
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> Body; 0 for all
+      integer, intent(in) :: body
+
+      type(thermal_load_type), allocatable :: larger(:)
+      integer :: k, n
+
+      n = size(lists%thermal_loads)
+      allocate (larger(n + 1))
+      do k = 1, n
+         larger(k)%mode = lists%thermal_loads(k)%mode
+         larger(k)%case = lists%thermal_loads(k)%case
+         larger(k)%body = lists%thermal_loads(k)%body
+         call move_alloc(lists%thermal_loads(k)%temperature, larger(k)%temperature)
+      end do
+      larger(n + 1)%mode = mode
+      larger(n + 1)%case = case
+      larger(n + 1)%body = body
+      allocate (larger(n + 1)%temperature(lists%n_nodes), source=0.0_wp)
+      call move_alloc(larger, lists%thermal_loads)
+   end subroutine add_temperature_field
+
+   !> Add a given displacement
+   pure subroutine add_move(lists, move)
+      !> The lists
+      type(load_lists_type), intent(inout) :: lists
+      !> The displacement; may be zero
+      type(move_type), intent(in) :: move
+
+      type(move_type), allocatable :: larger(:)
+
+      if (lists%n_moves == size(lists%moves)) then
+         allocate (larger(2*lists%n_moves))
+         larger(:lists%n_moves) = lists%moves
+         call move_alloc(larger, lists%moves)
+      end if
+      lists%n_moves = lists%n_moves + 1
+      lists%moves(lists%n_moves) = move
+   end subroutine add_move
+
+   !> Move the loads into the model; displacements are left to their check
+   pure subroutine take_loads(lists, model)
+      !> The lists
+      type(load_lists_type), intent(inout) :: lists
+      !> The job
+      type(model_type), intent(inout) :: model
+
+      model%edge_loads = lists%edge_loads(:lists%n_edge_loads)
+      model%ring_loads = lists%ring_loads(:lists%n_ring_loads)
+      call move_alloc(lists%body_loads, model%body_loads)
+      call move_alloc(lists%thermal_loads, model%thermal_loads)
+      call move_alloc(lists%initial_stresses, model%initial_stresses)
+      call move_alloc(lists%edge_supports, model%edge_supports)
+      allocate (model%truncations(lists%truncations%n))
+      if (lists%truncations%n > 0) model%truncations = lists%truncations%entries(:lists%truncations%n)
+   end subroutine take_loads
+
+end module axijoint_deck_load_lists

@@ -1,0 +1,236 @@
+!> Graded blocks of quadrilaterals or triangles
+module axijoint_deck_mesh_generate_blocks
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_sort, only : refine_order
+   use axijoint_deck_mesh_blocks, only : block_type, check_blocks, count_nodes, field_body, field_size, &
+      field_n1, field_n2, field_ratio1, field_ratio2
+   use axijoint_deck_mesh_draft, only : draft_type, add_node, add_element
+   use axijoint_deck_mesh_generate_lines, only : graded_fraction, between
+   use axijoint_deck_mesh_places, only : group_places, extent_of, same_place
+   use axijoint_deck_property_properties, only : properties_type
+   use axijoint_deck_text_diagnostics, only : diagnostics_type
+   use axijoint_deck_text_source, only : source_type
+   use axijoint_deck_text_table, only : table_type, integer_value
+   use axijoint_fe_shape, only : n_corners
+   implicit none
+   private
+   public :: draft_blocks
+
+   !> Places of an element's nodes on the grid of half elements, from its first corner
+   integer, parameter :: grid_1(9) = [0, 2, 2, 0, 1, 2, 1, 0, 1], grid_2(9) = [0, 0, 2, 2, 0, 1, 2, 1, 1]
+   !> Places among them of the nodes of the two triangles of a cell, cut from corner 1
+   !> to 3 or from 2 to 4, shape (nodes, triangles, cuts)
+   integer, parameter :: in_cell(6, 2, 2) = reshape([1, 2, 3, 5, 6, 9, 1, 3, 4, 9, 7, 8, &
+                                                     1, 2, 4, 5, 9, 8, 2, 3, 4, 6, 7, 9], [6, 2, 2])
+   !> Nodes of blocks before those at one place become one
+   type :: candidates_type
+      !> Number of them
+      integer :: n = 0
+      !> r and z
+      real(wp), allocatable :: position(:, :)
+      !> Body and card
+      integer, allocatable :: body(:), card(:)
+   end type candidates_type
+
+contains
+
+   !> Add the nodes and elements of the BLOCKS cards
+   subroutine draft_blocks(source, table, properties, draft, diagnostics)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> BLOCKS
+      type(table_type), intent(in) :: table
+      !> Materials
+      type(properties_type), intent(in) :: properties
+      !> The mesh
+      type(draft_type), intent(inout) :: draft
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      type(block_type), allocatable :: blocks(:)
+      type(candidates_type) :: candidates
+      integer :: i, n_before, label
+
+      call check_blocks(source, table, properties, draft, blocks, diagnostics)
+      call make_room(table, blocks, candidates)
+      n_before = draft%n_elements
+      label = maxval([0, draft%element_label(:n_before)])
+      do i = 1, size(blocks)
+         call fill_block(table, blocks(i), label, draft, candidates)
+      end do
+      call number_candidates(candidates, n_before, draft)
+   end subroutine draft_blocks
+
+   !> Room for the nodes of all blocks
+   pure subroutine make_room(table, blocks, candidates)
+      !> BLOCKS
+      type(table_type), intent(in) :: table
+      !> Sound blocks
+      type(block_type), intent(in) :: blocks(:)
+      !> The nodes
+      type(candidates_type), intent(out) :: candidates
+
+      integer :: i, total
+
+      total = 0
+      do i = 1, size(blocks)
+         total = total + int(count_nodes(table, blocks(i)%entry))
+      end do
+      allocate (candidates%position(2, total), candidates%body(total), candidates%card(total))
+   end subroutine make_room
+
+   !> Make the nodes and elements of a block. The elements refer to the nodes by
+   !> their place among the candidates, behind the nodes of the draft
+   pure subroutine fill_block(table, block, label, draft, candidates)
+      !> BLOCKS
+      type(table_type), intent(in) :: table
+      !> The block
+      type(block_type), intent(in) :: block
+      !> Number of the last element
+      integer, intent(inout) :: label
+      !> The mesh
+      type(draft_type), intent(inout) :: draft
+      !> Nodes of blocks
+      type(candidates_type), intent(inout) :: candidates
+
+      integer, allocatable :: node(:, :)
+      integer :: i, j, k, n, n1, n2, cell(9)
+
+      n = integer_value(table, field_size, block%entry)
+      n1 = integer_value(table, field_n1, block%entry)
+      n2 = integer_value(table, field_n2, block%entry)
+      allocate (node(0:2*n1, 0:2*n2), source=0)
+      do j = 0, 2*n2
+         do i = 0, 2*n1
+            if (n <= 4 .and. (mod(i, 2) == 1 .or. mod(j, 2) == 1)) cycle
+            if (n == 8 .and. mod(i, 2) == 1 .and. mod(j, 2) == 1) cycle
+            k = candidates%n + 1
+            candidates%n = k
+            candidates%position(:, k) = &
+               map_block(block%corners, half_grid(i, n1, table%values(field_ratio1, block%entry)), &
+                         half_grid(j, n2, table%values(field_ratio2, block%entry)))
+            candidates%body(k) = integer_value(table, field_body, block%entry)
+            candidates%card(k) = table%cards(1, block%entry)
+            node(i, j) = draft%n_nodes + k
+         end do
+      end do
+      do j = 0, n2 - 1
+         do i = 0, n1 - 1
+            cell = [(node(2*i + grid_1(k), 2*j + grid_2(k)), k=1, 9)]
+            call add_cell(table, block, n, cell, 1 + mod(i + j, 2), label, draft, candidates)
+         end do
+      end do
+   end subroutine fill_block
+
+   !> Add the quadrilateral or both triangles of a cell
+   pure subroutine add_cell(table, block, n, cell, cut, label, draft, candidates)
+      !> BLOCKS
+      type(table_type), intent(in) :: table
+      !> The block
+      type(block_type), intent(in) :: block
+      !> Nodes of an element
+      integer, intent(in) :: n
+      !> Nodes of the cell, behind the nodes of the draft by their place among the candidates
+      integer, intent(in) :: cell(9)
+      !> How triangles cut it: 1 from corner 1 to 3, 2 from corner 2 to 4
+      integer, intent(in) :: cut
+      !> Number of the last element
+      integer, intent(inout) :: label
+      !> The mesh
+      type(draft_type), intent(inout) :: draft
+      !> Nodes of blocks
+      type(candidates_type), intent(inout) :: candidates
+
+      integer :: i, body
+
+      body = integer_value(table, field_body, block%entry)
+      if (n_corners(n) == 4) then
+         label = label + 1
+         call add_element(draft, label, table%cards(1, block%entry), block%material, body, cell(:n))
+         return
+      end if
+      do i = 1, 2
+         label = label + 1
+         call add_element(draft, label, table%cards(1, block%entry), block%material, body, &
+                          cell(in_cell(:n, i, cut)))
+      end do
+      if (n == 6) then  ! the cut is straight
+         associate (x => candidates%position, k => cell - draft%n_nodes)
+            x(:, k(9)) = between(x(:, k(cut)), x(:, k(cut + 2)), 0.5_wp)
+         end associate
+      end if
+   end subroutine add_cell
+
+   !> Fraction of a side at a place of the grid of half elements: elements are
+   !> graded, middles halve them
+   pure real(wp) function half_grid(i, n, ratio) result(fraction)
+      !> Place, 0 to 2 n, and number of elements
+      integer, intent(in) :: i, n
+      !> Last to first element
+      real(wp), intent(in) :: ratio
+
+      fraction = 0.5_wp*(graded_fraction(i/2, n, ratio) + graded_fraction((i + 1)/2, n, ratio))
+   end function half_grid
+
+   !> Point of a block: straight lines between points of opposite sides
+   pure function map_block(corners, x, y) result(point)
+      !> Corners
+      real(wp), intent(in) :: corners(2, 4)
+      !> Fractions along sides 1-2 and 2-3
+      real(wp), intent(in) :: x, y
+      !> r and z
+      real(wp) :: point(2)
+
+      point = between(between(corners(:, 1), corners(:, 2), x), &
+                      between(corners(:, 4), corners(:, 3), x), y)
+   end function map_block
+
+   !> Let nodes of one body at one place become one, number the new ones and
+   !> give them to the elements
+   subroutine number_candidates(candidates, n_before, draft)
+      !> Nodes of blocks
+      type(candidates_type), intent(in) :: candidates
+      !> Elements that are no blocks'
+      integer, intent(in) :: n_before
+      !> The mesh
+      type(draft_type), intent(inout) :: draft
+
+      real(wp), allocatable :: position(:, :)
+      integer, allocatable :: body(:), group(:), order(:), first(:), node(:)
+      integer :: i, n, label
+
+      n = draft%n_nodes
+      allocate (position(2, n + candidates%n), body(n + candidates%n))
+      position(:, :n) = draft%position(:, :n)
+      position(:, n + 1:) = candidates%position
+      body(:n) = merge(draft%node_body(:n), 0, draft%node_good(:n))
+      body(n + 1:) = candidates%body
+      draft%extent = extent_of(position)
+      group = group_places(position, same_place*draft%extent)
+      order = [(i, i=1, size(group))]
+      call refine_order(order, group)
+      call refine_order(order, body)
+      first = [(i, i=1, size(group))]
+      do i = 2, size(order)
+         if (group(order(i)) == group(order(i - 1)) .and. body(order(i)) == body(order(i - 1))) then
+            first(order(i)) = first(order(i - 1))
+         end if
+      end do
+      node = [0, (i, i=1, size(group))]
+      label = maxval([0, draft%node_label(:n)])
+      do i = n + 1, size(group)
+         if (first(i) < i) then
+            node(i + 1) = node(first(i) + 1)
+         else
+            label = label + 1
+            call add_node(draft, label, candidates%card(i - n), candidates%position(:, i - n), .true.)
+            node(i + 1) = draft%n_nodes
+            draft%node_body(draft%n_nodes) = body(i)
+         end if
+      end do
+      do i = n_before + 1, draft%n_elements
+         draft%element_nodes(:, i) = node(draft%element_nodes(:, i) + 1)
+      end do
+   end subroutine number_candidates
+
+end module axijoint_deck_mesh_generate_blocks

@@ -1,0 +1,230 @@
+!> What may stand in a field of a card
+module axijoint_deck_text_field
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_text, only : to_text
+   implicit none
+   private
+   public :: field_type, integer_field, real_field, word_field, code_field, text_field
+   public :: allowed_text, in_range
+   public :: kind_integer, kind_real, kind_word, kind_code, kind_text
+   public :: largest_number, largest_real, smallest_real
+
+   !> Integer
+   integer, parameter :: kind_integer = 1
+   !> Real
+   integer, parameter :: kind_real = 2
+   !> One of some words; its value is the word's place among them
+   integer, parameter :: kind_word = 3
+   !> Three digits 0 or 1; its value is the digits read as a binary number
+   integer, parameter :: kind_code = 4
+
+   !> Any text; it has no value
+   integer, parameter :: kind_text = 5
+
+   !> Largest number of a node, an element, a material ...
+   integer, parameter :: largest_number = 999999999
+   !> Reals of larger or, unless 0, smaller magnitude are refused: powers and
+   !> quotients of them would leave the range of the machine
+   real(wp), parameter :: largest_real = 1.0e30_wp, smallest_real = 1.0e-30_wp
+
+   !> One field of the cards of a section
+   type :: field_type
+      !> Name in messages
+      character(len=40) :: name = ''
+      !> Card of an entry that has the field, if an entry has two
+      integer :: card = 1
+      !> First and last column on a fixed card
+      integer :: first = 0, last = 0
+      !> One of the `kind_` parameters
+      integer :: kind = kind_integer
+      !> Whether the field must not be blank
+      logical :: required = .true.
+      !> Value of a blank field
+      real(wp) :: default = 0.0_wp
+      !> Range of values
+      real(wp) :: low = 0.0_wp, high = 0.0_wp
+      !> Whether the ends of the range are outside
+      logical :: above_low = .false., below_high = .false.
+      !> Words to choose from
+      character(len=12) :: words(4) = ''
+      !> Symbol of a real in the text of its range
+      character(len=12) :: symbol = 'x'
+   end type field_type
+
+contains
+
+   !> An integer field
+   pure function integer_field(name, first, last, low, high, default) result(field)
+      !> Name
+      character(len=*), intent(in) :: name
+      !> Columns
+      integer, intent(in) :: first, last
+      !> Range
+      integer, intent(in) :: low, high
+      !> Value of a blank field; without it the field is required
+      integer, intent(in), optional :: default
+      !> The field
+      type(field_type) :: field
+
+      field%name = name
+      field%first = first
+      field%last = last
+      field%kind = kind_integer
+      field%low = real(low, wp)
+      field%high = real(high, wp)
+      field%required = .not. present(default)
+      if (present(default)) field%default = real(default, wp)
+   end function integer_field
+
+   !> A real field
+   pure function real_field(name, first, last, from, above, to, below, default, symbol) result(field)
+      !> Name
+      character(len=*), intent(in) :: name
+      !> Columns
+      integer, intent(in) :: first, last
+      !> Lower end of the range: allowed (from) or not (above)
+      real(wp), intent(in), optional :: from, above
+      !> Upper end of the range: allowed (to) or not (below)
+      real(wp), intent(in), optional :: to, below
+      !> Value of a blank field; without it the field is required
+      real(wp), intent(in), optional :: default
+      !> Symbol in the text of the range
+      character(len=*), intent(in), optional :: symbol
+      !> The field
+      type(field_type) :: field
+
+      field%name = name
+      field%first = first
+      field%last = last
+      field%kind = kind_real
+      field%low = -largest_real
+      field%high = largest_real
+      if (present(from)) field%low = from
+      if (present(above)) field%low = above
+      if (present(to)) field%high = to
+      if (present(below)) field%high = below
+      field%above_low = present(above)
+      field%below_high = present(below)
+      if (present(symbol)) field%symbol = symbol
+      field%required = .not. present(default)
+      if (present(default)) field%default = default
+   end function real_field
+
+   !> A field for one of some words
+   pure function word_field(name, first, last, words, default) result(field)
+      !> Name
+      character(len=*), intent(in) :: name
+      !> Columns
+      integer, intent(in) :: first, last
+      !> The words, two or three
+      character(len=*), intent(in) :: words(:)
+      !> Place of the word that a blank field means; without it the field is required
+      integer, intent(in), optional :: default
+      !> The field
+      type(field_type) :: field
+
+      field%name = name
+      field%first = first
+      field%last = last
+      field%kind = kind_word
+      field%words(:size(words)) = words
+      field%required = .not. present(default)
+      if (present(default)) field%default = real(default, wp)
+   end function word_field
+
+   !> A field for a code of three digits
+   pure function code_field(name, first, last) result(field)
+      !> Name
+      character(len=*), intent(in) :: name
+      !> Columns
+      integer, intent(in) :: first, last
+      !> The field
+      type(field_type) :: field
+
+      field%name = name
+      field%first = first
+      field%last = last
+      field%kind = kind_code
+   end function code_field
+
+   !> A field for any text
+   pure function text_field(name, first, last) result(field)
+      !> Name
+      character(len=*), intent(in) :: name
+      !> Columns
+      integer, intent(in) :: first, last
+      !> The field
+      type(field_type) :: field
+
+      field%name = name
+      field%first = first
+      field%last = last
+      field%kind = kind_text
+   end function text_field
+
+   !> Whether a value is in a field's range
+   pure logical function in_range(field, value)
+      !> The field
+      type(field_type), intent(in) :: field
+      !> The value
+      real(wp), intent(in) :: value
+
+      in_range = value >= field%low .and. value <= field%high
+      if (field%above_low) in_range = in_range .and. value > field%low
+      if (field%below_high) in_range = in_range .and. value < field%high
+   end function in_range
+
+   !> What may stand in a field, for messages
+   pure function allowed_text(field) result(text)
+      !> The field
+      type(field_type), intent(in) :: field
+      !> The text
+      character(len=:), allocatable :: text
+
+      integer :: i
+
+      select case (field%kind)
+      case (kind_integer)
+         text = 'an integer, '//to_text(nint(field%low))//' to '//to_text(nint(field%high))
+      case (kind_real)
+         text = range_text(field)
+      case (kind_word)
+         text = trim(field%words(1))
+         do i = 2, count(field%words /= '')
+            text = text//merge(', ', '  ', i < count(field%words /= ''))
+            if (i == count(field%words /= '')) text = trim(text)//' or '
+            text = text//trim(field%words(i))
+         end do
+      case (kind_text)
+         text = 'a text'
+      case default
+         text = 'three digits 0 (free) or 1 (fixed) for u, v and w, such as 110'
+      end select
+      if (.not. field%required) text = text//'; may be blank'
+   end function allowed_text
+
+   !> Range of a real field as an inequality, such as 0 <= nu < 0.5
+   pure function range_text(field) result(text)
+      !> The field
+      type(field_type), intent(in) :: field
+      !> The text
+      character(len=:), allocatable :: text
+
+      logical :: has_low, has_high
+
+      has_low = field%low > -largest_real
+      has_high = field%high < largest_real
+      text = trim(field%symbol)
+      if (has_low .and. has_high) then
+         text = to_text(field%low)//' '//trim(merge('< ', '<=', field%above_low))//' '//text
+      else if (has_low) then
+         text = text//' '//trim(merge('> ', '>=', field%above_low))//' '//to_text(field%low)
+      else if (.not. has_high) then
+         text = 'any number'
+      end if
+      if (has_high) then
+         text = text//' '//trim(merge('< ', '<=', field%below_high))//' '//to_text(field%high)
+      end if
+   end function range_text
+
+end module axijoint_deck_text_field

@@ -1,0 +1,341 @@
+!> Datasets and attributes of an open HDF5 file: every status of the library
+!> is checked, every handle is closed on every path
+module axijoint_output_file_hdf5_data
+   use, intrinsic :: iso_c_binding, only : c_ptr, c_loc, c_char
+   use axijoint_base_system, only : last_error, set_last_error
+   use hdf5, only : hid_t, hsize_t, size_t, h5screate_simple_f, h5screate_f, &
+      h5sclose_f, h5s_scalar_f, h5pcreate_f, &
+      h5pset_chunk_f, h5pset_shuffle_f, h5pset_deflate_f, h5pset_fletcher32_f, h5pclose_f, &
+      h5p_dataset_create_f, h5dcreate_f, h5dwrite_f, h5dclose_f, h5acreate_f, h5awrite_f, &
+      h5aclose_f, h5oopen_f, h5oclose_f, h5tcopy_f, h5tset_size_f, h5tset_cset_f, &
+      h5tset_strpad_f, h5tclose_f, h5t_cset_utf8_f, h5t_cset_ascii_f, h5t_str_nullpad_f, h5t_c_s1, &
+      h5zfilter_avail_f, h5z_filter_deflate_f
+   implicit none
+   private
+   public :: hdf5_failure_type, no_handle
+   public :: write_array, write_string, write_attribute, write_string_attribute
+   public :: make_space, make_properties, close_handles
+
+   !> A handle that is not open
+   integer(hid_t), parameter :: no_handle = -1_hid_t
+   !> Values of a chunk at most; about a megabyte of reals
+   integer(hsize_t), parameter :: chunk_values = 131072_hsize_t
+   !> Values from which an array is worth compressing, a megabyte of reals: a small job has a
+   !> hundred small arrays, and would spend a third of its time there
+   integer(hsize_t), parameter :: compressed_from = chunk_values
+   !> Effort of the compression, from 1 (fast) to 9
+   integer, parameter :: deflate_level = 1
+
+   !> The first failure of a file; nothing is done after it
+   type :: hdf5_failure_type
+      !> Whether something failed
+      logical :: failed = .false.
+      !> What was written or done
+      character(len=:), allocatable :: what
+      !> The system's error, zero if there was none
+      integer :: errno = 0
+   contains
+      !> Look at a status
+      procedure :: check
+   end type hdf5_failure_type
+
+contains
+
+   !> Keep the first failure, with the system's error if there is one
+   subroutine check(self, status, what, errno)
+      !> What failed first
+      class(hdf5_failure_type), intent(inout) :: self
+      !> Status that a call returned; negative for a failure
+      integer, intent(in) :: status
+      !> What was written or done
+      character(len=*), intent(in) :: what
+      !> The system's error, where it is not the last one
+      integer, intent(in), optional :: errno
+
+      if (status >= 0 .or. self%failed) return
+      self%failed = .true.
+      self%what = what
+      self%errno = last_error()
+      if (present(errno)) self%errno = errno
+   end subroutine check
+
+   !> Write an array with checksums, a large one compressed
+   subroutine write_array(file, name, file_type, memory_type, extent, values, failure)
+      !> Handle of the file
+      integer(hid_t), intent(in) :: file
+      !> Absolute path in the file
+      character(len=*), intent(in) :: name
+      !> Type of the values in the file and in memory
+      integer(hid_t), intent(in) :: file_type, memory_type
+      !> Extents of the array
+      integer(hsize_t), intent(in) :: extent(:)
+      !> The first value
+      type(c_ptr), intent(in) :: values
+      !> What failed first; nothing is done after a failure
+      type(hdf5_failure_type), intent(inout) :: failure
+
+      integer(hid_t) :: space, properties, dataset
+      integer :: status
+
+      if (failure%failed) return
+      space = no_handle; properties = no_handle; dataset = no_handle
+      call set_last_error(0)
+      call make_space(name, extent, space, failure)
+      call make_properties(name, extent, properties, failure)
+      if (.not. failure%failed) then
+         call h5dcreate_f(file, name, file_type, space, dataset, status, properties)
+         call failure%check(status, name)
+      end if
+      if (.not. failure%failed .and. product(extent) > 0_hsize_t) then
+         call h5dwrite_f(dataset, memory_type, values, status)
+         call failure%check(status, name)
+      end if
+      call close_handles(name, failure, dataset, properties, space)
+   end subroutine write_array
+
+   !> Write a text as a scalar dataset of fixed length, UTF-8
+   subroutine write_string(file, name, text, failure)
+      !> Handle of the file
+      integer(hid_t), intent(in) :: file
+      !> Absolute path in the file
+      character(len=*), intent(in) :: name
+      !> The text
+      character(len=*), intent(in) :: text
+      !> What failed first; nothing is done after a failure
+      type(hdf5_failure_type), intent(inout) :: failure
+
+      character(len=:, kind=c_char), allocatable, target :: copy
+      integer(hid_t) :: space, type, dataset
+      integer :: status
+
+      if (failure%failed) return
+      space = no_handle; type = no_handle; dataset = no_handle
+      copy = not_empty(text)
+      call set_last_error(0)
+      call h5screate_f(h5s_scalar_f, space, status)
+      call failure%check(status, name)
+      call make_text_type(len(copy), .false., type, name, failure)
+      if (.not. failure%failed) then
+         call h5dcreate_f(file, name, type, space, dataset, status)
+         call failure%check(status, name)
+      end if
+      if (.not. failure%failed) then
+         call h5dwrite_f(dataset, type, c_loc(copy), status)
+         call failure%check(status, name)
+      end if
+      call close_handles(name, failure, dataset=dataset, type=type, space=space)
+   end subroutine write_string
+
+   !> Attach a text to a group or dataset, fixed length
+   subroutine write_string_attribute(file, object, name, text, ascii, failure)
+      !> Handle of the file
+      integer(hid_t), intent(in) :: file
+      !> Absolute path of the group or dataset, and name of the attribute
+      character(len=*), intent(in) :: object, name
+      !> The text
+      character(len=*), intent(in) :: text
+      !> Whether to mark it as ASCII, else as UTF-8
+      logical, intent(in) :: ascii
+      !> What failed first; nothing is done after a failure
+      type(hdf5_failure_type), intent(inout) :: failure
+
+      character(len=:, kind=c_char), allocatable, target :: copy
+      integer(hid_t) :: type
+
+      if (failure%failed) return
+      copy = not_empty(text)
+      call set_last_error(0)
+      call make_text_type(len(copy), ascii, type, object, failure)
+      call write_attribute(file, object, name, type, type, c_loc(copy), failure)
+      call close_handles(object, failure, type=type)
+   end subroutine write_string_attribute
+
+   !> Make the space of an array
+   subroutine make_space(name, extent, space, failure)
+      !> Dataset, for the message
+      character(len=*), intent(in) :: name
+      !> Extents of the array
+      integer(hsize_t), intent(in) :: extent(:)
+      !> The space
+      integer(hid_t), intent(out) :: space
+      !> What failed first; nothing is done after a failure
+      type(hdf5_failure_type), intent(inout) :: failure
+
+      integer :: status
+
+      space = no_handle
+      if (failure%failed) return
+      call h5screate_simple_f(size(extent), extent, space, status)
+      call failure%check(status, name)
+   end subroutine make_space
+
+   !> Storage of an array: chunks with checksums, of large arrays compressed where the library
+   !> can. An empty array cannot be cut into chunks.
+   subroutine make_properties(name, extent, properties, failure)
+      !> Dataset, for the message
+      character(len=*), intent(in) :: name
+      !> Extents of what is written at once
+      integer(hsize_t), intent(in) :: extent(:)
+      !> The properties
+      integer(hid_t), intent(out) :: properties
+      !> What failed first; nothing is done after a failure
+      type(hdf5_failure_type), intent(inout) :: failure
+
+      logical :: can_deflate
+      integer :: status
+
+      properties = no_handle
+      if (failure%failed) return
+      call h5pcreate_f(h5p_dataset_create_f, properties, status)
+      call failure%check(status, name)
+      if (failure%failed .or. product(extent) == 0_hsize_t) return
+      call h5pset_chunk_f(properties, size(extent), chunk_extent(extent), status)
+      call failure%check(status, name)
+      call h5zfilter_avail_f(h5z_filter_deflate_f, can_deflate, status)
+      call failure%check(status, name)
+      if (can_deflate .and. product(extent) >= compressed_from) then
+         call h5pset_shuffle_f(properties, status)
+         call failure%check(status, name)
+         call h5pset_deflate_f(properties, deflate_level, status)
+         call failure%check(status, name)
+      end if
+      call h5pset_fletcher32_f(properties, status)
+      call failure%check(status, name)
+   end subroutine make_properties
+
+   !> Extents of a chunk: whole leading indices up to `chunk_values` values
+   pure function chunk_extent(extent) result(chunk)
+      !> Extents of the array, all positive
+      integer(hsize_t), intent(in) :: extent(:)
+      !> Extents of a chunk
+      integer(hsize_t) :: chunk(size(extent))
+
+      integer(hsize_t) :: room
+      integer :: i
+
+      room = chunk_values
+      do i = 1, size(extent)
+         chunk(i) = max(1_hsize_t, min(extent(i), room))
+         room = room/chunk(i)
+      end do
+   end function chunk_extent
+
+   !> Make the type of a text of fixed length
+   subroutine make_text_type(length, ascii, type, name, failure)
+      !> Bytes
+      integer, intent(in) :: length
+      !> Whether to mark it as ASCII, else as UTF-8
+      logical, intent(in) :: ascii
+      !> The type
+      integer(hid_t), intent(out) :: type
+      !> Object, for the message
+      character(len=*), intent(in) :: name
+      !> What failed first; nothing is done after a failure
+      type(hdf5_failure_type), intent(inout) :: failure
+
+      integer :: status
+
+      type = no_handle
+      if (failure%failed) return
+      call h5tcopy_f(h5t_c_s1, type, status)
+      call failure%check(status, name)
+      if (failure%failed) return
+      call h5tset_size_f(type, int(length, size_t), status)
+      call failure%check(status, name)
+      call h5tset_cset_f(type, merge(h5t_cset_ascii_f, h5t_cset_utf8_f, ascii), status)
+      call failure%check(status, name)
+      call h5tset_strpad_f(type, h5t_str_nullpad_f, status)
+      call failure%check(status, name)
+   end subroutine make_text_type
+
+   !> Attach a scalar, or a vector, to a group or dataset
+   subroutine write_attribute(file, object, name, file_type, memory_type, value, failure, length)
+      !> Handle of the file
+      integer(hid_t), intent(in) :: file
+      !> Absolute path of the group or dataset, and name of the attribute
+      character(len=*), intent(in) :: object, name
+      !> Type of the value in the file and in memory
+      integer(hid_t), intent(in) :: file_type, memory_type
+      !> The value
+      type(c_ptr), intent(in) :: value
+      !> What failed first; nothing is done after a failure
+      type(hdf5_failure_type), intent(inout) :: failure
+      !> Length of a vector
+      integer(hsize_t), intent(in), optional :: length
+
+      integer(hid_t) :: owner, space, attribute
+      integer :: status
+
+      if (failure%failed) return
+      owner = no_handle; space = no_handle; attribute = no_handle
+      call set_last_error(0)
+      if (present(length)) then
+         call h5screate_simple_f(1, [length], space, status)
+      else
+         call h5screate_f(h5s_scalar_f, space, status)
+      end if
+      call failure%check(status, object)
+      call h5oopen_f(file, object, owner, status)
+      call failure%check(status, object)
+      if (.not. failure%failed) then
+         call h5acreate_f(owner, name, file_type, space, attribute, status)
+         call failure%check(status, object)
+      end if
+      if (.not. failure%failed) then
+         call h5awrite_f(attribute, memory_type, value, status)
+         call failure%check(status, object)
+      end if
+      if (attribute >= 0) then
+         call h5aclose_f(attribute, status)
+         call failure%check(status, object)
+      end if
+      if (owner >= 0) then
+         call h5oclose_f(owner, status)
+         call failure%check(status, object)
+      end if
+      call close_handles(object, failure, space=space)
+   end subroutine write_attribute
+
+   !> Close the handles that are open
+   subroutine close_handles(name, failure, dataset, properties, space, type)
+      !> Object, for the message
+      character(len=*), intent(in) :: name
+      !> What failed first; handles are closed after a failure too
+      type(hdf5_failure_type), intent(inout) :: failure
+      !> Handles, `no_handle` if not open
+      integer(hid_t), intent(in), optional :: dataset, properties, space, type
+
+      integer :: status
+
+      status = 0
+      if (is_open(dataset)) call h5dclose_f(dataset, status)
+      call failure%check(status, name)
+      if (is_open(properties)) call h5pclose_f(properties, status)
+      call failure%check(status, name)
+      if (is_open(space)) call h5sclose_f(space, status)
+      call failure%check(status, name)
+      if (is_open(type)) call h5tclose_f(type, status)
+      call failure%check(status, name)
+   end subroutine close_handles
+
+   !> Whether a handle was given and is open
+   pure logical function is_open(handle)
+      !> The handle
+      integer(hid_t), intent(in), optional :: handle
+
+      is_open = .false.
+      if (present(handle)) is_open = handle >= 0
+   end function is_open
+
+   !> A text that takes at least one byte, as the library demands
+   pure function not_empty(text) result(copy)
+      !> Any text
+      character(len=*), intent(in) :: text
+      !> The text, or a blank
+      character(len=:, kind=c_char), allocatable :: copy
+
+      copy = text
+      if (len(text) == 0) copy = " "
+   end function not_empty
+
+end module axijoint_output_file_hdf5_data

@@ -1,0 +1,113 @@
+!> Datasets of an open HDF5 file that are written piece by piece along their last
+!> dimension, so that they need not be in memory as a whole
+module axijoint_output_file_hdf5_series
+   use, intrinsic :: iso_c_binding, only : c_ptr
+   use axijoint_base_system, only : set_last_error
+   use axijoint_output_file_hdf5_data, only : hdf5_failure_type, no_handle, make_space, make_properties, &
+      close_handles
+   use hdf5, only : hid_t, hsize_t, h5dcreate_f, h5dwrite_f, h5dget_space_f, h5s_select_set_f, &
+      h5sselect_hyperslab_f
+   implicit none
+   private
+   public :: hdf5_series_type, open_series, append_piece, close_series
+
+   !> A dataset under way
+   type :: hdf5_series_type
+      private
+      !> Absolute path in the file
+      character(len=:), allocatable :: name
+      !> Handle of the dataset
+      integer(hid_t) :: dataset = no_handle
+      !> Extents of the whole
+      integer(hsize_t), allocatable :: extent(:)
+      !> Extent along the last dimension that has been written
+      integer(hsize_t) :: filled = 0
+   end type hdf5_series_type
+
+contains
+
+   !> Make the dataset, without values
+   subroutine open_series(series, file, name, file_type, extent, failure)
+      !> The dataset
+      type(hdf5_series_type), intent(out) :: series
+      !> Handle of the file
+      integer(hid_t), intent(in) :: file
+      !> Absolute path in the file
+      character(len=*), intent(in) :: name
+      !> Type of the values in the file
+      integer(hid_t), intent(in) :: file_type
+      !> Extents of the whole
+      integer(hsize_t), intent(in) :: extent(:)
+      !> What failed first; nothing is done after a failure
+      type(hdf5_failure_type), intent(inout) :: failure
+
+      integer(hid_t) :: space, properties
+      integer :: status
+
+      series%name = name
+      series%extent = extent
+      if (failure%failed) return
+      call set_last_error(0)
+      call make_space(name, extent, space, failure)
+      call make_properties(name, extent, properties, failure)
+      if (.not. failure%failed) then
+         call h5dcreate_f(file, name, file_type, space, series%dataset, status, properties)
+         call failure%check(status, name)
+      end if
+      call close_handles(name, failure, properties=properties, space=space)
+   end subroutine open_series
+
+   !> Write the next piece
+   subroutine append_piece(series, memory_type, length, values, failure)
+      !> The dataset
+      type(hdf5_series_type), intent(inout) :: series
+      !> Type of the values in memory
+      integer(hid_t), intent(in) :: memory_type
+      !> Extent of the piece along the last dimension
+      integer(hsize_t), intent(in) :: length
+      !> The first value
+      type(c_ptr), intent(in) :: values
+      !> What failed first; nothing is done after a failure
+      type(hdf5_failure_type), intent(inout) :: failure
+
+      integer(hid_t) :: in_file, in_memory
+      integer(hsize_t), dimension(size(series%extent)) :: start, extent
+      integer :: status
+
+      if (failure%failed .or. length == 0) return
+      in_file = no_handle
+      extent = series%extent
+      extent(size(extent)) = length
+      start = 0
+      start(size(start)) = series%filled
+      call set_last_error(0)
+      call make_space(series%name, extent, in_memory, failure)
+      if (.not. failure%failed) then
+         call h5dget_space_f(series%dataset, in_file, status)
+         call failure%check(status, series%name)
+      end if
+      if (.not. failure%failed) then
+         call h5sselect_hyperslab_f(in_file, h5s_select_set_f, start, extent, status)
+         call failure%check(status, series%name)
+      end if
+      if (.not. failure%failed) then
+         call h5dwrite_f(series%dataset, memory_type, values, status, in_memory, in_file)
+         call failure%check(status, series%name)
+      end if
+      series%filled = series%filled + length
+      call close_handles(series%name, failure, space=in_memory)
+      call close_handles(series%name, failure, space=in_file)
+   end subroutine append_piece
+
+   !> Close the dataset. That it is full is for the caller to see to
+   subroutine close_series(series, failure)
+      !> The dataset
+      type(hdf5_series_type), intent(inout) :: series
+      !> What failed first; the handle is closed after a failure too
+      type(hdf5_failure_type), intent(inout) :: failure
+
+      call close_handles(series%name, failure, dataset=series%dataset)
+      series%dataset = no_handle
+   end subroutine close_series
+
+end module axijoint_output_file_hdf5_series

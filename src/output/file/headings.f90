@@ -1,0 +1,93 @@
+!> Headings of the listing
+module axijoint_output_file_headings
+   use axijoint_output_file_text, only : text_file_type
+   implicit none
+   private
+   public :: write_heading, write_result_heading, write_lines, rule, mark_not_converged, width
+
+   !> Columns of the listing
+   integer, parameter :: width = 132
+   !> Line across the listing
+   character(len=*), parameter :: rule = repeat("=", width)
+   !> Label of everything that is no equilibrium
+   character(len=*), parameter :: mark_not_converged = "*** NOT CONVERGED ***"
+
+contains
+
+   !> Heading of a table, underlined, after a blank line
+   subroutine write_heading(file, title)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Title
+      character(len=*), intent(in) :: title
+
+      call file%put("")
+      call file%put(title)
+      call file%put(repeat("-", len_trim(title)))
+   end subroutine write_heading
+
+   !> Heading of a table of results; says so if the run did not converge
+   subroutine write_result_heading(file, title, converged)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Title
+      character(len=*), intent(in) :: title
+      !> Whether the results are in equilibrium
+      logical, intent(in) :: converged
+
+      if (converged) then
+         call write_heading(file, title)
+      else
+         call write_heading(file, title//"   "//mark_not_converged)
+      end if
+   end subroutine write_result_heading
+
+   !> A text of one or more lines, each behind the same margin; long lines
+   !> go on in the next, cut before a character and not within one
+   subroutine write_lines(file, margin, text)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> What stands before the first line; blanks before the others
+      character(len=*), intent(in) :: margin
+      !> Lines parted by line ends
+      character(len=*), intent(in) :: text
+
+      integer :: first, last, ending
+      character(len=len(margin)) :: before
+
+      before = margin
+      first = 1
+      do
+         ending = index(text(first:), new_line("a"))
+         last = merge(first + ending - 2, len(text), ending > 0)
+         do while (last - first + 1 > width - len(margin))
+            call file%put(before//text(first:cut(text, first + width - len(margin) - 1)))
+            first = cut(text, first + width - len(margin) - 1) + 1
+            before = ""
+         end do
+         call file%put(before//text(first:last))
+         before = ""
+         if (ending == 0) return
+         first = last + 2
+      end do
+   end subroutine write_lines
+
+   !> Last byte not beyond `last` that ends a UTF-8 character
+   pure integer function cut(text, last)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> Byte that may stand at the end of a line, followed by others
+      integer, intent(in) :: last
+
+      integer :: back
+
+      cut = last
+      do back = 0, 3
+         if (iand(ichar(text(last - back + 1:last - back + 1)), 192) /= 128) then
+            cut = last - back
+            return
+         end if
+      end do
+   end function cut
+
+end module axijoint_output_file_headings

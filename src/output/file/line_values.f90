@@ -1,0 +1,98 @@
+!> Displacements and stresses at points of lines
+module axijoint_output_file_line_values
+   use axijoint_analysis_core_results, only : results_type
+   use axijoint_base_kinds, only : wp
+   use axijoint_fe_shape, only : shape_element
+   use axijoint_model_mesh, only : max_element_nodes
+   use axijoint_model_model, only : model_type
+   use axijoint_model_request, only : line_type, line_point_type
+   use axijoint_output_file_totals, only : circle_type, new_circle, total_displacement, total_stress
+   implicit none
+   private
+   public :: line_displacement, line_stress
+
+contains
+
+   !> Total displacements u, v, w at the points of a line: the shape functions of the
+   !> element that each point is in
+   pure function line_displacement(model, results, line, angle) result(total)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> The line
+      type(line_type), intent(in) :: line
+      !> theta [radian]
+      real(wp), intent(in) :: angle
+      !> The displacements, shape (3, points)
+      real(wp) :: total(3, size(line%points))
+
+      type(circle_type) :: circle
+      real(wp) :: shape(max_element_nodes), amplitude(3, size(results%modes))
+      integer :: k, i, n
+
+      circle = new_circle(results%modes, angle)
+      do k = 1, size(line%points)
+         associate (point => line%points(k))
+            call shape_at(model, point, shape, n)
+            amplitude = 0.0_wp
+            do i = 1, n
+               amplitude = amplitude &
+                  + shape(i)*results%displacement(:, model%mesh%element_nodes(i, point%element), :)
+            end do
+         end associate
+         total(:, k) = total_displacement(amplitude, circle)
+      end do
+   end function line_displacement
+
+   !> Total stresses at the points of a line: the stresses at the nodes, within the
+   !> material of the element that each point is in, by its shape functions
+   pure function line_stress(model, results, line, angle) result(total)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> The line
+      type(line_type), intent(in) :: line
+      !> theta [radian]
+      real(wp), intent(in) :: angle
+      !> The stresses, shape (6, points)
+      real(wp) :: total(6, size(line%points))
+
+      type(circle_type) :: circle
+      real(wp) :: shape(max_element_nodes), amplitude(6, size(results%modes))
+      integer :: k, i, n
+
+      circle = new_circle(results%modes, angle)
+      do k = 1, size(line%points)
+         associate (point => line%points(k))
+            call shape_at(model, point, shape, n)
+            amplitude = 0.0_wp
+            do i = 1, n
+               amplitude = amplitude &
+                  + shape(i)*results%nodal%amplitude(:, results%nodal%value_of(i, point%element), :)
+            end do
+         end associate
+         total(:, k) = total_stress(amplitude, circle)
+      end do
+   end function line_stress
+
+   !> Shape functions at a point
+   pure subroutine shape_at(model, point, shape, n)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The point
+      type(line_point_type), intent(in) :: point
+      !> Shape functions, the first n of which are in use
+      real(wp), intent(out) :: shape(max_element_nodes)
+      !> Nodes of the element
+      integer, intent(out) :: n
+
+      real(wp) :: derivative(2, max_element_nodes)
+
+      shape = 0.0_wp
+      n = model%mesh%element_size(point%element)
+      call shape_element(n, point%natural(1), point%natural(2), shape(:n), derivative(:, :n))
+   end subroutine shape_at
+
+end module axijoint_output_file_line_values

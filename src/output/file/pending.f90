@@ -1,0 +1,102 @@
+!> Files that appear under their final name only when they are complete: a
+!> temporary name in the same directory, then one rename
+module axijoint_output_file_pending
+   use axijoint_base_error, only : error_type, fatal_error, exit_io
+   use axijoint_base_system, only : process_id, rename_path, sync_path, unlink_path, error_text
+   implicit none
+   private
+   public :: temporary_path, publish, discard, sync_names, join_path, io_error
+
+contains
+
+   !> Name under which a file is written until it is complete. It holds the
+   !> number of the process, so two runs never write the same file.
+   function temporary_path(path) result(temporary)
+      !> Final path
+      character(len=*), intent(in) :: path
+      !> Path in the same directory
+      character(len=:), allocatable :: temporary
+
+      character(len=12) :: process
+
+      write (process, '(i0)') process_id()
+      temporary = path//"."//trim(process)//".tmp"
+   end function temporary_path
+
+   !> Give the complete file its final name, replacing an earlier file
+   subroutine publish(path, error)
+      !> Final path
+      character(len=*), intent(in) :: path
+      !> The rename failed; the earlier file stands
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: errno
+
+      call rename_path(temporary_path(path), path, errno)
+      if (errno /= 0) call io_error(error, "give its final name to", path, errno)
+   end subroutine publish
+
+   !> Remove the temporary file if there is one
+   subroutine discard(path)
+      !> Final path
+      character(len=*), intent(in) :: path
+
+      integer :: errno
+
+      call unlink_path(temporary_path(path), errno)
+   end subroutine discard
+
+   !> Bring the names in a directory to the disk. The files stand complete
+   !> without it; that their names survive a power cut is worth an attempt, but
+   !> not every file system allows it, so a failure is passed over.
+   subroutine sync_names(directory)
+      !> The directory; empty for the current one
+      character(len=*), intent(in) :: directory
+
+      integer :: errno
+
+      call sync_path(join_path(directory, "."), errno)
+   end subroutine sync_names
+
+   !> Path of a file in a directory
+   pure function join_path(directory, name) result(path)
+      !> Directory; empty for the current one
+      character(len=*), intent(in) :: directory
+      !> Name of the file
+      character(len=*), intent(in) :: name
+      !> Path of the file
+      character(len=:), allocatable :: path
+
+      integer :: length
+
+      length = len_trim(directory)
+      if (length == 0) then
+         path = name
+      else if (directory(length:length) == "/") then
+         path = directory(:length)//name
+      else
+         path = directory(:length)//"/"//name
+      end if
+   end function join_path
+
+   !> Make the error of a file that could not be written
+   subroutine io_error(error, action, path, errno)
+      !> The new error
+      type(error_type), allocatable, intent(out) :: error
+      !> What failed, such as "write"
+      character(len=*), intent(in) :: action
+      !> Final path of the file
+      character(len=*), intent(in) :: path
+      !> The system's error, zero if it is not known
+      integer, intent(in) :: errno
+
+      character(len=:), allocatable :: cause
+
+      cause = "the system gives no cause"
+      if (errno /= 0) cause = error_text(errno)
+      call fatal_error(error, exit_io, "cannot "//action//" "//path//": "//cause//new_line("a")// &
+         "mend: make room and allow writing there, or choose another directory with -o; "// &
+         "an earlier file of this name is left as it was")
+   end subroutine io_error
+
+end module axijoint_output_file_pending

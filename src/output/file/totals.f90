@@ -1,0 +1,156 @@
+!> Sums of harmonics at an angle, and the extreme values of a run
+module axijoint_output_file_totals
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use axijoint_analysis_core_results, only : results_type
+   use axijoint_base_kinds, only : wp, pi
+   use axijoint_element_joint_law, only : eta
+   use axijoint_fe_mode, only : mode_type, meridional, circumferential, family_symmetric
+   implicit none
+   private
+   public :: circle_type, new_circle, total_displacement, total_stress, n_unknowns
+   public :: peak_type, largest_displacement, largest_pressure, count_states
+
+   !> Intervals of the circle in the search for the largest displacement
+   integer, parameter :: search_intervals = 72
+
+   !> Factors of all modes at one angle
+   type :: circle_type
+      !> The angle [radian]
+      real(wp) :: angle = 0.0_wp
+      !> Of r and z components, and of theta components, in the order of the results
+      real(wp), allocatable :: meridional(:), circumferential(:)
+   end type circle_type
+
+   !> An extreme value and where it stands
+   type :: peak_type
+      !> The value; negative if there is none
+      real(wp) :: value = -1.0_wp
+      !> Index of the node or joint point; 0 if there is none
+      integer :: place = 0
+      !> Angle theta [radian]
+      real(wp) :: angle = 0.0_wp
+   end type peak_type
+
+contains
+
+   !> Factors of all modes at an angle. What is zero but for rounding, as
+   !> cos(pi/2), is zero.
+   pure function new_circle(modes, angle) result(circle)
+      !> The modes
+      type(mode_type), intent(in) :: modes(:)
+      !> Angle [radian]
+      real(wp), intent(in) :: angle
+      !> The factors
+      type(circle_type) :: circle
+
+      circle%angle = angle
+      circle%meridional = without_rounding(meridional(modes, angle), modes%harmonic)
+      circle%circumferential = without_rounding(circumferential(modes, angle), modes%harmonic)
+   end function new_circle
+
+   !> Zero for what lies within the rounding of the angle m theta
+   elemental real(wp) function without_rounding(value, harmonic) result(clean)
+      !> Cosine or sine
+      real(wp), intent(in) :: value
+      !> Harmonic m
+      integer, intent(in) :: harmonic
+
+      clean = value
+      if (abs(value) < 4.0_wp*real(max(1, harmonic), wp)*epsilon(1.0_wp)) clean = 0.0_wp
+   end function without_rounding
+
+   !> Displacement u, v, w at an angle (Eq. 1)
+   pure function total_displacement(amplitude, circle) result(total)
+      !> Amplitudes, shape (3, modes)
+      real(wp), intent(in) :: amplitude(:, :)
+      !> The angle
+      type(circle_type), intent(in) :: circle
+      !> u, v, w
+      real(wp) :: total(3)
+
+      total(1:2) = matmul(amplitude(1:2, :), circle%meridional)
+      total(3) = dot_product(amplitude(3, :), circle%circumferential)
+   end function total_displacement
+
+   !> Stress r, z, theta, rz, r-theta, z-theta at an angle
+   pure function total_stress(amplitude, circle) result(total)
+      !> Amplitudes, shape (6, modes)
+      real(wp), intent(in) :: amplitude(:, :)
+      !> The angle
+      type(circle_type), intent(in) :: circle
+      !> Six stresses
+      real(wp) :: total(6)
+
+      total(1:4) = matmul(amplitude(1:4, :), circle%meridional)
+      total(5:6) = matmul(amplitude(5:6, :), circle%circumferential)
+   end function total_stress
+
+   !> Number of unknowns of all modes together
+   pure integer function n_unknowns(results)
+      !> Results
+      type(results_type), intent(in) :: results
+      n_unknowns = sum(results%solves%n_equations)
+   end function n_unknowns
+
+   !> Largest length of the displacement vector at steps of 5 degrees. A node
+   !> whose amplitudes together stay below the largest found is passed over,
+   !> and one that has no finite displacement.
+   pure function largest_displacement(results) result(peak)
+      !> Results
+      type(results_type), intent(in) :: results
+      !> Length, node, angle
+      type(peak_type) :: peak
+
+      type(circle_type) :: circles(0:search_intervals)
+      real(wp) :: length
+      integer :: node, i, last
+
+      last = search_intervals
+      if (all(results%modes%family == family_symmetric)) last = search_intervals/2
+      do i = 0, last
+         circles(i) = new_circle(results%modes, 2.0_wp*pi*real(i, wp)/real(search_intervals, wp))
+      end do
+      do node = 1, size(results%displacement, 2)
+         associate (amplitude => results%displacement(:, node, :))
+            if (.not. all(ieee_is_finite(amplitude))) cycle
+            if (norm2(sum(abs(amplitude), dim=2)) <= peak%value) cycle
+            do i = 0, last
+               length = norm2(total_displacement(amplitude, circles(i)))
+               if (length > peak%value) peak = peak_type(length, node, circles(i)%angle)
+            end do
+         end associate
+      end do
+   end function largest_displacement
+
+   !> Largest pressure -sigma of the joint points; its value is negative if
+   !> there is no joint or all joints are in tension
+   pure function largest_pressure(results) result(peak)
+      !> Results
+      type(results_type), intent(in) :: results
+      !> Pressure, joint point, angle
+      type(peak_type) :: peak
+
+      integer :: point, plane
+
+      do plane = 1, size(results%joint_stress, 3)
+         do point = 1, size(results%joint_stress, 2)
+            associate (pressure => -results%joint_stress(eta, point, plane))
+               if (.not. ieee_is_finite(pressure)) cycle
+               if (pressure > peak%value .or. peak%place == 0) then
+                  peak = peak_type(pressure, point, results%plane_angles(plane))
+               end if
+            end associate
+         end do
+      end do
+   end function largest_pressure
+
+   !> Number of joint points times planes in a state
+   pure integer function count_states(results, state)
+      !> Results
+      type(results_type), intent(in) :: results
+      !> One of the `state_` parameters
+      integer, intent(in) :: state
+      count_states = count(results%joint_state == state)
+   end function count_states
+
+end module axijoint_output_file_totals

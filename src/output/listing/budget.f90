@@ -1,0 +1,231 @@
+!> What the listing says about approximations: what was left out without any error, and
+!> the error that each of the others leaves
+module axijoint_output_listing_budget
+   use axijoint_analysis_core_results, only : results_type, error_share_type
+   use axijoint_analysis_error_budget, only : sum_of_shares, is_known
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_text, only : to_text
+   use axijoint_model_model, only : model_type
+   use axijoint_output_file_columns, only : columns
+   use axijoint_output_file_headings, only : write_heading, write_result_heading
+   use axijoint_output_file_text, only : text_file_type
+   implicit none
+   private
+   public :: write_left_out, write_budget, write_singular, singular_text, write_rounds, sum_text, remedy_text
+
+   !> Columns of a value
+   integer, parameter :: wide = 15
+
+contains
+
+   !> What was not modelled
+   subroutine write_left_out(file, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Results
+      type(results_type), intent(in) :: results
+
+      integer :: i
+
+      if (.not. allocated(results%left_out)) return
+      if (size(results%left_out) == 0) return
+      call write_heading(file, "LEFT OUT (exact: zero, or like something else)")
+      do i = 1, size(results%left_out)
+         call file%put("  "//results%left_out(i)%text)
+      end do
+   end subroutine write_left_out
+
+   !> Approximations side by side, and the largest
+   subroutine write_budget(file, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Results
+      type(results_type), intent(in) :: results
+
+      integer :: i
+
+      if (.not. allocated(results%budget)) return
+      call write_result_heading(file, "ERROR BUDGET (estimates; relative, - not known)", results%converged)
+      call file%put("  left by           energy norm   displacement   joint stress           load")
+      do i = 1, size(results%budget)
+         call file%put(share_line(results%budget(i)))
+      end do
+      call file%put(share_line(sum_of_shares(results%budget)))
+      call file%put("  "//sum_text(results))
+      if (len(remedy_text(results%budget)) > 0) call file%put("  about half with "//remedy_text(results%budget))
+   end subroutine write_budget
+
+   !> A share as a line of the table
+   pure function share_line(share) result(line)
+      !> The share
+      type(error_share_type), intent(in) :: share
+      !> The line
+      character(len=:), allocatable :: line
+
+      line = "  "//share%source//value_text(share%energy)//value_text(share%displacement)// &
+             value_text(share%joint_stress)//value_text(share%load)
+   end function share_line
+
+   !> Rounds of refinement; no times, which differ from run to run
+   subroutine write_rounds(file, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Results
+      type(results_type), intent(in) :: results
+
+      character(len=*), parameter :: format_round = "(i10, f13.2, i8, i12, i10, i14)"
+      character(len=67) :: line
+      integer :: i
+
+      if (.not. allocated(results%rounds)) return
+      call write_heading(file, "ROUNDS OF REFINEMENT")
+      call file%put("     round   elements x   nodes           M    planes      unknowns          error")
+      do i = 1, size(results%rounds)
+         associate (round => results%rounds(i))
+            write (line, format_round) i, round%mesh, round%nodes, round%harmonic, round%planes, round%n_unknowns
+            call file%put(line//value_text(round%error))
+         end associate
+      end do
+   end subroutine write_rounds
+
+   !> A value in its columns
+   pure function value_text(value) result(text)
+      !> Relative value, negative if not known
+      real(wp), intent(in) :: value
+      !> The text
+      character(len=wide) :: text
+
+      text = repeat(" ", wide - 1)//"-"
+      if (value >= 0.0_wp) text = columns([value], wide)
+   end function value_text
+
+   !> Where stresses are infinite
+   subroutine write_singular(file, model, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+
+      character(len=*), parameter :: format_place = "(i10, 2es15.5, f13.3)"
+      character(len=53) :: line
+      integer :: i
+
+      if (.not. has_singular(results)) return
+      call write_heading(file, "INFINITE STRESSES (they go like a power of the distance)")
+      call file%put("      node              r              z        power   not judged within")
+      do i = 1, size(results%singular)
+         associate (place => results%singular(i))
+            write (line, format_place) model%mesh%node_label(place%node), model%mesh%coordinates(:, place%node), place%exponent
+            if (place%distance > 0.0_wp) then
+               call file%put(line//"   "//to_text(place%distance))
+            else
+               call file%put(line)
+            end if
+         end associate
+      end do
+   end subroutine write_singular
+
+   !> Whether stresses are infinite somewhere
+   pure logical function has_singular(results) result(has)
+      !> Results
+      type(results_type), intent(in) :: results
+
+      has = .false.
+      if (allocated(results%singular)) has = size(results%singular) > 0
+   end function has_singular
+
+   !> How many places have infinite stresses, and where they grow fastest; empty if none has
+   pure function singular_text(model, results) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> A sentence
+      character(len=:), allocatable :: text
+
+      character(len=6) :: power
+
+      text = ""
+      if (.not. has_singular(results)) return
+      associate (place => results%singular(minloc(results%singular%exponent, 1)))
+         write (power, "(f6.2)") place%exponent
+         text = "at "//to_text(size(results%singular))//" nodes; like distance^"//trim(adjustl(power))// &
+                " at node "//to_text(model%mesh%node_label(place%node))//" (r = "// &
+                to_text(model%mesh%coordinates(1, place%node))//", z = "// &
+                to_text(model%mesh%coordinates(2, place%node))//")"
+      end associate
+   end function singular_text
+
+   !> Displacement and joint stress in all, each with what leaves most of it
+   pure function sum_text(results) result(text)
+      !> Results with a budget
+      type(results_type), intent(in) :: results
+      !> A sentence
+      character(len=:), allocatable :: text
+
+      type(error_share_type) :: total
+
+      total = sum_of_shares(results%budget)
+      text = "nothing that is known leaves an error"
+      if (max(total%displacement, total%joint_stress) <= 0.0_wp) return
+      associate (budget => results%budget)
+         text = "displacement "//quantity_text(budget, (budget%displacement), total%displacement)
+         if (total%joint_stress < 0.0_wp) return
+         text = text//"; joint stress "//quantity_text(budget, (budget%joint_stress), total%joint_stress)
+      end associate
+      if (.not. has_singular(results)) return
+      if (any(results%singular%distance > 0.0_wp)) text = text//", away from infinite ones"
+   end function sum_text
+
+   !> A quantity in all, and its largest source
+   pure function quantity_text(budget, shares, total) result(text)
+      !> The budget
+      type(error_share_type), intent(in) :: budget(:)
+      !> Its shares of the quantity, and their sum
+      real(wp), intent(in) :: shares(:), total
+      !> Such as 4.62 %, most by discretization (2.31 %)
+      character(len=:), allocatable :: text
+
+      text = percent(total)
+      if (.not. is_known(budget, shares)) text = "at least "//text
+      if (total > 0.0_wp) then
+         associate (most => maxloc(shares, 1))
+            text = text//", most by "//trim(budget(most)%source)//" ("//percent(shares(most))//")"
+         end associate
+      end if
+   end function quantity_text
+
+   !> What would halve the largest shares of displacement and of joint stress; empty if there are none
+   pure function remedy_text(budget) result(text)
+      !> The budget
+      type(error_share_type), intent(in) :: budget(:)
+      !> The words
+      character(len=:), allocatable :: text
+
+      integer :: place(2)
+
+      text = ""
+      place = [maxloc(budget%displacement, 1), maxloc(budget%joint_stress, 1)]
+      if (budget(place(1))%displacement > 0.0_wp) text = budget(place(1))%remedy
+      if (.not. budget(place(2))%joint_stress > 0.0_wp .or. place(1) == place(2)) return
+      if (len(text) > 0) text = text//"; "
+      text = text//budget(place(2))%remedy
+   end function remedy_text
+
+   !> A share in per cent, two digits
+   pure function percent(value) result(text)
+      !> The share
+      real(wp), intent(in) :: value
+      !> Such as 0.12 %
+      character(len=:), allocatable :: text
+
+      character(len=12) :: number
+
+      write (number, '(es8.1)') 100.0_wp*value
+      if (100.0_wp*value >= 0.01_wp .and. value < 10.0_wp) write (number, '(f12.2)') 100.0_wp*value
+      text = trim(adjustl(number))//" %"
+   end function percent
+
+end module axijoint_output_listing_budget

@@ -1,0 +1,135 @@
+!> The listing: the job as understood and its results, in tables
+module axijoint_output_listing_contents
+   use axijoint_analysis_core_results, only : results_type
+   use axijoint_base_text, only : to_text
+   use axijoint_base_timer, only : timer_type
+   use axijoint_base_version, only : program_name, program_version
+   use axijoint_deck_text_source, only : source_type
+   use axijoint_model_model, only : model_type
+   use axijoint_output_file_echo, only : write_echo
+   use axijoint_output_file_headings, only : write_lines, rule, mark_not_converged
+   use axijoint_output_file_run, only : run_type
+   use axijoint_output_file_text, only : text_file_type
+   use axijoint_output_listing_budget, only : write_left_out, write_budget, write_singular, write_rounds
+   use axijoint_output_listing_loads, only : write_loads, write_truncations, write_supports, &
+      write_combinations
+   use axijoint_output_listing_mesh, only : write_nodes, write_restraints, write_elements, write_joints
+   use axijoint_output_listing_model, only : write_warnings, write_model, write_materials, &
+      write_joint_materials, write_increments
+   use axijoint_output_listing_sections, only : write_sections, write_cuts
+   use axijoint_output_listing_solution, only : write_equations, write_convergence, &
+      write_displacements, write_total_displacements, write_reactions, write_equilibrium, &
+      write_times, convergence_text
+   use axijoint_output_listing_stress, only : write_stresses, write_nodal_stresses, &
+      write_joint_results
+   use axijoint_output_listing_sweep, only : picture_type, write_pictures
+   use axijoint_output_table_face_reactions, only : write_face_reactions
+   use axijoint_output_table_in_situ, only : write_in_situ
+   use axijoint_output_table_joint_proportion, only : write_proportions
+   use axijoint_output_table_residuals, only : write_residuals
+   implicit none
+   private
+   public :: write_listing
+
+contains
+
+   !> All tables in order
+   subroutine write_listing(file, run, source, warnings, model, results, timer, pictures)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Name tags of the run
+      type(run_type), intent(in) :: run
+      !> Cards of the deck
+      type(source_type), intent(in) :: source
+      !> Warnings of the deck
+      character(len=*), intent(in) :: warnings(:)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> Times of the run
+      type(timer_type), intent(in) :: timer
+      !> Files of the swept bodies
+      type(picture_type), intent(in) :: pictures(:)
+
+      call write_header(file, run, model, results)
+      call write_echo(file, source)
+      call write_warnings(file, warnings)
+
+      call write_model(file, model)
+      call write_materials(file, model)
+      call write_joint_materials(file, model)
+      call write_proportions(file, model)
+      call write_nodes(file, model)
+      call write_restraints(file, model)
+      call write_elements(file, model)
+      call write_joints(file, model)
+      call write_supports(file, model)
+      call write_loads(file, model)
+      call write_truncations(file, model)
+      call write_combinations(file, model)
+      call write_increments(file, model)
+
+      call write_in_situ(file, model, results%in_situ)
+      call write_equations(file, results)
+      call write_left_out(file, results)
+      call write_convergence(file, model%method, results)
+      call write_residuals(file, results)
+      call write_displacements(file, model, results)
+      call write_total_displacements(file, model, results)
+      call write_stresses(file, model, results)
+      call write_nodal_stresses(file, model, results)
+      call write_joint_results(file, model, results)
+      call write_sections(file, model, results)
+      call write_cuts(file, model, results)
+      call write_reactions(file, model, results)
+      call write_face_reactions(file, model, results)
+      call write_equilibrium(file, model, results)
+      call write_budget(file, results)
+      call write_singular(file, model, results)
+      call write_rounds(file, results)
+      call write_pictures(file, size(results%states), pictures)
+      call write_times(file, results, timer)
+      call write_end(file, results)
+   end subroutine write_listing
+
+   !> Program, deck, date, status
+   subroutine write_header(file, run, model, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Name tags of the run
+      type(run_type), intent(in) :: run
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+
+      call file%put(rule)
+      call file%put(program_name//" "//program_version// &
+         "   Fourier finite element analysis of axisymmetric bodies with joints")
+      call write_lines(file, "title   ", model%title)
+      call write_lines(file, "deck    ", run%deck)
+      if (results%combination > 0) call file%put("loads   combination "//to_text(results%combination))
+      call file%put("date    "//run%date)
+      call file%put("run     "//run%stamp)
+      call write_lines(file, "status  ", convergence_text(results))
+      call file%put(rule)
+   end subroutine write_header
+
+   !> Last line: the listing is whole, and whether it converged
+   subroutine write_end(file, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Results
+      type(results_type), intent(in) :: results
+
+      call file%put("")
+      call file%put(rule)
+      if (results%converged) then
+         call file%put("END OF LISTING")
+      else
+         call file%put("END OF LISTING   "//mark_not_converged)
+      end if
+   end subroutine write_end
+
+end module axijoint_output_listing_contents

@@ -1,0 +1,136 @@
+!> Tables of the listing that show the mesh
+module axijoint_output_listing_mesh
+   use axijoint_base_text, only : to_text
+   use axijoint_fe_mode, only : family_symmetric
+   use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
+   use axijoint_model_model, only : model_type
+   use axijoint_model_restraint, only : restraint_type, any_family
+   use axijoint_output_file_columns, only : columns
+   use axijoint_output_file_headings, only : write_heading, width
+   use axijoint_output_file_text, only : text_file_type
+   implicit none
+   private
+   public :: write_nodes, write_restraints, write_elements, write_joints
+
+   !> Number of an entry
+   character(len=*), parameter :: format_label = '(i10)'
+   !> Restraints of a node
+   character(len=*), parameter :: format_restraint = '(3x, 3i1)'
+   !> Element: number, material, body, nodes
+   character(len=*), parameter :: format_element = '(3i10, 4x, 9i10)'
+   !> Joint: number, law, nodes
+   character(len=*), parameter :: format_joint = '(2i10, 4x, 6i10)'
+   !> Columns of a coordinate
+   integer, parameter :: narrow = 14
+
+contains
+
+   !> Nodes with their restraints
+   subroutine write_nodes(file, model)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+
+      character(len=10) :: label
+      character(len=6) :: code
+      integer :: i
+
+      call write_heading(file, "NODES (fixed components u v w: 1)")
+      call file%put("      node             r             z   uvw")
+      do i = 1, n_nodes(model%mesh)
+         write (label, format_label) model%mesh%node_label(i)
+         code = ""
+         if (any(model%fixed(:, i))) write (code, format_restraint) merge(1, 0, model%fixed(:, i))
+         call file%put(label//columns(model%mesh%coordinates(:, i), narrow)//code)
+      end do
+   end subroutine write_nodes
+
+   !> Restraints that hold in some modes only
+   subroutine write_restraints(file, model)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+
+      character(len=16) :: row
+      integer :: k, i
+
+      if (.not. allocated(model%restraints)) return
+      if (size(model%restraints) == 0) return
+      call write_heading(file, "RESTRAINTS IN SOME HARMONICS (fixed components u v w: 1)")
+      call file%put("      node   uvw   harmonics")
+      do k = 1, size(model%restraints)
+         associate (restraint => model%restraints(k))
+            do i = 1, n_nodes(model%mesh)
+               if (.not. any(restraint%held(:, i))) cycle
+               write (row, '(i10, 3x, 3i1)') model%mesh%node_label(i), merge(1, 0, restraint%held(:, i))
+               call file%put(row//"   "//range_text(restraint))
+            end do
+         end associate
+      end do
+   end subroutine write_restraints
+
+   !> Harmonics and family of a restraint in words
+   pure function range_text(restraint) result(text)
+      !> The restraint
+      type(restraint_type), intent(in) :: restraint
+      !> The words
+      character(len=:), allocatable :: text
+
+      text = "all"
+      if (restraint%last < huge(0)) then
+         text = to_text(restraint%first)
+         if (restraint%last > restraint%first) text = text//" to "//to_text(restraint%last)
+      end if
+      if (restraint%family /= any_family) then
+         text = text//trim(merge(" symmetric    ", " antisymmetric", restraint%family == family_symmetric))
+      end if
+   end function range_text
+
+   !> Elements
+   subroutine write_elements(file, model)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+
+      character(len=width) :: line
+      integer :: i
+
+      call write_heading(file, "ELEMENTS (corners counterclockwise, mid-sides, centre)")
+      call file%put("   element  material      body         nodes")
+      associate (mesh => model%mesh)
+         do i = 1, n_elements(mesh)
+            write (line, format_element) mesh%element_label(i), &
+               model%materials(mesh%element_material(i))%label, mesh%element_body(i), &
+               mesh%node_label(mesh%element_nodes(:mesh%element_size(i), i))
+            call file%put(line)
+         end do
+      end associate
+   end subroutine write_elements
+
+   !> Joints
+   subroutine write_joints(file, model)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+
+      character(len=width) :: line
+      integer :: i
+
+      if (n_joints(model%mesh) == 0) return
+      call write_heading(file, "JOINTS (side 1-2, side 4-3 opposite, mid-sides 5 and 6)")
+      call file%put("     joint       law         nodes 1-4 (1-6)")
+      associate (mesh => model%mesh)
+         do i = 1, n_joints(mesh)
+            write (line, format_joint) mesh%joint_label(i), &
+               model%joint_materials(mesh%joint_material(i))%label, &
+               mesh%node_label(mesh%joint_nodes(:mesh%joint_size(i), i))
+            call file%put(line)
+         end do
+      end associate
+   end subroutine write_joints
+
+end module axijoint_output_listing_mesh

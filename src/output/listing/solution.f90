@@ -1,0 +1,332 @@
+!> Tables of the listing that show equations, convergence, displacements,
+!> reactions and equilibrium
+module axijoint_output_listing_solution
+   use axijoint_analysis_core_results, only : results_type, n_resultants, torque
+   use axijoint_base_kinds, only : wp, degree
+   use axijoint_base_system, only : peak_memory_mb
+   use axijoint_base_text, only : to_text
+   use axijoint_base_timer, only : timer_type, n_phases, phase_names, phase_total
+   use axijoint_fe_mode, only : mode_type, mode_name, family_symmetric
+   use axijoint_model_model, only : model_type, method_transfer
+   use axijoint_output_file_columns, only : columns
+   use axijoint_output_file_headings, only : write_heading, write_result_heading, mark_not_converged
+   use axijoint_output_file_text, only : text_file_type
+   use axijoint_output_file_totals, only : circle_type, new_circle, total_displacement, n_unknowns
+   use axijoint_solver_choice, only : solver_names, order_name
+   implicit none
+   private
+   public :: write_equations, write_convergence, write_displacements, write_total_displacements
+   public :: write_reactions, write_equilibrium, write_times, convergence_text
+
+   !> Number of an entry
+   character(len=*), parameter :: format_label = '(i10)'
+   !> Harmonic and family, number of equations, entries of the factor
+   character(len=*), parameter :: format_equations = '(i10, 1x, a1, i14, i16)'
+   !> Increment and iteration
+   character(len=*), parameter :: format_iteration = '(2i12)'
+   !> Name of an order, its half-bandwidth, profile and fill
+   character(len=*), parameter :: format_order = '(2x, a22, i10, 2i16)'
+   !> Node that stands for a part
+   character(len=*), parameter :: format_part = '(i16)'
+   !> Points that slip and that are open
+   character(len=*), parameter :: format_states = '(2i12)'
+   !> Phase, its wall clock and processor time, its share
+   character(len=*), parameter :: format_time = '(2x, a, t14, 2f14.3, f12.1)'
+   !> Time of the error estimates, part of the phases above
+   character(len=*), parameter :: format_estimates = '(2x, "estimates", t14, f14.3, "  (part of joints and recover)")'
+   !> Memory
+   character(len=*), parameter :: format_memory = '(2x, a, t14, f14.1, a)'
+   !> Columns of coordinates and of results
+   integer, parameter :: narrow = 13, wide = 15
+
+   !> Names of the resultants, in the order of the results
+   character(len=34), parameter :: resultant_names(n_resultants) = [character(len=34) :: &
+      "axial force (along z)", "lateral force (along theta = 0)", &
+      "moment (lifts theta = 0)", "torque (about z)", "lateral force (along theta = 90)", &
+      "moment (lifts theta = 90)"]
+
+contains
+
+   !> How the equations of each harmonic were solved
+   subroutine write_equations(file, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Results
+      type(results_type), intent(in) :: results
+
+      character(len=42) :: numbers
+      character(len=66) :: order
+      integer :: i
+
+      call write_heading(file, "EQUATIONS ("//to_text(n_unknowns(results))//" unknowns in all)")
+      call file%put("  solver: "//trim(solver_names(results%solver))//", nodes ordered by "// &
+         order_name(results%solver))
+      call file%put("  order of the nodes       bandwidth         profile            fill")
+      do i = 1, size(results%orderings)
+         associate (ordering => results%orderings(i))
+            write (order, format_order) ordering%name, ordering%bandwidth, ordering%profile, ordering%fill
+            call file%put(order)
+         end associate
+      end do
+      call file%put("  harmonic       equations  factor entries smallest pivot backward error      condition")
+      do i = 1, size(results%solves)
+         associate (solve => results%solves(i))
+            write (numbers, format_equations) solve%mode%harmonic, family_letter(solve%mode), solve%n_equations, &
+               solve%factor_entries
+            call file%put(numbers//columns([solve%smallest_pivot, solve%backward_error, &
+               solve%condition], wide))
+         end associate
+      end do
+   end subroutine write_equations
+
+   !> Convergence path (Fig. 17), and how it ended
+   subroutine write_convergence(file, method, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> How joints were brought to equilibrium, one of the `method_` parameters
+      integer, intent(in) :: method
+      !> Results
+      type(results_type), intent(in) :: results
+
+      character(len=24) :: steps, states
+      integer :: i
+
+      call write_result_heading(file, "CONVERGENCE PATH", results%converged)
+      if (size(results%path) > 0) then
+         call file%put("  ("//to_text(size(results%joint_state))// &
+            " states: joint points times planes)")
+         call file%put("   increment   iteration    load factor residual ratio        slip"// &
+            "        open")
+      end if
+      do i = 1, size(results%path)
+         associate (step => results%path(i))
+            write (steps, format_iteration) step%increment, step%iteration
+            write (states, format_states) step%n_slip, step%n_open
+            call file%put(steps//columns([step%load_factor, step%ratio], wide)//states)
+         end associate
+      end do
+      call file%put("  "//convergence_text(results))
+      if (.not. results%other_loop >= 0.0_wp) return
+      if (method == method_transfer) then
+         call file%put("  joint stresses differ by up to "//to_text(100.0_wp*results%other_loop)// &
+            " % of the largest from equilibrium on total relative displacements (NEWTON)")
+      else
+         call file%put("  the paper's loop to its tolerance of 3 % would leave joint stresses up to "// &
+            to_text(100.0_wp*results%other_loop)//" % of the largest wrong")
+      end if
+   end subroutine write_convergence
+
+   !> How the iteration ended, in a sentence
+   pure function convergence_text(results) result(text)
+      !> Results
+      type(results_type), intent(in) :: results
+      !> The sentence
+      character(len=:), allocatable :: text
+
+      character(len=:), allocatable :: ratio, tolerance
+
+      ratio = to_text(results%residual_ratio)
+      tolerance = to_text(results%tolerance)
+      if (.not. results%converged .and. size(results%path) == 0) then
+         text = mark_not_converged//" linear job: residual ratio "//ratio//" above "//tolerance// &
+            ": its equations are ill-conditioned"
+      else if (allocated(results%mechanism)) then
+         text = mark_not_converged//" after "//to_text(size(results%path))// &
+            " iterations: a mechanism; results are those of the last equilibrium, residual ratio "//ratio
+      else if (.not. results%converged) then
+         text = mark_not_converged//" residual ratio "//ratio//", tolerance "//tolerance// &
+            ", after "//to_text(size(results%path))//" iterations: these results are no equilibrium"
+      else if (size(results%path) == 0) then
+         text = "linear job, no joint can yield: no iterations; residual ratio "//ratio
+      else
+         text = "converged in "//to_text(size(results%path))//" iterations: residual ratio "// &
+            ratio//" within the tolerance "//tolerance
+      end if
+   end function convergence_text
+
+   !> Displacement amplitudes of each harmonic
+   subroutine write_displacements(file, model, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+
+      integer :: i, node
+
+      do i = 1, size(results%modes)
+         call write_result_heading(file, "DISPLACEMENT AMPLITUDES, harmonic "// &
+            mode_name(results%modes(i))//" ("//factors_text(results%modes(i))//")", results%converged)
+         call file%put("      node            r            z              u              v"// &
+            "              w")
+         do node = 1, size(results%displacement, 2)
+            call write_node(file, model, node, results%displacement(:, node, i))
+         end do
+      end do
+   end subroutine write_displacements
+
+   !> Sums of all harmonics at the angles of the deck
+   subroutine write_total_displacements(file, model, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+
+      type(circle_type) :: circle
+      integer :: i, node
+
+      do i = 1, size(model%output_angles)
+         circle = new_circle(results%modes, model%output_angles(i))
+         call write_result_heading(file, "TOTAL DISPLACEMENTS, theta = "// &
+            to_text(circle%angle/degree)//" degrees", results%converged)
+         call file%put("      node            r            z              u              v"// &
+            "              w")
+         do node = 1, size(results%displacement, 2)
+            call write_node(file, model, node, &
+               total_displacement(results%displacement(:, node, :), circle))
+         end do
+      end do
+   end subroutine write_total_displacements
+
+   !> Reactions of the restrained nodes for each harmonic
+   subroutine write_reactions(file, model, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+
+      integer :: i, node
+
+      do i = 1, size(results%modes)
+         call write_result_heading(file, "REACTIONS, harmonic "//mode_name(results%modes(i))// &
+            " (work over the circle on unit amplitudes)", results%converged)
+         call file%put("      node            r            z            R_u            R_v"// &
+            "            R_w")
+         do node = 1, size(results%reaction, 2)
+            if (.not. any(model%fixed(:, node) .or. abs(results%reaction(:, node, i)) > 0.0_wp)) cycle
+            call write_node(file, model, node, results%reaction(:, node, i))
+         end do
+      end do
+   end subroutine write_reactions
+
+   !> Applied and reacted resultants
+   subroutine write_equilibrium(file, model, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+
+      character(len=16) :: node
+      integer :: i
+
+      call write_result_heading(file, "EQUILIBRIUM", results%converged)
+      call file%put("                                            applied        reacted            sum")
+      do i = 1, n_shown(results)
+         call file%put("  "//resultant_names(i)//columns([results%applied(i), results%reacted(i), &
+            results%applied(i) + results%reacted(i)], wide))
+      end do
+      call file%put("  equilibrium error (largest sum over the resultants of the loads)"// &
+         columns([results%equilibrium_error], wide))
+      if (size(results%part_node) < 2) return
+      call file%put("")
+      call file%put("  forces on each part that nothing balances: the joints' share of the residual")
+      if (n_shown(results) == torque) then
+         call file%put("  part with node      axial force  lateral force         moment         torque")
+      else
+         call file%put("  part with node      axial force  lateral force         moment         torque"// &
+            "  lateral at 90   moment at 90")
+      end if
+      do i = 1, size(results%part_node)
+         write (node, format_part) model%mesh%node_label(results%part_node(i))
+         call file%put(node//columns(results%part_unbalance(:n_shown(results), i), wide))
+      end do
+      call file%put("  largest of these over the resultants of the loads"// &
+         columns([results%part_error], wide))
+   end subroutine write_equilibrium
+
+   !> Where the time went, and the memory
+   subroutine write_times(file, results, timer)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Results, with the times of their error estimates
+      type(results_type), intent(in) :: results
+      !> Times of the run
+      type(timer_type), intent(in) :: timer
+
+      character(len=80) :: line
+      real(wp) :: seconds(n_phases), total
+      integer :: phase
+
+      seconds = [(timer%seconds(phase), phase=1, n_phases)]
+      total = max(seconds(phase_total), tiny(total))
+      call write_heading(file, "TIMES (writing: up to here)")
+      call file%put("                     seconds  processor s           %")
+      do phase = 1, n_phases
+         write (line, format_time) phase_names(phase), seconds(phase), &
+            timer%cpu_seconds(phase), 100.0_wp*seconds(phase)/total
+         call file%put(line)
+      end do
+      if (allocated(results%budget)) then
+         write (line, format_estimates) sum(results%budget%seconds)
+         call file%put(line)
+      end if
+      write (line, format_memory) "peak memory", peak_memory_mb(), " MB"
+      call file%put(line)
+   end subroutine write_times
+
+   !> Line of a node: number, r, z, three components
+   subroutine write_node(file, model, node, components)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Index of the node
+      integer, intent(in) :: node
+      !> Along r, z, theta
+      real(wp), intent(in) :: components(3)
+
+      character(len=10) :: label
+
+      write (label, format_label) model%mesh%node_label(node)
+      call file%put(label//columns(model%mesh%coordinates(:, node), narrow)// &
+         columns(components, wide))
+   end subroutine write_node
+
+   !> Resultants worth showing: those along theta = 90 only if a load or a
+   !> displacement is antisymmetric
+   pure integer function n_shown(results)
+      !> Results
+      type(results_type), intent(in) :: results
+
+      n_shown = merge(torque, n_resultants, all(results%modes%family == family_symmetric))
+   end function n_shown
+
+   !> S or A
+   pure function family_letter(mode) result(letter)
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> The letter
+      character(len=1) :: letter
+
+      letter = merge("S", "A", mode%family == family_symmetric)
+   end function family_letter
+
+   !> What the components of a mode are multiplied by
+   pure function factors_text(mode) result(text)
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> The words
+      character(len=:), allocatable :: text
+
+      text = "u, v ~ cos, w ~ sin"
+      if (mode%family /= family_symmetric) text = "u, v ~ sin, w ~ -cos"
+   end function factors_text
+
+end module axijoint_output_listing_solution
