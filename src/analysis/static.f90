@@ -19,7 +19,6 @@ module axijoint_analysis_static
    use axijoint_analysis_fine_difference, only : difference_type, new_difference
    use axijoint_analysis_fine_level, only : new_fine_load
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type, new_mesh_error
-   use axijoint_assembly_force, only : elastic_joint_stress
    use axijoint_assembly_loading, only : new_loading
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
@@ -27,15 +26,15 @@ module axijoint_analysis_static
    use axijoint_base_timer, only : timer_type, phase_factor, phase_joints, phase_recover
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_floating, only : add_motions
-   use axijoint_joints_increments, only : history_type, run_increments, final_factors, &
-                                          loads_of_increments, compare_loops, balance_again
+   use axijoint_joints_history, only : history_type
+   use axijoint_joints_increments, only : run_increments, compare_loops
+   use axijoint_joints_load_steps, only : final_factors, loads_of_increments
    use axijoint_joints_planes, only : planes_type, new_view, on_all
-   use axijoint_joints_residual, only : strictest_type, strictest
-   use axijoint_joints_scene, only : mismatch_of, stand_where_they_are
+   use axijoint_joints_scene, only : stand_where_they_are
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type
-   use axijoint_model_model, only : model_type, method_transfer
+   use axijoint_model_model, only : model_type
    implicit none
    private
    public :: analyse_model, analyse_combination
@@ -111,7 +110,7 @@ contains
       call smooth_stress(model, results)
       call estimate_discretization(model, structure, history%loading, field, history%largest_stress, mesh_error, results)
       call cut_resultants(model, structure, history%loading, field, results)
-      if (size(field%offset) > 0) call add_motions(structure%scene%floating, field%offset, results%displacement)
+      if (size(field%offset) > 0) call add_motions(structure%condensed%floating, field%offset, results%displacement)
       results%converged = results%converged .and. max(results%residual_ratio, results%mismatch) &
          <= results%tolerance
       if (results%converged) then
@@ -147,54 +146,51 @@ contains
       !> Singular stiffness, or out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      type(joint_field_type) :: yielding
       type(joint_field_type), allocatable :: other
       real(wp) :: factor_share
 
-      structure%scene%model => model
-      structure%scene%equations => structure%equations
-      structure%scene%method = model%method
-      call run_increments(structure%scene, structure%joint_points, structure%support_points, &
-                          combination, yielding, history, progress)
+      call run_increments(model, structure%equations, structure%condensed, structure%joint_points, &
+                          structure%support_points, combination, history, progress)
       if (allocated(history%failure)) then
          error = history%failure
          return
       end if
       results%converged = history%verdict%converged
-      call stand_where_they_are(structure%scene, yielding)
-      call compare_loops(structure%scene, history, yielding, results%other_loop, other)
+      results%accumulated = history%method%accumulates
+      call stand_where_they_are(structure%condensed, history%scene, history%field)
+      call compare_loops(model, structure%condensed, history, results%other_loop, other)
       results%path = history%path
       results%states = [history%states, last_state(history)]
       results%tolerance = model%increments(size(model%increments))%tolerance
       allocate (results%displacement, mold=history%loading%right)
       if (allocated(history%runaway)) then
          call solve_displacements(structure%equations, model, history%loading, &
-                                  structure%scene%points, history%runaway, results%displacement, &
+                                  structure%condensed%points, history%runaway, results%displacement, &
                                   results%solves, factor_share, error)
          if (allocated(error)) return
          results%mechanism = mechanism_text(model, history%reached, results)
       end if
       if (allocated(history%motion)) then
          results%displacement = 0.0_wp
-         call add_motions(structure%scene%floating, history%motion, results%displacement)
+         call add_motions(structure%condensed%floating, history%motion, results%displacement)
          results%mechanism = mechanism_text(model, history%reached, results)
       end if
-      call solve_displacements(structure%equations, model, history%loading, structure%scene%points, &
-                               yielding%excess, results%displacement, results%solves, factor_share, &
+      call solve_displacements(structure%equations, model, history%loading, structure%condensed%points, &
+                               history%field%excess, results%displacement, results%solves, factor_share, &
                                error)
       if (allocated(error)) return
-      call correct_rounding(model, structure, history, yielding, results, error)
+      call correct_rounding(model, structure, history, results, error)
       if (allocated(error)) return
-      call keep_claim(model, structure, history, yielding, results, error)
+      call keep_claim(model, structure, history, results, error)
       if (allocated(error)) return
       results%residuals = history%residuals
-      results%residual_part_node = model%mesh%node_label(structure%scene%measure%part_node)
+      results%residual_part_node = model%mesh%node_label(structure%condensed%measure%part_node)
       call name_idle_motions(model, structure, history, results)
-      call estimate_yielding_errors(structure, history, yielding, other, results, mesh_error)
+      call estimate_yielding_errors(structure, history, other, results, mesh_error)
       results%plane_angles = structure%planes%angle
       call elastic_field(model, structure, structure%planes, history%loading%case_factor, &
                          results%displacement, field)
-      associate (yield => structure%yielding, planes => structure%scene%planes)
+      associate (yield => structure%yielding, planes => history%scene%planes, yielding => history%field)
          field%jump(:, yield, :) = on_all(planes, yielding%jump)
          field%stress(:, yield, :) = on_all(planes, yielding%stress)
          field%state(yield, :) = yielding%state(:, planes%place)
@@ -223,7 +219,7 @@ contains
       allocate (motion, mold=results%displacement)
       do k = 1, size(history%verdict%mechanism%idle, 2)
          motion = 0.0_wp
-         call add_motions(structure%scene%floating, history%verdict%mechanism%idle(:, k), motion)
+         call add_motions(structure%condensed%floating, history%verdict%mechanism%idle(:, k), motion)
          name = motion_text(model%mesh, results%modes, motion)
          results%idle = [results%idle, name]
       end do

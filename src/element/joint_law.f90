@@ -4,7 +4,7 @@ module axijoint_element_joint_law
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: joint_law_type, memory_type, admit_stress, trial_stress, admit, renew, state_of, lost_at_opening
+   public :: joint_law_type, memory_type, admit_stress, trial_stress, admit, renew, state_of, lost_at_opening, cuts_back
    public :: law_elastic, law_paper, slip_components, slip_resultant, opening_reversible, opening_bond
    public :: state_stick, state_slip, state_open
    public :: xi, eta, theta
@@ -71,6 +71,15 @@ module axijoint_element_joint_law
    end type memory_type
 
 contains
+
+   !> Whether the stress admitted is the trial stress, cut back: then it may be accumulated over iterations, as in the
+   !> paper. A law whose stress follows from the whole jump in another way must be iterated on total jumps
+   elemental logical function cuts_back(law)
+      !> Properties of the joint
+      type(joint_law_type), intent(in) :: law
+
+      cuts_back = law%kind == law_elastic .or. law%kind == law_paper
+   end function cuts_back
 
    !> Stress admitted by a point that has no memory
    pure function admit_stress(law, trial) result(stress)

@@ -3,6 +3,7 @@
 module axijoint_joints_approach
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : xi, eta, theta
+   use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, trial_of
    use axijoint_joints_mechanism, only : mechanism_type, find_mechanism
    use axijoint_joints_planes, only : synthesize, analyse
@@ -19,8 +20,10 @@ module axijoint_joints_approach
 contains
 
    !> Move the parts that joints do not hold under load until they do
-   subroutine approach(scene, sticking, before, field, residual, moved)
-      !> The scene
+   subroutine approach(condensed, scene, sticking, before, field, residual, moved)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> Whether points with any friction or cohesion count as sticking where they touch
       logical, intent(in) :: sticking
@@ -39,22 +42,24 @@ contains
       integer :: contact
 
       moved = .false.
-      do contact = 0, most_contacts*size(scene%floating)
-         call find_mechanism(scene, field, sticking, mechanism)
+      do contact = 0, most_contacts*size(condensed%floating)
+         call find_mechanism(condensed, scene, field, sticking, mechanism)
          if (.not. mechanism%loaded) return
-         jump = synthesize(scene%planes, motion_of(scene, mechanism%motion))
-         way = way_to_contact(scene, field, jump)
+         jump = synthesize(scene%planes, motion_of(condensed, scene, mechanism%motion))
+         way = way_to_contact(condensed, scene, field, jump)
          if (.not. way < huge(way)) return
          moved = .true.
          field%offset = field%offset + way*mechanism%motion
-         call stand_free(scene, way*jump, before, field)
-         call evaluate(scene, field, residual)
+         call stand_free(condensed, scene, way*jump, before, field)
+         call evaluate(condensed, scene, field, residual)
       end do
    end subroutine approach
 
    !> How far a motion goes until a point that stands open is pressed a little; the largest number if none is
-   function way_to_contact(scene, field, jump) result(way)
-      !> The scene
+   function way_to_contact(condensed, scene, field, jump) result(way)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> State of the joints
       type(joint_field_type), intent(in) :: field
@@ -67,12 +72,12 @@ contains
       integer :: j, k
 
       way = huge(way)
-      pressure = touch*maxval(abs(elastic_stress(scene, field)))
+      pressure = touch*maxval(abs(elastic_stress(condensed, scene, field)))
       do j = 1, size(jump, 3)
          do k = 1, size(jump, 2)
             if (.not. jump(eta, k, j) < 0.0_wp) cycle
-            stiffness = scene%model%joint_materials(scene%points(k)%material)%law%stiffness(eta)
-            trial = trial_of(scene%model, scene%points, k, j, field%jump(:, k, j), field)
+            stiffness = scene%laws(k)%stiffness(eta)
+            trial = trial_of(scene%laws(k), k, j, field%jump(:, k, j), field)
             if (trial(eta) > 0.0_wp) way = min(way, (trial(eta) + pressure)/(-stiffness*jump(eta, k, j)))
          end do
       end do
@@ -80,8 +85,10 @@ contains
 
    !> Points that stood open start without shear where rigid motions bring them: what the bodies would deform if
    !> all joints held has not happened when they touch
-   subroutine stand_free(scene, jump, before, field)
-      !> The scene
+   subroutine stand_free(condensed, scene, jump, before, field)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> Jumps of the motion, and of the state that the load step begins with, shape (3, points, planes)
       real(wp), intent(in) :: jump(:, :, :), before(:, :, :)
@@ -92,7 +99,7 @@ contains
       integer :: i, j, k
 
       place = analyse(scene%planes, field%jump - before)
-      place = before + jump + synthesize(scene%planes, motion_of(scene, share_of_motions(scene, place)))
+      place = before + jump + synthesize(scene%planes, motion_of(condensed, scene, share_of_motions(condensed, scene, place)))
       do j = 1, size(jump, 3)
          do k = 1, size(jump, 2)
             if (any(abs(field%stress(:, k, j)) > 0.0_wp)) cycle

@@ -3,14 +3,14 @@ module axijoint_joints_field
    use axijoint_assembly_force, only : elastic_joint_stress, joint_jump
    use axijoint_assembly_loading, only : in_situ_joint_stress
    use axijoint_base_kinds, only : wp
-   use axijoint_element_joint_law, only : memory_type, trial_stress, admit, renew, state_of, &
+   use axijoint_element_joint_law, only : joint_law_type, memory_type, trial_stress, admit, renew, state_of, &
                                           state_stick, state_slip, state_open, opening_bond, eta
    use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: joint_field_type, iteration_type, new_joint_field, admit_jump, admit_trial, judge_states
+   public :: joint_field_type, new_joint_field, admit_jump, admit_trial, judge_states
    public :: set_initial_stress, trial_of, seen_by_law, stress_amplitude
    public :: commit_field, break_bonds, soften, count_state, n_across_gaps
 
@@ -34,6 +34,8 @@ module axijoint_joints_field
       !> Share of the joint stiffness that the laws see: less than one on the way to
       !> the state of stiff joints
       real(wp) :: share = 1.0_wp
+      !> Stiffness k h/E of joints that the laws see at most at a time
+      real(wp) :: view_limit = huge(1.0_wp)
       !> Share of the elastic stress that joints keep though the laws do not admit it: weak springs that
       !> hold, on the way, what nothing else does
       real(wp) :: leak = 0.0_wp
@@ -48,20 +50,6 @@ module axijoint_joints_field
       !> (3, points, planes)
       real(wp), allocatable :: carried(:, :, :)
    end type joint_field_type
-
-   !> One line of the convergence path (Fig. 17 of the paper)
-   type :: iteration_type
-      !> Load increment
-      integer :: increment = 0
-      !> Iteration within the increment, the elastic solution being 1
-      integer :: iteration = 0
-      !> Sum of the load factors so far
-      real(wp) :: load_factor = 0.0_wp
-      !> Norm of the residual forces over the norm of the applied (Eq. 17)
-      real(wp) :: ratio = 0.0_wp
-      !> Points times planes that slip, and that are open
-      integer :: n_slip = 0, n_open = 0
-   end type iteration_type
 
 contains
 
@@ -112,11 +100,10 @@ contains
    !> Let the laws admit the stress of total jumps. Gives what they do not admit. Where the view is
    !> less than 1, P = law(P + view (t - P)) stands for P = law(t): the same in the end, but a stiff
    !> joint makes no large stress of a small jump on the way
-   pure subroutine admit_jump(model, points, jump, view, field, excess)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Joint points
-      type(model_joint_point_type), intent(in) :: points(:)
+   pure subroutine admit_jump(laws, base, jump, view, field, excess)
+      !> Laws of the points, and stiffness that the structure has there, shape (3, points)
+      type(joint_law_type), intent(in) :: laws(:)
+      real(wp), intent(in) :: base(:, :)
       !> Relative displacements, shape (3, points, planes)
       real(wp), intent(in) :: jump(:, :, :)
       !> The view of each point, > 0 and <= 1
@@ -131,23 +118,19 @@ contains
 
       field%jump = jump
       do j = 1, size(jump, 3)
-         do k = 1, size(points)
-            associate (law => model%joint_materials(points(k)%material)%law)
-               trial = seen_by_law(model, points, k, j, view(k), field)
-               call admit(law, field%memory(k, j), trial, field%stress(:, k, j), tangent)
-               excess(:, k, j) = points(k)%base*(jump(:, k, j) - field%moved(:, k, j)) + field%initial(:, k) &
-                  - field%stress(:, k, j)
-            end associate
+         do k = 1, size(laws)
+            trial = seen_by_law(laws(k), k, j, view(k), field)
+            call admit(laws(k), field%memory(k, j), trial, field%stress(:, k, j), tangent)
+            excess(:, k, j) = base(:, k)*(jump(:, k, j) - field%moved(:, k, j)) + field%initial(:, k) &
+               - field%stress(:, k, j)
          end do
       end do
    end subroutine admit_jump
 
    !> Trial stress of a point on a plane
-   pure function trial_of(model, points, k, j, jump, field) result(trial)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Joint points
-      type(model_joint_point_type), intent(in) :: points(:)
+   pure function trial_of(law, k, j, jump, field) result(trial)
+      !> Law of the point
+      type(joint_law_type), intent(in) :: law
       !> Point and plane
       integer, intent(in) :: k, j
       !> Relative displacement there
@@ -157,19 +140,15 @@ contains
       !> tau_xi, sigma, tau_theta
       real(wp) :: trial(3)
 
-      associate (law => model%joint_materials(points(k)%material)%law)
-         trial = trial_stress(law, field%memory(k, j), jump)
-         trial(eta) = trial(eta) - law%initial_stress  ! part of the field's
-         trial = field%share*trial + field%initial(:, k)
-      end associate
+      trial = trial_stress(law, field%memory(k, j), jump)
+      trial(eta) = trial(eta) - law%initial_stress  ! part of the field's
+      trial = field%share*trial + field%initial(:, k)
    end function trial_of
 
    !> Trial stress of a point on a plane as far as its law sees the jump
-   pure function seen_by_law(model, points, k, j, view, field) result(trial)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Joint points
-      type(model_joint_point_type), intent(in) :: points(:)
+   pure function seen_by_law(law, k, j, view, field) result(trial)
+      !> Law of the point
+      type(joint_law_type), intent(in) :: law
       !> Point and plane
       integer, intent(in) :: k, j
       !> How much of the way from the stress carried to that of the jump, > 0 and <= 1
@@ -179,16 +158,14 @@ contains
       !> tau_xi, sigma, tau_theta
       real(wp) :: trial(3)
 
-      trial = trial_of(model, points, k, j, field%jump(:, k, j), field)
+      trial = trial_of(law, k, j, field%jump(:, k, j), field)
       if (view < 1.0_wp) trial = field%carried(:, k, j) + view*(trial - field%carried(:, k, j))
    end function seen_by_law
 
    !> Let the laws admit a trial stress (the paper's accumulated stress)
-   pure subroutine admit_trial(model, points, trial, field)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Joint points
-      type(model_joint_point_type), intent(in) :: points(:)
+   pure subroutine admit_trial(laws, trial, field)
+      !> Laws of the points
+      type(joint_law_type), intent(in) :: laws(:)
       !> Trial stress, shape (3, points, planes)
       real(wp), intent(in) :: trial(:, :, :)
       !> Field that takes the stresses
@@ -198,8 +175,8 @@ contains
       integer :: j, k
 
       do j = 1, size(trial, 3)
-         do k = 1, size(points)
-            call admit(model%joint_materials(points(k)%material)%law, field%memory(k, j), &
+         do k = 1, size(laws)
+            call admit(laws(k), field%memory(k, j), &
                        trial(:, k, j), field%stress(:, k, j), tangent)
          end do
       end do
@@ -207,11 +184,9 @@ contains
 
    !> States from stresses and jumps, not from the last trial stress: once the
    !> loop has converged, that differs from the admitted by rounding only
-   pure subroutine judge_states(model, points, field)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Joint points
-      type(model_joint_point_type), intent(in) :: points(:)
+   pure subroutine judge_states(laws, field)
+      !> Laws of the points
+      type(joint_law_type), intent(in) :: laws(:)
       !> Field that takes the states
       type(joint_field_type), intent(inout) :: field
 
@@ -220,21 +195,17 @@ contains
 
       small = noise*maxval([0.0_wp, abs(field%stress)])
       do j = 1, size(field%state, 2)
-         do k = 1, size(points)
-            associate (law => model%joint_materials(points(k)%material)%law)
-               field%state(k, j) = state_of(law, field%stress(:, k, j), field%jump(:, k, j), small, &
-                                            field%memory(k, j))
-            end associate
+         do k = 1, size(laws)
+            field%state(k, j) = state_of(laws(k), field%stress(:, k, j), field%jump(:, k, j), small, &
+                                         field%memory(k, j))
          end do
       end do
    end subroutine judge_states
 
    !> Break the bonds that are in tension
-   pure subroutine break_bonds(model, points, field, n)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Joint points
-      type(model_joint_point_type), intent(in) :: points(:)
+   pure subroutine break_bonds(laws, field, n)
+      !> Laws of the points
+      type(joint_law_type), intent(in) :: laws(:)
       !> Field, states judged
       type(joint_field_type), intent(inout) :: field
       !> Number of points times planes that changed
@@ -246,9 +217,9 @@ contains
       n = 0
       small = noise*maxval([0.0_wp, abs(field%stress)])
       do j = 1, size(field%state, 2)
-         do k = 1, size(points)
+         do k = 1, size(laws)
             associate (past => field%memory(k, j))
-               if (model%joint_materials(points(k)%material)%law%opening /= opening_bond .or. past%broken) cycle
+               if (laws(k)%opening /= opening_bond .or. past%broken) cycle
                if (.not. field%stress(eta, k, j) > small) cycle
                past%broken = .true.
                n = n + 1
@@ -258,11 +229,9 @@ contains
    end subroutine break_bonds
 
    !> Soften the points that slip
-   pure subroutine soften(model, points, field, n)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Joint points
-      type(model_joint_point_type), intent(in) :: points(:)
+   pure subroutine soften(laws, field, n)
+      !> Laws of the points
+      type(joint_law_type), intent(in) :: laws(:)
       !> Field, states judged
       type(joint_field_type), intent(inout) :: field
       !> Number of points times planes that changed
@@ -272,9 +241,9 @@ contains
 
       n = 0
       do j = 1, size(field%state, 2)
-         do k = 1, size(points)
+         do k = 1, size(laws)
             associate (past => field%memory(k, j))
-               if (.not. model%joint_materials(points(k)%material)%law%softens .or. past%softened) cycle
+               if (.not. laws(k)%softens .or. past%softened) cycle
                if (field%state(k, j) /= state_slip) cycle
                past%softened = .true.
                n = n + 1
@@ -284,20 +253,18 @@ contains
    end subroutine soften
 
    !> Keep the slip of an increment in equilibrium
-   pure subroutine commit_field(model, points, field)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Joint points
-      type(model_joint_point_type), intent(in) :: points(:)
+   pure subroutine commit_field(laws, field)
+      !> Laws of the points
+      type(joint_law_type), intent(in) :: laws(:)
       !> Field in equilibrium
       type(joint_field_type), intent(inout) :: field
 
       integer :: j, k
 
       do j = 1, size(field%state, 2)
-         do k = 1, size(points)
-            call renew(model%joint_materials(points(k)%material)%law, &
-                       trial_of(model, points, k, j, field%jump(:, k, j), field), &
+         do k = 1, size(laws)
+            call renew(laws(k), &
+                       trial_of(laws(k), k, j, field%jump(:, k, j), field), &
                        field%stress(:, k, j), field%memory(k, j))
          end do
       end do
@@ -326,11 +293,9 @@ contains
 
    !> Points times planes that carry pressure across an open gap, and the widest
    !> of these gaps: the accumulated stress of step 3 may leave some
-   pure subroutine n_across_gaps(model, points, field, n, widest)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Joint points of the field
-      type(model_joint_point_type), intent(in) :: points(:)
+   pure subroutine n_across_gaps(laws, field, n, widest)
+      !> Laws of the points
+      type(joint_law_type), intent(in) :: laws(:)
       !> The field
       type(joint_field_type), intent(in) :: field
       !> The number
@@ -342,9 +307,9 @@ contains
       real(wp) :: gap(size(field%state, 1), size(field%state, 2))
       integer :: k
 
-      do k = 1, size(points)  ! what is pressed before loading opens later
+      do k = 1, size(laws)  ! what is pressed before loading opens later
          gap(k, :) = field%jump(eta, k, :) &
-            + field%initial(eta, k)/model%joint_materials(points(k)%material)%law%stiffness(eta)
+            + field%initial(eta, k)/laws(k)%stiffness(eta)
       end do
       associate (stress => field%stress(eta, :, :))
          across = gap > 1.0e-3_wp*maxval([0.0_wp, abs(gap)]) &

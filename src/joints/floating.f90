@@ -11,7 +11,7 @@ module axijoint_joints_floating
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: floating_motion_type, floating_loads_type, new_floating_motions, new_loads_on, put_loads_on, add_motions
+   public :: floating_motion_type, new_floating_motions, add_motions
 
    !> A rigid motion
    type :: floating_motion_type
@@ -22,14 +22,6 @@ module axijoint_joints_floating
       !> Relative displacements at the joint points that can yield, shape (3, points)
       real(wp), allocatable :: jump(:, :)
    end type floating_motion_type
-
-   !> Loads on the motions
-   type :: floating_loads_type
-      !> Their work, and the largest so far of the sum of its terms taken as positive, shape (motions)
-      real(wp), allocatable :: work(:), size(:)
-      !> Largest joint stress so far, its components taken as positive, shape (3, points)
-      real(wp), allocatable :: stress(:, :)
-   end type floating_loads_type
 
 contains
 
@@ -83,37 +75,6 @@ contains
          end associate
       end do
    end subroutine add_motions
-
-   !> No loads so far
-   pure function new_loads_on(motions, n_points) result(loads)
-      !> The motions
-      type(floating_motion_type), intent(in) :: motions(:)
-      !> Number of joint points
-      integer, intent(in) :: n_points
-      !> The loads
-      type(floating_loads_type) :: loads
-
-      allocate (loads%work(size(motions)), loads%size(size(motions)), loads%stress(3, n_points), source=0.0_wp)
-   end function new_loads_on
-
-   !> Put external forces on the motions
-   pure subroutine put_loads_on(motions, external, loads)
-      !> The motions
-      type(floating_motion_type), intent(in) :: motions(:)
-      !> Forces on components, shape (3, nodes, modes)
-      real(wp), intent(in) :: external(:, :, :)
-      !> The loads
-      type(floating_loads_type), intent(inout) :: loads
-
-      integer :: k
-
-      do k = 1, size(motions)
-         associate (work => external(:, :, motions(k)%mode)*motions(k)%displacement)
-            loads%work(k) = sum(work)
-            loads%size(k) = max(loads%size(k), sum(abs(work)))
-         end associate
-      end do
-   end subroutine put_loads_on
 
    !> Displacements of a rigid motion
    pure function displacement_of(mesh, part, mode, share) result(displacement)

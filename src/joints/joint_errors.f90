@@ -5,13 +5,12 @@ module axijoint_joints_joint_errors
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : memory_type, lost_at_opening, eta
    use axijoint_fe_mode, only : mode_type, family_symmetric, family_antisymmetric
+   use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, trial_of
-   use axijoint_joints_planes, only : planes_type, new_planes, synthesize
-   use axijoint_joints_response, only : response_type, jumps
-   use axijoint_joints_scene, only : scene_type
+   use axijoint_joints_planes, only : new_planes, synthesize
+   use axijoint_joints_scene, only : scene_type, jumps
    use axijoint_joints_settle, only : find_again
    use axijoint_linalg_lapack, only : matrix_vector
-   use axijoint_model_model, only : method_newton
    implicit none
    private
    public :: joint_change_type, joint_changes_type, find_joint_changes, change_between, largest_change
@@ -46,7 +45,7 @@ contains
 
    !> The change from one state to another on the same planes
    function change_between(scene, before, after, judged) result(change)
-      !> The joints
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> The states
       type(joint_field_type), intent(in) :: before, after
@@ -65,7 +64,7 @@ contains
    !> that is nearer to its opening than a few times the change of its normal stress may open or close: then its
    !> cohesion counts, too
    pure real(wp) function largest_change(scene, before, after, step, judged) result(largest)
-      !> The joints
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> The states
       type(joint_field_type), intent(in) :: before, after
@@ -85,19 +84,21 @@ contains
          do k = 1, size(judged)
             if (.not. judged(k)) cycle
             largest = max(largest, maxval(abs(after%stress(:, k, l) - before%stress(:, k, j))))
-            earlier = trial_of(scene%model, scene%points, k, j, before%jump(:, k, j), before)
-            trial = trial_of(scene%model, scene%points, k, l, after%jump(:, k, l), after)
+            earlier = trial_of(scene%laws(k), k, j, before%jump(:, k, j), before)
+            trial = trial_of(scene%laws(k), k, l, after%jump(:, k, l), after)
             if (abs(trial(eta)) > reach*abs(trial(eta) - earlier(eta))) cycle
-            largest = max(largest, lost_at_opening(scene%model%joint_materials(scene%points(k)%material)%law, &
+            largest = max(largest, lost_at_opening(scene%laws(k), &
                                                    after%memory(k, l), trial))
          end do
       end do
    end function largest_change
 
    !> Changes by more planes and harmonics
-   subroutine find_joint_changes(scene, balanced, start, judged, changes)
-      !> The joints; the loads are in its response
-      type(scene_type), intent(inout) :: scene
+   subroutine find_joint_changes(condensed, scene, balanced, start, judged, changes)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
       !> Their state, balanced, with the memory of the beginning of its increment
       type(joint_field_type), intent(in) :: balanced
       !> What its points remembered at the beginning of its increment, shape (points, planes)
@@ -107,12 +108,11 @@ contains
       !> Takes the changes
       type(joint_changes_type), intent(inout) :: changes
 
-      type(planes_type) :: planes
-      type(response_type) :: response
+      type(scene_type) :: finer_scene, extended
       type(joint_field_type), allocatable :: on_more, with_more
-      integer :: n, step, method
       type(memory_type), allocatable :: memory(:, :)
       real(wp) :: clock
+      integer :: n, step
 
       if (scene%planes%folds == 0) then  ! harmonic 0 alone: all planes are alike
          changes%planes = no_change(balanced)
@@ -120,37 +120,35 @@ contains
          return
       end if
       clock = omp_get_wtime()
-      method = scene%method
-      scene%method = method_newton
-      planes = scene%planes
-      n = scene%model%n_planes - 1
-      step = max(finer, (4*maxval(scene%equations%modes%harmonic) + n - 1)/n)  ! for products of harmonics up to 2 M
-      scene%planes = new_planes(step*n + 1, scene%equations%modes, whole=planes%folds == 1)
-      allocate (on_more, source=on_planes(balanced, step, size(scene%planes%angle)))
-      memory = on_planes_memory(start, step, size(scene%planes%angle))
-      call find_again(scene, memory, on_more, changes%planes%known)
+      n = scene%planes%n - 1
+      step = max(finer, (4*maxval(scene%modes%harmonic) + n - 1)/n)  ! for products of harmonics up to 2 M
+      finer_scene = scene
+      finer_scene%planes = new_planes(step*n + 1, scene%modes, whole=scene%planes%folds == 1)
+      associate (count => size(finer_scene%planes%angle))
+         allocate (on_more, source=on_planes(balanced, step, count))
+         memory = on_planes_memory(start, step, count)
+      end associate
+      call find_again(condensed, finer_scene, memory, on_more, changes%planes%known)
       changes%planes%stress = largest_change(scene, balanced, on_more, step, judged)
       changes%planes%excess = on_more%excess - balanced%excess
       changes%planes%offset = on_more%offset - balanced%offset
       changes%planes%seconds = omp_get_wtime() - clock
       clock = omp_get_wtime()
-      call add_harmonics(scene, step*n + 1, on_more, with_more, response)
+      call add_harmonics(condensed, finer_scene, on_more, extended, with_more)
       if (allocated(with_more)) then
-         call find_again(scene, memory, with_more, changes%harmonics%known)
-         associate (m => size(scene%equations%modes))
+         call find_again(condensed, extended, memory, with_more, changes%harmonics%known)
+         associate (m => size(scene%modes))
             changes%harmonics%stress = largest_change(scene, on_more, with_more, 1, judged)
             changes%harmonics%excess = with_more%excess(:, :, :m) - on_more%excess
             changes%harmonics%offset = with_more%offset - on_more%offset
             with_more%excess(:, :, :m) = 0.0_wp
-            changes%harmonics%beyond = sqrt(maxval(sum(synthesize(scene%planes, jumps(scene%response, with_more%excess, &
-                                                                                  free=.false.))**2, 1)))
          end associate
-         call take_back(response, scene%response)
+         associate (jump => jumps(condensed, extended, with_more%excess, free=.false.))
+            changes%harmonics%beyond = sqrt(maxval(sum(synthesize(extended%planes, jump)**2, 1)))
+         end associate
       else
          changes%harmonics = no_change(on_more)
       end if
-      scene%planes = planes
-      scene%method = method
       changes%harmonics%seconds = omp_get_wtime() - clock
    end subroutine find_joint_changes
 
@@ -211,55 +209,39 @@ contains
       end do
    end function on_planes_memory
 
-   !> Extend the scene to harmonics up to 2 M
-   subroutine add_harmonics(scene, n_planes, field, extended, before)
-      !> The scene; its planes and response are extended
-      type(scene_type), intent(inout) :: scene
-      !> Planes from 0 to pi
-      integer, intent(in) :: n_planes
+   !> The scene with harmonics up to 2 M
+   subroutine add_harmonics(condensed, scene, field, extended, with_more)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> The scene
+      type(scene_type), intent(in) :: scene
       !> State of the joints
       type(joint_field_type), intent(in) :: field
-      !> The same with more harmonics, in which there is nothing yet; not allocated if there are none
-      type(joint_field_type), allocatable, intent(out) :: extended
-      !> Takes what is to be put back
-      type(response_type), intent(out) :: before
+      !> The scene with more harmonics
+      type(scene_type), intent(out) :: extended
+      !> The same state, nothing yet in these harmonics; not allocated if there are none
+      type(joint_field_type), allocatable, intent(out) :: with_more
 
-      type(mode_type), allocatable :: modes(:)
+      type(mode_type), allocatable :: above(:)
       integer :: n, last
 
-      associate (above => modes_above(scene%equations%modes))
-         if (size(above) == 0) return
-         modes = [scene%equations%modes, above]
-      end associate
-      n = size(scene%equations%modes)
-      last = maxloc(scene%equations%modes%harmonic, 1)
-      associate (response => scene%response)
-         before%system = response%system
-         call move_alloc(response%free, before%free)
-         response%system = [response%system, spread(response%system(last), 1, size(modes) - n)]
-         response%scale = shares_above(scene, modes, last, field)
-         allocate (response%free(3, size(scene%points), size(modes)), source=0.0_wp)
-         response%free(:, :, :n) = before%free
-      end associate
-      scene%planes = new_planes(n_planes, modes, whole=scene%planes%folds == 1)
-      allocate (extended, source=field)
-      deallocate (extended%excess, extended%pending)
-      allocate (extended%excess(3, size(scene%points), size(modes)), source=0.0_wp)
-      extended%excess(:, :, :n) = field%excess
-      extended%pending = 0.0_wp*extended%excess
+      above = modes_above(scene%modes)
+      if (size(above) == 0) return
+      n = size(scene%modes)
+      last = maxloc(scene%modes%harmonic, 1)
+      extended = scene
+      extended%modes = [scene%modes, above]
+      extended%system = [scene%system, spread(scene%system(last), 1, size(above))]
+      extended%scale = shares_above(condensed, scene, extended%modes, last, field)
+      extended%planes = new_planes(scene%planes%n, extended%modes, whole=scene%planes%folds == 1)
+      deallocate (extended%loads%free)
+      allocate (extended%loads%free(3, size(condensed%points), n + size(above)), source=0.0_wp)
+      extended%loads%free(:, :, :n) = scene%loads%free
+      allocate (with_more, source=field)
+      with_more%excess = 0.0_wp*extended%loads%free
+      with_more%excess(:, :, :n) = field%excess
+      with_more%pending = 0.0_wp*with_more%excess
    end subroutine add_harmonics
-
-   !> Put the response back as it was
-   subroutine take_back(before, response)
-      !> As it was
-      type(response_type), intent(inout) :: before
-      !> The response
-      type(response_type), intent(inout) :: response
-
-      response%system = before%system
-      call move_alloc(before%free, response%free)
-      deallocate (response%scale)
-   end subroutine take_back
 
    !> Modes that follow those of a job, up to 2 M
    pure function modes_above(modes) result(above)
@@ -284,8 +266,10 @@ contains
    !> Flexibilities of harmonics that were not computed, over that of the highest. A joint of the stiffness k
    !> before bodies of the stiffness K takes up the share k/(k + K) of a stress; K of the bodies grows
    !> like a power of m, which the two highest harmonics tell
-   function shares_above(scene, modes, last, field) result(scale)
-      !> What does not change
+   function shares_above(condensed, scene, modes, last, field) result(scale)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> The modes, those of the scene first
       type(mode_type), intent(in) :: modes(:)
@@ -301,10 +285,10 @@ contains
 
       place(2) = last
       m(2) = modes(last)%harmonic
-      m(1) = maxval(scene%equations%modes%harmonic, mask=scene%equations%modes%harmonic < m(2))
-      place(1) = findloc(scene%equations%modes%harmonic, m(1), 1)
+      m(1) = maxval(scene%modes%harmonic, mask=scene%modes%harmonic < m(2))
+      place(1) = findloc(scene%modes%harmonic, m(1), 1)
       do k = 1, 2
-         stiffness(k) = body_stiffness(scene, place(k), field%excess(:, :, last))
+         stiffness(k) = body_stiffness(condensed, scene, place(k), field%excess(:, :, last))
       end do
       power = 1.0_wp
       if (m(1) > 0) then
@@ -312,14 +296,16 @@ contains
          power = min(merge(rigid_power, most_power, m(1) == 1), max(least_power, power))
       end if
       allocate (scale(size(modes)), source=1.0_wp)
-      do k = size(scene%equations%modes) + 1, size(modes)
+      do k = size(scene%modes) + 1, size(modes)
          scale(k) = (1.0_wp + stiffness(2))/(1.0_wp + stiffness(2)*(real(modes(k)%harmonic, wp)/m(2))**power)
       end do
    end function shares_above
 
    !> Stiffness of the bodies over that of the joints, for a distribution of excess stress
-   function body_stiffness(scene, place, excess) result(stiffness)
-      !> What does not change
+   function body_stiffness(condensed, scene, place, excess) result(stiffness)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> Place of the mode
       integer, intent(in) :: place
@@ -331,10 +317,10 @@ contains
       real(wp) :: jump(3, size(excess, 2)), work(2)
       integer :: k
 
-      call matrix_vector(scene%response%flexibilities(scene%response%system(place))%matrix, excess, jump)
+      call matrix_vector(condensed%flexibilities(scene%system(place))%matrix, excess, jump)
       work = tiny(1.0_wp)
       do k = 1, size(excess, 2)
-         associate (point => scene%points(k))
+         associate (point => condensed%points(k))
             work = work + point%weight*[sum(excess(:, k)**2), sum(excess(:, k)*point%base*jump(:, k))]
          end associate
       end do

@@ -4,10 +4,10 @@ module axijoint_joints_mechanism
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : admit, eta
    use axijoint_fe_fourier, only : circle_integral
+      use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, seen_by_law
    use axijoint_joints_planes, only : synthesize, analyse
-   use axijoint_joints_response, only : jumps
-   use axijoint_joints_scene, only : scene_type, views, motion_of
+   use axijoint_joints_scene, only : scene_type, views, motion_of, jumps
    use axijoint_linalg_lapack, only : symmetric_eigen, singular_values
    implicit none
    private
@@ -32,8 +32,10 @@ module axijoint_joints_mechanism
 contains
 
    !> Find the motions that a state does not resist
-   subroutine find_mechanism(scene, field, sticking, mechanism)
-      !> The scene
+   subroutine find_mechanism(condensed, scene, field, sticking, mechanism)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> The state
       type(joint_field_type), intent(in) :: field
@@ -42,17 +44,17 @@ contains
       !> The mechanism
       type(mechanism_type), intent(out) :: mechanism
 
-      real(wp), dimension(size(scene%floating), size(scene%floating)) :: resistance, to_unit, rows
-      real(wp), dimension(size(scene%floating)) :: value, force, least, direction
+      real(wp), dimension(size(condensed%floating), size(condensed%floating)) :: resistance, to_unit, rows
+      real(wp), dimension(size(condensed%floating)) :: value, force, least, direction
       real(wp) :: work, mixed
       integer :: k, n
 
-      n = size(scene%floating)
+      n = size(condensed%floating)
       allocate (mechanism%motion(n), mechanism%idle(n, 0))
       mechanism%motion = 0.0_wp
       if (n == 0) return
-      call unit_resistance(scene, field, sticking, resistance, to_unit, value, rows)
-      call act(scene, field, force, least)
+      call unit_resistance(condensed, scene, field, sticking, resistance, to_unit, value, rows)
+      call act(condensed, scene, field, force, least)
       ! rounding mixes motions that are resisted little into those that are not
       mixed = rounding*norm2(matmul(force, to_unit))/max(no_resistance, minval(value, mask=value > no_resistance))
       do k = n, 1, -1
@@ -71,19 +73,21 @@ contains
 
    !> Move the parts until the joints, as they stick, slip and stand open, balance the loads on them: what takes
    !> the loops many sweeps where little resists a motion
-   subroutine balance_motions(scene, field)
-      !> The scene
+   subroutine balance_motions(condensed, scene, field)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> The state; the stresses are those before
       type(joint_field_type), intent(inout) :: field
 
-      real(wp), dimension(size(scene%floating), size(scene%floating)) :: resistance, to_unit, rows
-      real(wp), dimension(size(scene%floating)) :: value, force, least, direction
+      real(wp), dimension(size(condensed%floating), size(condensed%floating)) :: resistance, to_unit, rows
+      real(wp), dimension(size(condensed%floating)) :: value, force, least, direction
       integer :: k
 
-      if (size(scene%floating) == 0) return
-      call unit_resistance(scene, field, .false., resistance, to_unit, value, rows)
-      call act(scene, field, force, least)
+      if (size(condensed%floating) == 0) return
+      call unit_resistance(condensed, scene, field, .false., resistance, to_unit, value, rows)
+      call act(condensed, scene, field, force, least)
       force = matmul(force, to_unit)
       do k = 1, size(value)
          if (value(k) <= no_resistance) exit
@@ -95,8 +99,10 @@ contains
 
    !> Take motions away that no load acts on and nothing resists: where a state leaves them is of no meaning, so the
    !> joints' mean is zero
-   subroutine settle(scene, mechanism, field)
-      !> The scene
+   subroutine settle(condensed, scene, mechanism, field)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> Such motions
       type(mechanism_type), intent(in) :: mechanism
@@ -106,22 +112,24 @@ contains
       real(wp), allocatable :: stress(:, :, :)
       integer :: i, k
 
-      stress = jumps(scene%response, field%excess, free=.true.) + motion_of(scene, field%offset)
+      stress = jumps(condensed, scene, field%excess, free=.true.) + motion_of(condensed, scene, field%offset)
       do k = 1, size(stress, 2)
          do i = 1, 3
-            stress(i, k, :) = scene%points(k)%base(i)*stress(i, k, :)
+            stress(i, k, :) = condensed%points(k)%base(i)*stress(i, k, :)
          end do
       end do
       do k = 1, size(mechanism%idle, 2)
          associate (direction => mechanism%idle(:, k))
-            field%offset = field%offset - dot_product(direction, works(scene, stress))*direction
+            field%offset = field%offset - dot_product(direction, works(condensed, scene, stress))*direction
          end associate
       end do
    end subroutine settle
 
    !> What joints resist of motions that sticking joints all resist by one
-   subroutine unit_resistance(scene, field, sticking, resistance, to_unit, value, rows)
-      !> The scene
+   subroutine unit_resistance(condensed, scene, field, sticking, resistance, to_unit, value, rows)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> The state
       type(joint_field_type), intent(in) :: field
@@ -135,7 +143,7 @@ contains
       real(wp) :: elastic(size(value), size(value)), eigenvalue(size(value)), lost(size(value), size(value))
       integer :: info, k
 
-      call resist(scene, field, sticking, resistance, elastic)
+      call resist(condensed, scene, field, sticking, resistance, elastic)
       call symmetric_eigen(elastic, eigenvalue, info)
       do k = 1, size(value)
          to_unit(:, k) = elastic(:, k)/sqrt(eigenvalue(k))
@@ -147,8 +155,10 @@ contains
 
    !> Work of the joints on each motion when another grows, by the derivatives of their laws and if they
    !> all stick; stiffnesses are those of the structure
-   subroutine resist(scene, field, sticking, resistance, elastic)
-      !> The scene
+   subroutine resist(condensed, scene, field, sticking, resistance, elastic)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> The state
       type(joint_field_type), intent(in) :: field
@@ -160,28 +170,30 @@ contains
       real(wp), allocatable :: tangent(:, :, :, :), amplitude(:, :, :), stress(:, :, :)
       integer :: j, k, z
 
-      allocate (tangent(3, 3, size(scene%points), size(field%jump, 3)))
-      call linearize(scene, field, sticking, tangent)
+      allocate (tangent(3, 3, size(condensed%points), size(field%jump, 3)))
+      call linearize(condensed, scene, field, sticking, tangent)
       allocate (amplitude, mold=field%excess)
-      do z = 1, size(scene%floating)
+      do z = 1, size(condensed%floating)
          amplitude = 0.0_wp
-         do k = 1, size(scene%points)
-            amplitude(:, k, scene%floating(z)%mode) = scene%points(k)%base*scene%floating(z)%jump(:, k)
+         do k = 1, size(condensed%points)
+            amplitude(:, k, condensed%floating(z)%mode) = condensed%points(k)%base*condensed%floating(z)%jump(:, k)
          end do
-         elastic(:, z) = works(scene, amplitude)
+         elastic(:, z) = works(condensed, scene, amplitude)
          stress = synthesize(scene%planes, amplitude)
          do j = 1, size(stress, 3)
             do k = 1, size(stress, 2)
                stress(:, k, j) = matmul(tangent(:, :, k, j), stress(:, k, j))
             end do
          end do
-         resistance(:, z) = works(scene, analyse(scene%planes, stress))
+         resistance(:, z) = works(condensed, scene, analyse(scene%planes, stress))
       end do
    end subroutine resist
 
    !> Derivatives of the stress admitted by the trial stress
-   subroutine linearize(scene, field, sticking, tangent)
-      !> The scene
+   subroutine linearize(condensed, scene, field, sticking, tangent)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> The state
       type(joint_field_type), intent(in) :: field
@@ -191,14 +203,14 @@ contains
       real(wp), intent(out) :: tangent(:, :, :, :)
 
       real(wp), parameter :: identity(9) = [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp]
-      real(wp) :: view(size(scene%points)), admitted(3)
+      real(wp) :: view(size(condensed%points)), admitted(3)
       integer :: j, k
 
-      view = views(scene, field%share)
+      view = views(condensed, scene, field)
       do j = 1, size(tangent, 4)
          do k = 1, size(tangent, 3)
-            associate (law => scene%model%joint_materials(scene%points(k)%material)%law, t => tangent(:, :, k, j))
-               call admit(law, field%memory(k, j), seen_by_law(scene%model, scene%points, k, j, view(k), field), admitted, t)
+            associate (law => scene%laws(k), t => tangent(:, :, k, j))
+               call admit(law, field%memory(k, j), seen_by_law(scene%laws(k), k, j, view(k), field), admitted, t)
                if (.not. sticking .or. .not. t(eta, eta) > 0.0_wp) cycle
                if (law%friction > 0.0_wp .or. law%cohesion > 0.0_wp) t = reshape(identity, [3, 3])
             end associate
@@ -207,8 +219,10 @@ contains
    end subroutine linearize
 
    !> Force that acts on each motion and is not balanced by joints, and what of it may be rounding
-   subroutine act(scene, field, force, least)
-      !> The scene, with the work of its loads
+   subroutine act(condensed, scene, field, force, least)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> The state
       type(joint_field_type), intent(in) :: field
@@ -222,33 +236,35 @@ contains
       do m = 1, size(largest, 3)
          largest(:, :, m) = max(scene%loads%stress, maxval(abs(field%stress), 3))
       end do
-      force = scene%loads%work - works(scene, analyse(scene%planes, field%stress))
-      least = rounding*scene%loads%size + leftover*works(scene, largest, sizes=.true.)
+      force = scene%loads%work - works(condensed, scene, analyse(scene%planes, field%stress))
+      least = rounding*scene%loads%size + leftover*works(condensed, scene, largest, sizes=.true.)
    end subroutine act
 
    !> Work of joint stress on unit motions, or that of its sizes
-   function works(scene, stress, sizes) result(work)
-      !> The scene
+   function works(condensed, scene, stress, sizes) result(work)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> Amplitudes, shape (3, points, modes)
       real(wp), intent(in) :: stress(:, :, :)
       !> Whether all terms are taken as positive; false if absent
       logical, intent(in), optional :: sizes
       !> Shape (motions)
-      real(wp) :: work(size(scene%floating))
+      real(wp) :: work(size(condensed%floating))
 
       real(wp) :: jump(3)
       integer :: k, z
 
       work = 0.0_wp
       do z = 1, size(work)
-         associate (motion => scene%floating(z))
-            do k = 1, size(scene%points)
+         associate (motion => condensed%floating(z))
+            do k = 1, size(condensed%points)
                jump = motion%jump(:, k)
                if (present(sizes)) jump = abs(jump)
-               work(z) = work(z) + scene%points(k)%weight*dot_product(jump, stress(:, k, motion%mode))
+               work(z) = work(z) + condensed%points(k)%weight*dot_product(jump, stress(:, k, motion%mode))
             end do
-            work(z) = circle_integral(scene%equations%modes(motion%mode)%harmonic)*work(z)
+            work(z) = circle_integral(scene%modes(motion%mode)%harmonic)*work(z)
          end associate
       end do
    end function works

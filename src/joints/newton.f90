@@ -12,22 +12,24 @@
 module axijoint_joints_newton
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : admit
+   use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, seen_by_law
-   use axijoint_joints_planes, only : planes_type, synthesize, analyse
+   use axijoint_joints_planes, only : synthesize, analyse
    use axijoint_joints_point_blocks, only : point_blocks_type, new_point_blocks, precondition
-   use axijoint_joints_response, only : response_type, jumps
-   use axijoint_joints_scene, only : scene_type, evaluate, views
+   use axijoint_joints_scene, only : scene_type, evaluate, views, jumps
    use axijoint_linalg_gmres, only : operator_type, gmres
    implicit none
    private
-   public :: newton_type, new_newton, newton_step, correction, at_points
+   public :: newton_type, step_bounds_type, new_newton, newton_step, correction, at_points, newton_view
 
+   !> Stiffness k h/E of joints that the laws see at most at a time
+   real(wp), parameter :: newton_view = 10.0_wp
    !> Most products of a linear solution
    integer, parameter :: most_products = 400
    !> Values on the planes from which on threads are worth their start
    integer, parameter :: worth_threads = 5000
-   !> Shortest part of a step, and how many times as much may be missing after a step
-   real(wp), parameter :: shortest = 1.0_wp/8.0_wp, usual = 2.0_wp, widening = 4.0_wp
+   !> Shortest part of a step, and how fast the radius of steps grows
+   real(wp), parameter :: shortest = 1.0_wp/8.0_wp, widening = 4.0_wp
 
    !> Laws of all points, linear about an iterate: P changes by `by_jump` times the
    !> change of the jumps, and by `rest`
@@ -47,12 +49,26 @@ module axijoint_joints_newton
       real(wp) :: merit = huge(1.0_wp)
    end type newton_type
 
+   !> What bounds a step
+   type :: step_bounds_type
+      !> Residual ratio of the iterate
+      real(wp) :: far = 0.0_wp
+      !> Tolerance of the linear solution
+      real(wp) :: tolerance = 0.0_wp
+      !> Jumps beyond which there is no state
+      real(wp) :: largest = huge(1.0_wp)
+      !> How many times as much may be missing after a step
+      real(wp) :: more = 2.0_wp
+      !> Change of the jumps beyond which a step is shortened, and which grows then
+      real(wp) :: radius = huge(1.0_wp)
+   end type step_bounds_type
+
    !> I - A E' S F: derivative of the excess stress that is not yet transferred,
    !> with the synthesis S, the slopes E' of the laws and the analysis A
    type, extends(operator_type) :: derivative_type
-      !> Flexibilities, planes, slopes on the planes, shape (3, 3, points, planes)
-      type(response_type), pointer :: response => null()
-      type(planes_type), pointer :: planes => null()
+      !> What it multiplies with: flexibilities, planes, slopes on the planes, shape (3, 3, points, planes)
+      type(condensed_type), pointer :: condensed => null()
+      type(scene_type), pointer :: scene => null()
       real(wp), pointer :: slope(:, :, :, :) => null()
       !> Share of them that acts
       real(wp) :: kept = 1.0_wp
@@ -77,8 +93,8 @@ contains
       real(wp), allocatable :: excess(:, :, :)
 
       excess = reshape(x, [3, size(self%slope, 3), size(x)/(3*size(self%slope, 3))])
-      excess = excess - self%kept*analyse(self%planes, at_points(self%slope, &
-         synthesize(self%planes, jumps(self%response, excess, free=.false.))))
+      excess = excess - self%kept*analyse(self%scene%planes, at_points(self%slope, &
+         synthesize(self%scene%planes, jumps(self%condensed, self%scene, excess, free=.false.))))
       if (allocated(self%blocks)) call precondition(self%blocks, excess)
       y = reshape(excess, [size(y)])
    end subroutine apply
@@ -100,8 +116,10 @@ contains
    end function at_points
 
    !> Linearize the laws at the jumps of an iterate
-   function new_newton(scene, field, far) result(newton)
-      !> What does not change
+   function new_newton(condensed, scene, field, far) result(newton)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> The iterate, its jumps evaluated
       type(joint_field_type), intent(in) :: field
@@ -111,20 +129,20 @@ contains
       type(newton_type) :: newton
 
       real(wp) :: admitted(3), tangent(3, 3), inverse(3, 3), identity(3, 3)
-      real(wp) :: view(size(scene%points)), limit(size(scene%points))
+      real(wp) :: view(size(condensed%points)), limit(size(condensed%points))
       real(wp), allocatable :: excess(:, :, :), missing(:, :, :)
       integer :: i, j, k
 
-      view = views(scene, field%share)
+      view = views(condensed, scene, field)
       limit = 1.0_wp
       do k = 1, size(limit)
-         associate (proportion => field%share*scene%points(k)%proportion)
+         associate (proportion => field%share*condensed%points(k)%proportion)
             if (present(far)) limit(k) = min(1.0_wp, steepest(far)/max(tiny(1.0_wp), proportion))
             if (.not. present(far)) limit(k) = min(1.0_wp, steepest(0.0_wp)/max(tiny(1.0_wp), proportion))
          end associate
       end do
-      newton%stiff = [(any(field%share*scene%model%joint_materials(scene%points(k)%material)%law%stiffness &
-                           > scene%points(k)%base), k=1, size(scene%points))]
+      newton%stiff = [(any(field%share*scene%laws(k)%stiffness &
+                           > condensed%points(k)%base), k=1, size(condensed%points))]
       identity = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
       allocate (newton%by_jump(3, 3, size(field%jump, 2), size(field%jump, 3)))
       allocate (newton%slope, mold=newton%by_jump)
@@ -132,9 +150,9 @@ contains
       !$omp parallel do private(i, k, admitted, tangent, inverse) if (size(field%jump) >= worth_threads)
       do j = 1, size(field%jump, 3)
          do k = 1, size(field%jump, 2)
-            associate (point => scene%points(k), stress => field%carried(:, k, j), &
-                       law => scene%model%joint_materials(scene%points(k)%material)%law)
-               call admit(law, field%memory(k, j), seen_by_law(scene%model, scene%points, k, j, view(k), field), &
+            associate (point => condensed%points(k), stress => field%carried(:, k, j), &
+                       law => scene%laws(k))
+               call admit(law, field%memory(k, j), seen_by_law(scene%laws(k), k, j, view(k), field), &
                           admitted, tangent)
                missing(:, k, j) = admitted - stress
                inverse = inverse_of(identity - (1.0_wp - view(k)/limit(k))*tangent)
@@ -152,7 +170,7 @@ contains
       !$omp end parallel do
       newton%kept = 1.0_wp - field%leak
       newton%residual = newton%kept*analyse(scene%planes, excess) - field%excess
-      newton%merit = merit_of(scene, newton%residual, missing)
+      newton%merit = merit_of(condensed, newton%residual, missing)
       newton%residual = newton%residual - newton%kept*analyse(scene%planes, newton%rest)
    end function new_newton
 
@@ -200,9 +218,9 @@ contains
    end function inverse_of
 
    !> Size of what is missing, by the areas of the points
-   pure real(wp) function merit_of(scene, residual, missing) result(merit)
-      !> What does not change
-      type(scene_type), intent(in) :: scene
+   pure real(wp) function merit_of(condensed, residual, missing) result(merit)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
       !> In e: amplitudes, shape (3, points, modes)
       real(wp), intent(in) :: residual(:, :, :)
       !> In P: shape (3, points, planes)
@@ -211,15 +229,17 @@ contains
       integer :: k
 
       merit = 0.0_wp
-      do k = 1, size(scene%points)
-         merit = merit + scene%points(k)%weight*(sum(residual(:, k, :)**2) &
+      do k = 1, size(condensed%points)
+         merit = merit + condensed%points(k)%weight*(sum(residual(:, k, :)**2) &
                                                  + sum(missing(:, k, :)**2)/size(missing, 3))
       end do
    end function merit_of
 
    !> Change of the excess stress that would balance the residual were the laws linear
-   function correction(scene, newton, tolerance) result(change)
-      !> What does not change
+   function correction(condensed, scene, newton, tolerance) result(change)
+      !> The condensed structure
+      type(condensed_type), intent(in), target :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in), target :: scene
       !> Laws about the iterate, and its residual
       type(newton_type), intent(in), target :: newton
@@ -230,19 +250,19 @@ contains
 
       type(derivative_type) :: derivative
       real(wp), allocatable :: x(:), right(:, :, :)
-      logical :: stiff(size(scene%points))
+      logical :: stiff(size(condensed%points))
       real(wp) :: reduction
       integer :: n_products
 
-      derivative%response => scene%response
-      derivative%planes => scene%planes
+      derivative%condensed => condensed
+      derivative%scene => scene
       derivative%slope => newton%slope
       derivative%kept = newton%kept
       right = newton%residual
       stiff = newton%stiff
       if (any(stiff)) then
          allocate (derivative%blocks)
-         call new_point_blocks(scene%response, scene%planes, newton%slope, newton%kept, stiff, derivative%blocks)
+         call new_point_blocks(condensed, scene, newton%slope, newton%kept, stiff, derivative%blocks)
          call precondition(derivative%blocks, right)
       end if
       allocate (x(size(right)))
@@ -254,15 +274,13 @@ contains
    !> One step, shortened until what is missing is not much more, but not below a part of it:
    !> the shortest is made even if it does not help. A step to jumps that are no
    !> state is not made.
-   subroutine newton_step(scene, far, tolerance, largest, newton, field, residual, made, more, radius)
-      !> What does not change
+   subroutine newton_step(condensed, scene, bounds, newton, field, residual, made)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
-      !> Residual ratio of the iterate
-      real(wp), intent(in) :: far
-      !> Tolerance of the linear solution
-      real(wp), intent(in) :: tolerance
-      !> Jumps beyond which there is no state
-      real(wp), intent(in) :: largest
+      !> What bounds the step
+      type(step_bounds_type), intent(inout) :: bounds
       !> Laws about the iterate; about the new one on return
       type(newton_type), intent(inout) :: newton
       !> State of the joints
@@ -271,44 +289,36 @@ contains
       real(wp), intent(inout) :: residual(:, :, :)
       !> Whether a step was made
       logical, intent(out) :: made
-      !> How many times as much may be missing after a step; 2 if absent
-      real(wp), intent(in), optional :: more
-      !> Change of the jumps beyond which a step is shortened, and which grows then; absent for none
-      real(wp), intent(inout), optional :: radius
 
       real(wp), allocatable :: start(:, :, :), carried(:, :, :), change(:, :, :), change_carried(:, :, :), jump(:, :, :)
-      real(wp) :: length, before, least, most
+      real(wp) :: length, before, least
 
-      change = correction(scene, newton, tolerance)
-      jump = synthesize(scene%planes, jumps(scene%response, change, free=.false.))
+      change = correction(condensed, scene, newton, bounds%tolerance)
+      jump = synthesize(scene%planes, jumps(condensed, scene, change, free=.false.))
       change_carried = newton%rest + at_points(newton%by_jump, jump)
       start = field%excess
       carried = field%carried
       before = newton%merit
-      most = usual
-      if (present(more)) most = more
       length = 1.0_wp
-      if (present(radius)) then
-         if (maxval(abs(jump)) > radius) then
-            length = radius/maxval(abs(jump))
-            radius = widening*radius
-         end if
+      if (maxval(abs(jump)) > bounds%radius) then
+         length = bounds%radius/maxval(abs(jump))
+         bounds%radius = widening*bounds%radius
       end if
       least = shortest*length
       do
          field%excess = start + length*change
          field%carried = carried + length*change_carried
-         call evaluate(scene, field, residual)
-         newton = new_newton(scene, field, far)
-         made = maxval(abs(field%jump)) <= largest
-         if (made .and. newton%merit < most*before .or. length <= least) exit
+         call evaluate(condensed, scene, field, residual)
+         newton = new_newton(condensed, scene, field, bounds%far)
+         made = maxval(abs(field%jump)) <= bounds%largest
+         if (made .and. newton%merit < bounds%more*before .or. length <= least) exit
          length = 0.5_wp*length
       end do
       if (made) return
       field%excess = start
       field%carried = carried
-      call evaluate(scene, field, residual)
-      newton = new_newton(scene, field, far)
+      call evaluate(condensed, scene, field, residual)
+      newton = new_newton(condensed, scene, field, bounds%far)
    end subroutine newton_step
 
 end module axijoint_joints_newton

@@ -10,6 +10,8 @@ module axijoint_joints_planes
 
    !> Planes and the matrices between them and the modes
    type :: planes_type
+      !> Number of planes from 0 to pi, with those that were left out
+      integer :: n = 0
       !> Angles theta [radian]
       real(wp), allocatable :: angle(:)
       !> Factors of xi and eta, and of theta components, in each mode on each
@@ -23,7 +25,12 @@ module axijoint_joints_planes
       !> For all planes, those that were left out too: the plane that is like it, and
       !> the sign of theta components there
       integer, allocatable :: place(:), sign(:)
+      !> Whether a component is odd in theta in a symmetric mode, shape (components): those of joints are xi, eta, theta
+      logical, allocatable :: odd(:)
    end type planes_type
+
+   !> Components of joints
+   logical, parameter :: joint_components(3) = [.false., .false., .true.]
 
 contains
 
@@ -34,13 +41,15 @@ contains
    !> pi, so its weight is halved; sin(m theta) is zero on every plane, so
    !> nothing comes back from it. What repeats g times round the circle needs one
    !> g-th of the planes: those of harmonics m/g on an interval of theta/g.
-   pure function new_planes(n, modes, whole) result(planes)
+   pure function new_planes(n, modes, whole, odd) result(planes)
       !> Number of planes from 0 to pi, > maximum harmonic
       integer, intent(in) :: n
       !> The modes
       type(mode_type), intent(in) :: modes(:)
       !> Whether no plane is left out; false if absent
       logical, intent(in), optional :: whole
+      !> Components that are odd in theta in a symmetric mode; those of joints if absent
+      logical, intent(in), optional :: odd(:)
       !> The planes
       type(planes_type) :: planes
 
@@ -48,6 +57,9 @@ contains
       logical :: half
       integer :: intervals, m(size(modes)), j, k, count
 
+      planes%n = n
+      planes%odd = joint_components
+      if (present(odd)) planes%odd = odd
       half = all(modes%family == family_symmetric)
       intervals = n - 1
       m = modes%harmonic
@@ -136,16 +148,18 @@ contains
    pure function on_all(planes, values) result(all)
       !> The planes
       type(planes_type), intent(in) :: planes
-      !> Values xi, eta, theta, shape (3, points, planes)
+      !> Values, shape (components, points, planes)
       real(wp), intent(in) :: values(:, :, :)
       !> The same on all planes
-      real(wp) :: all(3, size(values, 2), size(planes%place))
+      real(wp) :: all(size(values, 1), size(values, 2), size(planes%place))
 
-      integer :: j
+      integer :: i, j
 
       do j = 1, size(planes%place)
          all(:, :, j) = values(:, :, planes%place(j))
-         all(3, :, j) = planes%sign(j)*all(3, :, j)
+         do i = 1, size(values, 1)
+            if (planes%odd(i)) all(i, :, j) = planes%sign(j)*all(i, :, j)
+         end do
       end do
    end function on_all
 
@@ -161,6 +175,7 @@ contains
       integer :: j
 
       planes%angle = angles
+      planes%odd = joint_components
       allocate (planes%meridional(size(modes), size(angles)))
       allocate (planes%circumferential(size(modes), size(angles)))
       do j = 1, size(angles)
@@ -173,28 +188,40 @@ contains
    pure function synthesize(planes, amplitude) result(total)
       !> The planes
       type(planes_type), intent(in) :: planes
-      !> Amplitudes xi, eta, theta, shape (3, points, modes)
+      !> Amplitudes, shape (components, points, modes)
       real(wp), intent(in) :: amplitude(:, :, :)
-      !> Sums, shape (3, points, planes)
-      real(wp) :: total(3, size(amplitude, 2), size(planes%angle))
+      !> Sums, shape (components, points, planes)
+      real(wp) :: total(size(amplitude, 1), size(amplitude, 2), size(planes%angle))
 
-      total(1, :, :) = matmul(amplitude(1, :, :), planes%meridional)
-      total(2, :, :) = matmul(amplitude(2, :, :), planes%meridional)
-      total(3, :, :) = matmul(amplitude(3, :, :), planes%circumferential)
+      integer :: i
+
+      do i = 1, size(amplitude, 1)
+         if (planes%odd(i)) then
+            total(i, :, :) = matmul(amplitude(i, :, :), planes%circumferential)
+         else
+            total(i, :, :) = matmul(amplitude(i, :, :), planes%meridional)
+         end if
+      end do
    end function synthesize
 
    !> Amplitudes of joint quantities known on the planes
    pure function analyse(planes, total) result(amplitude)
       !> The planes, made by `new_planes`
       type(planes_type), intent(in) :: planes
-      !> Values xi, eta, theta, shape (3, points, planes)
+      !> Values, shape (components, points, planes)
       real(wp), intent(in) :: total(:, :, :)
-      !> Amplitudes, shape (3, points, modes)
-      real(wp) :: amplitude(3, size(total, 2), size(planes%meridional, 1))
+      !> Amplitudes, shape (components, points, modes)
+      real(wp) :: amplitude(size(total, 1), size(total, 2), size(planes%meridional, 1))
 
-      amplitude(1, :, :) = matmul(total(1, :, :), planes%meridional_back)
-      amplitude(2, :, :) = matmul(total(2, :, :), planes%meridional_back)
-      amplitude(3, :, :) = matmul(total(3, :, :), planes%circumferential_back)
+      integer :: i
+
+      do i = 1, size(total, 1)
+         if (planes%odd(i)) then
+            amplitude(i, :, :) = matmul(total(i, :, :), planes%circumferential_back)
+         else
+            amplitude(i, :, :) = matmul(total(i, :, :), planes%meridional_back)
+         end if
+      end do
    end function analyse
 
 end module axijoint_joints_planes

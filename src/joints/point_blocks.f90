@@ -3,8 +3,8 @@
 !> method what points do to each other
 module axijoint_joints_point_blocks
    use axijoint_base_kinds, only : wp
-   use axijoint_joints_planes, only : planes_type
-   use axijoint_joints_response, only : response_type, own_flexibility
+   use axijoint_joints_condensed, only : condensed_type
+   use axijoint_joints_scene, only : scene_type, own_flexibility
    use axijoint_linalg_lapack, only : invert, matrix_vector
    implicit none
    private
@@ -26,11 +26,11 @@ module axijoint_joints_point_blocks
 contains
 
    !> Invert I - A E' S f at the points that are worth it, f the flexibility of a point by itself
-   subroutine new_point_blocks(response, planes, slope, kept, stiff, point_blocks)
-      !> Flexibilities
-      type(response_type), intent(in) :: response
-      !> Planes
-      type(planes_type), intent(in) :: planes
+   subroutine new_point_blocks(condensed, scene, slope, kept, stiff, point_blocks)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Modes and planes
+      type(scene_type), intent(in) :: scene
       !> Slopes of the excess stress on the planes, shape (3, 3, points, planes)
       real(wp), intent(in) :: slope(:, :, :, :)
       !> Share of them that acts
@@ -46,7 +46,7 @@ contains
       !$omp parallel do schedule(dynamic) private(info)
       do k = 1, size(stiff)
          if (.not. stiff(k)) cycle
-         point_blocks%blocks(k)%inverse = block(response, planes, kept*slope(:, :, k, :), k)
+         point_blocks%blocks(k)%inverse = block(condensed, scene, kept*slope(:, :, k, :), k)
          call invert(point_blocks%blocks(k)%inverse, info)
          if (info /= 0) deallocate (point_blocks%blocks(k)%inverse)
       end do
@@ -54,11 +54,11 @@ contains
    end subroutine new_point_blocks
 
    !> I - A E' S f of a point
-   function block(response, planes, slope, k) result(matrix)
-      !> Flexibilities
-      type(response_type), intent(in) :: response
-      !> Planes
-      type(planes_type), intent(in) :: planes
+   function block(condensed, scene, slope, k) result(matrix)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Modes and planes
+      type(scene_type), intent(in) :: scene
       !> Its slopes, shape (3, 3, planes)
       real(wp), intent(in) :: slope(:, :, :)
       !> The point
@@ -66,11 +66,11 @@ contains
       !> Shape (3 modes, 3 modes)
       real(wp), allocatable :: matrix(:, :)
 
-      real(wp), dimension(size(planes%meridional, 1), size(planes%meridional, 1), 3, 3) :: coupling
+      real(wp), dimension(size(scene%planes%meridional, 1), size(scene%planes%meridional, 1), 3, 3) :: coupling
       real(wp) :: f(3, 3)
       integer :: i, l, m, n, n_modes
 
-      n_modes = size(planes%meridional, 1)
+      n_modes = size(scene%planes%meridional, 1)
       do l = 1, 3
          do i = 1, 3
             coupling(:, :, i, l) = matmul(transpose(back(i)), &
@@ -79,7 +79,7 @@ contains
       end do
       allocate (matrix(3*n_modes, 3*n_modes))
       do n = 1, n_modes
-         f = own_flexibility(response, n, k)
+         f = own_flexibility(condensed, scene, n, k)
          do m = 1, n_modes
             matrix(3*m - 2:3*m, 3*n - 2:3*n) = -matmul(coupling(m, n, :, :), f)
          end do
@@ -97,9 +97,9 @@ contains
          real(wp), allocatable :: forth(:, :)
 
          if (component == 3) then
-            forth = planes%circumferential
+            forth = scene%planes%circumferential
          else
-            forth = planes%meridional
+            forth = scene%planes%meridional
          end if
       end function forth
 
@@ -110,9 +110,9 @@ contains
          real(wp), allocatable :: back(:, :)
 
          if (component == 3) then
-            back = planes%circumferential_back
+            back = scene%planes%circumferential_back
          else
-            back = planes%meridional_back
+            back = scene%planes%meridional_back
          end if
       end function back
 

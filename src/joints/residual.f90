@@ -12,8 +12,8 @@ module axijoint_joints_residual
    use axijoint_model_mesh, only : mesh_type
    implicit none
    private
-   public :: measure_type, strictest_type, residual_record_type, new_measure, set_reference, strictest, ratios_of
-   public :: residual_norm, load_norm, ratio
+   public :: measure_type, reference_type, strictest_type, residual_record_type, new_measure, set_reference
+   public :: strictest, ratios_of, residual_norm, load_norm, ratio
 
    !> A residual this small beside the forces of the increment is rounding: smaller parts and harmonics are not
    !> resolved beyond it
@@ -30,7 +30,7 @@ module axijoint_joints_residual
       integer, allocatable :: part(:)
    end type rows_type
 
-   !> What residual forces are measured by
+   !> How residual forces are measured
    type :: measure_type
       private
       !> One entry a class of the equations, and the class and the integral of each mode
@@ -41,11 +41,16 @@ module axijoint_joints_residual
       real(wp), allocatable :: weight(:)
       !> A node of each part that has joints
       integer, allocatable, public :: part_node(:)
+   end type measure_type
+
+   !> What residual forces are held against
+   type :: reference_type
+      private
       !> Norm of the loads so far (Psi_f)
       real(wp) :: loads = 0.0_wp
-      !> Norm of the forces that a residual is held against, shape (parts, modes); zero for none
-      real(wp), allocatable :: reference(:, :)
-   end type measure_type
+      !> Norm of forces of the increment, shape (parts, modes); zero for none
+      real(wp), allocatable :: forces(:, :)
+   end type reference_type
 
    !> The largest ratio of residual forces
    type :: strictest_type
@@ -76,7 +81,7 @@ contains
       type(equations_type), intent(in) :: equations
       !> Joint points that can yield
       type(model_joint_point_type), intent(in) :: points(:)
-      !> The measure, without reference
+      !> The measure
       type(measure_type), intent(out) :: measure
 
       integer, allocatable :: part(:), unknowns(:), number(:), owner(:)
@@ -109,40 +114,42 @@ contains
             deallocate (owner)
          end associate
       end do
-      allocate (measure%reference(size(measure%part_node), size(equations%modes)), source=0.0_wp)
    end subroutine new_measure
 
    !> Set what the residuals of an increment are held against: the forces that its joints would carry of
    !> its load if they held, part by part in the harmonics that this load has, and of all harmonics in the others
-   subroutine set_reference(measure, loads, elastic, tolerance)
+   subroutine set_reference(measure, loads, elastic, tolerance, reference)
       !> The measure
-      type(measure_type), intent(inout) :: measure
+      type(measure_type), intent(in) :: measure
       !> Norm of the largest loads so far (Psi_f)
       real(wp), intent(in) :: loads
       !> Change of the joint stress by the increment if all joints held, shape (3, points, modes)
       real(wp), intent(in) :: elastic(:, :, :)
       !> Tolerance on the ratio
       real(wp), intent(in) :: tolerance
+      !> The reference
+      type(reference_type), intent(inout) :: reference
 
       real(wp) :: of_part(size(measure%part_node)), least
       integer :: k
 
-      measure%loads = loads
-      measure%reference = sqrt(squares(measure, elastic))
-      of_part = sqrt(sum(measure%reference**2, 2))
+      reference%loads = loads
+      reference%forces = sqrt(squares(measure, elastic))
+      of_part = sqrt(sum(reference%forces**2, 2))
       least = resolution/max(resolution, tolerance)
       of_part = max(of_part, least*maxval([0.0_wp, of_part]))
       do k = 1, size(measure%integral)
-         associate (reference => measure%reference(:, k))
-            reference = merge(max(reference, least*of_part), of_part, reference > 0.0_wp)
+         associate (forces => reference%forces(:, k))
+            forces = merge(max(forces, least*of_part), of_part, forces > 0.0_wp)
          end associate
       end do
    end subroutine set_reference
 
    !> Hold residual forces against the reference
-   pure function strictest(measure, residual, paper) result(found)
-      !> The measure
+   pure function strictest(measure, reference, residual, paper) result(found)
+      !> The measure, and what is held against
       type(measure_type), intent(in) :: measure
+      type(reference_type), intent(in) :: reference
       !> Amplitudes of joint stress out of balance, shape (3, points, modes)
       real(wp), intent(in) :: residual(:, :, :)
       !> Whether the ratio of the whole decides, as in the paper, unless it hides much larger ones
@@ -153,7 +160,7 @@ contains
       type(residual_record_type) :: record
       integer :: place(2)
 
-      record = ratios_of(measure, residual)
+      record = ratios_of(measure, reference, residual)
       found%whole = record%whole
       found%ratio = found%whole
       if (size(record%ratio) == 0) return
@@ -166,9 +173,10 @@ contains
    end function strictest
 
    !> Residual forces over the reference, of the whole and part by part and harmonic by harmonic
-   pure function ratios_of(measure, residual) result(record)
-      !> The measure
+   pure function ratios_of(measure, reference, residual) result(record)
+      !> The measure, and what is held against
       type(measure_type), intent(in) :: measure
+      type(reference_type), intent(in) :: reference
       !> Amplitudes of joint stress out of balance, shape (3, points, modes)
       real(wp), intent(in) :: residual(:, :, :)
       !> The ratios; those by parts are zero if the increment loads no joint
@@ -177,10 +185,11 @@ contains
       real(wp), allocatable :: squared(:, :)
 
       squared = squares(measure, residual)
-      record%whole = ratio(sqrt(sum(squared)), measure%loads)
+      record%whole = ratio(sqrt(sum(squared)), reference%loads)
       allocate (record%ratio, mold=squared)
       record%ratio = 0.0_wp
-      if (any(measure%reference > 0.0_wp)) record%ratio = ratio(sqrt(squared), measure%reference)
+      if (.not. allocated(reference%forces)) return
+      if (any(reference%forces > 0.0_wp)) record%ratio = ratio(sqrt(squared), reference%forces)
    end function ratios_of
 
    !> Norm of the residual forces r = N*^T e of joint stress: the ring forces on all equations, squared and

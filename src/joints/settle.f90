@@ -2,11 +2,13 @@
 module axijoint_joints_settle
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : memory_type, opening_bond
-   use axijoint_joints_balance, only : verdict_type, balance_step
-   use axijoint_joints_field, only : joint_field_type, iteration_type
-   use axijoint_joints_newton, only : newton_type, new_newton, newton_step
+   use axijoint_joints_condensed, only : condensed_type
+   use axijoint_joints_field, only : joint_field_type
+   use axijoint_joints_method, only : control_type, verdict_type
+   use axijoint_joints_newton, only : newton_type, step_bounds_type, new_newton, newton_step, newton_view
+   use axijoint_joints_newton_method, only : newton_method_type
+   use axijoint_joints_path, only : iteration_type
    use axijoint_joints_scene, only : scene_type, evaluate
-   use axijoint_model_model, only : method_newton
    implicit none
    private
    public :: settle, settle_wholly, find_again
@@ -25,9 +27,11 @@ contains
 
    !> Find the state of a changed scene. Which bonds break and which points soften is found from the beginning
    !> of the increment, and so is what Newton's method does not reach by itself
-   subroutine find_again(scene, start, field, found)
-      !> The scene
-      type(scene_type), intent(inout) :: scene
+   subroutine find_again(condensed, scene, start, field, found)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
       !> What the points remembered at the beginning, shape (points, planes)
       type(memory_type), intent(in) :: start(:, :)
       !> State of the joints
@@ -37,51 +41,52 @@ contains
 
       type(iteration_type), allocatable :: path(:)
       type(verdict_type) :: verdict
-      integer :: k, method
+      type(newton_method_type) :: newton
 
-      associate (laws => scene%model%joint_materials(scene%points%material)%law)
-         if (all([(laws(k)%opening /= opening_bond .and. .not. laws(k)%softens, k=1, size(laws))])) then
-            call settle(scene, field, found)
-            if (found) return
-         end if
-      end associate
+      if (all(scene%laws%opening /= opening_bond .and. .not. scene%laws%softens)) then
+         call settle(condensed, scene, field, found)
+         if (found) return
+      end if
       field%memory = start
       allocate (path(0))
-      method = scene%method
-      scene%method = method_newton
-      call balance_step(scene, pass_tolerance, most_iterations, iteration_type(), field, path, verdict)
-      scene%method = method
+      call newton%balance(condensed, scene, control_type(pass_tolerance, most_iterations), field, path, verdict)
       ! a law that jumps may have no state; an iterate that is so near tells by how much stresses change
       found = verdict%converged .or. (verdict%residual%whole <= near .and. .not. verdict%ran_away)
    end subroutine find_again
 
    !> Go so far that what is missing is a small part of what is missing at first
-   subroutine settle(scene, field, found)
-      !> The scene
+   subroutine settle(condensed, scene, field, found)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> State of the joints
       type(joint_field_type), intent(inout) :: field
       !> Whether a state was found
       logical, intent(out) :: found
 
-      call go_on(scene, part, linear_tolerance, field, found)
+      call go_on(condensed, scene, part, linear_tolerance, field, found)
    end subroutine settle
 
    !> Go as far as numbers do
-   subroutine settle_wholly(scene, field)
-      !> The scene
+   subroutine settle_wholly(condensed, scene, field)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> State of the joints
       type(joint_field_type), intent(inout) :: field
 
       logical :: found
 
-      call go_on(scene, 0.0_wp, strict_tolerance, field, found)
+      call go_on(condensed, scene, 0.0_wp, strict_tolerance, field, found)
    end subroutine settle_wholly
 
    !> Steps of Newton's method
-   subroutine go_on(scene, share, tolerance, field, found)
-      !> The scene
+   subroutine go_on(condensed, scene, share, tolerance, field, found)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> What may be missing, over what is missing at first
       real(wp), intent(in) :: share
@@ -93,37 +98,40 @@ contains
       logical, intent(out) :: found
 
       type(newton_type) :: newton
+      type(step_bounds_type) :: bounds
       real(wp), allocatable :: residual(:, :, :)
       real(wp) :: enough
       logical :: made
       integer :: k
 
       field%share = 1.0_wp
+      field%view_limit = newton_view
+      bounds%tolerance = tolerance
       allocate (residual, mold=field%excess)
-      call evaluate(scene, field, residual)
+      call evaluate(condensed, scene, field, residual)
       field%carried = field%stress
-      newton = new_newton(scene, field)
-      enough = max(share**2*newton%merit, rounding(scene, field))  ! squares
+      newton = new_newton(condensed, scene, field)
+      enough = max(share**2*newton%merit, rounding(condensed, field))  ! squares
       made = .true.
       do k = 1, most_steps
          if (newton%merit <= enough .or. .not. made) exit
-         call newton_step(scene, 0.0_wp, tolerance, huge(1.0_wp), newton, field, residual, made)
+         call newton_step(condensed, scene, bounds, newton, field, residual, made)
       end do
       found = newton%merit <= enough
    end subroutine go_on
 
    !> What rounding may leave missing, squared
-   pure real(wp) function rounding(scene, field)
-      !> The scene
-      type(scene_type), intent(in) :: scene
+   pure real(wp) function rounding(condensed, field)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
       !> State of the joints
       type(joint_field_type), intent(in) :: field
 
       integer :: k
 
       rounding = 0.0_wp
-      do k = 1, size(scene%points)
-         rounding = rounding + strict**2*scene%points(k)%weight*sum(field%stress(:, k, :)**2)/size(field%stress, 3)
+      do k = 1, size(condensed%points)
+         rounding = rounding + strict**2*condensed%points(k)%weight*sum(field%stress(:, k, :)**2)/size(field%stress, 3)
       end do
    end function rounding
 

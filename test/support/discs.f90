@@ -7,21 +7,31 @@ module axijoint_test_discs
    use axijoint_base_progress, only : progress_type
    use axijoint_base_timer, only : timer_type
    use axijoint_element_joint_law, only : joint_law_type, law_paper, slip_resultant
-   use axijoint_joints_field, only : joint_field_type, new_joint_field
-   use axijoint_joints_floating, only : new_loads_on, put_loads_on
-   use axijoint_joints_response, only : load_response
+   use axijoint_joints_field, only : joint_field_type
+   use axijoint_joints_history, only : new_state
+   use axijoint_joints_loads, only : put_loads
+   use axijoint_joints_newton, only : newton_view
+   use axijoint_joints_scene, only : scene_type, new_scene_of => new_scene
    use axijoint_model_load, only : combination_type
    use axijoint_model_material, only : joint_material_type, rule_gauss
    use axijoint_model_model, only : model_type, method_newton
    use axijoint_test_scenes, only : new_scene, add_block, add_interface, add_edge_traction
    implicit none
    private
-   public :: discs_on_ground, add_load, condense, load_by, weight, push
+   public :: discs_type, discs_on_ground, add_load, condense, load_by, weight, push
 
    !> Height of each disc
    real(wp), parameter, public :: height = 0.2_wp
    !> Modulus of the discs: next to it, a joint of unit stiffness is soft
    real(wp), parameter, public :: young = 1.0e6_wp
+
+   !> Discs, condensed, and what is asked of them
+   type, extends(structure_type) :: discs_type
+      !> The job
+      type(model_type) :: model
+      !> Laws, planes and loads
+      type(scene_type) :: scene
+   end type discs_type
 
 contains
 
@@ -113,9 +123,9 @@ contains
    !> Condense the structure to its joints
    subroutine condense(model, structure, field)
       !> The model
-      type(model_type), intent(in), target :: model
+      type(model_type), intent(in) :: model
       !> The structure
-      type(structure_type), intent(out), target :: structure
+      type(discs_type), intent(out) :: structure
       !> Joints without stress
       type(joint_field_type), intent(out) :: field
 
@@ -123,33 +133,26 @@ contains
       type(progress_type) :: progress
       type(error_type), allocatable :: error
 
-      call build_structure(model, structure, timer, progress, error)
+      call build_structure(model, structure%structure_type, timer, progress, error)
       if (allocated(error)) error stop 'a test scene cannot be condensed'
-      associate (scene => structure%scene)
-         scene%model => model
-         scene%equations => structure%equations
-         scene%method = model%method
-         field = new_joint_field(size(scene%points), size(scene%planes%angle), size(structure%modes), &
-                                 size(scene%floating))
-         scene%loads = new_loads_on(scene%floating, size(scene%points))
-      end associate
+      structure%model = model
+      structure%scene = new_scene_of(model, structure%condensed)
+      field = new_state(structure%condensed, structure%scene)
+      field%view_limit = newton_view
    end subroutine condense
 
    !> Load it by a multiple of the loads
    subroutine load_by(structure, factor)
       !> The structure, condensed
-      type(structure_type), intent(inout), target :: structure
+      type(discs_type), intent(inout) :: structure
       !> The factor
       real(wp), intent(in) :: factor
 
       type(loading_type) :: loading
 
-      associate (scene => structure%scene)
-         call new_loading(scene%model, structure%joint_points, structure%support_points, structure%modes, &
-                          combination_type(label=1, factor=[factor]), loading)
-         call load_response(structure%equations, scene%points, loading, scene%response)
-         call put_loads_on(scene%floating, loading%external, scene%loads)
-      end associate
+      call new_loading(structure%model, structure%joint_points, structure%support_points, structure%modes, &
+                       combination_type(label=1, factor=[factor]), loading)
+      call put_loads(structure%equations, structure%condensed, loading, structure%scene%loads)
    end subroutine load_by
 
 end module axijoint_test_discs

@@ -14,7 +14,7 @@ module axijoint_analysis_core_in_situ_balance
    use axijoint_fe_mode, only : mode_type, same_mode
    use axijoint_fe_quadrature, only : gauss_rule
    use axijoint_fe_shape, only : n_corners, shape_line
-   use axijoint_joints_increments, only : loads_of_increments
+   use axijoint_joints_load_steps, only : loads_of_increments
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points
    use axijoint_model_load, only : combination_type, initial_stress_type, covers, is_stressed, &

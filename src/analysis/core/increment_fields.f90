@@ -84,7 +84,7 @@ contains
       call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
                        combination_type(0, state%case_factor), loading)
       if (allocated(state%excess)) then
-         call solve_displacements(structure%equations, model, loading, structure%scene%points, &
+         call solve_displacements(structure%equations, model, loading, structure%condensed%points, &
                                   state%excess, results%displacement, solves, factor_share, error)
       else
          call solve_displacements(structure%equations, model, loading, structure%joint_points(:0), &
@@ -100,7 +100,7 @@ contains
       end do
       !$omp end parallel do
       call smooth_stress(model, results)
-      if (allocated(state%offset)) call add_motions(structure%scene%floating, state%offset, results%displacement)
+      if (allocated(state%offset)) call add_motions(structure%condensed%floating, state%offset, results%displacement)
    end subroutine solve_increment
 
    !> Relative displacements, stresses and states of all joints on planes: those of

@@ -4,6 +4,7 @@ module axijoint_analysis_core_left_out
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_base_text, only : to_text
    use axijoint_fe_mode, only : mode_type, family_symmetric, family_antisymmetric, is_torsion
+   use axijoint_joints_planes, only : planes_type, new_planes
    use axijoint_model_model, only : model_type, can_yield_at
    implicit none
    private
@@ -21,12 +22,13 @@ contains
       !> The sentences
       type(remark_type), allocatable :: sentences(:)
 
+      type(planes_type) :: planes
       logical :: yields
       integer :: n_elastic, n_harmonics
 
       allocate (sentences(0))
       yields = size(structure%yielding) > 0
-      associate (modes => structure%modes, planes => structure%scene%planes)
+      associate (modes => structure%modes)
          n_harmonics = count_unused(model%harmonics, modes)
          if (n_harmonics > 0 .and. .not. yields) then
             call add(sentences, to_text(n_harmonics)//' harmonics of '//to_text(size(model%harmonics))// &
@@ -51,6 +53,7 @@ contains
             call add(sentences, 'u and v of harmonic 0 antisymmetric: torsion has w only')
          end if
          if (yields) then
+            planes = new_planes(model%n_planes, modes)
             if (size(planes%angle) < size(planes%place)) then
                call add(sentences, to_text(size(planes%place) - size(planes%angle))//' planes of '// &
                         to_text(size(planes%place))//': they are like others')

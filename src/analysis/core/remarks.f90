@@ -7,10 +7,11 @@ module axijoint_analysis_core_remarks
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text
-   use axijoint_element_joint_law, only : opening_reversible
-   use axijoint_joints_field, only : joint_field_type, iteration_type, n_across_gaps
-   use axijoint_joints_increments, only : history_type
-   use axijoint_model_model, only : model_type, method_transfer
+   use axijoint_element_joint_law, only : joint_law_type, opening_reversible
+   use axijoint_joints_field, only : joint_field_type, n_across_gaps
+   use axijoint_joints_history, only : history_type
+   use axijoint_joints_path, only : iteration_type
+   use axijoint_model_model, only : model_type
    use axijoint_model_request, only : goal_names
    implicit none
    private
@@ -154,7 +155,7 @@ contains
       character(len=:), allocatable :: text
 
       text = ''
-      associate (laws => model%joint_materials(structure%scene%points%material)%law)
+      associate (laws => model%joint_materials(structure%condensed%points%material)%law)
          if (any(laws%cohesion > 0.0_wp .and. laws%opening == opening_reversible)) then
             text = ': try BOND in LAWDETAILS'
          end if
@@ -179,7 +180,7 @@ contains
       text = ''
       place = findloc(history%verdict%restless, .true.)
       if (any(place == 0)) return
-      text = ' (joint '//to_text(model%mesh%joint_label(structure%scene%points(place(1))%joint))// &
+      text = ' (joint '//to_text(model%mesh%joint_label(structure%condensed%points(place(1))%joint))// &
          ' at theta = '//to_text(results%plane_angles(place(2))/degree)//', ...)'
    end function restless_text
 
@@ -196,11 +197,13 @@ contains
       !> The sentences, to be continued
       type(remark_type), allocatable, intent(inout) :: remarks(:)
 
+      type(joint_law_type), allocatable :: laws(:)
       real(wp) :: widest
       integer :: n
 
-      if (model%method == method_transfer) then
-         call n_across_gaps(model, structure%joint_points, field, n, widest)
+      if (results%accumulated) then
+         laws = model%joint_materials(structure%joint_points%material)%law
+         call n_across_gaps(laws, field, n, widest)
          if (n > 0) call add(remarks, 'pressure across an open gap at '//to_text(n)// &
             ' joint points on planes (widest '//to_text(widest)// &
             '): stress accumulated, as in the paper')

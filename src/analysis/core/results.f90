@@ -5,7 +5,7 @@ module axijoint_analysis_core_results
    use axijoint_analysis_fine_singular_places, only : singular_place_type
    use axijoint_base_kinds, only : wp, i8
    use axijoint_fe_mode, only : mode_type
-   use axijoint_joints_field, only : iteration_type
+   use axijoint_joints_path, only : iteration_type
    use axijoint_joints_residual, only : residual_record_type
    use axijoint_joints_states, only : increment_state_type
    implicit none
@@ -131,6 +131,8 @@ module axijoint_analysis_core_results
    type :: results_type
       !> Whether every increment reached its tolerance
       logical :: converged = .false.
+      !> Whether joint stress was accumulated over the iterations, as in the paper
+      logical :: accumulated = .false.
       !> Largest difference of joint stress, over the largest, to the paper's loop at 3 %
       !> (to Newton's method, if the paper's loop was used); negative if not known
       real(wp) :: other_loop = -1.0_wp

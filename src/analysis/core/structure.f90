@@ -16,12 +16,9 @@ module axijoint_analysis_core_structure
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type, phase_assemble, phase_factor, phase_joints
    use axijoint_fe_mode, only : mode_type
-   use axijoint_joints_floating, only : new_floating_motions
+   use axijoint_joints_condensed, only : condensed_type, new_condensed
    use axijoint_joints_planes, only : planes_type, new_planes
-   use axijoint_joints_residual, only : new_measure
-   use axijoint_joints_response, only : new_response
-   use axijoint_joints_scene, only : scene_type
-   use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points, stiffness_ratio
+   use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points
    use axijoint_model_model, only : model_type, can_yield, can_yield_at, yielding_nodes
    use axijoint_model_modes, only : used_modes
    use axijoint_order_graph, only : bandwidth, profile, fill
@@ -40,10 +37,10 @@ module axijoint_analysis_core_structure
       !> Equations of all modes, factored
       type(equations_type), allocatable :: equations
       !> Joints that can yield, condensed; empty if none can
-      type(scene_type) :: scene
+      type(condensed_type) :: condensed
       !> Their places among all joint points
       integer, allocatable :: yielding(:)
-      !> Planes that joint results are shown on: all, while the scene leaves out those
+      !> Planes that joint results are shown on: all, while the iterations leave out those
       !> that are like others
       type(planes_type) :: planes
       !> The same on a mesh of elements half as large, for estimates of errors
@@ -92,24 +89,15 @@ contains
       end associate
       call timer%pop()
       call timer%push(phase_joints)
-      associate (points => structure%joint_points)
-         structure%yielding = pack([(k, k=1, size(points))], can_yield_at(model, points%material))
-         structure%scene%points = points(structure%yielding)
-      end associate
+      structure%yielding = pack([(k, k=1, size(structure%joint_points))], &
+                                can_yield_at(model, structure%joint_points%material))
       if (size(structure%yielding) > 0) then
          call show_progress(progress, 'condensing to '//to_text(size(structure%yielding))//' joint points')
-         structure%scene%planes = new_planes(model%n_planes, structure%modes)
          structure%planes = new_planes(model%n_planes, structure%modes, whole=.true.)
-         structure%scene%proportion = stiffness_ratio(structure%scene%points)
-         structure%scene%first_share = share_seen_first(model, structure%scene)
-         associate (points => structure%joint_points)
-            call new_floating_motions(model, pack(points, .not. can_yield_at(model, points%material)), &
-                                      structure%support_points, structure%modes, structure%scene%points, &
-                                      structure%scene%floating)
-         end associate
-         call new_measure(model%mesh, structure%equations, structure%scene%points, structure%scene%measure)
-         call new_response(structure%equations, structure%scene%points, structure%scene%response, error)
-         if (.not. allocated(error)) call report_failure(structure%equations, model, error)
+         call new_condensed(model, structure%joint_points, structure%support_points, structure%equations, &
+                            structure%condensed, error)
+      else
+         allocate (structure%condensed%points(0), structure%condensed%floating(0))
       end if
       call timer%pop()
    end subroutine build_structure
@@ -160,23 +148,6 @@ contains
       reuses_factors = size(model%combinations) > 1 .or. can_yield(model) &
          .or. model%sweep%wanted .and. size(model%increments) > 1
    end function reuses_factors
-
-   !> Share of the joint stiffness that Newton's method begins with: what is about
-   !> the stiffness of the bodies. Cohesion makes yield depend on the size of the
-   !> stress, not on its direction alone; then the share would mislead.
-   pure real(wp) function share_seen_first(model, scene) result(share)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Joint points that can yield, and their stiffness in proportion to the bodies
-      type(scene_type), intent(in) :: scene
-
-      !> Power of ten of k h/E that Newton's method needs no help for
-      integer, parameter :: easy = 0
-
-      share = 1.0_wp
-      if (any(model%joint_materials(scene%points%material)%law%cohesion > 0.0_wp)) return
-      share = 10.0_wp**min(0, easy - floor(log10(max(tiny(1.0_wp), scene%proportion))))
-   end function share_seen_first
 
    !> Bandwidth, profile and fill of the orders side by side
    pure function compare_orders(orders) result(orderings)

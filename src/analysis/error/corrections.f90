@@ -8,11 +8,13 @@ module axijoint_analysis_error_corrections
    use axijoint_assembly_force, only : elastic_joint_stress
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
+   use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type
-   use axijoint_joints_increments, only : history_type, balance_again
+   use axijoint_joints_history, only : history_type
+   use axijoint_joints_increments, only : balance_again
    use axijoint_joints_residual, only : strictest_type, strictest
-   use axijoint_joints_scene, only : scene_type, mismatch_of
-   use axijoint_model_model, only : model_type, method_transfer
+   use axijoint_joints_scene, only : mismatch_of
+   use axijoint_model_model, only : model_type
    implicit none
    private
    public :: correct_rounding, keep_claim, solver_keeps_claim
@@ -28,15 +30,13 @@ contains
 
    !> See how far the relative displacements of the bodies are from those that the laws saw;
    !> where that matters, correct the response by the difference and balance the joints again
-   subroutine correct_rounding(model, structure, history, yielding, results, error)
+   subroutine correct_rounding(model, structure, history, results, error)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure, condensed
       type(structure_type), intent(inout) :: structure
-      !> What the increments came to; takes further iterations
+      !> What the increments came to; takes further iterations and their state
       type(history_type), intent(inout) :: history
-      !> State of the joints that yield
-      type(joint_field_type), intent(inout) :: yielding
       !> Results with displacements; take those of the corrected state, and the mismatch
       type(results_type), intent(inout) :: results
       !> Out of memory
@@ -50,19 +50,20 @@ contains
       real(wp) :: factor_share
       integer :: k
 
-      associate (scene => structure%scene)
+      associate (condensed => structure%condensed, scene => history%scene)
          do k = 0, most_corrections
-            jump = mismatch_of(scene, yielding, results%displacement)
-            found = strictest(scene%measure, elastic_stress(jump), paper=scene%method == method_transfer)
+            jump = mismatch_of(condensed, scene, history%field, results%displacement)
+            found = strictest(condensed%measure, scene%loads%reference, elastic_stress(jump), &
+                              paper=history%method%accumulates)
             results%mismatch = found%ratio
-            if (.not. results%converged .or. scene%method == method_transfer) return
+            if (.not. results%converged .or. history%method%accumulates) return
             if (results%mismatch <= part*results%tolerance .or. k == most_corrections) return
-            scene%response%free = scene%response%free + jump
-            call balance_again(scene, yielding, history)
+            scene%loads%free = scene%loads%free + jump
+            call balance_again(condensed, history)
             results%converged = history%verdict%converged
             results%path = history%path
-            call solve_displacements(structure%equations, model, history%loading, scene%points, &
-                                     yielding%excess, results%displacement, results%solves, factor_share, error)
+            call solve_displacements(structure%equations, model, history%loading, condensed%points, &
+                                     history%field%excess, results%displacement, results%solves, factor_share, error)
             if (allocated(error)) return
          end do
       end associate
@@ -79,7 +80,7 @@ contains
          integer :: m
 
          do m = 1, size(jump, 3)
-            stress(:, :, m) = elastic_joint_stress(structure%scene%points, jump(:, :, m))
+            stress(:, :, m) = elastic_joint_stress(structure%condensed%points, jump(:, :, m))
          end do
       end function elastic_stress
 
@@ -87,15 +88,13 @@ contains
 
    !> Iterate on until the errors that iterations leave are what the tolerance claims. What does not come
    !> there has not converged. (The paper's loop claims no more than its residual ratio.)
-   subroutine keep_claim(model, structure, history, yielding, results, error)
+   subroutine keep_claim(model, structure, history, results, error)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure, condensed
       type(structure_type), intent(inout), target :: structure
-      !> What the increments came to; takes further iterations
+      !> What the increments came to; takes further iterations and their state
       type(history_type), intent(inout) :: history
-      !> State of the joints that yield
-      type(joint_field_type), intent(inout) :: yielding
       !> Results with displacements; take those of the state
       type(results_type), intent(inout) :: results
       !> Out of memory
@@ -109,22 +108,22 @@ contains
       real(wp) :: factor_share, tolerance, excess
       integer :: k
 
-      associate (scene => structure%scene)
-         if (.not. results%converged .or. scene%method == method_transfer) return
+      associate (condensed => structure%condensed, scene => history%scene)
+         if (.not. results%converged .or. history%method%accumulates) return
          tolerance = results%tolerance
          do k = 0, most_attempts
-            call iteration_error(structure, history, yielding, results, balanced, share)
+            call iteration_error(structure, history, results, balanced, share)
             excess = share%displacement
-            if (scene%proportion <= stiff) excess = max(excess, share%joint_stress)
-            excess = excess/claim(scene, results%tolerance)
+            if (condensed%proportion <= stiff) excess = max(excess, share%joint_stress)
+            excess = excess/claim(condensed, results%tolerance)
             if (excess <= 1.0_wp) return
             if (k == most_attempts) exit
             tolerance = part*tolerance/excess
-            call balance_again(scene, yielding, history, tolerance)
+            call balance_again(condensed, history, tolerance)
             results%path = history%path
             if (.not. history%verdict%converged) exit
-            call solve_displacements(structure%equations, model, history%loading, scene%points, &
-                                     yielding%excess, results%displacement, results%solves, factor_share, error)
+            call solve_displacements(structure%equations, model, history%loading, condensed%points, &
+                                     history%field%excess, results%displacement, results%solves, factor_share, error)
             if (allocated(error)) return
          end do
          results%converged = .false.
@@ -133,13 +132,13 @@ contains
    end subroutine keep_claim
 
    !> Error that a tolerance claims
-   pure real(wp) function claim(scene, tolerance)
-      !> The scene, with the proportion of its joints
-      type(scene_type), intent(in) :: scene
+   pure real(wp) function claim(condensed, tolerance)
+      !> The condensed structure, with the proportion of its joints
+      type(condensed_type), intent(in) :: condensed
       !> The tolerance
       real(wp), intent(in) :: tolerance
 
-      claim = claimed*tolerance*max(1.0_wp, scene%proportion/stiff)
+      claim = claimed*tolerance*max(1.0_wp, condensed%proportion/stiff)
    end function claim
 
    !> Whether the error that the solver leaves is what the tolerance claims

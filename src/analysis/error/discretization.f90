@@ -53,7 +53,7 @@ contains
          estimate%relative = sqrt(ratio(sum(estimate%error_energy), sum(estimate%energy)))
          estimate%element = ratio(sum(error, 1), sum(estimate%energy))
          total = results%displacement
-         if (size(field%offset) > 0) call add_motions(structure%scene%floating, field%offset, total)
+         if (size(field%offset) > 0) call add_motions(structure%condensed%floating, field%offset, total)
          estimate%largest_displacement = largest_vector(results%modes, total)
          estimate%displacement = ratio(largest_vector(results%modes, mesh_error%displacement), &
                                        estimate%largest_displacement)

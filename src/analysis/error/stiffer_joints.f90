@@ -7,7 +7,7 @@ module axijoint_analysis_error_stiffer_joints
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_progress, only : progress_type
    use axijoint_joints_field, only : joint_field_type
-   use axijoint_joints_increments, only : history_type
+   use axijoint_joints_history, only : history_type
    use axijoint_joints_planes, only : planes_type, new_view, synthesize
    use axijoint_model_joint_proportion, only : joint_proportions, side_of, side_soft, side_stiff
    use axijoint_model_load, only : combination_type

@@ -9,20 +9,20 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_analysis_fine_joints, only : fine_excess
    use axijoint_analysis_fine_level, only : fine_level_type, fine_load_type, new_fine_load
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type, new_mesh_error
-   use axijoint_assembly_equations, only : equations_type, solve_mode
+   use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, release_factor
-   use axijoint_assembly_force, only : joint_force, joint_jump
+   use axijoint_assembly_force, only : joint_jump
    use axijoint_base_kinds, only : wp
+   use axijoint_joints_effect, only : add_effect
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_floating, only : add_motions
-   use axijoint_joints_increments, only : history_type
+   use axijoint_joints_history, only : history_type
    use axijoint_joints_joint_errors, only : joint_change_type, joint_changes_type, find_joint_changes, change_between, &
                                            largest_change
    use axijoint_joints_residual, only : ratio
    use axijoint_joints_scene, only : scene_type
    use axijoint_joints_settle, only : settle_wholly, find_again
    use axijoint_model_joint_points, only : model_joint_point_type
-   use axijoint_model_model, only : method_newton, method_transfer
    implicit none
    private
    public :: estimate_yielding_errors, iteration_error
@@ -31,13 +31,11 @@ contains
 
    !> Estimate all errors. The paper's loop is another approximation: its errors are the difference to
    !> equilibrium on total jumps, if that was found, and the errors of that
-   subroutine estimate_yielding_errors(structure, history, field, other, results, mesh_error)
+   subroutine estimate_yielding_errors(structure, history, other, results, mesh_error)
       !> The structure, condensed
-      type(structure_type), intent(inout), target :: structure
+      type(structure_type), intent(inout) :: structure
       !> What the increments came to
       type(history_type), intent(in) :: history
-      !> State of the joints that yield
-      type(joint_field_type), intent(in) :: field
       !> That of Newton's method where the paper's loop was used
       type(joint_field_type), allocatable, intent(in) :: other
       !> Results with displacements; take the errors
@@ -51,11 +49,11 @@ contains
       real(wp) :: start, largest
 
       start = omp_get_wtime()
-      associate (scene => structure%scene)
+      associate (condensed => structure%condensed, scene => history%scene, field => history%field)
          if (.not. results%converged) then
             call mesh_error_of_held(structure, history, field, results%displacement, mesh_error)
             return
-         else if (scene%method /= method_transfer) then
+         else if (.not. history%method%accumulates) then
             allocate (balanced, source=field)
             balanced%memory = history%memory
          else if (allocated(other)) then
@@ -64,15 +62,15 @@ contains
             call mesh_error_of_held(structure, history, field, results%displacement, mesh_error)
             return
          end if
-         call settle_by_newton(scene, balanced)
+         call settle_wholly(condensed, scene, balanced)
          displacement = results%displacement
-         call add_motions(scene%floating, field%offset, displacement)
+         call add_motions(condensed%floating, field%offset, displacement)
          largest = largest_vector(results%modes, displacement)
          displacement = results%displacement
          changes%iteration = change_between(scene, field, balanced, structure%judged(structure%yielding))
          changes%iteration%seconds = omp_get_wtime() - start
-         call add_displacement(scene, changes%iteration%excess, displacement)
-         call find_joint_changes(scene, balanced, history%start, &
+         call add_effect(structure%equations, condensed%points, changes%iteration%excess, displacement)
+         call find_joint_changes(condensed, scene, balanced, history%start, &
                                  structure%judged(structure%yielding), changes)
          call take_share(structure, history, results, largest, changes%iteration, results%joint_errors(1))
          call take_share(structure, history, results, largest, changes%planes, results%joint_errors(2))
@@ -82,13 +80,11 @@ contains
    end subroutine estimate_yielding_errors
 
    !> What the iteration left, by the state in which the joints are wholly balanced
-   subroutine iteration_error(structure, history, field, results, balanced, share)
+   subroutine iteration_error(structure, history, results, balanced, share)
       !> The structure, condensed
-      type(structure_type), intent(inout), target :: structure
-      !> What the increments came to
+      type(structure_type), intent(inout) :: structure
+      !> What the increments came to by a method on total jumps
       type(history_type), intent(in) :: history
-      !> State of the joints that yield, of a method on total jumps
-      type(joint_field_type), intent(in) :: field
       !> Results with displacements
       type(results_type), intent(in) :: results
       !> The state wholly balanced
@@ -99,31 +95,16 @@ contains
       type(joint_change_type) :: change
       real(wp), allocatable :: displacement(:, :, :)
 
-      associate (scene => structure%scene)
+      associate (condensed => structure%condensed, scene => history%scene, field => history%field)
          allocate (balanced, source=field)
          balanced%memory = history%memory
-         call settle_by_newton(scene, balanced)
+         call settle_wholly(condensed, scene, balanced)
          change = change_between(scene, field, balanced, structure%judged(structure%yielding))
          displacement = results%displacement
-         call add_motions(scene%floating, field%offset, displacement)
+         call add_motions(condensed%floating, field%offset, displacement)
          call take_share(structure, history, results, largest_vector(results%modes, displacement), change, share)
       end associate
    end subroutine iteration_error
-
-   !> Balance the joints wholly
-   subroutine settle_by_newton(scene, field)
-      !> The scene
-      type(scene_type), intent(inout) :: scene
-      !> State of the joints
-      type(joint_field_type), intent(inout) :: field
-
-      integer :: method
-
-      method = scene%method
-      scene%method = method_newton
-      call settle_wholly(scene, field)
-      scene%method = method
-   end subroutine settle_by_newton
 
    !> An error in relative numbers
    subroutine take_share(structure, history, results, largest, change, share)
@@ -150,8 +131,8 @@ contains
       if (.not. change%known) return
       allocate (displacement, mold=results%displacement)
       displacement = 0.0_wp
-      call add_displacement(structure%scene, change%excess, displacement)
-      call add_motions(structure%scene%floating, change%offset, displacement)
+      call add_effect(structure%equations, structure%condensed%points, change%excess, displacement)
+      call add_motions(structure%condensed%floating, change%offset, displacement)
       share%joint_stress = ratio(max(change%stress, elastic_change(structure, displacement)), &
                                  stress_scale(structure, history, results%displacement))
       share%displacement = ratio(largest_vector(results%modes, displacement) + change%beyond, &
@@ -247,25 +228,25 @@ contains
 
       type(model_joint_point_type), allocatable :: points(:)
       type(joint_field_type), allocatable :: after
-      real(wp), allocatable :: excess(:, :, :), free(:, :, :), before(:, :, :)
+      type(scene_type) :: corrected
+      real(wp), allocatable :: excess(:, :, :), before(:, :, :)
       real(wp) :: start
       integer :: k
       logical :: found
 
       start = omp_get_wtime()
-      associate (scene => structure%scene)
-         call fine_excess(scene, structure%fine, balanced, displacement, history%loading%case_factor, points, excess)
+      associate (condensed => structure%condensed, scene => history%scene)
+         call fine_excess(condensed, scene, structure%fine, balanced, displacement, history%loading%case_factor, points, excess)
          call all_differences(structure, history, points, excess, displacement, error)
          allocate (after, source=balanced)
-         free = scene%response%free
-         scene%response%free = free + error%jump(:, structure%yielding, :)
-         call find_again(scene, history%start, after, found)
-         call move_alloc(free, scene%response%free)
+         corrected = scene
+         corrected%loads%free = scene%loads%free + error%jump(:, structure%yielding, :)
+         call find_again(condensed, corrected, history%start, after, found)
          if (found) then
             error%joint_stress = largest_change(scene, balanced, after, 1, structure%judged(structure%yielding))
             before = error%displacement
-            call add_displacement(scene, after%excess - balanced%excess, error%displacement)
-            call add_motions(scene%floating, after%offset - balanced%offset, error%displacement)
+            call add_effect(structure%equations, condensed%points, after%excess - balanced%excess, error%displacement)
+            call add_motions(condensed%floating, after%offset - balanced%offset, error%displacement)
             do k = 1, size(before, 3)
                error%jump(:, :, k) = error%jump(:, :, k) &
                   + joint_jump(structure%joint_points, error%displacement(:, :, k) - before(:, :, k))
@@ -333,37 +314,5 @@ contains
             .and. .not. any(abs(history%loading%right(:, :, k)) > 0.0_wp)
       end do
    end function is_weak
-
-   !> Add the displacements from excess joint stress
-   subroutine add_displacement(scene, excess, displacement)
-      !> The scene
-      type(scene_type), intent(inout) :: scene
-      !> Amplitudes, shape (3, points, modes)
-      real(wp), intent(in) :: excess(:, :, :)
-      !> Displacement amplitudes, shape (3, nodes, modes)
-      real(wp), intent(inout) :: displacement(:, :, :)
-
-      type(workspace_type), allocatable :: spaces(:)
-      real(wp), allocatable :: part(:, :), force(:, :)  ! threads have small stacks
-      integer :: s, i, k
-
-      if (.not. any(abs(excess) > 0.0_wp)) return
-      call new_workspaces(scene%equations, spaces)
-      !$omp parallel do schedule(dynamic) private(i, k, part, force) num_threads(size(spaces))
-      do s = 1, size(scene%equations%systems)
-         call hold_factor(scene%equations, s, spaces(own()))
-         if (scene%equations%systems(s)%failed) cycle
-         do i = 1, size(scene%equations%systems(s)%modes)
-            k = scene%equations%systems(s)%modes(i)
-            force = joint_force(scene%points, scene%equations%modes(k)%harmonic, excess(:, :, k), &
-                                size(displacement, 2))
-            part = force  ! for its shape
-            call solve_mode(scene%equations, k, force, part)
-            displacement(:, :, k) = displacement(:, :, k) + part
-         end do
-         call release_factor(scene%equations, s, spaces(own()))
-      end do
-      !$omp end parallel do
-   end subroutine add_displacement
 
 end module axijoint_analysis_error_yielding_errors

@@ -7,9 +7,9 @@ module axijoint_analysis_fine_joint_quadrature
    use axijoint_fe_quadrature, only : gauss_rule
    use axijoint_fe_shape, only : lagrange
    use axijoint_joints_field, only : joint_field_type, trial_of
-   use axijoint_joints_planes, only : analyse
-   use axijoint_joints_scene, only : scene_type
-   use axijoint_model_joint_points, only : joint_rule
+   use axijoint_joints_planes, only : planes_type, analyse
+   use axijoint_model_joint_points, only : model_joint_point_type, joint_rule
+   use axijoint_model_model, only : model_type
    implicit none
    private
    public :: missed_stress
@@ -37,9 +37,12 @@ contains
 
    !> Stress at the points that does the work which the rule misses, amplitudes, shape (3, points,
    !> modes). Nothing for the rule of one point
-   function missed_stress(scene, field) result(amplitude)
-      !> Joint points and planes
-      type(scene_type), intent(in) :: scene
+   function missed_stress(model, points, planes, field) result(amplitude)
+      !> The job, for its laws, and points of its joints, joint by joint
+      type(model_type), intent(in) :: model
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Planes
+      type(planes_type), intent(in) :: planes
       !> State of the joints
       type(joint_field_type), intent(in) :: field
       !> The amplitudes
@@ -52,25 +55,26 @@ contains
       allocate (missed, mold=field%stress)
       missed = 0.0_wp
       first = 1
-      do while (first <= size(scene%points))
-         call place_course(scene, first, course)
-         if (course%n == scene%points(first)%n_pairs) then
+      do while (first <= size(points))
+         call place_course(model, points, first, course)
+         if (course%n == points(first)%n_pairs) then
             do j = 1, size(missed, 3)
-               call take_stresses(scene, field, j, course)
-               if (.not. is_smooth(scene, field, j, course)) then
-                  missed(:, first:first + course%n - 1, j) = missed_by_rule(scene, field, j, course)
+               call take_stresses(model, points, field, j, course)
+               if (.not. is_smooth(model, points, field, j, course)) then
+                  missed(:, first:first + course%n - 1, j) = missed_by_rule(model, points, field, j, course)
                end if
             end do
          end if
          first = first + course%n
       end do
-      amplitude = analyse(scene%planes, missed)
+      amplitude = analyse(planes, missed)
    end function missed_stress
 
    !> The joint that begins with a point
-   subroutine place_course(scene, first, course)
-      !> Joint points
-      type(scene_type), intent(in) :: scene
+   subroutine place_course(model, points, first, course)
+      !> The job, for its laws, and points of its joints, joint by joint
+      type(model_type), intent(in) :: model
+      type(model_joint_point_type), intent(in) :: points(:)
       !> Its first point
       integer, intent(in) :: first
       !> Takes the geometry
@@ -78,18 +82,19 @@ contains
 
       real(wp) :: w(3)
 
-      associate (point => scene%points(first), model => scene%model)
+      associate (point => points(first))
          course%first = first
          call joint_rule(model%joint_materials(point%material)%rule, point%n_pairs, course%n, course%x, w)
          course%side(:, :point%n_pairs) = model%mesh%coordinates(:, point%nodes(lower_node(:point%n_pairs)))
-         course%points(:course%n) = scene%points(first:first + course%n - 1)%joint_point_type
+         course%points(:course%n) = points(first:first + course%n - 1)%joint_point_type
       end associate
    end subroutine place_course
 
    !> Trial stresses of a joint on a plane, and what the law admits of them
-   subroutine take_stresses(scene, field, plane, course)
-      !> Joint points
-      type(scene_type), intent(in) :: scene
+   subroutine take_stresses(model, points, field, plane, course)
+      !> The job, for its laws, and points of its joints, joint by joint
+      type(model_type), intent(in) :: model
+      type(model_joint_point_type), intent(in) :: points(:)
       !> State of the joints
       type(joint_field_type), intent(in) :: field
       !> The plane
@@ -101,15 +106,16 @@ contains
 
       do i = 1, course%n
          k = course%first + i - 1
-         course%trial(:, i) = trial_of(scene%model, scene%points, k, plane, field%jump(:, k, plane), field)
-         course%stress(:, i) = law_stress(scene, field, plane, course, course%x(i))
+         course%trial(:, i) = trial_of(model%joint_materials(points(k)%material)%law, k, plane, field%jump(:, k, plane), field)
+         course%stress(:, i) = law_stress(model, points, field, plane, course, course%x(i))
       end do
    end subroutine take_stresses
 
    !> Stress that the law admits between the points, by the memory of the nearest one
-   function law_stress(scene, field, plane, course, x) result(stress)
-      !> Joint points
-      type(scene_type), intent(in) :: scene
+   function law_stress(model, points, field, plane, course, x) result(stress)
+      !> The job, for its laws, and points of its joints, joint by joint
+      type(model_type), intent(in) :: model
+      type(model_joint_point_type), intent(in) :: points(:)
       !> State of the joints
       type(joint_field_type), intent(in) :: field
       !> The plane
@@ -125,14 +131,15 @@ contains
       integer :: k
 
       k = course%first - 1 + minloc(abs(course%x(:course%n) - x), 1)
-      call admit(scene%model%joint_materials(scene%points(k)%material)%law, field%memory(k, plane), &
+      call admit(model%joint_materials(points(k)%material)%law, field%memory(k, plane), &
                  matmul(course%trial(:, :course%n), lagrange(course%x(:course%n), x)), stress, tangent)
    end function law_stress
 
    !> Whether the stresses at the ends and in the middle lie on the course of those at the points
-   logical function is_smooth(scene, field, plane, course)
-      !> Joint points
-      type(scene_type), intent(in) :: scene
+   logical function is_smooth(model, points, field, plane, course)
+      !> The job, for its laws, and points of its joints, joint by joint
+      type(model_type), intent(in) :: model
+      type(model_joint_point_type), intent(in) :: points(:)
       !> State of the joints
       type(joint_field_type), intent(in) :: field
       !> The plane
@@ -145,7 +152,7 @@ contains
 
       is_smooth = .true.
       do i = -1, 1
-         stress = law_stress(scene, field, plane, course, real(i, wp)) &
+         stress = law_stress(model, points, field, plane, course, real(i, wp)) &
             - matmul(course%stress(:, :course%n), lagrange(course%x(:course%n), real(i, wp)))
          is_smooth = is_smooth .and. maxval(abs(stress)) <= smooth*maxval(abs(course%trial(:, :course%n)))
       end do
@@ -153,9 +160,10 @@ contains
 
    !> Stresses at the points whose work is that of the stresses between the points, less what the
    !> rule makes of them
-   function missed_by_rule(scene, field, plane, course) result(missed)
-      !> Joint points
-      type(scene_type), intent(in) :: scene
+   function missed_by_rule(model, points, field, plane, course) result(missed)
+      !> The job, for its laws, and points of its joints, joint by joint
+      type(model_type), intent(in) :: model
+      type(model_joint_point_type), intent(in) :: points(:)
       !> State of the joints
       type(joint_field_type), intent(in) :: field
       !> The plane
@@ -175,7 +183,7 @@ contains
          do i = 1, n_gauss
             x = -1.0_wp + (2.0_wp*piece - 1.0_wp + t(i))/n_pieces
             point = new_joint_point(course%side(:, :course%n), x, w(i)/n_pieces)
-            work = work + point%weight*spread(law_stress(scene, field, plane, course, x), 2, course%n) &
+            work = work + point%weight*spread(law_stress(model, points, field, plane, course, x), 2, course%n) &
                    *spread(point%shape(:course%n), 1, 3)
          end do
       end do

@@ -5,8 +5,9 @@ module axijoint_analysis_fine_joints
    use axijoint_analysis_fine_level, only : fine_level_type
    use axijoint_assembly_force, only : joint_jump
    use axijoint_base_kinds, only : wp
-   use axijoint_element_joint_law, only : memory_type
+   use axijoint_element_joint_law, only : joint_law_type, memory_type
    use axijoint_fe_shape, only : lagrange
+   use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, new_joint_field, set_initial_stress, admit_jump
    use axijoint_joints_planes, only : synthesize, analyse
    use axijoint_joints_scene, only : scene_type
@@ -24,8 +25,10 @@ contains
 
    !> Excess stress of the joints that can yield, amplitudes, shape (3, fine points, modes), with
    !> what the rule of the fine joints misses of it
-   subroutine fine_excess(scene, level, field, displacement, case_factor, points, excess)
-      !> Joint points of the coarse mesh that can yield, planes
+   subroutine fine_excess(condensed, scene, level, field, displacement, case_factor, points, excess)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Planes
       type(scene_type), intent(in) :: scene
       !> The fine level
       type(fine_level_type), intent(in), target :: level
@@ -40,9 +43,9 @@ contains
       !> Takes the stress
       real(wp), allocatable, intent(out) :: excess(:, :, :)
 
-      type(scene_type) :: fine_scene
       type(joint_field_type) :: fine_field
-      real(wp), allocatable :: jump(:, :, :), moved(:, :, :), left(:, :, :)
+      type(joint_law_type), allocatable :: laws(:)
+      real(wp), allocatable :: jump(:, :, :), moved(:, :, :), left(:, :, :), base(:, :)
       integer, allocatable :: yielding(:)
       integer :: k
 
@@ -53,31 +56,32 @@ contains
          jump(:, :, k) = joint_jump(level%on_coarse(yielding), displacement(:, :, k))
       end do
       jump = synthesize(scene%planes, jump)
-      fine_field = new_joint_field(size(points), size(jump, 3), size(displacement, 3), size(scene%floating))
-      moved = moved_by(scene, level%on_coarse(yielding), field%offset)
+      fine_field = new_joint_field(size(points), size(jump, 3), size(displacement, 3), size(condensed%floating))
+      moved = moved_by(condensed, scene, level%on_coarse(yielding), field%offset)
       fine_field%moved = moved
       call set_initial_stress(level%model, points, case_factor, fine_field)
-      call spread_memory(scene%model, scene%points, field%memory, fine_field%memory)
+      call spread_memory(level%model, condensed%points, field%memory, fine_field%memory)
       left = jump  ! for its shape
-      call admit_jump(level%model, points, jump + moved, [(1.0_wp, k=1, size(points))], fine_field, left)
-      fine_scene%model => level%model
-      fine_scene%points = points
-      fine_scene%planes = scene%planes
-      if (stiffness_ratio(scene%points) > stiff) then
-         call spread_stress(scene, field%stress, fine_field%stress)
+      laws = level%model%joint_materials(points%material)%law
+      base = reshape([(points(k)%base, k=1, size(points))], [3, size(points)])
+      call admit_jump(laws, base, jump + moved, [(1.0_wp, k=1, size(points))], fine_field, left)
+      if (stiffness_ratio(condensed%points) > stiff) then
+         call spread_stress(level%model, condensed%points, field%stress, fine_field%stress)
          do k = 1, size(points)
             left(:, k, :) = spread(points(k)%base, 2, size(jump, 3))*jump(:, k, :) - fine_field%stress(:, k, :) &
                + spread(fine_field%initial(:, k), 2, size(jump, 3))
          end do
          excess = analyse(scene%planes, left)
       else
-         excess = analyse(scene%planes, left) - missed_stress(fine_scene, fine_field)
+         excess = analyse(scene%planes, left) - missed_stress(level%model, points, scene%planes, fine_field)
       end if
    end subroutine fine_excess
 
    !> Jumps where the parts stand from which displacements count, shape (3, points, planes)
-   function moved_by(scene, points, offset) result(jump)
-      !> The floating motions, and the planes
+   function moved_by(condensed, scene, points, offset) result(jump)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> Points in the joints of the coarse mesh
       type(model_joint_point_type), intent(in) :: points(:)
@@ -86,12 +90,12 @@ contains
       !> The jumps
       real(wp), allocatable :: jump(:, :, :)
 
-      real(wp) :: amplitude(3, size(points), size(scene%equations%modes))
+      real(wp) :: amplitude(3, size(points), size(scene%modes))
       integer :: z
 
       amplitude = 0.0_wp
-      do z = 1, size(scene%floating)
-         associate (motion => scene%floating(z), of_mode => amplitude(:, :, scene%floating(z)%mode))
+      do z = 1, size(condensed%floating)
+         associate (motion => condensed%floating(z), of_mode => amplitude(:, :, condensed%floating(z)%mode))
             of_mode = of_mode + offset(z)*joint_jump(points, motion%displacement)
          end associate
       end do
@@ -99,9 +103,11 @@ contains
    end function moved_by
 
    !> Stress at the fine points by the polynomial through that of the points of the coarse joint
-   pure subroutine spread_stress(scene, stress, fine_stress)
-      !> Joint points of the coarse mesh
-      type(scene_type), intent(in) :: scene
+   pure subroutine spread_stress(model, points, stress, fine_stress)
+      !> The job, for the rules of its joints
+      type(model_type), intent(in) :: model
+      !> Points of the coarse joints, joint by joint
+      type(model_joint_point_type), intent(in) :: points(:)
       !> Their stress, shape (3, points, planes)
       real(wp), intent(in) :: stress(:, :, :)
       !> Stress at the fine points, shape (3, 2 points, planes)
@@ -112,9 +118,9 @@ contains
 
       fine_stress = 0.0_wp
       first = 1
-      do while (first <= size(scene%points))
-         associate (point => scene%points(first))
-            call joint_rule(scene%model%joint_materials(point%material)%rule, point%n_pairs, n, x, w)
+      do while (first <= size(points))
+         associate (point => points(first))
+            call joint_rule(model%joint_materials(point%material)%rule, point%n_pairs, n, x, w)
          end associate
          do half = 1, 2
             do i = 1, n

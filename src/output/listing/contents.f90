@@ -73,7 +73,7 @@ contains
       call write_in_situ(file, model, results%in_situ)
       call write_equations(file, results)
       call write_left_out(file, results)
-      call write_convergence(file, model%method, results)
+      call write_convergence(file, results)
       call write_residuals(file, results)
       call write_displacements(file, model, results)
       call write_total_displacements(file, model, results)

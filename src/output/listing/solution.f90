@@ -7,7 +7,7 @@ module axijoint_output_listing_solution
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type, n_phases, phase_names, phase_total
    use axijoint_fe_mode, only : mode_type, mode_name, family_symmetric
-   use axijoint_model_model, only : model_type, method_transfer
+   use axijoint_model_model, only : model_type
    use axijoint_output_file_columns, only : columns
    use axijoint_output_file_headings, only : write_heading, write_result_heading, mark_not_converged
    use axijoint_output_file_text, only : text_file_type
@@ -80,11 +80,9 @@ contains
    end subroutine write_equations
 
    !> Convergence path (Fig. 17), and how it ended
-   subroutine write_convergence(file, method, results)
+   subroutine write_convergence(file, results)
       !> The listing
       class(text_file_type), intent(inout) :: file
-      !> How joints were brought to equilibrium, one of the `method_` parameters
-      integer, intent(in) :: method
       !> Results
       type(results_type), intent(in) :: results
 
@@ -107,7 +105,7 @@ contains
       end do
       call file%put("  "//convergence_text(results))
       if (.not. results%other_loop >= 0.0_wp) return
-      if (method == method_transfer) then
+      if (results%accumulated) then
          call file%put("  joint stresses differ by up to "//to_text(100.0_wp*results%other_loop)// &
             " % of the largest from equilibrium on total relative displacements (NEWTON)")
       else

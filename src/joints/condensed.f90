@@ -1,0 +1,167 @@
+!> The structure as its joints see it, condensed to the joint points: what it does under joint stress that is not
+!> admitted, how its parts move where nothing else holds them, how forces on them are measured. Built once;
+!> nothing changes it afterwards, so that many states, and many processes, can share it
+module axijoint_joints_condensed
+   use axijoint_assembly_equations, only : equations_type
+   use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, release_factor, &
+                                         report_failure
+   use axijoint_assembly_support, only : support_point_type
+   use axijoint_base_error, only : error_type
+   use axijoint_base_kinds, only : wp
+   use axijoint_fe_fourier, only : circle_integral
+   use axijoint_fe_mode, only : mode_type
+   use axijoint_joints_floating, only : floating_motion_type, new_floating_motions
+   use axijoint_joints_residual, only : measure_type, new_measure
+   use axijoint_joints_rows, only : jump_rows
+   use axijoint_model_joint_points, only : model_joint_point_type, stiffness_ratio
+   use axijoint_model_model, only : model_type, can_yield_at
+   implicit none
+   private
+   public :: condensed_type, new_condensed
+
+   !> Flexibility of one harmonic
+   type :: flexibility_type
+      !> Jumps that unit amplitudes of excess stress give: N K_m^-1 N^T c_m w, for all components of point 1, 2, ...,
+      !> shape (components points, components points)
+      real(wp), allocatable :: matrix(:, :)
+   end type flexibility_type
+
+   !> The condensed structure
+   type :: condensed_type
+      !> Points that can yield
+      type(model_joint_point_type), allocatable :: points(:)
+      !> Modes of the job, and the system of equations of each
+      type(mode_type), allocatable :: modes(:)
+      integer, allocatable :: system(:)
+      !> Flexibilities, one a system
+      type(flexibility_type), allocatable :: flexibilities(:)
+      !> Rigid motions that only these points resist
+      type(floating_motion_type), allocatable :: floating(:)
+      !> How stress at the points acts on the parts
+      type(measure_type) :: measure
+      !> Stiffness of the joints in proportion to the bodies, k h/E
+      real(wp) :: proportion = 0.0_wp
+   end type condensed_type
+
+contains
+
+   !> Condense a structure
+   subroutine new_condensed(model, joint_points, supports, equations, condensed, error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Points of all joints, and of springs
+      type(model_joint_point_type), intent(in) :: joint_points(:)
+      type(support_point_type), intent(in) :: supports(:)
+      !> Equations of all modes, assembled; systems that cannot be factored are marked there
+      type(equations_type), intent(inout) :: equations
+      !> The condensed structure
+      type(condensed_type), intent(out) :: condensed
+      !> Singular stiffness, or out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      logical :: yields(size(joint_points))
+
+      yields = can_yield_at(model, joint_points%material)
+      condensed%points = pack(joint_points, yields)
+      condensed%modes = equations%modes
+      condensed%system = equations%system
+      condensed%proportion = stiffness_ratio(condensed%points)
+      call new_floating_motions(model, pack(joint_points, .not. yields), supports, condensed%modes, condensed%points, &
+                                condensed%floating)
+      call new_measure(model%mesh, equations, condensed%points, condensed%measure)
+      call condense_all(equations, condensed%points, condensed%flexibilities, error)
+      if (.not. allocated(error)) call report_failure(equations, model, error)
+   end subroutine new_condensed
+
+   !> Condense every harmonic to the joint points
+   subroutine condense_all(equations, points, flexibilities, error)
+      !> Equations of all modes, assembled; systems that cannot be factored are marked there
+      type(equations_type), intent(inout) :: equations
+      !> Joint points
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Their flexibilities
+      type(flexibility_type), allocatable, intent(out) :: flexibilities(:)
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(error_type), allocatable :: failure
+      type(workspace_type), allocatable :: spaces(:)
+      integer :: s
+
+      allocate (flexibilities(size(equations%systems)))
+      call new_workspaces(equations, spaces)
+      !$omp parallel do schedule(dynamic) private(failure) num_threads(size(spaces))
+      do s = 1, size(equations%systems)
+         call hold_factor(equations, s, spaces(own()))
+         if (equations%systems(s)%failed) cycle
+         call condense(equations, s, points, flexibilities(s)%matrix, failure)
+         call release_factor(equations, s, spaces(own()))
+         !$omp critical
+         if (allocated(failure)) error = failure
+         !$omp end critical
+      end do
+      !$omp end parallel do
+   end subroutine condense_all
+
+   !> Flexibility of one harmonic
+   subroutine condense(equations, s, points, matrix, error)
+      !> Equations of all modes, factored
+      type(equations_type), intent(in) :: equations
+      !> Place of the system
+      integer, intent(in) :: s
+      !> Joint points
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> N K^-1 N^T c_m w
+      real(wp), allocatable, intent(out) :: matrix(:, :)
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      integer, allocatable :: unknowns(:), place(:, :, :)
+      real(wp), allocatable :: coefficient(:, :, :), inverse(:, :), half(:, :)
+      integer :: k, i, column
+
+      associate (dofs => equations%classes(equations%systems(s)%class)%dofs)
+         call jump_rows(dofs, points, unknowns, place, coefficient)
+      end associate
+      call equations%systems(s)%factor%inverse_block(unknowns, inverse, error)
+      if (allocated(error)) return
+      allocate (half(size(unknowns), 3*size(points)), matrix(3*size(points), 3*size(points)))
+      do k = 1, size(points)
+         do i = 1, 3
+            column = 3*(k - 1) + i
+            half(:, column) = combination(inverse, place(:, i, k), coefficient(:, i, k))
+            half(:, column) = circle_integral(equations%systems(s)%harmonic)*points(k)%weight*half(:, column)
+         end do
+      end do
+      half = transpose(half)
+      do k = 1, size(points)
+         do i = 1, 3
+            column = 3*(k - 1) + i
+            matrix(:, column) = combination(half, place(:, i, k), coefficient(:, i, k))
+         end do
+      end do
+      matrix = transpose(matrix)
+
+   contains
+
+      !> Sum of some columns
+      pure function combination(columns, place, coefficient) result(total)
+         !> The columns
+         real(wp), intent(in) :: columns(:, :)
+         !> Which, zero for none, and their factors
+         integer, intent(in) :: place(:)
+         real(wp), intent(in) :: coefficient(:)
+         !> The sum
+         real(wp) :: total(size(columns, 1))
+
+         integer :: l
+
+         total = 0.0_wp
+         do l = 1, size(place)
+            if (place(l) > 0) total = total + coefficient(l)*columns(:, place(l))
+         end do
+      end function combination
+
+   end subroutine condense
+
+end module axijoint_joints_condensed

@@ -1,0 +1,164 @@
+!> The history of a job's joints: what the increments append to, and what results are read from
+module axijoint_joints_history
+   use axijoint_assembly_loading, only : loading_type
+   use axijoint_base_error, only : error_type
+   use axijoint_base_kinds, only : wp
+   use axijoint_element_joint_law, only : memory_type
+   use axijoint_joints_condensed, only : condensed_type
+   use axijoint_joints_field, only : joint_field_type, new_joint_field
+   use axijoint_joints_method, only : method_type, control_type, verdict_type
+   use axijoint_joints_methods, only : new_method
+   use axijoint_joints_path, only : iteration_type
+   use axijoint_joints_planes, only : on_all
+   use axijoint_joints_residual, only : residual_record_type, ratios_of
+   use axijoint_joints_scene, only : scene_type, new_scene
+   use axijoint_joints_states, only : increment_state_type
+   use axijoint_model_model, only : model_type
+   implicit none
+   private
+   public :: history_type, new_history, new_state, keep_state, note_failure, forget_failure, note_residual
+
+   !> What the increments came to
+   type :: history_type
+      !> How joints are brought to equilibrium, and when the last step ended
+      class(method_type), allocatable :: method
+      type(control_type) :: control
+      !> Laws, planes, and the loads at the end
+      type(scene_type) :: scene
+      !> State of the joints that can yield: the last
+      type(joint_field_type) :: field
+      !> How the last step ended
+      type(verdict_type) :: verdict
+      !> Loads at the end: of the step that failed, or of the last in equilibrium
+      !> if joints ran away beyond it
+      type(loading_type) :: loading
+      !> The largest loads on the way, by their norm (Psi_f), that norm, and that of the loads at the end
+      type(loading_type) :: peak
+      real(wp) :: peak_norm = 0.0_wp, load_norm = 0.0_wp
+      !> Joint stress that the last loads in equilibrium would give if all joints held, amplitudes, shape
+      !> (3, points, modes)
+      real(wp), allocatable :: balanced(:, :, :)
+      !> Excess stress of joints that ran away, shape (3, points, modes), and the motion that
+      !> nothing resists, in shares of the floating motions; one is allocated if the joints came to a mechanism
+      real(wp), allocatable :: runaway(:, :, :), motion(:)
+      !> Sum of the load factors of the last step in equilibrium
+      real(wp) :: reached = 0.0_wp
+      !> Largest displacement that the loads of a step would give if all joints held
+      real(wp) :: largest_elastic = 0.0_wp
+      !> Largest joint stress at the end of a step, of each point: what errors are measured by, for joints
+      !> that were unloaded have none at the end
+      real(wp), allocatable :: largest_stress(:)
+      !> States at the ends of increments, as they were reached
+      type(increment_state_type), allocatable :: states(:)
+      !> What the points remembered in the last step, before its slip was added, shape
+      !> (points, planes)
+      type(memory_type), allocatable :: memory(:, :)
+      !> What they remembered at its beginning, before bonds broke and points softened in it
+      type(memory_type), allocatable :: start(:, :)
+      !> Convergence path
+      type(iteration_type), allocatable :: path(:)
+      !> What the iterations left out of balance, one entry a step in equilibrium, and the last if it failed
+      type(residual_record_type), allocatable :: residuals(:)
+      !> Whether the last of them is of a step in equilibrium
+      logical :: noted = .true.
+      !> What ended the increments before their time: too little memory
+      type(error_type), allocatable :: failure
+   end type history_type
+
+contains
+
+   !> Nothing has happened yet
+   subroutine new_history(model, condensed, history)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> The history
+      type(history_type), intent(out) :: history
+
+      history%method = new_method(model%method)
+      history%scene = new_scene(model, condensed)
+      history%field = new_state(condensed, history%scene)
+      allocate (history%path(0), history%states(0), history%residuals(0))
+      allocate (history%largest_stress(size(condensed%points)), source=0.0_wp)
+      allocate (history%balanced, source=history%field%excess)  ! zero
+   end subroutine new_history
+
+   !> Joints without stress
+   pure function new_state(condensed, scene) result(field)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Planes
+      type(scene_type), intent(in) :: scene
+      !> The state
+      type(joint_field_type) :: field
+
+      field = new_joint_field(size(condensed%points), size(scene%planes%angle), size(scene%modes), &
+                              size(condensed%floating))
+   end function new_state
+
+   !> Append the state at the end of an increment
+   subroutine keep_state(history, increment, load_factor, case_factor)
+      !> The history
+      type(history_type), intent(inout) :: history
+      !> Increment
+      integer, intent(in) :: increment
+      !> Sum of the load factors, and factor of each load case
+      real(wp), intent(in) :: load_factor, case_factor(:)
+
+      type(increment_state_type) :: state
+
+      state%increment = increment
+      state%load_factor = load_factor
+      state%case_factor = case_factor
+      associate (field => history%field, planes => history%scene%planes)
+         state%jump = on_all(planes, field%jump)
+         state%stress = on_all(planes, field%stress)
+         state%state = field%state(:, planes%place)
+         state%excess = field%excess
+         state%offset = field%offset
+      end associate
+      history%states = [history%states, state]
+   end subroutine keep_state
+
+   !> Note where joints ran away to, or which motion nothing resists
+   subroutine note_failure(history)
+      !> The history, its last step not in equilibrium
+      type(history_type), intent(inout) :: history
+
+      if (history%verdict%mechanism%loaded) history%motion = history%verdict%mechanism%motion
+      if (history%verdict%ran_away) history%runaway = history%field%excess
+   end subroutine note_failure
+
+   !> Smaller steps got there
+   subroutine forget_failure(history)
+      !> The history
+      type(history_type), intent(inout) :: history
+
+      if (allocated(history%runaway)) deallocate (history%runaway)
+      if (allocated(history%motion)) deallocate (history%motion)
+   end subroutine forget_failure
+
+   !> Note what a step left out of balance; one that failed is forgotten at the next
+   subroutine note_residual(condensed, increment, load_factor, history)
+      !> What residuals are measured by
+      type(condensed_type), intent(in) :: condensed
+      !> Increment, and sum of the load factors
+      integer, intent(in) :: increment
+      real(wp), intent(in) :: load_factor
+      !> Takes the entry
+      type(history_type), intent(inout) :: history
+
+      type(residual_record_type) :: record
+
+      record = ratios_of(condensed%measure, history%scene%loads%reference, history%field%pending)
+      record%increment = increment
+      record%load_factor = load_factor
+      if (size(history%residuals) > 0 .and. .not. history%noted) then
+         history%residuals = history%residuals(:size(history%residuals) - 1)
+      end if
+      history%residuals = [history%residuals, record]
+      history%noted = history%verdict%converged
+   end subroutine note_residual
+
+end module axijoint_joints_history

@@ -1,0 +1,103 @@
+!> Loads of a job at the ends of its increments
+module axijoint_joints_load_steps
+   use axijoint_base_kinds, only : wp
+   use axijoint_joints_states, only : increment_state_type
+   use axijoint_model_load, only : combination_type, increment_type
+   use axijoint_model_model, only : model_type
+   implicit none
+   private
+   public :: step_type, first_step, next_step, halfway, loads_of_increments, final_factors
+
+   !> Loads of a step
+   type :: step_type
+      !> Sum of the load factors
+      real(wp) :: load_factor = 0.0_wp
+      !> Factor of each load case
+      real(wp), allocatable :: case_factor(:)
+   end type step_type
+
+contains
+
+   !> No load
+   pure function first_step(combination) result(step)
+      !> Factors of the load cases
+      type(combination_type), intent(in) :: combination
+      !> The step
+      type(step_type) :: step
+
+      allocate (step%case_factor(size(combination%factor)), source=0.0_wp)
+   end function first_step
+
+   !> Loads after one more increment
+   pure function next_step(step, increment, combination) result(next)
+      !> Loads before
+      type(step_type), intent(in) :: step
+      !> The increment
+      type(increment_type), intent(in) :: increment
+      !> Factors of the load cases
+      type(combination_type), intent(in) :: combination
+      !> Loads after it
+      type(step_type) :: next
+
+      next = step
+      next%load_factor = step%load_factor + increment%factor
+      if (increment%case == 0) then
+         next%case_factor = step%case_factor + increment%factor*combination%factor
+      else
+         associate (case => increment%case)
+            next%case_factor(case) = step%case_factor(case) + increment%factor*combination%factor(case)
+         end associate
+      end if
+   end function next_step
+
+   !> Loads between two others
+   pure function halfway(from, to) result(middle)
+      !> The others
+      type(step_type), intent(in) :: from, to
+      !> The step
+      type(step_type) :: middle
+
+      middle = step_type(0.5_wp*(from%load_factor + to%load_factor), 0.5_wp*(from%case_factor + to%case_factor))
+   end function halfway
+
+   !> Loads after each increment, without states of joints
+   pure function loads_of_increments(model, combination) result(states)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Factors of the load cases
+      type(combination_type), intent(in) :: combination
+      !> One an increment
+      type(increment_state_type) :: states(size(model%increments))
+
+      type(step_type) :: step
+      integer :: i
+
+      step = first_step(combination)
+      do i = 1, size(states)
+         step = next_step(step, model%increments(i), combination)
+         states(i)%increment = i
+         states(i)%load_factor = step%load_factor
+         states(i)%case_factor = step%case_factor
+      end do
+   end function loads_of_increments
+
+   !> Factors of the load cases after all increments
+   pure function final_factors(model, combination) result(factor)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Factors of the load cases
+      type(combination_type), intent(in) :: combination
+      !> The factors, shape (cases)
+      real(wp), allocatable :: factor(:)
+
+      type(step_type) :: step
+      integer :: i
+
+      step = first_step(combination)
+      do i = 1, size(model%increments)
+         step = next_step(step, model%increments(i), combination)
+      end do
+      factor = step%case_factor
+   end function final_factors
+
+end module axijoint_joints_load_steps

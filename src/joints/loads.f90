@@ -1,0 +1,114 @@
+!> What loads do to the condensed structure
+module axijoint_joints_loads
+   use axijoint_assembly_equations, only : equations_type, solve_mode
+   use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, release_factor
+   use axijoint_assembly_force, only : joint_jump
+   use axijoint_assembly_loading, only : loading_type
+   use axijoint_base_kinds, only : wp
+   use axijoint_joints_condensed, only : condensed_type
+   use axijoint_joints_floating, only : floating_motion_type
+   use axijoint_joints_residual, only : reference_type
+   use axijoint_model_joint_points, only : model_joint_point_type
+   implicit none
+   private
+   public :: joint_loads_type, new_joint_loads, put_loads, put_work
+
+   !> Loads as the joint points see them
+   type :: joint_loads_type
+      !> Jumps from the loads, joints elastic, shape (components, points, modes)
+      real(wp), allocatable :: free(:, :, :)
+      !> Largest displacement from the loads, joints elastic, shape (modes)
+      real(wp), allocatable :: largest(:)
+      !> Work on the floating motions, and the largest so far of the sum of its terms taken as positive, shape (motions)
+      real(wp), allocatable :: work(:), size(:)
+      !> Largest joint stress so far, its components taken as positive, shape (components, points)
+      real(wp), allocatable :: stress(:, :)
+      !> What residual forces are held against
+      type(reference_type) :: reference
+   end type joint_loads_type
+
+contains
+
+   !> No loads so far
+   pure function new_joint_loads(condensed) result(loads)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> The loads
+      type(joint_loads_type) :: loads
+
+      associate (n => size(condensed%points), motions => size(condensed%floating))
+         allocate (loads%free(3, n, size(condensed%modes)), loads%largest(size(condensed%modes)), source=0.0_wp)
+         allocate (loads%work(motions), loads%size(motions), loads%stress(3, n), source=0.0_wp)
+      end associate
+   end function new_joint_loads
+
+   !> Load the condensed structure
+   subroutine put_loads(equations, condensed, loading, loads)
+      !> Equations of all modes, assembled; systems that cannot be factored are marked there
+      type(equations_type), intent(inout) :: equations
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> The loads on its nodes
+      type(loading_type), intent(in) :: loading
+      !> The loads
+      type(joint_loads_type), intent(inout) :: loads
+
+      call put_jumps(equations, condensed%points, loading, loads)
+      call put_work(condensed%floating, loading%external, loads)
+   end subroutine put_loads
+
+   !> Jumps from loads, joints elastic
+   subroutine put_jumps(equations, points, loading, loads)
+      !> Equations of all modes, assembled; systems that cannot be factored are marked there
+      type(equations_type), intent(inout) :: equations
+      !> Joint points
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> The loads
+      type(loading_type), intent(in) :: loading
+      !> Takes the jumps
+      type(joint_loads_type), intent(inout) :: loads
+
+      real(wp), allocatable :: displacement(:, :)  ! threads have small stacks
+      type(workspace_type), allocatable :: spaces(:)
+      integer :: s, i, k
+
+      call new_workspaces(equations, spaces)
+      !$omp parallel do schedule(dynamic) private(i, k, displacement) num_threads(size(spaces))
+      do s = 1, size(equations%systems)
+         call hold_factor(equations, s, spaces(own()))
+         if (equations%systems(s)%failed) cycle
+         do i = 1, size(equations%systems(s)%modes)
+            k = equations%systems(s)%modes(i)
+            displacement = loading%right(:, :, k)
+            if (any(abs(displacement) > 0.0_wp)) then  ! most harmonics of most jobs are not loaded
+               call solve_mode(equations, k, loading%right(:, :, k), displacement)
+            end if
+            if (allocated(loading%held)) displacement = displacement + loading%held(:, :, k)
+            loads%free(:, :, k) = joint_jump(points, displacement)
+            loads%largest(k) = maxval(abs(displacement))
+         end do
+         call release_factor(equations, s, spaces(own()))
+      end do
+      !$omp end parallel do
+   end subroutine put_jumps
+
+   !> Put external forces on the motions
+   pure subroutine put_work(motions, external, loads)
+      !> The motions
+      type(floating_motion_type), intent(in) :: motions(:)
+      !> Forces on components, shape (3, nodes, modes)
+      real(wp), intent(in) :: external(:, :, :)
+      !> The loads
+      type(joint_loads_type), intent(inout) :: loads
+
+      integer :: k
+
+      do k = 1, size(motions)
+         associate (work => external(:, :, motions(k)%mode)*motions(k)%displacement)
+            loads%work(k) = sum(work)
+            loads%size(k) = max(loads%size(k), sum(abs(work)))
+         end associate
+      end do
+   end subroutine put_work
+
+end module axijoint_joints_loads

@@ -1,0 +1,457 @@
+!> Newton's method for the joints of a load step, and what it tries where a plain iteration does not get there: stages
+!> of stiffness, long steps, weak springs
+module axijoint_joints_newton_method
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use axijoint_base_kinds, only : wp
+   use axijoint_joints_approach, only : approach
+   use axijoint_joints_condensed, only : condensed_type
+   use axijoint_joints_field, only : joint_field_type, break_bonds
+   use axijoint_joints_mechanism, only : find_mechanism
+   use axijoint_joints_method, only : method_type, control_type, verdict_type
+   use axijoint_joints_newton, only : newton_type, new_newton, newton_step, step_bounds_type, newton_view
+   use axijoint_joints_passes, only : pass_on
+   use axijoint_joints_path, only : iteration_type
+   use axijoint_joints_residual, only : strictest_type, strictest, residual_norm
+   use axijoint_joints_scene, only : scene_type, evaluate
+   use axijoint_joints_watch, only : watch_type, new_watch, note, end_watch, runaway
+   implicit none
+   private
+   public :: newton_method_type, stiff
+
+   !> Joints much stiffer than the bodies tear like a zip, in many passes: their bonds are broken in looser
+   !> states, which comes closer to the order in which a growing load breaks them. k h/E of stiff and of
+   !> very stiff joints, and how loose the states are
+   real(wp), parameter :: stiff = 5.0_wp, loose_pass = 0.3_wp, very_stiff = 100.0_wp, loosest_pass = 1.0_wp
+   !> Joints much stiffer than the bodies: the laws see a share of their stiffness
+   !> first, this many times more whenever the residual ratio has fallen so far
+   real(wp), parameter :: stage_factor = 10.0_wp, stage_tolerance = 0.1_wp
+   !> Weak springs in place of joints that do not resist a motion under load: their first share of the joints'
+   !> stiffness, what it falls by whenever the ratio has fallen to `stage_tolerance`, and the last
+   real(wp), parameter :: first_leak = 1.0e-2_wp, leak_factor = 1.0e-2_wp, last_leak = 1.0e-8_wp
+   !> Tolerance of the linear solution far from equilibrium, with very stiff joints, the ratio from which on it
+   !> is near, the least tolerance there, and the part of the step's tolerance that is left to it
+   real(wp), parameter :: loose = 1.0e-3_wp, closer = 1.0e-4_wp, near = 1.0e-2_wp, strict = 1.0e-9_wp, part = 0.01_wp
+   !> Rounding of the forces of the excess stress
+   real(wp), parameter :: rounding = 1.0e2_wp*epsilon(1.0_wp)
+   !> A step without a better residual for so many iterations has stalled
+   integer, parameter :: patience = 25
+   !> How many times as much may be missing after a step: more helps on the way, but goes round in circles
+   !> where the residual no longer falls
+   real(wp), parameter :: bold = 2.0_wp, careful = 1.0_wp
+   !> Change of the jumps by the first steps, in displacements with elastic joints: of several states the near one is
+   !> found. It grows as steps want more
+   real(wp), parameter :: first_radius = 3.0_wp
+
+   !> What to try where the iterations ran away or stalled: nothing more, weaker springs than those that were taken away
+   !> too early, the whole stiffness at once, steps as long as they want, weak springs
+   enum, bind(c)
+      enumerator :: give_up, weaker_springs, whole_stiffness, long_steps, weak_springs
+   end enum
+
+   !> The method
+   type, extends(method_type) :: newton_method_type
+   contains
+      procedure :: balance
+   end type newton_method_type
+
+   !> An iteration on its way
+   type :: course_type
+      !> What any iteration remembers
+      type(watch_type) :: watch
+      !> Laws about the iterate
+      type(newton_type) :: newton
+      !> Excess stress that is not transferred
+      real(wp), allocatable :: residual(:, :, :)
+      !> Jumps of the state that the load step begins with, shape (3, points, planes)
+      real(wp), allocatable :: begun(:, :, :)
+      !> The state at the start, the last that ran away, and that from which weak springs were taken away
+      type(joint_field_type), allocatable :: start, astray, held
+      !> How strong these springs were
+      real(wp) :: springs = 0.0_wp
+      !> What bounds the steps
+      type(step_bounds_type) :: bounds
+      !> Whether the laws see a part of the stiffness first, whether steps are long whatever the residual does, whether
+      !> weak springs were tried, and whether the last step was not made
+      logical :: in_stages = .false., far = .false., leaked = .false., ran = .false.
+      !> Steps since the task changed
+      integer :: n_steps = 0
+   end type course_type
+
+contains
+
+   !> Iterate a load step to equilibrium
+   subroutine balance(self, condensed, scene, control, field, path, verdict)
+      !> The method
+      class(newton_method_type), intent(in) :: self
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> When to end
+      type(control_type), intent(in) :: control
+      !> State of the joints: of the last step, then of this one
+      type(joint_field_type), intent(inout) :: field
+      !> Convergence path, to be continued
+      type(iteration_type), allocatable, intent(inout) :: path(:)
+      !> How it ended
+      type(verdict_type), intent(out) :: verdict
+
+      type(course_type) :: course
+      logical :: again
+      integer :: next
+
+      call begin(condensed, scene, control%warm, field, course, verdict)
+      do while (course%watch%k < control%most)
+         call note(course%watch, condensed, scene, control%now, self%accumulates, course%residual, field, verdict)
+         verdict%ran_away = verdict%ran_away .or. course%ran
+         verdict%stalled = ieee_is_finite(verdict%residual%ratio) .and. .not. course%ran &
+            .and. course%watch%k > course%watch%best_at + patience
+         course%ran = .false.
+         associate (may_go_on => course%watch%k < control%most)
+            if (verdict%ran_away .or. verdict%stalled) then
+               if (verdict%ran_away) course%astray = field
+               next = next_attempt(condensed, course, field, verdict%stalled, may_go_on)
+               if (next == give_up) exit
+               call try(next, condensed, scene, field, course, verdict)
+               cycle
+            end if
+            call go_on(self, condensed, scene, control%tolerance, field, course, verdict, again)
+            if (verdict%converged) exit
+            if (verdict%mechanism%loaded) then
+               if (.not. may_hold_weakly(condensed, course, may_go_on)) exit
+               call try(weak_springs, condensed, scene, field, course, verdict)
+               cycle
+            end if
+            if (.not. may_go_on) exit
+         end associate
+         if (again) call look_again(condensed, scene, verdict%residual%ratio, field, course)
+         call take_step(condensed, scene, control%tolerance, verdict%residual%ratio, field, course)
+      end do
+      if (verdict%stalled .and. allocated(course%astray)) then
+         verdict%ran_away = .true.
+         field = course%astray
+         call evaluate(condensed, scene, field, course%residual)
+      end if
+      call end_watch(course%watch, course%residual, field, path, verdict)
+      if (verdict%converged .or. .not. verdict%stalled) return
+      verdict%at_rounding = course%watch%best <= rounding*(residual_norm(condensed%measure, field%excess) &
+         /residual_norm(condensed%measure, course%residual))*course%watch%steps(course%watch%k)%ratio
+   end subroutine balance
+
+   !> From the state of the last step to the first iterate
+   subroutine begin(condensed, scene, warm, field, course, verdict)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> Whether the state is about in equilibrium already
+      logical, intent(in) :: warm
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> The iteration
+      type(course_type), intent(out) :: course
+      !> Takes a mechanism
+      type(verdict_type), intent(inout) :: verdict
+
+      real(wp) :: share
+      logical :: moved
+
+      allocate (course%residual, mold=field%excess)
+      share = share_seen_first(condensed, scene)
+      course%in_stages = .not. warm .and. share < 1.0_wp
+      if (course%in_stages) field%share = share
+      field%view_limit = newton_view
+      course%begun = field%jump
+      call look_again(condensed, scene, 1.0_wp, field, course)
+      call approach(condensed, scene, .true., course%begun, field, course%residual, moved)
+      course%start = field
+      course%watch = new_watch(scene, field)
+      course%bounds%radius = first_radius*course%watch%largest/runaway
+      course%newton = new_newton(condensed, scene, field, 1.0_wp)
+      call find_mechanism(condensed, scene, field, .false., verdict%mechanism)
+      if (verdict%mechanism%loaded) call hold_weakly(condensed, scene, field, course, verdict)
+   end subroutine begin
+
+   !> Share of the joint stiffness to begin with: what is about
+   !> the stiffness of the bodies. Cohesion makes yield depend on the size of the
+   !> stress, not on its direction alone; then the share would mislead.
+   pure real(wp) function share_seen_first(condensed, scene) result(share)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws
+      type(scene_type), intent(in) :: scene
+
+      !> Power of ten of k h/E that needs no help
+      integer, parameter :: easy = 0
+
+      share = 1.0_wp
+      if (any(scene%laws%cohesion > 0.0_wp)) return
+      share = 10.0_wp**min(0, easy - floor(log10(max(tiny(1.0_wp), condensed%proportion))))
+   end function share_seen_first
+
+   !> What to try next
+   pure integer function next_attempt(condensed, course, field, stalled, may_go_on) result(next)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> The iteration
+      type(course_type), intent(in) :: course
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> Whether the iterations stalled, and whether some are left
+      logical, intent(in) :: stalled, may_go_on
+
+      next = give_up
+      if (course%in_stages) then
+         next = whole_stiffness
+      else if (.not. may_go_on) then
+         return
+      else if (.not. field%leak > 0.0_wp .and. course%springs > last_leak) then
+         next = weaker_springs
+      else if (stalled .and. .not. (course%far .or. course%leaked)) then
+         next = long_steps
+      else if (may_hold_weakly(condensed, course, may_go_on)) then
+         next = weak_springs
+      end if
+   end function next_attempt
+
+   !> Whether weak springs may still help
+   pure logical function may_hold_weakly(condensed, course, may_go_on) result(may)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> The iteration
+      type(course_type), intent(in) :: course
+      !> Whether iterations are left
+      logical, intent(in) :: may_go_on
+
+      may = size(condensed%floating) > 0 .and. .not. course%leaked .and. may_go_on
+   end function may_hold_weakly
+
+   !> Begin again otherwise
+   subroutine try(attempt, condensed, scene, field, course, verdict)
+      !> What to try
+      integer, intent(in) :: attempt
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> The iteration
+      type(course_type), intent(inout) :: course
+      !> Forgets how the last attempt ended
+      type(verdict_type), intent(inout) :: verdict
+
+      select case (attempt)
+      case (weaker_springs)
+         course%springs = max(last_leak, leak_factor*course%springs)
+         field = course%held
+         call begin_again(condensed, scene, course%springs, field, course, verdict)
+      case (whole_stiffness)
+         course%in_stages = .false.
+         field = course%start
+         call begin_again(condensed, scene, 0.0_wp, field, course, verdict)
+      case (long_steps)
+         course%far = .true.
+         field = course%start
+         call begin_again(condensed, scene, 0.0_wp, field, course, verdict)
+      case (weak_springs)
+         if (verdict%ran_away .or. verdict%stalled) field = course%start
+         call hold_weakly(condensed, scene, field, course, verdict)
+      end select
+   end subroutine try
+
+   !> Go on with weak springs
+   subroutine hold_weakly(condensed, scene, field, course, verdict)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> The iteration
+      type(course_type), intent(inout) :: course
+      !> Forgets how the last attempt ended
+      type(verdict_type), intent(inout) :: verdict
+
+      course%leaked = .true.
+      course%far = .false.
+      course%bounds%radius = huge(1.0_wp)  ! the springs hold
+      call begin_again(condensed, scene, first_leak, field, course, verdict)
+   end subroutine hold_weakly
+
+   !> Go on from the field as if the iterations began
+   subroutine begin_again(condensed, scene, leak, field, course, verdict)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> Weak springs, as a share of the joints' stiffness
+      real(wp), intent(in) :: leak
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> The iteration
+      type(course_type), intent(inout) :: course
+      !> Forgets how the last attempt ended
+      type(verdict_type), intent(inout) :: verdict
+
+      verdict%ran_away = .false.
+      verdict%stalled = .false.
+      verdict%mechanism%loaded = .false.
+      course%watch%best = huge(1.0_wp)
+      course%n_steps = 0
+      field%leak = leak
+      call look_again(condensed, scene, 1.0_wp, field, course)
+   end subroutine begin_again
+
+   !> In a state that is balanced well enough, see what is next: weaker springs, more of the joints'
+   !> stiffness, the next bonds to break, or the end
+   subroutine go_on(self, condensed, scene, tolerance, field, course, verdict, again)
+      !> The method
+      class(newton_method_type), intent(in) :: self
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> Tolerance on the residual ratio
+      real(wp), intent(in) :: tolerance
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> The iteration
+      type(course_type), intent(inout) :: course
+      !> Takes `converged`, the passes, and a mechanism
+      type(verdict_type), intent(inout) :: verdict
+      !> Whether the task changed
+      logical, intent(out) :: again
+
+      integer :: n_broken
+
+      again = .false.
+      associate (found => verdict%residual)
+         if (field%leak > 0.0_wp) then
+            again = found%ratio <= stage_tolerance .and. course%n_steps > 0
+            if (again) call weaken(condensed, scene, field, course, verdict)
+         else if (field%share < 1.0_wp) then
+            again = found%whole <= stage_tolerance
+            if (again) call stiffen(condensed, scene, field, course%residual)
+         else
+            if (condensed%proportion > stiff &
+                .and. found%ratio <= merge(loosest_pass, loose_pass, condensed%proportion > very_stiff)) then
+               call break_bonds(scene%laws, field, n_broken)
+               again = n_broken > 0
+               if (again) verdict%n_passes = verdict%n_passes + 1
+            end if
+            if (.not. again) call pass_on(self, condensed, scene, tolerance, field, course%residual, verdict, again)
+         end if
+      end associate
+      if (.not. again) return
+      course%watch%best = huge(1.0_wp)
+      course%n_steps = 0
+   end subroutine go_on
+
+   !> Let the laws see more of the joints' stiffness, as much as leaves the state about in balance
+   subroutine stiffen(condensed, scene, field, residual)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> Excess stress that is not transferred
+      real(wp), intent(inout) :: residual(:, :, :)
+
+      type(strictest_type) :: found
+
+      do while (field%share < 1.0_wp)
+         field%share = min(1.0_wp, stage_factor*field%share)
+         call evaluate(condensed, scene, field, residual)
+         found = strictest(condensed%measure, scene%loads%reference, residual, paper=.false.)
+         if (found%whole > stage_tolerance) exit
+      end do
+   end subroutine stiffen
+
+   !> Take the springs away where joints resist all motions under load by now, else weaken them. What they alone still
+   !> hold when they are weakest is a mechanism
+   subroutine weaken(condensed, scene, field, course, verdict)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> The iteration; keeps the state if the springs are taken away
+      type(course_type), intent(inout) :: course
+      !> Takes a mechanism
+      type(verdict_type), intent(inout) :: verdict
+
+      call find_mechanism(condensed, scene, field, .false., verdict%mechanism)
+      if (verdict%mechanism%loaded .and. field%leak > last_leak) then
+         verdict%mechanism%loaded = .false.
+         field%leak = max(last_leak, leak_factor*field%leak)
+      else
+         course%springs = field%leak
+         field%leak = 0.0_wp
+         course%held = field
+      end if
+   end subroutine weaken
+
+   !> One step
+   subroutine take_step(condensed, scene, tolerance, ratio, field, course)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> Tolerance on the residual ratio, and the ratio
+      real(wp), intent(in) :: tolerance, ratio
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> The iteration
+      type(course_type), intent(inout) :: course
+
+      logical :: made, moved, falls
+
+      course%n_steps = course%n_steps + 1
+      falls = course%watch%best_at == course%watch%k
+      associate (bounds => course%bounds)
+         bounds%far = ratio
+         bounds%tolerance = merge(closer, loose, condensed%proportion > very_stiff)
+         ! near to equilibrium, so exactly that one step can reach the tolerance
+         if (ratio < near) then
+            bounds%tolerance = min(bounds%tolerance, max(strict, part*tolerance/max(tiny(ratio), ratio)))
+         end if
+         bounds%largest = course%watch%largest
+         if (field%leak > 0.0_wp) then
+            bounds%tolerance = max(strict, min(bounds%tolerance, 0.1_wp*field%leak))
+            bounds%largest = bounds%largest/field%leak
+         else
+            call approach(condensed, scene, .true., course%begun, field, course%residual, moved)
+            if (moved) course%newton = new_newton(condensed, scene, field, ratio)
+         end if
+         if (course%far) bounds%radius = bounds%largest
+         bounds%more = merge(bold, careful, falls .or. course%far)
+         call newton_step(condensed, scene, bounds, course%newton, field, course%residual, made)
+      end associate
+      if (.not. made .and. .not. field%leak > 0.0_wp) then  ! what slips may stop farther on
+         call approach(condensed, scene, .false., course%begun, field, course%residual, made)
+         if (made) course%newton = new_newton(condensed, scene, field, ratio)
+      end if
+      course%ran = .not. made
+   end subroutine take_step
+
+   !> What an iterate leaves without equilibrium, and the laws about it
+   subroutine look_again(condensed, scene, ratio, field, course)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> Residual ratio of the iterate before
+      real(wp), intent(in) :: ratio
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> The iteration
+      type(course_type), intent(inout) :: course
+
+      call evaluate(condensed, scene, field, course%residual)
+      course%newton = new_newton(condensed, scene, field, ratio)
+   end subroutine look_again
+
+end module axijoint_joints_newton_method
