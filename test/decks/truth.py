@@ -321,7 +321,8 @@ def claim_kept(deck, refused=False):
     return ask
 
 
-PROPORTION = [*[Row(f'case {case}, k h/E = {proportion:.0e}', f'<= {most} iterations' + (', displacement of 1e3 within 1 %' if case == 3 else ''),
+PROPORTION = [*[Row(f'case {case}, k h/E = {proportion:.0e}',
+                    f'<= {most} iterations' + (', displacement of 1e3 within 1 %' if case == 3 else ''),
                     very_stiff(case, proportion, most)) for case, most in ((1, 60), (2, 60), (3, 40))
                 for proportion in (1e6, 1e8)],
               *[Row(f'case {case}, NEWTON to 1e-6', f'<= {before} + 2 iterations', paper_case(case, before))
