@@ -113,7 +113,10 @@ contains
       last = 0
       next = 1
       do i = 1, line
-         if (next > len(bytes)) exit
+         if (next > len(bytes)) then
+            last = first - 1
+            return
+         end if
          first = next
          call end_of_line(bytes, first, last, next)
       end do

@@ -366,6 +366,32 @@ def soil_pile(title, increments, *, friction=25.0, cohesion=0.0, gravity=0.0, de
     return deck.add('INCREMENTS', *((float(f), tolerance, None, case) for f, case in increments)).text()
 
 
+def monopile(method='NEWTON', ring=True, unload=True):
+    """A steel monopile in two layers of ground: its weight and K0 = 0.5, then wind in four steps, which press its head
+    against a guide ring with a clearance of 1 mm, and let go in two steps"""
+    deck = Deck('A monopile in two layers', 4, 17, method)
+    deck.add('MATERIALS', (1, 2.1e5, 0.3, 0.077), (2, 30.0, 0.3, 0.010), (3, 80.0, 0.25, 0.011))
+    deck.law(1, (60.0, 120.0, 60.0), 0.0, 29.0).law(2, (1e3, 2e3, 1e3), 0.0, 20.0)
+    deck.details(1).details(2, gap=1e-3)
+    deck.block(1, 1, 8, 1, 12, 2.9, -20, 3, 4).block(1, 1, 8, 1, 1, 2.9, 4, 3, 5).block(4, 1, 8, 1, 1, 3, 4, 3.5, 5)
+    for body, r1, r2, n, ratio in ((2, 3, 30, 6, 6.0), (3, 0, 2.9, 3, None)):
+        deck.block(body, 2, 8, n, 4, r1, -8, r2, 0, ratio=ratio).block(body, 3, 8, n, 6, r1, -20, r2, -8, ratio=ratio)
+    deck.block(2, 3, 8, 6, 3, 3, -30, 30, -20, ratio=6.0).block(2, 3, 8, 1, 3, 2.9, -30, 3, -20)
+    deck.block(2, 3, 8, 3, 3, 0, -30, 2.9, -20)
+    deck.faces((1, 1, 2.9, 5, 3, 5), (2, 1, 3, -20, 3, 0), (3, 2, 3, -20, 3, 0), (4, 1, 2.9, -20, 2.9, 0),
+               (5, 3, 2.9, -20, 2.9, 0), (6, 1, 2.9, -20, 3, -20), (7, 2, 2.9, -20, 3, -20), (8, 3, 0, -20, 2.9, -20),
+               (9, 2, 0, -20, 2.9, -20), (10, 2, 0, -30, 30, -30), (11, 2, 30, -30, 30, 0), (12, 1, 3, 4, 3, 5),
+               (13, 4, 3, 4, 3, 5), (14, 4, 3.5, 4, 3.5, 5))
+    deck.add('INTERFACES', (1, 2, 3), (1, 4, 5), (1, 6, 7), (1, 8, 9), *(((2, 12, 13),) if ring else ()))
+    deck.add('FIXEDFACES', (10, '111'), (11, '101'), (14, '111'))
+    deck.add('CASE', (1, 'weight')).add('GRAVITY', (-1.0,))
+    deck.add('INSITU', (1, 0.0, 0.0, 0.0, 0.0, None, 'MEANT'), *((body, *layer) for body in (2, 3) for layer in (
+        (0.0, 0.010, 0.5, 0.0, 2), (-8.0, 0.011, 0.5, -0.08, 3))))
+    deck.add('CASE', (2, 'wind')).resultants((1, 'LATERAL', 2.0), (1, 'MOMENT', -60.0)).add('COMBINE', (1, 1, 1.0, 2, 1.0))
+    steps = [(1.0, 1), *[(0.25, 2)]*4, *([(-0.5, 2)]*2 if unload else ())]
+    return deck.add('INCREMENTS', *((factor, None, 20000, case) for factor, case in steps)).text()
+
+
 def waves(harmonic, beside=None):
     """A pile in a socket whose free face is pressed by cos(m theta), and next to nothing of another harmonic"""
     deck = Deck(f'Pressed by cos({harmonic} theta)', 12, 13).material(1, 2e4, 0.17)

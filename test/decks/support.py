@@ -8,8 +8,8 @@ import tempfile
 HERE = os.path.dirname(os.path.realpath(__file__))
 INPUTS = os.path.join(HERE, '..', '..', 'inputs')
 
-# Seconds after which a program counts as hanging
-TIME_LIMIT = 60
+# Seconds after which a program counts as hanging, and after which one of a long test does
+TIME_LIMIT, LONG_LIMIT = 60, 1200
 # What the run-time library prints where the program has lost control
 CRASH = re.compile(r'Fortran runtime|Backtrace|rror termination|SIG[A-Z]{3,}|\nAt line')
 # User that may neither read nor write what the test keeps from it
@@ -17,11 +17,12 @@ NOBODY = 65534
 
 
 class Test:
-    """A name, and a function of an empty folder that returns a list of faults"""
+    """A name, a function of an empty folder that returns a list of faults, and whether it takes minutes"""
 
-    def __init__(self, name, check):
+    def __init__(self, name, check, long=False):
         self.name = name
         self.check = check
+        self.long = long
 
 
 class Outcome:
@@ -57,7 +58,7 @@ class Program:
             raise SystemExit(f'{path} is no program')
         self.environment = dict(os.environ, OPENBLAS_NUM_THREADS='1', LC_ALL='C')
 
-    def run(self, *arguments, folder='.', limits=(), path=None, **options):
+    def run(self, *arguments, folder='.', limits=(), path=None, time_limit=TIME_LIMIT, **options):
         """Run it in a folder. limits: pairs of a limit of `resource` and its value"""
 
         def set_limits():
@@ -66,7 +67,7 @@ class Program:
 
         options.setdefault('stdout', subprocess.PIPE)
         done = subprocess.run([path or self.path, *arguments], cwd=folder, env=self.environment,
-                              stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, timeout=TIME_LIMIT,
+                              stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, timeout=time_limit,
                               preexec_fn=set_limits if limits else None, **options)
         return Outcome(done.returncode, (done.stdout or b'').decode('utf-8', 'replace'),
                        done.stderr.decode('utf-8', 'replace'))

@@ -1,4 +1,5 @@
-"""One case of scripts/verify, its check of solutions, a case of scripts/bench stability; only where NumPy and h5py are installed"""
+"""One case of scripts/verify, or all of them, its check of solutions, a case of scripts/bench stability; only where
+NumPy and h5py are installed"""
 import os
 import subprocess
 
@@ -33,15 +34,16 @@ def tests(program):
     probe = subprocess.run([PYTHON, '-c', 'import numpy, h5py'], capture_output=True, check=False)
     if probe.returncode:
         return []
-    return [Test('verification/shaft', lambda folder: case_faults(program, folder)),
+    return [Test('verification/shaft', lambda folder: case_faults(program, folder, 'shaft')),
+            Test('verification/all cases', lambda folder: case_faults(program, folder), long=True),
             Test('verification/wrong solution', wrong_solution_faults),
             Test('bench/stability', lambda folder: stability_faults(program, folder))]
 
 
-def case_faults(program, folder):
-    """Faults of one case"""
+def case_faults(program, folder, *names):
+    """Faults of some cases, or of all"""
     return faults_of([os.path.join(FOLDER, 'main.py'), '--program', program.path, '--check',
-                      '-o', folder, 'shaft'])
+                      '-o', folder, *names])
 
 
 def stability_faults(program, folder):
