@@ -1,8 +1,10 @@
 !> Square meshes of the benchmarks
 module axijoint_bench_square
    use axijoint_base_kinds, only : wp
+   use axijoint_fe_element_kind, only : kind_choice_type
    use axijoint_model_load, only : edge_load_type, ring_load_type, increment_type
    use axijoint_model_material, only : solid_material_type, joint_material_type
+   use axijoint_model_mesh, only : set_kinds
    use axijoint_model_model, only : model_type
    implicit none
    private
@@ -36,6 +38,7 @@ contains
          mesh%element_material = spread(1, 1, n_elements)
          mesh%element_body = spread(1, 1, n_elements)
          mesh%element_size = spread(9, 1, n_elements)
+         call set_kinds(mesh, kind_choice_type())
          allocate (mesh%joint_label(0), mesh%joint_material(0), mesh%joint_size(0))
          allocate (mesh%joint_nodes(6, 0), mesh%coordinates(2, n_nodes))
          allocate (mesh%element_nodes(9, n_elements))

@@ -6,27 +6,23 @@
 module axijoint_assembly_node_blocks
    use omp_lib, only : omp_get_max_threads
    use axijoint_assembly_support, only : support_point_type, support_stiffness
-   use axijoint_assembly_stiffness, only : element_blocks, least_elements
+   use axijoint_assembly_element_stiffness, only : integrands_type, new_integrands, element_blocks, &
+      max_unknowns, max_blocks
+   use axijoint_assembly_stiffness, only : least_elements
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_large_pages, only : zero_large_pages
+   use axijoint_base_ranges, only : range_end
    use axijoint_base_sort, only : sort_short
-   use axijoint_element_blocks, only : n_blocks, pack_blocks
+   use axijoint_element_blocks, only : pack_blocks
    use axijoint_element_joint, only : joint_stiffness
-   use axijoint_element_solid, only : stiffness_kernel_type, new_stiffness_kernel
    use axijoint_fe_fourier, only : circle_integral
-   use axijoint_fe_reference, only : reference_type
    use axijoint_model_joint_points, only : model_joint_point_type
-   use axijoint_model_material, only : elasticity
-   use axijoint_model_mesh, only : max_element_nodes, n_elements
-   use axijoint_model_model, only : model_type, element_references
+   use axijoint_model_mesh, only : n_elements
+   use axijoint_model_model, only : model_type
    use axijoint_order_graph, only : graph_type
    implicit none
    private
    public :: node_blocks_type, new_node_blocks, assemble_blocks, block_product, harmonic_block
-
-   !> Unknowns of the largest element, and its blocks of two nodes
-   integer, parameter :: max_unknowns = 3*max_element_nodes
-   integer, parameter :: max_blocks = max_element_nodes*(max_element_nodes + 1)/2
 
    !> Lower triangle by rows of blocks
    type :: node_blocks_type
@@ -91,20 +87,11 @@ contains
       n_ranges = merge(omp_get_max_threads(), 1, n_elements(model%mesh) > least_elements)
       !$omp parallel do schedule(static, 1) if (n_ranges > 1)
       do k = 1, n_ranges
-         call assemble_rows(blocks, model, joint_points, support_points, share(k - 1) + 1, share(k))
+         call assemble_rows(blocks, model, joint_points, support_points, &
+                            1 + range_end(size(blocks%place), k - 1, n_ranges), &
+                            range_end(size(blocks%place), k, n_ranges))
       end do
       !$omp end parallel do
-
-   contains
-
-      !> The first k shares of the rows
-      pure integer function share(k)
-         !> Number of shares
-         integer, intent(in) :: k
-
-         share = int(size(blocks%place, kind=i8)*k/n_ranges)
-      end function share
-
    end subroutine assemble_blocks
 
    !> Put zeros into blocks, in large pages
@@ -129,20 +116,16 @@ contains
       !> First and last row
       integer, intent(in) :: from, to
 
-      type(stiffness_kernel_type) :: kernels(size(model%materials))
-      type(reference_type) :: references(3:9)
+      type(integrands_type) :: integrands
       real(wp) :: local(2, 3, 3, max_blocks), matrix(max_unknowns, max_unknowns)
       integer :: k, n
 
-      references = element_references(model)
-      do k = 1, size(kernels)
-         kernels(k) = new_stiffness_kernel(elasticity(model%materials(k)))
-      end do
+      integrands = new_integrands(model)
       do k = 1, n_elements(model%mesh)
          n = model%mesh%element_size(k)
          associate (nodes => model%mesh%element_nodes(:n, k))
             if (.not. any(blocks%place(nodes) >= from .and. blocks%place(nodes) <= to)) cycle
-            call element_blocks(model, references, kernels, k, local)
+            call element_blocks(model, integrands, k, local)
             call scatter(blocks, nodes, local, from, to)
          end associate
       end do

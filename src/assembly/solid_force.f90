@@ -1,16 +1,17 @@
 !> Stresses of the solids and the nodal forces that they and their mass give
 module axijoint_assembly_solid_force
    use axijoint_base_kinds, only : wp
-   use axijoint_element_solid, only : solid_point_type, solid_points, solid_stress, &
-                                      add_solid_force, dilatation_type, new_dilatation
+   use axijoint_element_dilatation, only : dilatation_type, new_dilatation, strain_shape
+   use axijoint_element_solid, only : solid_stress, add_solid_force
+   use axijoint_element_solid_point, only : solid_point_type, solid_points
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
    use axijoint_fe_quadrature, only : max_element_points
    use axijoint_fe_reference, only : reference_type
    use axijoint_model_load, only : body_load_type, initial_stress_type, stress_before
    use axijoint_model_material, only : elasticity, thermal_strain
-   use axijoint_model_mesh, only : n_elements, max_element_nodes
-   use axijoint_model_model, only : model_type, element_references
+   use axijoint_model_mesh, only : n_elements, max_element_nodes, element_references
+   use axijoint_model_model, only : model_type
    implicit none
    private
    public :: initial_state_type, solid_force, add_mass_force
@@ -44,30 +45,30 @@ contains
       real(wp), intent(out), optional :: stress(:, :)
 
       type(solid_point_type) :: points(max_element_points)
-      type(reference_type) :: references(3:9)
+      type(reference_type), allocatable :: references(:)
       type(dilatation_type) :: dilatation
       real(wp) :: d(6, 6), now(6), in_situ(6)
       real(wp), dimension(3, max_element_nodes) :: local, element_force
       integer :: element, n, n_points, i, last
 
-      references = element_references(model)
+      references = element_references(model%mesh)
       force = 0.0_wp
       last = 0
       do element = 1, n_elements(model%mesh)
          n = model%mesh%element_size(element)
-         n_points = references(n)%n_points
-         associate (nodes => model%mesh%element_nodes(:n, element), &
+         associate (reference => references(model%mesh%element_kind(element)), &
+                    nodes => model%mesh%element_nodes(:n, element), &
                     material => model%materials(model%mesh%element_material(element)))
             d = elasticity(material)
-            call solid_points(model%mesh%coordinates(:, nodes), references(n), points(:n_points))
-            call new_dilatation(points(:n_points), references(n), dilatation)
+            n_points = reference%n_points
+            call solid_points(model%mesh%coordinates(:, nodes), reference, points(:n_points))
+            call new_dilatation(points(:n_points), reference, dilatation)
             local(:, :n) = displacement(:, nodes)
             element_force = 0.0_wp
             do i = 1, n_points
                now = solid_stress(points(i), n, d, mode%harmonic, local, dilatation)
                if (initial%present) then
-                  now = now + thermal_stress(model, initial, k, element, points(i), &
-                                                    dilatation, d)
+                  now = now + thermal_stress(model, initial, k, element, strain_shape(dilatation, points(i)), d)
                end if
                call add_solid_force(points(i), n, mode%harmonic, now, element_force, dilatation)
                if (initial%present) then  ! equilibrium in situ knows of no means
@@ -84,30 +85,25 @@ contains
    end subroutine solid_force
 
    !> Stress at a point that temperature gives without strain: - D alpha T
-   pure function thermal_stress(model, initial, k, element, point, dilatation, d) result(stress)
+   pure function thermal_stress(model, initial, k, element, shape, d) result(stress)
       !> The job
       type(model_type), intent(in) :: model
       !> Temperatures
       type(initial_state_type), intent(in) :: initial
       !> Place of the mode, and the element
       integer, intent(in) :: k, element
-      !> The point
-      type(solid_point_type), intent(in) :: point
-      !> Means over the element
-      type(dilatation_type), intent(in) :: dilatation
+      !> Shape functions at the point that go with its strain
+      real(wp), intent(in) :: shape(:)
       !> Elasticity matrix
       real(wp), intent(in) :: d(6, 6)
       !> Amplitudes of r, z, theta, rz, r-theta, z-theta
       real(wp) :: stress(6)
 
-      real(wp) :: shape(max_element_nodes)
       integer :: n
 
       stress = 0.0_wp
       if (.not. allocated(initial%temperature)) return
       n = model%mesh%element_size(element)
-      shape = point%shape
-      if (dilatation%averaged) shape = dilatation%shape
       associate (nodes => model%mesh%element_nodes(:n, element), &
                  material => model%materials(model%mesh%element_material(element)))
          stress = -dot_product(shape(:n), initial%temperature(nodes, k)) &
@@ -147,17 +143,18 @@ contains
       real(wp), intent(inout) :: force(:, :)
 
       type(solid_point_type) :: points(max_element_points)
-      type(reference_type) :: references(3:9)
+      type(reference_type), allocatable :: references(:)
       real(wp) :: acceleration(3), weight
       integer :: element, n, n_points, i, j
 
-      references = element_references(model)
+      references = element_references(model%mesh)
       do element = 1, n_elements(model%mesh)
          n = model%mesh%element_size(element)
-         n_points = references(n)%n_points
-         associate (nodes => model%mesh%element_nodes(:n, element), &
+         associate (reference => references(model%mesh%element_kind(element)), &
+                    nodes => model%mesh%element_nodes(:n, element), &
                     density => model%materials(model%mesh%element_material(element))%density)
-            call solid_points(model%mesh%coordinates(:, nodes), references(n), points(:n_points))
+            n_points = reference%n_points
+            call solid_points(model%mesh%coordinates(:, nodes), reference, points(:n_points))
             do i = 1, n_points
                acceleration = load%acceleration
                acceleration(1) = acceleration(1) + load%spin_squared*points(i)%position(1)

@@ -2,34 +2,28 @@
 module axijoint_assembly_stiffness
    use omp_lib, only : omp_get_max_threads
    use axijoint_assembly_dofs, only : dofs_type, new_dofs
+   use axijoint_assembly_element_stiffness, only : integrands_type, new_integrands, element_blocks, &
+      max_unknowns, max_blocks
    use axijoint_assembly_pattern, only : new_pattern
    use axijoint_assembly_support, only : support_point_type, support_stiffness
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_large_pages, only : zero_large_pages
+   use axijoint_base_ranges, only : range_end
    use axijoint_base_sort, only : refine_order
-   use axijoint_element_blocks, only : n_blocks, pack_blocks
+   use axijoint_element_blocks, only : pack_blocks
    use axijoint_element_joint, only : joint_stiffness
-   use axijoint_element_solid, only : solid_point_type, solid_points, solid_blocks, &
-                                      stiffness_kernel_type, new_stiffness_kernel, &
-                                      dilatation_type, new_dilatation
    use axijoint_fe_mode, only : mode_type
-   use axijoint_fe_quadrature, only : max_element_points
-   use axijoint_fe_reference, only : reference_type
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    use axijoint_model_joint_points, only : model_joint_point_type
-   use axijoint_model_material, only : elasticity
-   use axijoint_model_mesh, only : mesh_type, max_element_nodes, n_nodes, n_elements
-   use axijoint_model_model, only : model_type, element_references, held_components, on_axis
+   use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements
+   use axijoint_model_model, only : model_type, held_components, on_axis
    use axijoint_order_graph, only : graph_type
    implicit none
    private
-   public :: stiffness_type, new_stiffness, assemble_parts, element_blocks, any_harmonic, n_parts, least_elements
+   public :: stiffness_type, new_stiffness, assemble_parts, any_harmonic, n_parts, least_elements
 
    !> Fewer elements are not worth waking the threads for
    integer, parameter :: least_elements = 1000
-   !> Unknowns of the largest element, and its blocks of two nodes
-   integer, parameter :: max_unknowns = 3*max_element_nodes
-   integer, parameter :: max_blocks = max_element_nodes*(max_element_nodes + 1)/2
    !> A class of more than one harmonic
    integer, parameter :: any_harmonic = -1
 
@@ -53,6 +47,14 @@ module axijoint_assembly_stiffness
       !> Place of each node in the order
       integer, allocatable :: place(:)
    end type stiffness_type
+
+   !> Elements in the order of their first nodes, so that neighbouring rows are added to together
+   type :: element_order_type
+      !> The elements
+      integer, allocatable :: elements(:)
+      !> First and last place of the nodes of each element
+      integer, allocatable :: lowest(:), highest(:)
+   end type element_order_type
 
 contains
 
@@ -143,17 +145,13 @@ contains
       type(model_joint_point_type), intent(in) :: joint_points(:)
       type(support_point_type), intent(in) :: support_points(:)
 
-      type(stiffness_kernel_type) :: kernels(size(model%materials))
-      type(reference_type) :: references(3:9)
-      integer, allocatable :: elements(:), lowest(:), highest(:)
+      type(integrands_type) :: integrands
+      type(element_order_type) :: order
       integer :: k, n_ranges, n
 
       if (size(classes) == 0) return
-      references = element_references(model)
-      do k = 1, size(kernels)
-         kernels(k) = new_stiffness_kernel(elasticity(model%materials(k)))
-      end do
-      call order_elements(model%mesh, classes(1)%place, elements, lowest, highest)
+      integrands = new_integrands(model)
+      call order_elements(model%mesh, classes(1)%place, order)
       do k = 1, size(classes)
          associate (class => classes(k))
             allocate (class%parts(n_parts(class), size(class%pattern%column)))
@@ -161,11 +159,11 @@ contains
          end associate
       end do
       n = n_nodes(model%mesh)
-      n_ranges = merge(omp_get_max_threads(), 1, size(elements) > least_elements)
+      n_ranges = merge(omp_get_max_threads(), 1, n_elements(model%mesh) > least_elements)
       !$omp parallel do schedule(static, 1) if (n_ranges > 1)
       do k = 1, n_ranges
-         call assemble_range(classes, model, references, kernels, elements, lowest, highest, &
-                             1 + share(n, k - 1, n_ranges), share(n, k, n_ranges))
+         call assemble_range(classes, model, integrands, order, 1 + range_end(n, k - 1, n_ranges), &
+                             range_end(n, k, n_ranges))
       end do
       !$omp end parallel do
       do k = 1, size(joint_points)
@@ -176,73 +174,57 @@ contains
       end do
    end subroutine assemble_parts
 
-   !> The first k of n_ranges equal shares of n
-   pure integer function share(n, k, n_ranges)
-      !> Whole, number of shares taken and of all shares
-      integer, intent(in) :: n, k, n_ranges
-
-      share = int(int(n, i8)*k/n_ranges)
-   end function share
-
-   !> Elements in the order of their first nodes, so that neighbouring rows are
-   !> added to together
-   subroutine order_elements(mesh, place, elements, lowest, highest)
+   !> Put the elements in the order of their first nodes
+   subroutine order_elements(mesh, place, order)
       !> The mesh
       type(mesh_type), intent(in) :: mesh
       !> Place of each node in the order
       integer, intent(in) :: place(:)
       !> The elements in their order
-      integer, allocatable, intent(out) :: elements(:)
-      !> First and last place of the nodes of each element
-      integer, allocatable, intent(out) :: lowest(:), highest(:)
+      type(element_order_type), intent(out) :: order
 
       integer :: k
 
-      allocate (lowest(n_elements(mesh)), highest(n_elements(mesh)))
-      do k = 1, size(lowest)
+      allocate (order%lowest(n_elements(mesh)), order%highest(n_elements(mesh)))
+      do k = 1, n_elements(mesh)
          associate (places => place(mesh%element_nodes(:mesh%element_size(k), k)))
-            lowest(k) = minval(places)
-            highest(k) = maxval(places)
+            order%lowest(k) = minval(places)
+            order%highest(k) = maxval(places)
          end associate
       end do
-      elements = [(k, k=1, size(lowest))]
-      call refine_order(elements, lowest)
+      order%elements = [(k, k=1, n_elements(mesh))]
+      call refine_order(order%elements, order%lowest)
    end subroutine order_elements
 
    !> Assemble the rows of a range of nodes
-   subroutine assemble_range(classes, model, references, kernels, elements, lowest, highest, &
-                             from, to)
+   subroutine assemble_range(classes, model, integrands, order, from, to)
       !> The classes in use
       type(stiffness_type), intent(inout) :: classes(:)
       !> The job
       type(model_type), intent(in) :: model
-      !> Kinds of elements, by number of nodes
-      type(reference_type), intent(in) :: references(3:)
-      !> Kernels of the materials
-      type(stiffness_kernel_type), intent(in) :: kernels(:)
+      !> Kinds of elements, and kernels of the materials
+      type(integrands_type), intent(in) :: integrands
       !> Elements in the order of the nodes
-      integer, intent(in) :: elements(:)
-      !> First and last place of the nodes of each element
-      integer, intent(in) :: lowest(:), highest(:)
+      type(element_order_type), intent(in) :: order
       !> First and last place of the range
       integer, intent(in) :: from, to
 
       integer :: k
 
-      do k = 1, size(elements)
-         if (lowest(elements(k)) > to .or. highest(elements(k)) < from) cycle
-         call add_element(model, references, kernels, elements(k), classes, from, to)
+      do k = 1, size(order%elements)
+         associate (element => order%elements(k))
+            if (order%lowest(element) > to .or. order%highest(element) < from) cycle
+            call add_element(model, integrands, element, classes, from, to)
+         end associate
       end do
    end subroutine assemble_range
 
    !> Add the parts of one element
-   subroutine add_element(model, references, kernels, element, classes, from, to)
+   subroutine add_element(model, integrands, element, classes, from, to)
       !> The job
       type(model_type), intent(in) :: model
-      !> Kinds of elements, by number of nodes
-      type(reference_type), intent(in) :: references(3:)
-      !> Kernels of the materials
-      type(stiffness_kernel_type), intent(in) :: kernels(:)
+      !> Kinds of elements, and kernels of the materials
+      type(integrands_type), intent(in) :: integrands
       !> Element
       integer, intent(in) :: element
       !> The classes in use
@@ -253,39 +235,13 @@ contains
       real(wp) :: blocks(2, 3, 3, max_blocks)
       integer :: i
 
-      call element_blocks(model, references, kernels, element, blocks)
+      call element_blocks(model, integrands, element, blocks)
       associate (nodes => model%mesh%element_nodes(:model%mesh%element_size(element), element))
          do i = 1, size(classes)
             call scatter(classes(i), nodes, blocks, from, to)
          end do
       end associate
    end subroutine add_element
-
-   !> Integrate the blocks of one element
-   subroutine element_blocks(model, references, kernels, element, blocks)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Kinds of elements, by number of nodes
-      type(reference_type), intent(in) :: references(3:)
-      !> Kernels of the materials
-      type(stiffness_kernel_type), intent(in) :: kernels(:)
-      !> Element
-      integer, intent(in) :: element
-      !> The blocks, the first of which are in use
-      real(wp), intent(inout) :: blocks(2, 3, 3, max_blocks)
-
-      type(solid_point_type) :: points(max_element_points)
-      type(dilatation_type) :: dilatation
-      integer :: n, n_points
-
-      n = model%mesh%element_size(element)
-      n_points = references(n)%n_points
-      call solid_points(model%mesh%coordinates(:, model%mesh%element_nodes(:n, element)), references(n), &
-                        points(:n_points))
-      call new_dilatation(points(:n_points), references(n), dilatation)
-      call solid_blocks(points(:n_points), n, kernels(model%mesh%element_material(element)), &
-                        blocks(:, :, :, :n_blocks(n)), dilatation)
-   end subroutine element_blocks
 
    !> Add one point of a joint; its stiffness is free of the harmonic: part A
    subroutine add_joint_point(point, classes)

@@ -23,6 +23,7 @@ module axijoint_deck_reader
    use axijoint_deck_mesh_generate_lines, only : draft_nodes, draft_lines
    use axijoint_deck_mesh_interfaces, only : refer_interfaces, lay_interfaces
    use axijoint_deck_mesh_joints, only : draft_joints
+   use axijoint_deck_mesh_kinds, only : choose_kinds
    use axijoint_deck_mesh_places, only : group_places, new_point_tree, point_tree_type, same_place
    use axijoint_deck_property_law_details, only : read_law_details
    use axijoint_deck_property_properties, only : properties_type, read_properties
@@ -39,7 +40,8 @@ module axijoint_deck_reader
    use axijoint_deck_text_sections, only : sections_type, read_sections
    use axijoint_deck_text_source, only : source_type
    use axijoint_deck_text_source_reader, only : read_source
-   use axijoint_model_model, only : model_type, element_references
+   use axijoint_fe_element_kind, only : kind_choice_type
+   use axijoint_model_model, only : model_type
    use axijoint_model_request, only : refinement_type
    implicit none
    private
@@ -65,6 +67,7 @@ contains
       type(properties_type) :: properties
       type(draft_type) :: draft
       type(gmsh_import_type) :: import
+      type(kind_choice_type) :: choice
 
       call read_source(path, source, diagnostics)
       if (source%n_cards == 0) return
@@ -74,13 +77,13 @@ contains
       associate (tables => sections%tables)
          model%title = sections%title
          call read_control(tables(section_control), tables(section_increments), &
-                           tables(section_output), model)
+                           tables(section_output), model, choice)
          call read_properties(source, tables(section_materials), tables(section_orthotropic), &
                               tables(section_laws), properties, diagnostics)
          call read_law_details(source, tables(section_law_details), properties, diagnostics)
          call read_mesh_file(source, import, diagnostics)
          call read_groups(source, tables(section_groups), properties, import, diagnostics)
-         call make_solids(source, sections, properties, model, import, draft, diagnostics)
+         call make_solids(source, sections, properties, choice, import, draft, diagnostics)
          call number_faces(source, tables(section_faces), tables(section_chains), draft, diagnostics)
          call number_group_faces(source, tables(section_groups), import, draft, diagnostics)
          call make_joints_and_faces(source, sections, properties, import, draft, diagnostics)
@@ -99,15 +102,15 @@ contains
    end subroutine read_deck
 
    !> Make nodes and elements, and check their shape
-   subroutine make_solids(source, sections, properties, model, import, draft, diagnostics)
+   subroutine make_solids(source, sections, properties, choice, import, draft, diagnostics)
       !> The deck; lines of the mesh file at fault become cards
       type(source_type), intent(inout) :: source
       !> Its sections
       type(sections_type), intent(in) :: sections
       !> Materials and laws
       type(properties_type), intent(in) :: properties
-      !> The job's control data
-      type(model_type), intent(in) :: model
+      !> Rules and formulation of the elements
+      type(kind_choice_type), intent(in) :: choice
       !> The mesh of the mesh file
       type(gmsh_import_type), intent(inout) :: import
       !> The mesh
@@ -125,7 +128,8 @@ contains
          call draft_blocks(source, tables(section_blocks), properties, draft, diagnostics)
       end associate
       call snap_to_axis(draft, diagnostics)
-      call check_elements(element_references(model), draft, diagnostics)
+      call choose_kinds(choice, draft)
+      call check_elements(draft, diagnostics)
       if (draft%n_elements == 0 .and. draft%elements_complete) then
          call add_error(diagnostics, 0, 0, 0, 'the deck has no elements', &
                         mend='give ELEMENTS with NODES, or BLOCKS, or a mesh file by GMSH')
@@ -253,6 +257,8 @@ contains
          model%mesh%element_material = draft%element_material(:m)
          model%mesh%element_body = draft%element_body(:m)
          model%mesh%element_size = draft%element_size(:m)
+         model%mesh%element_kind = draft%element_kind
+         model%mesh%kinds = draft%kinds
          model%mesh%element_nodes = draft%element_nodes(:, :m)
          model%mesh%joint_label = draft%joint_label(:k)
          model%mesh%joint_material = draft%joint_law(:k)

@@ -1,39 +1,14 @@
-!> Quadrilateral and triangular rings: strain, stiffness and stress of one harmonic
+!> Quadrilateral and triangular rings: stiffness and stress of one harmonic
 module axijoint_element_solid
    use axijoint_base_kinds, only : wp
    use axijoint_element_blocks, only : n_blocks, pack_blocks, unpack_block
-   use axijoint_fe_reference, only : reference_type
+   use axijoint_element_dilatation, only : dilatation_type, average_volume, mean_volume
+   use axijoint_element_solid_point, only : solid_point_type, strain_matrices
    use axijoint_linalg_lapack, only : dgemm
    implicit none
    private
-   public :: solid_point_type, solid_points
-   public :: strain_matrices, solid_stiffness, solid_blocks, solid_stress, add_solid_force
-   public :: stiffness_kernel_type, new_stiffness_kernel, dilatation_type, new_dilatation
-
-   !> What the integrals over an element need at one integration point
-   type :: solid_point_type
-      !> r and z
-      real(wp) :: position(2) = 0.0_wp
-      !> Weight of the point times the Jacobian times r
-      real(wp) :: weight = 0.0_wp
-      !> Shape functions, the first n of which are in use
-      real(wp) :: shape(9) = 0.0_wp
-      !> Their derivatives by r and z
-      real(wp) :: gradient(2, 9) = 0.0_wp
-   end type solid_point_type
-
-   !> Means over an element, with the weights r dA, for elements that take the
-   !> volumetric strain as its mean: B-bar (Hughes, Int. J. Numer. Meth. Eng. 15, 1980).
-   !> What is linear in the harmonic stays so, as the mean of B0 + m B1 is the sum
-   !> of the means
-   type :: dilatation_type
-      !> Whether the element does so
-      logical :: averaged = .false.
-      !> Means of dN/dr, dN/dz, N/r of each node
-      real(wp) :: gradient(3, 9) = 0.0_wp
-      !> Mean shape functions: a mean strain goes with the mean temperature
-      real(wp) :: shape(9) = 0.0_wp
-   end type dilatation_type
+   public :: solid_stiffness, solid_blocks, solid_stress, add_solid_force
+   public :: stiffness_kernel_type, new_stiffness_kernel
 
    !> Elasticity between displacement gradients: the strain of a node's
    !> displacement (u, v, w) is the sum over k of g_k (E_k + m F_k) (u, v, w),
@@ -52,99 +27,6 @@ module axijoint_element_solid
    end type stiffness_kernel_type
 
 contains
-
-   !> Integration points of an element
-   pure subroutine solid_points(coordinates, reference, points)
-      !> r and z of the nodes, shape (2, nodes)
-      real(wp), intent(in) :: coordinates(:, :)
-      !> The element in natural coordinates
-      type(reference_type), intent(in) :: reference
-      !> The points, shape (reference%n_points)
-      type(solid_point_type), intent(out) :: points(:)
-
-      real(wp) :: jacobian(2, 2), determinant
-      integer :: i, k, n
-
-      n = reference%n_nodes
-      do k = 1, reference%n_points
-         associate (p => points(k), local => reference%derivative(:, :, k))
-            jacobian = 0.0_wp
-            p%position = 0.0_wp
-            do i = 1, n
-               p%shape(i) = reference%shape(i, k)
-               p%position = p%position + p%shape(i)*coordinates(:, i)
-               jacobian(:, 1) = jacobian(:, 1) + local(1, i)*coordinates(:, i)
-               jacobian(:, 2) = jacobian(:, 2) + local(2, i)*coordinates(:, i)
-            end do
-            determinant = jacobian(1, 1)*jacobian(2, 2) - jacobian(1, 2)*jacobian(2, 1)
-            do i = 1, n
-               p%gradient(1, i) = (jacobian(2, 2)*local(1, i) - jacobian(2, 1)*local(2, i))/determinant
-               p%gradient(2, i) = (jacobian(1, 1)*local(2, i) - jacobian(1, 2)*local(1, i))/determinant
-            end do
-            p%weight = reference%weight(k)*determinant*p%position(1)
-         end associate
-      end do
-   end subroutine solid_points
-
-   !> Means over an element
-   pure subroutine new_dilatation(points, reference, dilatation)
-      !> Integration points of the element
-      type(solid_point_type), intent(in) :: points(:)
-      !> The element in natural coordinates
-      type(reference_type), intent(in) :: reference
-      !> The means; none if the element does not take them
-      type(dilatation_type), intent(inout) :: dilatation
-
-      real(wp) :: share
-      integer :: k
-
-      dilatation%averaged = reference%mean_dilatation
-      if (.not. dilatation%averaged) return
-      dilatation%gradient = 0.0_wp
-      dilatation%shape = 0.0_wp
-      do k = 1, size(points)
-         associate (p => points(k))
-            share = p%weight/sum(points%weight)
-            dilatation%gradient(1:2, :) = dilatation%gradient(1:2, :) + share*p%gradient
-            dilatation%gradient(3, :) = dilatation%gradient(3, :) + share*p%shape/p%position(1)
-            dilatation%shape = dilatation%shape + share*p%shape
-         end associate
-      end do
-   end subroutine new_dilatation
-
-   !> The strain matrix is linear in the harmonic: B_m = B0 + m B1 (Eq. 4)
-   pure subroutine strain_matrices(point, n, b0, b1)
-      !> Where
-      type(solid_point_type), intent(in) :: point
-      !> Number of nodes
-      integer, intent(in) :: n
-      !> The two parts for the unknowns u1, v1, w1, u2, ..., shape (6, 3n)
-      real(wp), intent(out) :: b0(:, :), b1(:, :)
-
-      real(wp) :: dr, dz, nr
-      integer :: i, u, v, w
-
-      b0 = 0.0_wp
-      b1 = 0.0_wp
-      do i = 1, n
-         u = 3*i - 2
-         v = 3*i - 1
-         w = 3*i
-         dr = point%gradient(1, i)
-         dz = point%gradient(2, i)
-         nr = point%shape(i)/point%position(1)
-         b0(1, u) = dr
-         b0(2, v) = dz
-         b0(3, u) = nr
-         b0(4, u) = dz
-         b0(4, v) = dr
-         b0(5, w) = dr - nr
-         b0(6, w) = dz
-         b1(3, w) = nr
-         b1(5, u) = -nr
-         b1(6, v) = -nr
-      end do
-   end subroutine strain_matrices
 
    !> Kernel of a material
    pure function new_stiffness_kernel(d) result(kernel)
@@ -319,32 +201,6 @@ contains
       s = s + transpose(s)
    end subroutine averaged_stiffness
 
-   !> Replace the volumetric part of strain matrices by its mean
-   pure subroutine average_volume(dilatation, n, b0, b1)
-      !> Means over the element
-      type(dilatation_type), intent(in) :: dilatation
-      !> Number of nodes
-      integer, intent(in) :: n
-      !> The strain matrices, shape (6, 3n)
-      real(wp), intent(inout) :: b0(:, :), b1(:, :)
-
-      real(wp), dimension(3*n) :: change0, change1
-      integer :: i
-
-      change0 = -sum(b0(1:3, :), 1)
-      change1 = -sum(b1(1:3, :), 1)
-      do i = 1, n
-         associate (mean => dilatation%gradient(:, i))
-            change0(3*i - 2:3*i - 1) = change0(3*i - 2:3*i - 1) + [mean(1) + mean(3), mean(2)]
-            change1(3*i) = change1(3*i) + mean(3)
-         end associate
-      end do
-      do i = 1, 3
-         b0(i, :) = b0(i, :) + change0/3.0_wp
-         b1(i, :) = b1(i, :) + change1/3.0_wp
-      end do
-   end subroutine average_volume
-
    !> Stress amplitudes of one harmonic at a point: d B_m u, with the sums of
    !> B_m u (Eq. 4) written out
    pure function solid_stress(point, n, d, harmonic, displacement, dilatation) result(stress)
@@ -388,25 +244,6 @@ contains
       end if
       stress = matmul(d, strain)
    end function solid_stress
-
-   !> Mean volumetric strain of one harmonic in an element
-   pure real(wp) function mean_volume(dilatation, n, harmonic, displacement)
-      !> Means over the element
-      type(dilatation_type), intent(in) :: dilatation
-      !> Number of nodes, and harmonic m
-      integer, intent(in) :: n, harmonic
-      !> Amplitudes u, v, w of the nodes, shape (3, n)
-      real(wp), intent(in) :: displacement(:, :)
-
-      integer :: i
-
-      mean_volume = 0.0_wp
-      do i = 1, n
-         associate (mean => dilatation%gradient(:, i), u => displacement(:, i))
-            mean_volume = mean_volume + mean(1)*u(1) + mean(2)*u(2) + mean(3)*(u(1) + harmonic*u(3))
-         end associate
-      end do
-   end function mean_volume
 
    !> Add the nodal forces that balance a stress of one harmonic at a point,
    !> but for the factor c_m: weight B_m^T stress, written out

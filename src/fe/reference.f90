@@ -1,6 +1,7 @@
 !> Elements in natural coordinates: integration points, and the shape functions there
 module axijoint_fe_reference
    use axijoint_base_kinds, only : wp
+   use axijoint_fe_element_kind, only : element_kind_type
    use axijoint_fe_quadrature, only : square_rule, triangle_rule, max_element_points
    use axijoint_fe_shape, only : shape_element, n_corners
    implicit none
@@ -13,8 +14,8 @@ module axijoint_fe_reference
       integer :: n_nodes = 0
       !> Number of integration points
       integer :: n_points = 0
-      !> Whether the volumetric strain is taken as its mean over the element (B-bar)
-      logical :: mean_dilatation = .false.
+      !> One of the formulations
+      integer :: formulation = 0
       !> Natural coordinates of the points, the first n_points of which are in use
       real(wp) :: position(2, max_element_points) = 0.0_wp
       !> Their weights
@@ -28,19 +29,18 @@ module axijoint_fe_reference
 contains
 
    !> An element with its integration points
-   pure function new_reference(n_nodes, order) result(reference)
-      !> Number of nodes
-      integer, intent(in) :: n_nodes
-      !> Order of the rule: Gauss points in each direction of a quadrilateral,
-      !> 2 or 3; 3 or 7 points of a triangle
-      integer, intent(in) :: order
+   elemental function new_reference(kind) result(reference)
+      !> Its kind
+      type(element_kind_type), intent(in) :: kind
       !> The element
       type(reference_type) :: reference
 
       integer :: k
 
-      reference%n_nodes = n_nodes
-      associate (n => reference%n_points, x => reference%position, w => reference%weight)
+      reference%n_nodes = kind%n_nodes
+      reference%formulation = kind%formulation
+      associate (n_nodes => kind%n_nodes, order => kind%order, &
+                 n => reference%n_points, x => reference%position, w => reference%weight)
          if (n_corners(n_nodes) == 3) then
             call triangle_rule(order, n, x, w)
          else

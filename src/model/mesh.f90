@@ -1,10 +1,12 @@
 !> Nodes, solid elements and joints of the meridional plane
 module axijoint_model_mesh
    use axijoint_base_kinds, only : wp
+   use axijoint_fe_element_kind, only : element_kind_type, kind_choice_type, chosen_kind, find_kind
+   use axijoint_fe_reference, only : reference_type, new_reference
    use axijoint_fe_shape, only : n_corners
    implicit none
    private
-   public :: mesh_type, edge_nodes, n_nodes, n_elements, n_joints
+   public :: mesh_type, edge_nodes, n_nodes, n_elements, n_joints, set_kinds, element_references
    public :: max_element_nodes
 
    !> Nodes of the largest solid element
@@ -27,6 +29,10 @@ module axijoint_model_mesh
       integer, allocatable :: element_body(:)
       !> Number of nodes of each element: 3 or 6 of a triangle, 4, 8 or 9 of a quadrilateral
       integer, allocatable :: element_size(:)
+      !> Kind of each element: place among `kinds`, which have its number of nodes, too
+      integer, allocatable :: element_kind(:)
+      !> The kinds of elements: nodes, rule, formulation
+      type(element_kind_type), allocatable :: kinds(:)
       !> Nodes of each element, shape (max_element_nodes, elements): corners
       !> counterclockwise in the (r, z) plane, mid-side nodes in the same
       !> sense beginning between corners 1 and 2, centre; zeros beyond
@@ -65,6 +71,33 @@ contains
       type(mesh_type), intent(in) :: mesh
       n_joints = size(mesh%joint_label)
    end function n_joints
+
+   !> Give all elements the kinds of one choice
+   pure subroutine set_kinds(mesh, choice)
+      !> The mesh; the sizes of its elements are known
+      type(mesh_type), intent(inout) :: mesh
+      !> Rules and formulation
+      type(kind_choice_type), intent(in) :: choice
+
+      integer :: element
+
+      mesh%kinds = [element_kind_type ::]
+      mesh%element_kind = mesh%element_size
+      do element = 1, n_elements(mesh)
+         call find_kind(mesh%kinds, chosen_kind(choice, mesh%element_size(element)), mesh%element_kind(element))
+      end do
+   end subroutine set_kinds
+
+   !> The kinds of elements with their integration points: the one place that tells how many points
+   !> an element has, and where
+   pure function element_references(mesh) result(references)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> One a kind; that of an element is references(mesh%element_kind(element))
+      type(reference_type), allocatable :: references(:)
+
+      references = new_reference(mesh%kinds)
+   end function element_references
 
    !> Nodes of a side of an element: first and last as they follow round the element, and the
    !> middle one of a quadratic element

@@ -4,7 +4,6 @@ module axijoint_model_model
    use axijoint_base_memory, only : no_limit
    use axijoint_element_joint_law, only : law_elastic
    use axijoint_fe_mode, only : mode_type
-   use axijoint_fe_reference, only : reference_type, new_reference
    use axijoint_model_load, only : edge_load_type, ring_load_type, body_load_type, &
       thermal_load_type, prescribed_type, initial_stress_type, edge_support_type, &
       load_case_type, combination_type, increment_type, truncation_type
@@ -14,7 +13,7 @@ module axijoint_model_model
    use axijoint_model_request, only : line_type, cut_type, supported_face_type, sweep_type, error_goal_type
    implicit none
    private
-   public :: model_type, held_components, held_at, can_yield, can_yield_at, yielding_nodes, element_references, on_axis
+   public :: model_type, held_components, held_at, can_yield, can_yield_at, yielding_nodes, on_axis
    public :: method_newton, method_total, method_anderson, method_transfer, method_names
 
    !> How joints are brought to equilibrium: Newton's method; the paper's loop on
@@ -72,11 +71,6 @@ module axijoint_model_model
       integer, allocatable :: harmonics(:)
       !> Number of planes theta from 0 to pi on which the joint law is checked
       integer :: n_planes = 0
-      !> Order of the integration rules of linear (3- and 4-node) and of quadratic elements:
-      !> 2 or 3 Gauss points in each direction; 3 or 7 points of a triangle
-      integer :: gauss_linear = 2, gauss_quadratic = 3
-      !> Whether 4-node elements take the volumetric strain as its mean (B-bar)
-      logical :: mean_dilatation = .false.
       !> How joints are brought to equilibrium, one of the `method_` parameters
       integer :: method = method_newton
       !> Solver, one of the `solver_` parameters of the solver choice; 0 is auto
@@ -170,22 +164,6 @@ contains
          yields(model%mesh%joint_nodes(:model%mesh%joint_size(k), k)) = .true.
       end do
    end function yielding_nodes
-
-   !> The kinds of elements with their integration points, by number of nodes:
-   !> the one place that tells how many points an element has, and where
-   pure function element_references(model) result(references)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The elements of 3, 4, 6, 8 and 9 nodes
-      type(reference_type) :: references(3:9)
-
-      references(3) = new_reference(3, model%gauss_linear)
-      references(4) = new_reference(4, model%gauss_linear)
-      references(4)%mean_dilatation = model%mean_dilatation
-      references(6) = new_reference(6, model%gauss_quadratic)
-      references(8) = new_reference(8, model%gauss_quadratic)
-      references(9) = new_reference(9, model%gauss_quadratic)
-   end function element_references
 
    !> Which nodes lie on the axis of revolution
    pure function on_axis(mesh)

@@ -17,6 +17,10 @@ typedef struct {
       each entry is found. So a factorization gathers its values and has nothing to transpose. */
    int64_t *start, *row;
    int32_t *from;
+   /* Of a factor: room for the solution of one right-hand side, so that none is refused for want
+      of memory: the unknowns, the same in the order of the factor, and the rows of a supernode */
+   cholmod_dense *solution, *permuted, *supernode;
+   omp_lock_t reserved;
 } handle_type;
 
 /* Memory that is used again and again: large pages are cleared on first touch with far fewer
@@ -35,7 +39,14 @@ static void *allocate(size_t bytes) {
    return malloc(bytes);
 }
 
-static void choose(cholmod_common *common) {
+/* A handle with the settings of all factorizations; null if there is no memory */
+static handle_type *new_handle(int64_t n) {
+   handle_type *handle = calloc(1, sizeof *handle);
+   cholmod_common *common;
+   if (!handle) return NULL;
+   handle->n = n;
+   omp_init_lock(&handle->reserved);
+   common = &handle->common;
    cholmod_l_start(common);
    common->print = 0;
    common->supernodal = CHOLMOD_SUPERNODAL;
@@ -43,6 +54,7 @@ static void choose(cholmod_common *common) {
    common->nmethods = 1;
    common->method[0].ordering = CHOLMOD_NATURAL; /* the order is chosen by the caller */
    common->postorder = 1;
+   return handle;
 }
 
 /* CHOLMOD shares its loops among four threads if it may; here a thread works on a harmonic of its
@@ -75,7 +87,11 @@ void axijoint_cholmod_free(void *pointer) {
    handle_type *handle = pointer;
    if (!handle) return;
    cholmod_l_free_factor(&handle->factor, &handle->common);
+   cholmod_l_free_dense(&handle->solution, &handle->common);
+   cholmod_l_free_dense(&handle->permuted, &handle->common);
+   cholmod_l_free_dense(&handle->supernode, &handle->common);
    cholmod_l_finish(&handle->common);
+   omp_destroy_lock(&handle->reserved);
    free(handle->start);
    free(handle->row);
    free(handle->from);
@@ -146,11 +162,9 @@ static int arrange(handle_type *plan, const int64_t *start, const int32_t *colum
 void *axijoint_cholmod_analyse(int64_t n, const int64_t *start, const int32_t *column,
                                double *entries, double *operations, int64_t *bytes,
                                int64_t *work_bytes) {
-   handle_type *plan = calloc(1, sizeof *plan);
+   handle_type *plan = new_handle(n);
    size_t size = (size_t)start[n];
    if (!plan) return NULL;
-   choose(&plan->common);
-   plan->n = n;
    plan->start = malloc(sizeof *plan->start * (size_t)(n + 1));
    plan->row = malloc(sizeof *plan->row * size);
    plan->from = malloc(sizeof *plan->from * size);
@@ -162,17 +176,25 @@ void *axijoint_cholmod_analyse(int64_t n, const int64_t *start, const int32_t *c
       return NULL;
    }
    *bytes = (int64_t)sizeof(double) * (int64_t)plan->factor->xsize
-            + (int64_t)sizeof(int64_t) * ((int64_t)plan->factor->ssize + 3 * n);
+            + (int64_t)sizeof(int64_t) * ((int64_t)plan->factor->ssize + 3 * n)
+            + (int64_t)sizeof(double) * (2 * n + (int64_t)plan->factor->maxesize);
    *work_bytes = (int64_t)sizeof(int32_t) * (3 * n + 3 * (int64_t)plan->factor->nsuper);
    return plan;
 }
 
+/* Room for the solution of one right-hand side; 1 if there is no memory */
+static int reserve(handle_type *handle) {
+   size_t n = (size_t)handle->n, rows = handle->factor->maxesize;
+   handle->solution = cholmod_l_allocate_dense(n, 1, n, CHOLMOD_REAL, &handle->common);
+   handle->permuted = cholmod_l_allocate_dense(n, 1, n, CHOLMOD_REAL, &handle->common);
+   handle->supernode = cholmod_l_allocate_dense(1, rows, 1, CHOLMOD_REAL, &handle->common);
+   return !handle->solution || !handle->permuted || !handle->supernode;
+}
+
 /* A factor of the plan, without values, in large pages or not; null if there is no memory */
 static handle_type *new_factor(const handle_type *plan, int large) {
-   handle_type *handle = calloc(1, sizeof *handle);
+   handle_type *handle = new_handle(plan->n);
    if (!handle) return NULL;
-   choose(&handle->common);
-   handle->n = plan->n;
    handle->factor = cholmod_l_copy_factor(plan->factor, &handle->common);
    if (handle->factor) { /* CHOLMOD frees the memory by free, too */
       cholmod_factor *l = handle->factor;
@@ -180,7 +202,7 @@ static handle_type *new_factor(const handle_type *plan, int large) {
       l->x = large ? allocate(bytes) : malloc(bytes);
       if (l->x) {
          l->xtype = CHOLMOD_REAL;
-         return handle;
+         if (!reserve(handle)) return handle;
       }
    }
    axijoint_cholmod_free(handle);
@@ -236,25 +258,40 @@ void *axijoint_cholmod_factorize(const void *pointer, void *old, int large, cons
    return handle;
 }
 
-/* Solve for a block of right-hand sides in place; 0, or 1 if there is no memory */
-int axijoint_cholmod_solve(void *pointer, int64_t n_rhs, double *b) {
+/* A view of right-hand sides */
+static cholmod_dense columns(int64_t n, int64_t count, double *b) {
+   cholmod_dense view;
+   memset(&view, 0, sizeof view);
+   view.nrow = view.d = (size_t)n;
+   view.ncol = (size_t)count;
+   view.nzmax = view.nrow * view.ncol;
+   view.x = b;
+   view.xtype = CHOLMOD_REAL;
+   view.dtype = CHOLMOD_DOUBLE;
+   return view;
+}
+
+/* Solve for a block of right-hand sides in place: all at once, or if there is no memory for that,
+   one after the other in the room reserved, one thread at a time */
+void axijoint_cholmod_solve(void *pointer, int64_t n_rhs, double *b) {
    handle_type *handle = pointer;
-   cholmod_dense right, *x;
-   int levels;
-   memset(&right, 0, sizeof right);
-   right.nrow = right.d = (size_t)handle->n;
-   right.ncol = (size_t)n_rhs;
-   right.nzmax = right.nrow * right.ncol;
-   right.x = b;
-   right.xtype = CHOLMOD_REAL;
-   right.dtype = CHOLMOD_DOUBLE;
-   levels = forbid_threads();
+   cholmod_dense right = columns(handle->n, n_rhs, b), *x;
+   int levels = forbid_threads();
    x = cholmod_l_solve(CHOLMOD_A, handle->factor, &right, &handle->common);
+   if (x) {
+      memcpy(b, x->x, sizeof(double) * right.nzmax);
+      cholmod_l_free_dense(&x, &handle->common);
+   } else {
+      omp_set_lock(&handle->reserved);
+      for (int64_t k = 0; k < n_rhs; k++) {
+         right = columns(handle->n, 1, b + k * handle->n);
+         cholmod_l_solve2(CHOLMOD_A, handle->factor, &right, NULL, &handle->solution, NULL,
+                          &handle->permuted, &handle->supernode, &handle->common);
+         memcpy(b + k * handle->n, handle->solution->x, sizeof(double) * right.nzmax);
+      }
+      omp_unset_lock(&handle->reserved);
+   }
    omp_set_max_active_levels(levels);
-   if (!x) return 1;
-   memcpy(b, x->x, sizeof(double) * right.nzmax);
-   cholmod_l_free_dense(&x, &handle->common);
-   return 0;
 }
 
 /* The columns of the factor at a set of equations, counted from one, as a dense lower triangle:

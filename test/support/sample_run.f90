@@ -4,8 +4,10 @@ module axijoint_test_sample_run
    use axijoint_base_kinds, only : wp, pi
    use axijoint_deck_text_source, only : source_type, add_file, add_card
    use axijoint_element_joint_law, only : state_stick, state_slip, state_open
+   use axijoint_fe_element_kind, only : kind_choice_type
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_residual, only : residual_record_type
+   use axijoint_model_mesh, only : set_kinds
    use axijoint_model_model, only : model_type
    use axijoint_test_scenes, only : new_scene
    implicit none
@@ -35,6 +37,7 @@ contains
          mesh%element_material = [1]
          mesh%element_body = [1]
          mesh%element_size = [4]
+         call set_kinds(mesh, kind_choice_type())
          mesh%element_nodes = reshape([1, 2, 3, 4, 0, 0, 0, 0, 0], [9, 1])
          mesh%joint_label = [7]
          mesh%joint_material = [1]

@@ -2,6 +2,7 @@
 module axijoint_test_scenes
    use axijoint_base_kinds, only : wp, pi
    use axijoint_element_joint_law, only : joint_law_type, law_elastic
+   use axijoint_fe_element_kind, only : element_kind_type, kind_choice_type, chosen_kind, find_kind
    use axijoint_fe_shape, only : n_corners
    use axijoint_model_load, only : edge_load_type, ring_load_type, increment_type, combination_type, &
       load_case_type
@@ -45,6 +46,7 @@ contains
       associate (mesh => model%mesh)
          allocate (mesh%coordinates(2, 0), mesh%node_label(0), mesh%element_label(0))
          allocate (mesh%element_material(0), mesh%element_body(0), mesh%element_size(0))
+         allocate (mesh%element_kind(0), mesh%kinds(0))
          allocate (mesh%element_nodes(9, 0), mesh%joint_label(0), mesh%joint_material(0))
          allocate (mesh%joint_size(0), mesh%joint_nodes(6, 0))
       end associate
@@ -52,7 +54,7 @@ contains
 
    !> Add a grid of elements whose corners are the image of a grid on the unit
    !> square; two triangles fill a cell, cut by turns one way and the other. The nodes are new, so that blocks are bodies of their own
-   subroutine add_block(model, n_nodes, n1, n2, place)
+   subroutine add_block(model, n_nodes, n1, n2, place, choice)
       !> The model
       type(model_type), intent(inout) :: model
       !> Nodes of an element: 3, 4, 6, 8 or 9
@@ -69,13 +71,16 @@ contains
             real(wp) :: place(2)
          end function place
       end interface
+      !> Rules and formulation, if not the usual ones
+      type(kind_choice_type), intent(in), optional :: choice
 
+      type(kind_choice_type) :: chosen
       integer, parameter :: di(9) = [0, 2, 2, 0, 1, 2, 1, 0, 1], dj(9) = [0, 0, 2, 2, 0, 1, 2, 1, 1]
       integer, parameter :: halves(6, 2, 0:1) = reshape([1, 2, 3, 5, 6, 9, 1, 3, 4, 9, 7, 8, &
                                                          1, 2, 4, 5, 9, 8, 2, 3, 4, 6, 7, 9], [6, 2, 2])
       integer, allocatable :: number(:, :), elements(:, :)
       real(wp), allocatable :: coordinates(:, :)
-      integer :: i, j, k, count, first, body, cell(9), n
+      integer :: i, j, k, count, first, body, cell(9), n, kind
 
       first = size(model%mesh%node_label)
       allocate (number(0:2*n1, 0:2*n2), source=0)
@@ -116,6 +121,9 @@ contains
          mesh%element_body = [mesh%element_body, spread(body, 1, n)]
          mesh%element_size = [mesh%element_size, spread(n_nodes, 1, n)]
          mesh%element_label = [(i, i=1, size(mesh%element_material))]
+         if (present(choice)) chosen = choice
+         call find_kind(mesh%kinds, chosen_kind(chosen, n_nodes), kind)
+         mesh%element_kind = [mesh%element_kind, spread(kind, 1, n)]
       end associate
       model%fixed = reshape([model%fixed, spread(.false., 1, 3*count)], [3, first + count])
    end subroutine add_block

@@ -8,7 +8,7 @@ module axijoint_analysis_core_cut_loads
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint, only : joint_point_type, new_joint_point, jump_matrix, lower_node, &
                                       upper_node
-   use axijoint_element_solid, only : solid_point_type, solid_points
+   use axijoint_element_solid_point, only : solid_point_type, solid_points
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_fe_mode, only : mode_type, same_mode
    use axijoint_fe_quadrature, only : gauss_rule, max_element_points
@@ -16,8 +16,8 @@ module axijoint_analysis_core_cut_loads
    use axijoint_fe_shape, only : shape_line
    use axijoint_model_joint_points, only : joint_rule
    use axijoint_model_load, only : edge_load_type, edge_support_type, body_load_type
-   use axijoint_model_mesh, only : n_elements, n_joints, max_element_nodes
-   use axijoint_model_model, only : model_type, element_references
+   use axijoint_model_mesh, only : n_elements, n_joints, max_element_nodes, element_references
+   use axijoint_model_model, only : model_type
    implicit none
    private
    public :: plane_type, edge_load_excess, spring_excess, joint_excess, mass_excess
@@ -285,11 +285,11 @@ contains
       !> The resultants
       real(wp) :: excess(n_resultants)
 
-      type(reference_type) :: references(3:9)
+      type(reference_type), allocatable :: references(:)
       integer :: k, element, n
 
       excess = 0.0_wp
-      references = element_references(model)
+      references = element_references(model%mesh)
       do k = 1, size(model%body_loads)
          associate (load => model%body_loads(k))
             if (.not. same_mode(load%mode, mode)) cycle
@@ -299,7 +299,7 @@ contains
                           density => model%materials(model%mesh%element_material(element))%density)
                   if (.not. is_cut(plane, nodes)) cycle
                   excess = excess + case_factor(load%case)*density &
-                     *element_mass_excess(plane, mode, load, references(n), nodes)
+                     *element_mass_excess(plane, mode, load, references(model%mesh%element_kind(element)), nodes)
                end associate
             end do
          end associate

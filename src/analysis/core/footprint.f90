@@ -1,10 +1,11 @@
 !> Memory that a job takes besides its equations
 module axijoint_analysis_core_footprint
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_fe_element_kind, only : is_reduced
    use axijoint_fe_reference, only : reference_type
    use axijoint_model_joint_points, only : model_joint_point_type
-   use axijoint_model_mesh, only : n_nodes
-   use axijoint_model_model, only : model_type, element_references, can_yield_at, yielding_nodes
+   use axijoint_model_mesh, only : n_nodes, element_references
+   use axijoint_model_model, only : model_type, can_yield_at, yielding_nodes
    implicit none
    private
    public :: footprint_type, data_footprint
@@ -55,19 +56,19 @@ contains
       !> The bytes
       type(footprint_type) :: footprint
 
-      type(reference_type) :: references(3:9)
+      type(reference_type), allocatable :: references(:)
       integer(i8) :: nodes, jumps, unknowns
 
-      references = element_references(model)
+      references = element_references(model%mesh)
       nodes = n_nodes(model%mesh)
       footprint%mesh = mesh_bytes*nodes
       footprint%loads = 21*nodes*n_modes*real_bytes  ! displacements, two kinds of loads twice, errors of nodes
       footprint%fine = sum(fine_bytes(model%mesh%element_size))
       footprint%fine_work = nint(sum(fine_nodes(model%mesh%element_size))*fine_work_bytes, i8)
-      footprint%stresses = 3*nodes + 6*sum(int(references(model%mesh%element_size)%n_points, i8)) &
+      footprint%stresses = 3*nodes + 6*sum(int(references(model%mesh%element_kind)%n_points, i8)) &
          + 6*nodes &  ! smoothed to nodes
          + 6*sum(merge(1_i8, 4_i8, model%mesh%element_size <= 4))  ! at samples
-      if (model%gauss_quadratic < 3) then  ! by the full rule
+      if (any(is_reduced(model%mesh%kinds))) then  ! by the full rule
          footprint%stresses = footprint%stresses + 6*9*count(model%mesh%element_size > 4, kind=i8)
       end if
       footprint%stresses = footprint%stresses*n_modes*real_bytes

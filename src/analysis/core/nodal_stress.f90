@@ -6,8 +6,8 @@ module axijoint_analysis_core_nodal_stress
    use axijoint_fe_quadrature, only : max_element_points
    use axijoint_fe_reference, only : reference_type
    use axijoint_fe_shape, only : n_corners
-   use axijoint_model_mesh, only : mesh_type, max_element_nodes, n_elements, n_nodes
-   use axijoint_model_model, only : model_type, element_references, on_axis
+   use axijoint_model_mesh, only : mesh_type, max_element_nodes, n_elements, n_nodes, element_references
+   use axijoint_model_model, only : model_type, on_axis
    implicit none
    private
    public :: smooth_stress, pole_stress
@@ -60,22 +60,23 @@ contains
       !> Amplitudes, shape (6, values)
       real(wp), intent(out) :: amplitude(:, :)
 
-      type(reference_type) :: references(3:9)
+      type(reference_type), allocatable :: references(:)
       real(wp) :: matrix(max_element_nodes, max_element_points), at_nodes(6, max_element_nodes)
       logical, allocatable :: pole(:)
-      integer :: element, n, n_points, last, i, before
+      integer :: element, n, n_points, last, i, kind, before
 
-      references = element_references(model)
+      references = element_references(model%mesh)
       amplitude = 0.0_wp
       allocate (pole, source=on_axis(model%mesh))
       last = 0
       before = 0
       do element = 1, n_elements(model%mesh)
          n = model%mesh%element_size(element)
-         n_points = references(n)%n_points
-         if (n /= before) matrix(:n, :n_points) = extrapolation_matrix(n, &
-            references(n)%position(:, :n_points), references(n)%weight(:n_points))
-         before = n
+         kind = model%mesh%element_kind(element)
+         n_points = references(kind)%n_points
+         if (kind /= before) matrix(:n, :n_points) = extrapolation_matrix(n, &
+            references(kind)%position(:, :n_points), references(kind)%weight(:n_points))
+         before = kind
          associate (values => results%nodal%value_of(:n, element), &
                     nodes => model%mesh%element_nodes(:n, element))
             at_nodes(:, :n) = matmul(results%stress(:, last + 1:last + n_points, k), &

@@ -11,14 +11,14 @@ module axijoint_analysis_core_recovery
    use axijoint_assembly_solid_force, only : solid_force
    use axijoint_assembly_support, only : add_support_force
    use axijoint_base_kinds, only : wp
-   use axijoint_element_solid, only : solid_point_type, solid_points
+   use axijoint_element_solid_point, only : solid_point_type, solid_points
    use axijoint_fe_mode, only : mode_type, same_mode, mode_integral, is_torsion, family_symmetric
    use axijoint_fe_quadrature, only : max_element_points
    use axijoint_fe_reference, only : reference_type
    use axijoint_joints_field, only : joint_field_type, stress_amplitude
    use axijoint_joints_residual, only : ratio, load_norm
-   use axijoint_model_mesh, only : n_elements, n_nodes
-   use axijoint_model_model, only : model_type, element_references, held_components, on_axis
+   use axijoint_model_mesh, only : n_elements, n_nodes, element_references
+   use axijoint_model_model, only : model_type, held_components, on_axis
    implicit none
    private
    public :: recover
@@ -124,21 +124,21 @@ contains
       type(results_type), intent(inout) :: results
 
       type(solid_point_type) :: points(max_element_points)
-      type(reference_type) :: references(3:9)
+      type(reference_type), allocatable :: references(:)
       integer :: element, n, last
 
       associate (mesh => model%mesh)
-         references = element_references(model)
-         n = sum(references(mesh%element_size)%n_points)
+         references = element_references(model%mesh)
+         n = sum(references(mesh%element_kind)%n_points)
          allocate (results%point_element(n), results%point_position(2, n))
          allocate (results%stress(6, n, size(results%modes)))
          last = 0
          do element = 1, n_elements(mesh)
-            associate (reference => references(mesh%element_size(element)))
+            associate (reference => references(mesh%element_kind(element)))
                call solid_points(mesh%coordinates(:, mesh%element_nodes(:reference%n_nodes, element)), &
                                  reference, points(:reference%n_points))
             end associate
-            do n = 1, references(mesh%element_size(element))%n_points
+            do n = 1, references(mesh%element_kind(element))%n_points
                last = last + 1
                results%point_element(last) = element
                results%point_position(:, last) = points(n)%position

@@ -2,6 +2,7 @@
 module axijoint_analysis_error_goal
    use axijoint_analysis_core_results, only : error_share_type, results_type
    use axijoint_base_kinds, only : wp
+   use axijoint_fe_element_kind, only : formulation_plain
    use axijoint_model_mesh, only : n_nodes
    use axijoint_model_model, only : model_type
    use axijoint_model_modes, only : used_modes, greatest_divisor
@@ -207,8 +208,11 @@ contains
       logical :: convert
 
       rule = rule_of('discretization', model%error_goal%quantity)
-      ! elements with a mean of the volumetric strain have four nodes and are chosen against locking
-      convert = any(model%mesh%element_size == 4) .and. .not. (refinement%quadratic .or. model%mean_dilatation)
+      ! 4-node elements of another formulation than the plain one are chosen against locking
+      associate (kinds => model%mesh%kinds)
+         convert = any(kinds%n_nodes == 4) .and. .not. &
+                   (refinement%quadratic .or. any(kinds%n_nodes == 4 .and. kinds%formulation /= formulation_plain))
+      end associate
       finer = max(least, excess**(1.0_wp/rule%order))
       left = room
       if (convert) then

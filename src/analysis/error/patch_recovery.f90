@@ -11,7 +11,7 @@ module axijoint_analysis_error_patch_recovery
    use axijoint_model_mesh, only : mesh_type, n_elements, n_nodes
    implicit none
    private
-   public :: sampling_type, new_samplings, patches_type, new_patches, patch_work_type
+   public :: sampling_type, new_sampling, patches_type, new_patches, patch_work_type
    public :: find_patch, fit_patch, frame_type, new_frame, in_frame, weight_of
 
    !> Most samples of an element
@@ -72,23 +72,9 @@ module axijoint_analysis_error_patch_recovery
 
 contains
 
-   !> Where the stresses of each kind of element are best
-   pure function new_samplings(references) result(samplings)
-      !> The elements of 3, 4, 6, 8 and 9 nodes, with the integration points of the stresses
-      type(reference_type), intent(in) :: references(3:9)
-      !> The samples
-      type(sampling_type) :: samplings(3:9)
-
-      samplings(3) = new_sampling(references(3))
-      samplings(4) = new_sampling(references(4))
-      samplings(6) = new_sampling(references(6))
-      samplings(8) = new_sampling(references(8))
-      samplings(9) = new_sampling(references(9))
-   end function new_samplings
-
    !> Middle of a linear element; 2 x 2 Gauss points of a quadratic quadrilateral; three points
    !> inside a quadratic triangle, whose stresses are linear but for what goes with 1/r
-   pure function new_sampling(reference) result(sampling)
+   elemental function new_sampling(reference) result(sampling)
       !> The element
       type(reference_type), intent(in) :: reference
       !> Its samples
@@ -127,7 +113,7 @@ contains
       !> The mesh
       type(mesh_type), intent(in) :: mesh
       !> Samples of each kind of element
-      type(sampling_type), intent(in) :: samplings(3:9)
+      type(sampling_type), intent(in) :: samplings(:)
       !> The patches
       type(patches_type), intent(out) :: patches
 
@@ -137,13 +123,13 @@ contains
       allocate (patches%before(n_elements(mesh) + 1))
       patches%before(1) = 0
       do element = 1, n_elements(mesh)
-         patches%before(element + 1) = patches%before(element) + samplings(mesh%element_size(element))%n
+         patches%before(element + 1) = patches%before(element) + samplings(mesh%element_kind(element))%n
       end do
       allocate (patches%position(2, patches%before(n_elements(mesh) + 1)))
       do element = 1, n_elements(mesh)
          n = mesh%element_size(element)
-         do i = 1, samplings(n)%n
-            associate (x => samplings(n)%position(:, i))
+         do i = 1, samplings(mesh%element_kind(element))%n
+            associate (x => samplings(mesh%element_kind(element))%position(:, i))
                call shape_element(n, x(1), x(2), shape, derivative)
             end associate
             patches%position(:, patches%before(element) + i) = &

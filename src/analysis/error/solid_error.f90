@@ -1,31 +1,28 @@
 !> Error of the stresses of solids: recovered stresses against those of the elements
 module axijoint_analysis_error_solid_error
-   use axijoint_analysis_error_patch_recovery, only : sampling_type, new_samplings, patches_type, &
+   use axijoint_analysis_error_patch_recovery, only : sampling_type, new_sampling, patches_type, &
                                                 new_patches, patch_work_type, find_patch, fit_patch
    use axijoint_assembly_solid_force, only : initial_state_type, solid_force
    use axijoint_base_kinds, only : wp
-   use axijoint_element_solid, only : solid_point_type, solid_points
+   use axijoint_element_solid_point, only : solid_point_type, solid_points
+   use axijoint_fe_element_kind, only : is_reduced, full_order
    use axijoint_fe_mode, only : mode_type, mode_integral
    use axijoint_fe_quadrature, only : max_element_points
    use axijoint_fe_reference, only : reference_type
    use axijoint_linalg_lapack, only : cholesky, inverse_from_cholesky
    use axijoint_model_material, only : elasticity
-   use axijoint_model_mesh, only : n_elements
-   use axijoint_model_model, only : model_type, element_references
+   use axijoint_model_mesh, only : n_elements, element_references
+   use axijoint_model_model, only : model_type
    implicit none
    private
    public :: solid_errors
 
-   !> Order of the rule that integrates the square of the error of quadratic elements: at the
-   !> points of the reduced rule their stresses are best, and the error would seem small
-   integer, parameter :: full_order = 3
-
    !> What the elements need, the same for all modes
    type :: fields_type
       !> The elements with the integration points of the stresses
-      type(reference_type) :: references(3:9)
+      type(reference_type), allocatable :: references(:)
       !> Samples of each kind of element, and of the mesh
-      type(sampling_type) :: samplings(3:9)
+      type(sampling_type), allocatable :: samplings(:)
       type(patches_type) :: patches
       !> Point before the first of each element, shape (elements)
       integer, allocatable :: before(:)
@@ -94,18 +91,18 @@ contains
 
       integer :: element, k, n_points
 
-      if (reduced(model)) then
+      if (any(is_reduced(model%mesh%kinds))) then
          call full_stress(model, initial, modes, displacement, fields)
       else
-         fields%references = element_references(model)
+         fields%references = element_references(model%mesh)
       end if
-      fields%samplings = new_samplings(fields%references)
+      fields%samplings = new_sampling(fields%references)
       call new_patches(model%mesh, fields%samplings, fields%patches)
       allocate (fields%before(n_elements(model%mesh)))
       n_points = 0
       do element = 1, n_elements(model%mesh)
          fields%before(element) = n_points
-         n_points = n_points + fields%references(model%mesh%element_size(element))%n_points
+         n_points = n_points + fields%references(model%mesh%element_kind(element))%n_points
       end do
       allocate (fields%sampled(6, size(modes), size(fields%patches%position, 2)))
       !$omp parallel do
@@ -123,15 +120,8 @@ contains
       end do
    end subroutine new_fields
 
-   !> Whether there are elements with the reduced rule
-   pure logical function reduced(model)
-      !> The job
-      type(model_type), intent(in) :: model
-
-      reduced = model%gauss_quadratic < full_order .and. any(model%mesh%element_size > 4)
-   end function reduced
-
-   !> Stresses at the points of the full rule
+   !> Stresses at the points of the full rule: at those of the reduced one the stresses of quadratic
+   !> elements are best, and the error would seem small
    subroutine full_stress(model, initial, modes, displacement, fields)
       !> The job
       type(model_type), intent(in) :: model
@@ -149,9 +139,9 @@ contains
       integer :: k, n
 
       allocate (full, source=model)
-      full%gauss_quadratic = full_order
-      fields%references = element_references(full)
-      n = sum(fields%references(model%mesh%element_size)%n_points)
+      where (is_reduced(full%mesh%kinds)) full%mesh%kinds%order = full_order
+      fields%references = element_references(full%mesh)
+      n = sum(fields%references(model%mesh%element_kind)%n_points)
       allocate (fields%stress(6, n, size(modes)))
       !$omp parallel do schedule(dynamic) private(force)
       do k = 1, size(modes)
@@ -175,7 +165,7 @@ contains
 
       integer :: s, i
 
-      associate (n => model%mesh%element_size(element), first => fields%patches%before(element), &
+      associate (n => model%mesh%element_kind(element), first => fields%patches%before(element), &
                  before => fields%before(element))
          do s = 1, fields%samplings(n)%n
             fields%sampled(:, :, first + s) = 0.0_wp
@@ -205,21 +195,22 @@ contains
       type(solid_point_type) :: points(max_element_points)
       real(wp), allocatable :: recovered(:, :)
       real(wp) :: position(2, max_element_points)
-      integer :: n, i, s, k
+      integer :: n, kind, i, s, k
 
       n = model%mesh%element_size(element)
+      kind = model%mesh%element_kind(element)
       allocate (recovered(6, size(error)))
       error = 0.0_wp
       energy = 0.0_wp
-      associate (reference => fields%references(n), &
+      associate (reference => fields%references(kind), sampling => fields%samplings(kind), &
                  compliance => fields%compliance(:, :, model%mesh%element_material(element)))
          call solid_points(model%mesh%coordinates(:, model%mesh%element_nodes(:n, element)), &
                            reference, points(:reference%n_points))
          do i = 1, reference%n_points
             position(:, i) = points(i)%position
          end do
-         call find_patch(model%mesh, fields%patches, fields%samplings(n)%least_elements, element, work)
-         call fit_patch(model%mesh, fields%patches, fields%samplings(n)%degree, element, &
+         call find_patch(model%mesh, fields%patches, sampling%least_elements, element, work)
+         call fit_patch(model%mesh, fields%patches, sampling%degree, element, &
                         position(:, :reference%n_points), work)
          do i = 1, reference%n_points
             recovered = 0.0_wp

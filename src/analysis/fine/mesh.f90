@@ -248,6 +248,8 @@ contains
 
       associate (mesh => fine%mesh)
          mesh%element_size = children_of(coarse%element_size)
+         mesh%element_kind = children_of(coarse%element_kind)
+         mesh%kinds = coarse%kinds
          mesh%element_material = children_of(coarse%element_material)
          mesh%element_body = children_of(coarse%element_body)
          mesh%element_label = children_of(coarse%element_label)

@@ -38,9 +38,6 @@ contains
       do k = 1, size(finer%thermal_loads)
          finer%thermal_loads(k)%temperature = at_fine_nodes(fine, model%thermal_loads(k)%temperature)
       end do
-      finer%gauss_linear = model%gauss_linear
-      finer%gauss_quadratic = model%gauss_quadratic
-      finer%mean_dilatation = model%mean_dilatation
    end subroutine new_fine_model
 
    !> The halves of a load on an edge

@@ -5,7 +5,8 @@ module axijoint_deck_check_elements
    use axijoint_deck_mesh_draft, only : draft_type, place_text
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
    use axijoint_fe_quadrature, only : max_element_points
-   use axijoint_fe_reference, only : reference_type
+   use axijoint_fe_element_kind, only : element_kind
+   use axijoint_fe_reference, only : reference_type, new_reference
    use axijoint_fe_shape, only : shape_element, n_corners, natural_positions
    implicit none
    private
@@ -32,42 +33,40 @@ module axijoint_deck_check_elements
 contains
 
    !> Check all elements whose nodes are known
-   subroutine check_elements(references, draft, diagnostics)
-      !> Kinds of elements with their integration points, by number of nodes
-      type(reference_type), intent(in) :: references(3:)
-      !> The mesh; elements at fault are marked
+   subroutine check_elements(draft, diagnostics)
+      !> The mesh, kinds of elements chosen; elements at fault are marked
       type(draft_type), intent(inout) :: draft
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
-      type(sample_type) :: samples(3:9)
+      type(sample_type), allocatable :: samples(:), centreless(:)
       type(diagnostics_type) :: found
-      integer :: element, n
+      integer :: element, n, k
 
-      do n = 3, 9
-         if (references(n)%n_nodes == n) samples(n) = new_sample(references(n))
-      end do
+      samples = new_sample(new_reference(draft%kinds))
+      centreless = new_sample(new_reference(element_kind(8, draft%kinds%order)))
       do element = 1, draft%n_elements
          n = draft%element_size(element)
          if (any(draft%element_nodes(:n, element) == 0)) cycle
          if (.not. all(draft%node_good(draft%element_nodes(:n, element)))) cycle
-         call check_shape(samples, draft, element, n, found)
+         k = draft%element_kind(element)
+         call check_shape(samples(k), centreless(k), draft, element, n, found)
          if (found%n_errors == 0) cycle
          draft%element_good(element) = .false.
          if (corners_come_first(draft, element, n)) then
             call report_corners_first(draft, element, n, diagnostics)
             draft%elements_complete = .false.  ! its neighbours would be reported for its sides
          else
-            call check_shape(samples, draft, element, n, diagnostics)
+            call check_shape(samples(k), centreless(k), draft, element, n, diagnostics)
          end if
          found = diagnostics_type()
       end do
    end subroutine check_elements
 
    !> Check the shape of an element
-   subroutine check_shape(samples, draft, element, n, diagnostics)
-      !> Points where to look, by number of nodes
-      type(sample_type), intent(in) :: samples(3:)
+   subroutine check_shape(sample, centreless, draft, element, n, diagnostics)
+      !> Points where to look, and those of an element of nine nodes without its centre
+      type(sample_type), intent(in) :: sample, centreless
       !> The mesh
       type(draft_type), intent(in) :: draft
       !> The element, and its number of nodes
@@ -81,16 +80,16 @@ contains
       if (n > 4) call check_middles(draft, element, n_corners(n), diagnostics)
       if (diagnostics%n_errors > errors_before) return
       if (n == 9) then
-         if (only_centre_is_off(samples, draft%position(:, draft%element_nodes(:9, element)))) then
+         if (only_centre_is_off(sample, centreless, draft%position(:, draft%element_nodes(:9, element)))) then
             call report_centre(draft, element, diagnostics)
             return
          end if
       end if
-      call check_jacobian(samples(n), draft, element, n, diagnostics)
+      call check_jacobian(sample, draft, element, n, diagnostics)
    end subroutine check_shape
 
    !> Corners and integration points of a kind of element
-   pure function new_sample(reference) result(sample)
+   elemental function new_sample(reference) result(sample)
       !> The element in natural coordinates
       type(reference_type), intent(in) :: reference
       !> The points
@@ -165,14 +164,14 @@ contains
    end function sines
 
    !> Whether an element of nine nodes would be sound with its centre node left out
-   pure logical function only_centre_is_off(samples, x)
-      !> Points where to look, by number of nodes
-      type(sample_type), intent(in) :: samples(3:)
+   pure logical function only_centre_is_off(sample, centreless, x)
+      !> Points where to look with and without the centre node
+      type(sample_type), intent(in) :: sample, centreless
       !> Its nodes
       real(wp), intent(in) :: x(2, 9)
 
-      only_centre_is_off = any(sines(samples(9), x) <= least_sine) .and. &
-                           all(sines(samples(8), x(:, :8)) > least_sine)
+      only_centre_is_off = any(sines(sample, x) <= least_sine) .and. &
+                           all(sines(centreless, x(:, :8)) > least_sine)
    end function only_centre_is_off
 
    !> Report a centre node that is too far from the centre

@@ -5,6 +5,7 @@ module axijoint_deck_check_locking
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_warning
    use axijoint_deck_text_layout, only : section_materials, section_orthotropic
    use axijoint_deck_text_sections, only : sections_type
+   use axijoint_fe_element_kind, only : locks
    use axijoint_model_material, only : solid_material_type, elasticity
    use axijoint_model_model, only : model_type
    implicit none
@@ -26,14 +27,14 @@ contains
       type(diagnostics_type), intent(inout) :: diagnostics
 
       logical :: used(size(model%materials), 3:4)
-      integer :: k, element, n
+      integer :: k, element
 
       used = .false.
-      do element = 1, size(model%mesh%element_size)
-         n = model%mesh%element_size(element)
-         if (n <= 4) used(model%mesh%element_material(element), n) = .true.
+      do element = 1, size(model%mesh%element_kind)
+         associate (kind => model%mesh%kinds(model%mesh%element_kind(element)))
+            if (locks(kind)) used(model%mesh%element_material(element), kind%n_nodes) = .true.
+         end associate
       end do
-      if (model%mean_dilatation) used(:, 4) = .false.
       do k = 1, size(model%materials)
          if (.not. any(used(k, :)) .or. effective_ratio(model%materials(k)) <= largest_ratio) cycle
          if (used(k, 4)) call warn(k, 'plain 4-node', &

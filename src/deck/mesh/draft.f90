@@ -4,6 +4,7 @@ module axijoint_deck_mesh_draft
    use axijoint_base_kinds, only : wp
    use axijoint_base_number_map, only : number_map_type, insert_number
    use axijoint_base_text, only : to_text
+   use axijoint_fe_element_kind, only : element_kind_type
    use axijoint_fe_shape, only : n_corners
    implicit none
    private
@@ -62,6 +63,9 @@ module axijoint_deck_mesh_draft
       !> Nodes of each element in the model's order, shape (9, elements); 0
       !> where the node is not known
       integer, allocatable :: element_nodes(:, :)
+      !> Kinds of elements, and place of each element's kind among them; chosen when all elements are there
+      type(element_kind_type), allocatable :: kinds(:)
+      integer, allocatable :: element_kind(:)
       !> Whether its shape is sound
       logical, allocatable :: element_good(:)
       !> False if cards that make elements are at fault

@@ -5,6 +5,7 @@ module axijoint_deck_request_control
    use axijoint_deck_text_diagnostics, only : diagnostics_type
    use axijoint_deck_text_source, only : source_type
    use axijoint_deck_text_table, only : table_type, integer_value, field_error
+   use axijoint_fe_element_kind, only : kind_choice_type
    use axijoint_model_load, only : increment_type
    use axijoint_model_model, only : model_type, can_yield
    implicit none
@@ -14,8 +15,6 @@ module axijoint_deck_request_control
    !> Fields of CONTROL
    integer, parameter :: field_harmonic = 1, field_planes = 2, field_linear = 3, field_quadratic = 4, &
       field_solver = 5, field_formulation = 6, field_method = 7
-   !> Place of BBAR among the words of the formulation
-   integer, parameter :: word_mean_dilatation = 2
    !> Angles of the listing unless OUTPUT gives others [degree]
    real(wp), parameter :: default_angles(3) = [0.0_wp, 90.0_wp, 180.0_wp]
    !> Most iterations of an increment unless the deck gives another number
@@ -24,21 +23,22 @@ module axijoint_deck_request_control
 contains
 
    !> Read CONTROL, INCREMENTS and OUTPUT
-   subroutine read_control(control, increments, output, model)
+   subroutine read_control(control, increments, output, model, choice)
       !> The sections
       type(table_type), intent(in) :: control, increments, output
       !> The job; its control data are set as far as they are valid
       type(model_type), intent(inout) :: model
+      !> Rules and formulation of the elements
+      type(kind_choice_type), intent(out) :: choice
 
       integer :: entry
 
       if (control%n > 0) then
          model%max_harmonic = integer_value(control, field_harmonic, 1)
          model%n_planes = integer_value(control, field_planes, 1)
-         model%gauss_linear = integer_value(control, field_linear, 1)
-         model%gauss_quadratic = integer_value(control, field_quadratic, 1)
+         choice = kind_choice_type(integer_value(control, field_linear, 1), integer_value(control, field_quadratic, 1), &
+                                   integer_value(control, field_formulation, 1))
          model%solver = integer_value(control, field_solver, 1) - 1  ! words count from one
-         model%mean_dilatation = integer_value(control, field_formulation, 1) == word_mean_dilatation
          model%method = integer_value(control, field_method, 1)
       end if
       if (model%n_planes == 0) model%n_planes = max(2, 4*model%max_harmonic + 1)

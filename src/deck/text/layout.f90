@@ -8,6 +8,7 @@ module axijoint_deck_text_layout
    use axijoint_deck_text_field, only : field_type, integer_field, real_field, word_field, code_field, &
       text_field, largest_number
    use axijoint_deck_text_load_fields, only : load_fields, harmonic_range
+   use axijoint_fe_element_kind, only : formulation_names
    use axijoint_model_model, only : method_names
    use axijoint_model_request, only : goal_names, goal_displacement
    use axijoint_solver_choice, only : solver_names
@@ -141,8 +142,7 @@ contains
                    integer_field('the number of Gauss points (linear)', 11, 15, 2, 3, default=2), &
                    integer_field('the number of Gauss points (quadratic)', 16, 20, 2, 3, default=3), &
                    word_field('the solver', 21, 30, solver_names, 1), &
-                   word_field('the formulation of 4-node elements', 31, 40, &
-                              [character(len=5) :: 'PLAIN', 'BBAR'], 1), &
+                   word_field('the formulation of 4-node elements', 31, 40, formulation_names, 1), &
                    word_field('the method', 41, 50, method_names, 1)]
       case (section_increments)
          fields = [real_field('the load factor', 1, 10), &

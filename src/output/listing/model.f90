@@ -3,10 +3,10 @@ module axijoint_output_listing_model
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text
    use axijoint_element_joint_law, only : law_elastic, slip_resultant, opening_bond
-   use axijoint_fe_reference, only : reference_type
+   use axijoint_fe_element_kind, only : formulations
    use axijoint_model_material, only : rule_centroid, rule_gauss, rule_lobatto
-   use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, n_joints
-   use axijoint_model_model, only : model_type, element_references
+   use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, n_joints, element_references
+   use axijoint_model_model, only : model_type
    use axijoint_output_file_columns, only : columns
    use axijoint_output_file_headings, only : write_heading, write_lines
    use axijoint_output_file_text, only : text_file_type
@@ -60,6 +60,7 @@ contains
             to_text(count(mesh%element_size == 6))//", "// &
             to_text(count(mesh%element_size == 8))//", "// &
             to_text(count(mesh%element_size == 9))//")")
+         call write_kinds(file, mesh)
          call write_fact(file, "joints (4, 6 nodes)", to_text(n_joints(mesh))//" ("// &
             to_text(count(mesh%joint_size == 4))//", "// &
             to_text(count(mesh%joint_size == 6))//")")
@@ -74,8 +75,6 @@ contains
          call write_fact(file, "harmonics in use", number_list(model%harmonics))
       end if
       call write_fact(file, "planes theta from 0 to pi", to_text(model%n_planes))
-      call write_fact(file, "points (3, 4, 6, 8, 9 nodes)", point_counts(model))
-      if (model%mean_dilatation) call write_fact(file, "4-node elements", "mean volumetric strain (B-bar)")
       call write_fact(file, "restrained nodes", to_text(n_restrained(model)))
    end subroutine write_model
 
@@ -96,20 +95,26 @@ contains
       n_restrained = count(held)
    end function n_restrained
 
-   !> Integration points of each kind of element
-   pure function point_counts(model) result(text)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The numbers
-      character(len=:), allocatable :: text
+   !> Kinds of elements: nodes, points, formulation, and how many there are
+   subroutine write_kinds(file, mesh)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
 
-      type(reference_type) :: references(3:9)
+      integer :: k
 
-      references = element_references(model)
-      text = to_text(references(3)%n_points)//", "//to_text(references(4)%n_points)//", "// &
-         to_text(references(6)%n_points)//", "//to_text(references(8)%n_points)//", "// &
-         to_text(references(9)%n_points)
-   end function point_counts
+      associate (references => element_references(mesh))
+         do k = 1, size(mesh%kinds)
+            associate (title => formulations(mesh%kinds(k)%formulation)%title)
+               call write_fact(file, trim(merge("kinds of elements", "                 ", k == 1)), &
+                               to_text(count(mesh%element_kind == k))//" of "//to_text(mesh%kinds(k)%n_nodes)// &
+                               " nodes, "//to_text(references(k)%n_points)//" points"// &
+                               trim(merge(", ", "  ", title /= ""))//trim(" "//title))
+            end associate
+         end do
+      end associate
+   end subroutine write_kinds
 
    !> Materials of the solids
    subroutine write_materials(file, model)

@@ -1,0 +1,109 @@
+!> What elements of a formulation take for the volumetric strain: its mean over the element, with the
+!> weights r dA (B-bar, Hughes, Int. J. Numer. Meth. Eng. 15, 1980)
+module axijoint_element_dilatation
+   use axijoint_base_kinds, only : wp
+   use axijoint_element_solid_point, only : solid_point_type
+   use axijoint_fe_element_kind, only : formulation_bbar
+   use axijoint_fe_reference, only : reference_type
+   implicit none
+   private
+   public :: dilatation_type, new_dilatation, average_volume, mean_volume, strain_shape
+
+   !> Means over an element: what is linear in the harmonic stays so, as the mean of B0 + m B1 is the
+   !> sum of the means
+   type :: dilatation_type
+      !> Whether the element takes them
+      logical :: averaged = .false.
+      !> Means of dN/dr, dN/dz, N/r of each node
+      real(wp) :: gradient(3, 9) = 0.0_wp
+      !> Mean shape functions: a mean strain goes with the mean temperature
+      real(wp) :: shape(9) = 0.0_wp
+   end type dilatation_type
+
+contains
+
+   !> Means over an element
+   pure subroutine new_dilatation(points, reference, dilatation)
+      !> Integration points of the element
+      type(solid_point_type), intent(in) :: points(:)
+      !> The element in natural coordinates
+      type(reference_type), intent(in) :: reference
+      !> The means; none if the element does not take them
+      type(dilatation_type), intent(inout) :: dilatation
+
+      real(wp) :: share
+      integer :: k
+
+      dilatation%averaged = reference%formulation == formulation_bbar
+      if (.not. dilatation%averaged) return
+      dilatation%gradient = 0.0_wp
+      dilatation%shape = 0.0_wp
+      do k = 1, size(points)
+         associate (p => points(k))
+            share = p%weight/sum(points%weight)
+            dilatation%gradient(1:2, :) = dilatation%gradient(1:2, :) + share*p%gradient
+            dilatation%gradient(3, :) = dilatation%gradient(3, :) + share*p%shape/p%position(1)
+            dilatation%shape = dilatation%shape + share*p%shape
+         end associate
+      end do
+   end subroutine new_dilatation
+
+   !> Replace the volumetric part of strain matrices by its mean
+   pure subroutine average_volume(dilatation, n, b0, b1)
+      !> Means over the element
+      type(dilatation_type), intent(in) :: dilatation
+      !> Number of nodes
+      integer, intent(in) :: n
+      !> The strain matrices, shape (6, 3n)
+      real(wp), intent(inout) :: b0(:, :), b1(:, :)
+
+      real(wp), dimension(3*n) :: change0, change1
+      integer :: i
+
+      change0 = -sum(b0(1:3, :), 1)
+      change1 = -sum(b1(1:3, :), 1)
+      do i = 1, n
+         associate (mean => dilatation%gradient(:, i))
+            change0(3*i - 2:3*i - 1) = change0(3*i - 2:3*i - 1) + [mean(1) + mean(3), mean(2)]
+            change1(3*i) = change1(3*i) + mean(3)
+         end associate
+      end do
+      do i = 1, 3
+         b0(i, :) = b0(i, :) + change0/3.0_wp
+         b1(i, :) = b1(i, :) + change1/3.0_wp
+      end do
+   end subroutine average_volume
+
+   !> Mean volumetric strain of one harmonic in an element
+   pure real(wp) function mean_volume(dilatation, n, harmonic, displacement)
+      !> Means over the element
+      type(dilatation_type), intent(in) :: dilatation
+      !> Number of nodes, and harmonic m
+      integer, intent(in) :: n, harmonic
+      !> Amplitudes u, v, w of the nodes, shape (3, n)
+      real(wp), intent(in) :: displacement(:, :)
+
+      integer :: i
+
+      mean_volume = 0.0_wp
+      do i = 1, n
+         associate (mean => dilatation%gradient(:, i), u => displacement(:, i))
+            mean_volume = mean_volume + mean(1)*u(1) + mean(2)*u(2) + mean(3)*(u(1) + harmonic*u(3))
+         end associate
+      end do
+   end function mean_volume
+
+   !> Shape functions that go with the strain at a point: a mean strain goes with the mean temperature
+   pure function strain_shape(dilatation, point) result(shape)
+      !> Means over the element
+      type(dilatation_type), intent(in) :: dilatation
+      !> Where
+      type(solid_point_type), intent(in) :: point
+      !> One a node
+      real(wp) :: shape(size(point%shape))
+
+      shape = point%shape
+      if (dilatation%averaged) shape = dilatation%shape
+   end function strain_shape
+
+end module axijoint_element_dilatation
