@@ -8,6 +8,7 @@ import pathlib
 import sys
 import tempfile
 
+from choices import all_choices, table
 from figures import CAPTIONS, REFINED, all_figures
 from runs import all_runs
 from statements import all_statements
@@ -40,11 +41,14 @@ def main():
         results.mkdir(parents=True, exist_ok=True)
         runs = all_runs(options.program, results)
         statements = all_statements(runs)
+        choices = list(all_choices(options.program, results))
         if not options.check:
-            write(folder, runs, statements)
+            write(folder, runs, statements, choices)
     for one in statements:
         print(f"{mark(one):9}  {label(one)}{one.says}\n{'':11}{one.numbers}")
     missing = sum(not one.shown for one in statements)
+    print("What the paper's choices leave, each alone and all together (largest pressure of joints, largest displacement):")
+    print("\n".join(table(choices)))
     print(f"{len(statements) - missing} of {len(statements)} statements shown")
     if not options.check:
         print(f"figures: {folder/'index.html'}")
@@ -61,7 +65,7 @@ def label(statement):
     return f"Fig. {', '.join(map(str, statement.figures))}: " if statement.figures else ""
 
 
-def write(folder, runs, statements):
+def write(folder, runs, statements, choices):
     """Figures, and the page that holds them."""
     page = [HEAD, "<p>The dimensions are not in the text of the paper; those of <code>inputs/case*.dat</code> were "
             f"chosen to fit its results. {REFINED} Whether a statement is shown is decided by the numbers of these "
@@ -72,7 +76,9 @@ def write(folder, runs, statements):
         page.append(f'<figure><a href="{name}.svg"><img src="{name}.png" alt="Fig. {number}"></a>'
                     f"<figcaption>Fig. {number}. {CAPTIONS[number]}</figcaption></figure>\n")
         page.append(rows(one for one in statements if number in one.figures))
-    page += ["<h2>Without a figure</h2>\n", rows(one for one in statements if not one.figures), FOOT]
+    page += ["<h2>Without a figure</h2>\n", rows(one for one in statements if not one.figures),
+             "<h2>What the paper's choices leave</h2>\n<p>Each alone and all together, beside the same job in equilibrium: "
+             f"largest pressure of joints, largest displacement.</p>\n<pre>{html.escape(chr(10).join(table(choices)))}</pre>\n", FOOT]
     (folder/"index.html").write_text("".join(page), encoding="utf-8")
 
 

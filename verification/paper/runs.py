@@ -59,7 +59,8 @@ def all_runs(program, folder):
         change = {"CONTROL": lambda card, m=highest: f"{m:5d}{33:5d}{card[10:]}"} | tight
         decks[f"case3_M{highest}"] = changed(decks["case3"], folder, f"case3_M{highest}", change)
     for name in (*CASES, "continuum"):
-        decks[f"{name} fine"] = changed(decks[name], folder, f"{name}_fine", {"BLOCKS": finer})
+        change = {"BLOCKS": finer} if name == "continuum" else {"BLOCKS": finer, "LAWS": at_gauss_points}
+        decks[f"{name} fine"] = changed(decks[name], folder, f"{name}_fine", change)
     return {name: Run(program, deck, folder) for name, deck in decks.items()}
 
 
@@ -88,3 +89,8 @@ def finer(card):
         return card
     body, material, _, n1, n2 = map(int, fields)
     return f"{body:5d}{material:5d}{8:5d}{n1*REFINEMENT:5d}{n2*REFINEMENT:5d}"
+
+
+def at_gauss_points(card):
+    """Card of a law for the joints of 8-node elements, which have no rule at the centroid."""
+    return f"{card[:65]}{'GAUSS':>10}{card[75:]}"
