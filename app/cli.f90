@@ -6,7 +6,8 @@ module axijoint_cli
    use axijoint_base_text, only : nearest_word, upper, lower
    use axijoint_help_compare, only : compare_help
    use axijoint_base_version, only : program_name, program_version
-   use axijoint_solver_choice, only : solver_names
+   use axijoint_solver_entry, only : solver_entry_type
+   use axijoint_solver_registry, only : find_solver, solver_words
    implicit none
    private
    public :: command_type, word_type, read_command, help_text
@@ -47,8 +48,11 @@ module axijoint_cli
       type(word_type), allocatable :: decks(:)
       !> Directory for results
       character(len=:), allocatable :: directory
-      !> Solver asked for, one of the `solver_` parameters; negative: as the deck says
-      integer :: solver = -1
+      !> Solvers that can be asked for
+      type(solver_entry_type), allocatable :: solvers(:)
+      !> Whether one was asked for, and which; none if the choice is the program's
+      logical :: solver_given = .false.
+      type(solver_entry_type), allocatable :: solver
       !> Threads asked for; 0: as the environment says
       integer :: threads = 0
       !> Bytes that the process may take
@@ -62,9 +66,11 @@ module axijoint_cli
 contains
 
    !> Read the command line of the process
-   subroutine read_command(command, error)
+   subroutine read_command(command, solvers, error)
       !> What the user asked for
       type(command_type), intent(out) :: command
+      !> Solvers that there are
+      type(solver_entry_type), intent(in) :: solvers(:)
       !> Unknown command or option, missing deck
       type(error_type), allocatable, intent(out) :: error
 
@@ -72,6 +78,7 @@ contains
       integer :: k
 
       allocate (words(command_argument_count()), command%decks(0))
+      command%solvers = solvers
       do k = 1, size(words)
          words(k)%text = argument(k)
       end do
@@ -197,8 +204,8 @@ contains
       case ('-o')
          command%directory = value
       case ('--solver')
-         command%solver = findloc(solver_names == upper(value), .true., 1) - 1
-         if (command%solver < 0) call unknown('solver', value, lower_all(solver_names), error)
+         call find_solver(command%solvers, upper(value), command%solver, command%solver_given)
+         if (.not. command%solver_given) call unknown('solver', value, lower_all(solver_words(command%solvers)), error)
       case ('--memory')
          call read_memory(value, command%memory_limit, error)
       case default

@@ -12,8 +12,8 @@ module axijoint_driver_estimate
    use axijoint_job_reader, only : read_job
    use axijoint_linalg_lapack, only : product_rate
    use axijoint_model_model, only : model_type, yielding_nodes
-   use axijoint_solver_choice, only : solver_band, solver_sparse, solver_names, orders_type, &
-                                      new_orders
+   use axijoint_order_orders, only : orders_type, new_orders
+   use axijoint_solver_entry, only : solver_entry_type
    use omp_lib, only : omp_set_num_threads
    implicit none
    private
@@ -49,7 +49,7 @@ contains
             cycle
          end if
          model%memory_limit = command%memory_limit
-         call estimate_deck(command%decks(k)%text, model, rate, error)
+         call estimate_deck(command%decks(k)%text, model, command%solvers, rate, error)
          if (allocated(error)) then
             call print_error(command%decks(k)%text, error)
             exit_code = max(exit_code, error%code)
@@ -58,11 +58,13 @@ contains
    end subroutine estimate_decks
 
    !> Print the costs of one deck
-   subroutine estimate_deck(deck, model, rate, error)
+   subroutine estimate_deck(deck, model, solvers, rate, error)
       !> The deck
       character(len=*), intent(in) :: deck
       !> The job
       type(model_type), intent(in) :: model
+      !> The solvers
+      type(solver_entry_type), intent(in) :: solvers(:)
       !> Rate of large matrix products [operations/second]
       real(wp), intent(in) :: rate
       !> Out of memory
@@ -70,20 +72,20 @@ contains
 
       type(estimate_type) :: estimate
       type(orders_type) :: orders
-      integer :: kind
+      integer :: k
 
       call new_orders(orders, node_graph(model%mesh), yielding_nodes(model), error)
       if (allocated(error)) return
-      do kind = solver_band, solver_sparse
-         call estimate_job(model, orders, kind, rate, estimate, error)
+      do k = 1, size(solvers)
+         call estimate_job(model, orders, solvers(k), rate, estimate, error)
          if (allocated(error)) return
-         if (kind == solver_band) then
+         if (k == 1) then
             write (output_unit, '(a, i0, a, f0.1, a)') deck//': ', estimate%n_harmonics, &
                ' harmonics; matrix products at ', rate/1.0e9_wp, ' GFLOP/s in one thread'
             write (output_unit, '(a)') '  solver       equations  factor entries      operations'// &
                '  at once  memory [MB]  factoring [s]'
          end if
-         write (output_unit, format_row) solver_names(kind), estimate%n_equations, &
+         write (output_unit, format_row) solvers(k)%name, estimate%n_equations, &
             real(estimate%factor_entries, wp), estimate%operations, estimate%n_factors, &
             real(estimate%bytes, wp)/2.0_wp**20, estimate%seconds
       end do

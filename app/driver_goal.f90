@@ -126,7 +126,10 @@ contains
       !> The job
       type(model_type), intent(inout) :: model
 
-      if (command%solver >= 0) model%solver = command%solver
+      if (command%solver_given) then
+         if (allocated(model%solver)) deallocate (model%solver)
+         if (allocated(command%solver)) model%solver = command%solver
+      end if
       model%memory_limit = command%memory_limit
       model%sweep%wanted = model%sweep%wanted .or. command%swept
    end subroutine take_options

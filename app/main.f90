@@ -10,6 +10,7 @@ program axijoint
    use axijoint_driver_compare, only : compare_files
    use axijoint_driver_estimate, only : estimate_decks
    use axijoint_driver_run, only : run_decks, print_error
+   use axijoint_solver_registry, only : known_solvers
    implicit none
 
    type(command_type) :: command
@@ -18,7 +19,7 @@ program axijoint
 
    exit_code = exit_ok
    call return_freed_memory()
-   call read_command(command, error)
+   call read_command(command, known_solvers(), error)
    if (allocated(error)) then
       call print_error('', error)
       exit_code = error%code

@@ -7,6 +7,8 @@ module axijoint_deck_request_control
    use axijoint_deck_text_table, only : table_type, integer_value, field_error
    use axijoint_model_load, only : increment_type
    use axijoint_model_model, only : model_type, can_yield
+   use axijoint_solver_entry, only : solver_entry_type
+   use axijoint_solver_registry, only : known_solvers
    implicit none
    private
    public :: read_control, check_planes, field_harmonic, field_planes, field_method
@@ -30,14 +32,17 @@ contains
       !> The job; its control data are set as far as they are valid
       type(model_type), intent(inout) :: model
 
-      integer :: entry
+      type(solver_entry_type), allocatable :: solvers(:)
+      integer :: entry, word
 
       if (control%n > 0) then
          model%max_harmonic = integer_value(control, field_harmonic, 1)
          model%n_planes = integer_value(control, field_planes, 1)
          model%gauss_linear = integer_value(control, field_linear, 1)
          model%gauss_quadratic = integer_value(control, field_quadratic, 1)
-         model%solver = integer_value(control, field_solver, 1) - 1  ! words count from one
+         solvers = known_solvers()
+         word = integer_value(control, field_solver, 1)  ! the first one leaves the choice to the program
+         if (word > 1) model%solver = solvers(word - 1)
          model%mean_dilatation = integer_value(control, field_formulation, 1) == word_mean_dilatation
          model%method = integer_value(control, field_method, 1)
       end if
