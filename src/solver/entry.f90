@@ -43,7 +43,7 @@ module axijoint_solver_entry
       logical :: concurrent = .true.
       !> Bytes that its library takes once it is used
       integer(i8) :: library_bytes = 0
-      !> What who uses it should know, such as a licence; may be empty
+      !> What its user should know, such as a licence, for listing and estimate; may be empty
       character(len=120) :: note = ''
    contains
       !> Expected time of one factorization

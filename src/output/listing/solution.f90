@@ -60,6 +60,7 @@ contains
       call write_heading(file, "EQUATIONS ("//to_text(n_unknowns(results))//" unknowns in all)")
       call file%put("  solver: "//trim(results%solver%name)//", nodes ordered by "// &
          trim(results%solver%order_name))
+      if (results%solver%note /= "") call file%put("  "//trim(results%solver%note))
       call file%put("  order of the nodes       bandwidth         profile            fill")
       do i = 1, size(results%orderings)
          associate (ordering => results%orderings(i))
