@@ -22,8 +22,9 @@ program flexibility
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type
    use axijoint_order_graph, only : graph_type
-   use axijoint_solver_choice, only : solver_band, solver_sparse, solver_names, new_solver, &
-                                      orders_type, new_orders, order_for, expected_seconds
+   use axijoint_order_orders, only : orders_type, new_orders
+   use axijoint_solver_entry, only : solver_entry_type
+   use axijoint_solver_registry, only : known_solvers
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type
    implicit none
 
@@ -37,7 +38,8 @@ program flexibility
    type(model_type) :: model
    logical, allocatable :: wanted(:)
    character(len=32) :: word
-   integer :: n_side, kind, stat, k
+   type(solver_entry_type), allocatable :: solvers(:)
+   integer :: n_side, stat, i, k
    real(wp) :: rate
 
    call get_command_argument(1, word)
@@ -53,19 +55,20 @@ program flexibility
    end associate
    write (output_unit, '(a)') 'nodes_per_side,unknowns,set,solver,set_last,factor_entries,'// &
       'factorization_s,inverse_s,operations'
-   do kind = solver_band, solver_sparse
+   solvers = known_solvers()
+   do i = 1, size(solvers)
       do k = 1, size(set_last)
-         if (set_last(k) .and. kind /= solver_sparse) cycle
-         call measure(kind, set_last(k))
+         if (set_last(k) .and. solvers(i)%name /= 'SPARSE') cycle  ! the others do not gain from it
+         call measure(solvers(i), set_last(k))
       end do
    end do
 
 contains
 
    !> Factorization and flexibility with one solver
-   subroutine measure(kind, last)
-      !> One of the `solver_` parameters
-      integer, intent(in) :: kind
+   subroutine measure(entry, last)
+      !> The solver
+      type(solver_entry_type), intent(in) :: entry
       !> Whether the set is ordered last
       logical, intent(in) :: last
 
@@ -88,11 +91,11 @@ contains
          call new_orders(orders, graph, error=error)
       end if
       call stop_on(error)
-      call new_stiffness(stiffness(1), model, mode_type(harmonic), graph, order_for(orders, kind))
-      call new_solver(solver, kind)
+      call new_stiffness(stiffness(1), model, mode_type(harmonic), graph, entry%order(orders))
+      call entry%new_plan(solver)
       call solver%analyse(stiffness(1)%pattern, error)
       call stop_on(error)
-      if (expected_seconds(solver, kind, rate, kept=.true.) > limit) return
+      if (entry%seconds(solver, rate, kept=.true.) > limit) return
       call assemble_parts(stiffness, model, [model_joint_point_type ::], [support_point_type ::])
       matrix = stiffness(1)%pattern
       allocate (matrix%value(size(matrix%column)))
@@ -111,7 +114,7 @@ contains
       call stop_on(error)
       inversion = seconds() - start
       write (output_unit, '(a)') to_text(n_side)//','//to_text(matrix%n)//','//to_text(size(set))// &
-         ','//trim(lower(solver_names(kind)))//','//merge('yes', 'no ', last)//','// &
+         ','//trim(lower(entry%name))//','//merge('yes', 'no ', last)//','// &
          to_text(real(solver%factor_entries, wp))//','//to_text(factorization)//','// &
          to_text(inversion)//','//to_text(solver%operations)
    end subroutine measure

@@ -15,21 +15,22 @@ program solvers
    use axijoint_assembly_pattern, only : node_graph
    use axijoint_assembly_stiffness, only : stiffness_type, new_stiffness, assemble_parts
    use axijoint_assembly_support, only : support_point_type
-   use axijoint_bench_measure, only : product_rate, seconds, stop_on, fail
-   use axijoint_bench_square, only : square
    use axijoint_base_error, only : error_type
-   use axijoint_fe_mode, only : mode_type
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_large_pages, only : use_large_pages
    use axijoint_base_memory, only : available_memory, no_limit
    use axijoint_base_text, only : to_text, lower
+   use axijoint_bench_measure, only : product_rate, seconds, stop_on, fail
+   use axijoint_bench_square, only : square
+   use axijoint_fe_mode, only : mode_type
    use axijoint_linalg_lapack, only : use_one_blas_thread
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type, multiply, infinity_norm
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type
    use axijoint_order_graph, only : graph_type
-   use axijoint_solver_choice, only : solver_band, solver_sparse, solver_names, new_solver, &
-                                      orders_type, new_orders, order_for, expected_seconds
+   use axijoint_order_orders, only : orders_type, new_orders
+   use axijoint_solver_entry, only : solver_entry_type
+   use axijoint_solver_registry, only : known_solvers
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type
    implicit none
 
@@ -57,27 +58,29 @@ program solvers
    !> One line of the table; times in seconds, negative where nothing was
    !> measured
    type :: record_type
-      integer :: n_side = 0, n_unknowns = 0, kind = 0, n_threads = 1, n_harmonics = 1
+      integer :: n_side = 0, n_unknowns = 0, n_threads = 1, n_harmonics = 1
       real(wp) :: order = -1.0_wp, analysis = -1.0_wp, parts = -1.0_wp, matrix = -1.0_wp
       real(wp) :: factorization = -1.0_wp, repeated = -1.0_wp, solution = -1.0_wp, operations = 0.0_wp
       real(wp) :: rate = 0.0_wp, bytes = 0.0_wp, entries = 0.0_wp
       real(wp) :: backward_error = -1.0_wp, lapack_ratio = -1.0_wp, expected = 0.0_wp, share = -1.0_wp
-      character(len=:), allocatable :: note
+      character(len=:), allocatable :: solver, note
    end type record_type
 
    type(config_type) :: config
    type(model_type) :: model
    real(wp) :: rate
-   integer :: kind
+   type(solver_entry_type), allocatable :: entries(:)
+   integer :: k
 
    call read_arguments(config)
    call use_one_blas_thread()
    rate = product_rate()
    model = square(config%n_side, config%n_harmonics)
    call print_header()
-   do kind = solver_band, solver_sparse
-      if (index(config%solvers, trim(lower(solver_names(kind)))) == 0) cycle
-      call measure_solver(kind)
+   entries = known_solvers()
+   do k = 1, size(entries)
+      if (index(config%solvers, trim(lower(entries(k)%name))) == 0) cycle
+      call measure_solver(entries(k))
    end do
 
 contains
@@ -120,20 +123,20 @@ contains
 
    !> Measure one solver, first on one harmonic, then on several with one thread
    !> and with all
-   subroutine measure_solver(kind)
-      !> One of the `solver_` parameters
-      integer, intent(in) :: kind
+   subroutine measure_solver(entry)
+      !> The solver
+      type(solver_entry_type), intent(in) :: entry
 
       type(record_type) :: record
       integer :: n_threads
 
-      call measure_harmonic(kind, record)
+      call measure_harmonic(entry, record)
       call print_record(record)
       if (config%n_harmonics == 0 .or. record%factorization < 0.0_wp) return
       if (record%factorization*config%n_harmonics > patience*config%limit) return
       n_threads = 1
       do
-         call measure_threads(kind, n_threads, record)
+         call measure_threads(entry, n_threads, record)
          call print_record(record)
          if (n_threads == min(2, omp_get_num_procs())) exit
          n_threads = 2
@@ -141,9 +144,9 @@ contains
    end subroutine measure_solver
 
    !> All steps of one solver for one harmonic on one thread
-   subroutine measure_harmonic(kind, record)
-      !> One of the `solver_` parameters
-      integer, intent(in) :: kind
+   subroutine measure_harmonic(entry, record)
+      !> The solver
+      type(solver_entry_type), intent(in) :: entry
       !> What was measured
       type(record_type), intent(out) :: record
 
@@ -161,15 +164,15 @@ contains
       graph = node_graph(model%mesh)
       call new_orders(orders, graph, error=error)
       call stop_on(error)
-      order = order_for(orders, kind)
+      order = entry%order(orders)
       record%order = seconds() - start
       start = seconds()
       call new_stiffness(stiffness(1), model, mode_type(harmonic), graph, order)
-      call new_solver(solver, kind)
+      call entry%new_plan(solver)
       call solver%analyse(stiffness(1)%pattern, error)
       call stop_on(error)
       record%analysis = seconds() - start
-      call describe(record, kind, solver)
+      call describe(record, entry, solver)
       if (.not. feasible(record)) return
       start = clock(1)
       call assemble_parts(stiffness, model, [model_joint_point_type ::], [support_point_type ::])
@@ -180,27 +183,27 @@ contains
       call harmonic_values(stiffness(1), harmonic, matrix%value)
       record%matrix = clock(1) - start
       deallocate (stiffness(1)%parts)
-      if (kind == solver_sparse .and. len(config%dump) > 0) call dump_matrix(matrix, config%dump)
+      if (entry%name == 'SPARSE' .and. len(config%dump) > 0) call dump_matrix(matrix, config%dump)
       call measure_factor(solver, matrix, record)
    end subroutine measure_harmonic
 
    !> What is known of a factorization before it
-   subroutine describe(record, kind, solver)
+   subroutine describe(record, entry, solver)
       !> The line of the table
       type(record_type), intent(inout) :: record
-      !> One of the `solver_` parameters
-      integer, intent(in) :: kind
+      !> The solver
+      type(solver_entry_type), intent(in) :: entry
       !> The plan
       class(solver_type), intent(in) :: solver
 
       record%n_side = config%n_side
       record%n_unknowns = solver%n
-      record%kind = kind
+      record%solver = trim(lower(entry%name))
       record%rate = rate
       record%operations = solver%operations
       record%entries = real(solver%factor_entries, wp)
       record%bytes = real(solver%factor_bytes, wp)
-      record%expected = expected_seconds(solver, kind, rate, kept=.false.)
+      record%expected = entry%seconds(solver, rate, kept=.false.)
       record%note = ''
    end subroutine describe
 
@@ -296,9 +299,9 @@ contains
    end subroutine repeat_factorization
 
    !> Factorizations of harmonics 1, 2, ... as in a run of axijoint
-   subroutine measure_threads(kind, n_threads, record)
-      !> One of the `solver_` parameters
-      integer, intent(in) :: kind
+   subroutine measure_threads(entry, n_threads, record)
+      !> The solver
+      type(solver_entry_type), intent(in) :: entry
       !> Harmonics factored at once
       integer, intent(in) :: n_threads
       !> What was measured
@@ -311,14 +314,14 @@ contains
       integer :: m
 
       call omp_set_num_threads(n_threads)
-      model%solver = kind
+      model%solver = entry
       start = seconds()
       call new_orders(orders, node_graph(model%mesh), error=error)
       call stop_on(error)
       call plan_equations(equations, model, [(mode_type(m), m=1, config%n_harmonics)], orders, error)
       call stop_on(error)
       record%analysis = seconds() - start
-      call describe(record, kind, equations%plans(1)%solver)
+      call describe(record, entry, equations%plans(1)%solver)
       record%n_threads = n_threads
       record%n_harmonics = config%n_harmonics
       record%operations = record%operations*config%n_harmonics
@@ -435,7 +438,7 @@ contains
       speed = -1.0_wp
       if (record%factorization > 0.0_wp) speed = record%operations/record%factorization
       line = to_text(record%n_side)//','//to_text(record%n_unknowns)//','// &
-             trim(lower(solver_names(record%kind)))//','//to_text(record%n_threads)//','// &
+             record%solver//','//to_text(record%n_threads)//','// &
              to_text(record%n_harmonics)//','//cell(record%order)//','//cell(record%analysis)//','// &
              cell(record%parts)//','//cell(record%matrix)//','//cell(record%factorization)//','// &
              cell(record%repeated)//','// &

@@ -11,9 +11,10 @@ module axijoint_assembly_equations
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type
    use axijoint_order_graph, only : bandwidth
-   use axijoint_solver_choice, only : solver_auto, solver_band, solver_sparse, orders_type, &
-                                      order_for, new_solver, expected_seconds
+   use axijoint_order_orders, only : orders_type
+   use axijoint_solver_entry, only : solver_entry_type
    use axijoint_solver_inverse_norm, only : inverse_norm
+   use axijoint_solver_registry, only : known_solvers
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type
    implicit none
    private
@@ -21,8 +22,6 @@ module axijoint_assembly_equations
    public :: solve_mode, backward_error, on_equations
    public :: plan_solver, worth_threads, planned_seconds, refine_mode, condition_estimate
 
-   !> A band wider than this many nodes is never faster than nested dissection
-   integer, parameter :: widest_band = 400
    !> With fewer equations in all, threads cost more than they save
    integer, parameter :: least_equations = 5000
    !> Rate of matrix products that solvers are chosen by [operations/second]
@@ -61,8 +60,8 @@ module axijoint_assembly_equations
       integer, allocatable :: system(:)
       !> Systems of equations
       type(system_type), allocatable :: systems(:)
-      !> Solver, one of the `solver_` parameters, never auto
-      integer :: solver = 0
+      !> The solver
+      type(solver_entry_type) :: solver
       !> Unknowns, sparsity and stiffness of the classes
       type(stiffness_type), allocatable :: classes(:)
       !> Plans of the solver, one a class
@@ -88,24 +87,40 @@ contains
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      type(equations_type), allocatable :: banded
+      type(solver_entry_type), allocatable :: solvers(:)
+      type(equations_type), allocatable :: others
+      integer :: k
 
-      if (model%solver /= solver_auto) then
+      if (allocated(model%solver)) then
          call plan_solver(equations, model, modes, orders, model%solver, error)
          return
       end if
-      call plan_solver(equations, model, modes, orders, solver_sparse, error)
-      if (allocated(error)) return
-      if (bandwidth(orders%graph, orders%cuthill_mckee) > widest_band) return
-      call plan_solver(banded, model, modes, orders, solver_band, error)
-      if (allocated(error)) return
-      if (planned_seconds(banded, kept=.true.) < planned_seconds(equations, kept=.true.)) then
-         call move_alloc(banded, equations)
-      end if
+      solvers = known_solvers()
+      do k = 1, size(solvers)
+         if (.not. may_be_fastest(solvers(k), orders)) cycle
+         call plan_solver(others, model, modes, orders, solvers(k), error)
+         if (allocated(error)) return
+         if (allocated(equations)) then
+            if (planned_seconds(equations, kept=.true.) <= planned_seconds(others, kept=.true.)) cycle
+         end if
+         call move_alloc(others, equations)
+      end do
    end subroutine plan_equations
 
+   !> Whether a solver need be thought of where the choice is the program's
+   pure logical function may_be_fastest(solver, orders)
+      !> The solver
+      type(solver_entry_type), intent(in) :: solver
+      !> Orders of the nodes
+      type(orders_type), intent(in) :: orders
+
+      may_be_fastest = solver%automatic
+      if (may_be_fastest .and. solver%widest_band < huge(1)) &
+         may_be_fastest = bandwidth(orders%graph, solver%order(orders)) <= solver%widest_band
+   end function may_be_fastest
+
    !> Number the unknowns and analyse the patterns of all classes for a solver
-   subroutine plan_solver(equations, model, modes, orders, kind, error)
+   subroutine plan_solver(equations, model, modes, orders, solver, error)
       !> The equations, planned
       type(equations_type), allocatable, intent(out) :: equations
       !> The job
@@ -114,8 +129,8 @@ contains
       type(mode_type), intent(in) :: modes(:)
       !> Orders of the nodes
       type(orders_type), intent(in) :: orders
-      !> Solver, one of the `solver_` parameters, not auto
-      integer, intent(in) :: kind
+      !> The solver
+      type(solver_entry_type), intent(in) :: solver
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
@@ -123,9 +138,9 @@ contains
       integer :: k, n_classes
 
       allocate (equations)
-      order = order_for(orders, kind)
+      order = solver%order(orders)
       equations%modes = modes
-      equations%solver = kind
+      equations%solver = solver
       call divide_modes(modes, mode_classes(model, modes), equations%system, equations%systems)
       n_classes = maxval([0, equations%systems%class])
       allocate (equations%classes(n_classes), equations%plans(n_classes))
@@ -133,7 +148,7 @@ contains
          associate (first => equations%systems(findloc(equations%systems%class, k, 1))%modes(1))
             call new_stiffness(equations%classes(k), model, modes(first), orders%graph, order)
          end associate
-         call new_solver(equations%plans(k)%solver, kind)
+         call solver%new_plan(equations%plans(k)%solver)
          call equations%plans(k)%solver%analyse(equations%classes(k)%pattern, error)
          if (allocated(error)) return
       end do
@@ -193,8 +208,8 @@ contains
       if (present(rate)) speed = rate
       seconds = 0.0_wp
       do k = 1, size(equations%systems)
-         seconds = seconds + expected_seconds(equations%plans(equations%systems(k)%class)%solver, &
-                                              equations%solver, speed, kept)
+         seconds = seconds + equations%solver%seconds(equations%plans(equations%systems(k)%class)%solver, &
+                                                      speed, kept)
       end do
    end function planned_seconds
 

@@ -54,7 +54,9 @@ contains
 
       associate (n => size(equations%systems))
          equations%n_workers = 1
-         if (worth_threads(equations)) equations%n_workers = max(1, min(omp_get_max_threads(), n))
+         if (worth_threads(equations) .and. equations%solver%concurrent) then
+            equations%n_workers = max(1, min(omp_get_max_threads(), n))
+         end if
          equations%n_kept = merge(n, 0, keep)
       end associate
       room = free_memory(limit) - other_bytes

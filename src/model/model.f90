@@ -9,8 +9,9 @@ module axijoint_model_model
       load_case_type, combination_type, increment_type, truncation_type
    use axijoint_model_material, only : solid_material_type, joint_material_type
    use axijoint_model_mesh, only : mesh_type
-   use axijoint_model_restraint, only : restraint_type, acts_in
    use axijoint_model_request, only : line_type, cut_type, supported_face_type, sweep_type, error_goal_type
+   use axijoint_model_restraint, only : restraint_type, acts_in
+   use axijoint_solver_entry, only : solver_entry_type
    implicit none
    private
    public :: model_type, held_components, held_at, can_yield, can_yield_at, yielding_nodes, on_axis
@@ -73,8 +74,8 @@ module axijoint_model_model
       integer :: n_planes = 0
       !> How joints are brought to equilibrium, one of the `method_` parameters
       integer :: method = method_newton
-      !> Solver, one of the `solver_` parameters of the solver choice; 0 is auto
-      integer :: solver = 0
+      !> Solver; if there is none, the one with the least expected time is taken
+      type(solver_entry_type), allocatable :: solver
       !> Bytes that the process may take; more than there are if the user gave no limit
       integer(i8) :: memory_limit = no_limit
       !> Angles at which totals are listed [radian]

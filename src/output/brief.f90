@@ -4,8 +4,9 @@ module axijoint_output_brief
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_system, only : peak_memory_mb
    use axijoint_base_text, only : to_text
-   use axijoint_base_timer, only : timer_type, phase_total
+   use axijoint_base_timer, only : phase_total
    use axijoint_element_joint_law, only : state_stick, state_slip, state_open
+   use axijoint_job_job, only : job_type, result_name
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type
    use axijoint_output_file_headings, only : mark_not_converged
@@ -24,48 +25,43 @@ module axijoint_output_brief
 contains
 
    !> What ran, how it ended, the extreme values, the cost, the files
-   function brief_text(directory, name, deck, model, results, timer) result(text)
-      !> Directory of the files; empty for the current one
-      character(len=*), intent(in) :: directory
-      !> Name of the job
-      character(len=*), intent(in) :: name
-      !> Path of the deck
-      character(len=*), intent(in) :: deck
+   function brief_text(job, results) result(text)
       !> The job
-      type(model_type), intent(in) :: model
-      !> Results
+      type(job_type), intent(in) :: job
+      !> Results of a combination
       type(results_type), intent(in) :: results
-      !> Times of the run
-      type(timer_type), intent(in) :: timer
       !> Lines, the last without its end
       character(len=:), allocatable :: text
 
-      text = line("deck", deck)
+      text = line("deck", job%deck)
       if (results%combination > 0) text = text//line("combination", to_text(results%combination))
       text = text//line("status", status_text(results))
       if (allocated(results%mechanism)) text = text//line("mechanism", results%mechanism)
       text = text// &
-         line("mesh", to_text(n_nodes(model%mesh))//" nodes, "// &
-         to_text(n_elements(model%mesh))//" elements, "// &
-         to_text(n_joints(model%mesh))//" joints")// &
+         line("mesh", to_text(n_nodes(job%model%mesh))//" nodes, "// &
+         to_text(n_elements(job%model%mesh))//" elements, "// &
+         to_text(n_joints(job%model%mesh))//" joints")// &
          line("unknowns", to_text(n_unknowns(results))//" in "// &
          to_text(size(results%modes))//" harmonics, highest m = "// &
          to_text(maxval(results%modes%harmonic)))
-      if (n_joints(model%mesh) > 0) text = text//stiffness_lines(model, results)
+      if (n_joints(job%model%mesh) > 0) text = text//stiffness_lines(job%model, results)
       if (size(results%joint_state) > 0) text = text//joint_lines(results)
       text = text//line("residual ratio", to_text(results%residual_ratio))// &
          line("equilibrium error", to_text(results%equilibrium_error)//" on the whole, "// &
          to_text(results%part_error)//" on the worst part")// &
-         displacement_line(model, results)
-      if (len(singular_text(model, results)) > 0) text = text//line("infinite stresses", singular_text(model, results))
+         displacement_line(job%model, results)
+      if (len(singular_text(job%model, results)) > 0) then
+         text = text//line("infinite stresses", singular_text(job%model, results))
+      end if
       if (allocated(results%budget)) then
          text = text//line("error estimates", sum_text(results))
          if (len(remedy_text(results%budget)) > 0) text = text//line("about half with", remedy_text(results%budget))
       end if
       text = text// &
-         line("time, peak memory", seconds_text(timer%seconds(phase_total))//" s, "// &
+         line("time, peak memory", seconds_text(job%timer%seconds(phase_total))//" s, "// &
          to_text(nint(peak_memory_mb()))//" MB")// &
-         line("files", join_path(directory, name)//".lis .json .h5"//picture_endings(model))
+         line("files", join_path(job%options%directory, result_name(job, results%combination))// &
+         ".lis .json .h5"//picture_endings(job%model))
       text = text(:len(text) - 1)
    end function brief_text
 

@@ -1,18 +1,18 @@
 !> The files of a run: all of them complete under their final names, or none
 module axijoint_output_output
-   use axijoint_analysis_core_results, only : results_type
-   use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_analysis_core_results, only : results_type, remark_type
    use axijoint_base_error, only : error_type, fatal_error, exit_io, exit_internal
    use axijoint_base_system, only : path_kind, is_directory, same_file, path_absent, path_file, &
       path_directory, path_link, error_text
-   use axijoint_base_timer, only : timer_type
    use axijoint_deck_text_source, only : source_type, card_file
+   use axijoint_job_combination, only : combination_label
+   use axijoint_job_job, only : job_type, result_name
    use axijoint_model_mesh, only : n_joints
    use axijoint_model_model, only : model_type
    use axijoint_output_file_echo, only : deck_path
    use axijoint_output_file_hdf5, only : hdf5_file_type
    use axijoint_output_file_pending, only : join_path, sync_names
-   use axijoint_output_file_run, only : run_type, new_run
+   use axijoint_output_file_run, only : run_type, new_run, exit_code_of
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_hdf5_results, only : write_results
    use axijoint_output_listing_contents, only : write_listing
@@ -35,15 +35,31 @@ contains
 
    !> Before the solve: the directory is there, files can be made in it, and
    !> the final names are free or regular files
-   subroutine check_output(directory, name, source, model, error)
-      !> Directory of the files; empty for the current one
+   subroutine check_output(job, error)
+      !> The job; its files must not be overwritten
+      type(job_type), intent(in) :: job
+      !> What stands in the way
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: k
+
+      do k = 1, size(job%model%combinations)
+         call check_place(job%options%directory, result_name(job, combination_label(job, k)), job%source, &
+                          n_files(job%model), error)
+         if (allocated(error)) return
+      end do
+   end subroutine check_output
+
+   !> The same for one combination
+   subroutine check_place(directory, name, source, n, error)
+      !> Directory of the files
       character(len=*), intent(in) :: directory
-      !> Name of the job
+      !> Their name
       character(len=*), intent(in) :: name
-      !> Cards of the deck: their files must not be overwritten
+      !> Cards of the deck
       type(source_type), intent(in) :: source
-      !> The job, which tells what files there will be
-      type(model_type), intent(in) :: model
+      !> Number of files, by their endings
+      integer, intent(in) :: n
       !> What stands in the way
       type(error_type), allocatable, intent(out) :: error
 
@@ -54,13 +70,13 @@ contains
             " for the results"//new_line("a")//"mend: make it first, or choose another with -o")
          return
       end if
-      call check_names(directory, name, n_files(model), error)
+      call check_names(directory, name, n, error)
       if (allocated(error)) return
-      call spare_sources(directory, name, source, n_files(model), error)
+      call spare_sources(directory, name, source, n, error)
       if (allocated(error)) return
       call probe%open(final_path(directory, name, file_summary), error)
       call probe%abandon()
-   end subroutine check_output
+   end subroutine check_place
 
    !> Refuse to write over the deck or a file that it includes
    subroutine spare_sources(directory, name, source, n, error)
@@ -95,26 +111,11 @@ contains
    !> Write results, swept bodies, listing and summary. Nothing changes under a final
    !> name before all are complete on the disk; after an error the temporary files are
    !> gone and earlier files stand. The summary gets its name last: it speaks for all.
-   subroutine write_output(directory, name, source, warnings, model, structure, results, timer, &
-         exit_code, error)
-      !> Directory of the files; empty for the current one
-      character(len=*), intent(in) :: directory
-      !> Name of the job
-      character(len=*), intent(in) :: name
-      !> Cards of the deck
-      type(source_type), intent(in) :: source
-      !> Warnings of the deck
-      character(len=*), intent(in) :: warnings(:)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The structure, assembled: swept bodies show earlier increments, too
-      type(structure_type), intent(inout) :: structure
-      !> Results
+   subroutine write_output(job, results, error)
+      !> The job; its factors are used again where swept bodies show earlier increments
+      type(job_type), intent(inout), target :: job
+      !> Results of a combination
       type(results_type), intent(in) :: results
-      !> Times of the run so far
-      type(timer_type), intent(in) :: timer
-      !> Exit code of the program
-      integer, intent(in) :: exit_code
       !> A file could not be written
       type(error_type), allocatable, intent(out) :: error
 
@@ -122,34 +123,36 @@ contains
       type(hdf5_file_type) :: arrays, bodies, joints
       type(picture_type), allocatable :: pictures(:)
       type(text_file_type) :: listing, summary
-      character(len=max(len(warnings), len(convergence_text(results)))) :: &
-         messages(size(warnings) + merge(0, 1, results%converged))
+      character(len=:), allocatable :: directory, name, warnings(:), messages(:)
 
       call check_results(results, error)
       if (allocated(error)) return
-      run = new_run(deck_path(source), exit_code)
-      if (.not. results%converged) messages(1) = convergence_text(results)
-      messages(size(messages) - size(warnings) + 1:) = warnings
+      directory = job%options%directory
+      name = result_name(job, results%combination)
+      run = new_run(deck_path(job%source), exit_code_of(results))
+      warnings = all_warnings(job%warnings, results%remarks)
+      messages = warnings
+      if (.not. results%converged) messages = with_first(convergence_text(results), warnings)
 
       call arrays%create(final_path(directory, name, file_arrays), error)
       if (.not. allocated(error)) then
-         call write_results(arrays, run, source, messages, model, results)
+         call write_results(arrays, run, job%source, messages, job%model, results)
          call arrays%finish(error)
       end if
       allocate (pictures(0))
       if (.not. allocated(error)) call write_pictures()
       if (.not. allocated(error)) call listing%open(final_path(directory, name, file_listing), error)
       if (.not. allocated(error)) then
-         call write_listing(listing, run, source, warnings, model, results, timer, pictures)
+         call write_listing(listing, run, job%source, warnings, job%model, results, job%timer, pictures)
          call listing%finish(error)
       end if
       if (.not. allocated(error)) call summary%open(final_path(directory, name, file_summary), error)
       if (.not. allocated(error)) then
-         call write_summary(summary, run, messages, model, results, timer)
+         call write_summary(summary, run, messages, job%model, results, job%timer)
          call summary%finish(error)
       end if
 
-      if (.not. allocated(error)) call check_names(directory, name, n_files(model), error)
+      if (.not. allocated(error)) call check_names(directory, name, n_files(job%model), error)
       if (.not. allocated(error)) call arrays%commit(error)
       if (.not. allocated(error)) call bodies%commit(error)
       if (.not. allocated(error)) call joints%commit(error)
@@ -168,18 +171,18 @@ contains
       subroutine write_pictures()
          type(swept_mesh_type) :: mesh
 
-         if (n_files(model) < file_bodies) return
+         if (n_files(job%model) < file_bodies) return
          call bodies%create(final_path(directory, name, file_bodies), error)
          if (allocated(error)) return
-         call write_bodies(bodies, run, model, structure, results, mesh, error)
+         call write_bodies(bodies, run, job%model, job%structure, results, mesh, error)
          if (allocated(error)) return
          call bodies%finish(error)
          if (allocated(error)) return
          pictures = [new_picture(name//trim(endings(file_bodies)), bodies%size(), mesh)]
-         if (n_files(model) < file_joints) return
+         if (n_files(job%model) < file_joints) return
          call joints%create(final_path(directory, name, file_joints), error)
          if (allocated(error)) return
-         call write_joint_surfaces(joints, run, model, structure, results, mesh, error)
+         call write_joint_surfaces(joints, run, job%model, job%structure, results, mesh, error)
          if (allocated(error)) return
          call joints%finish(error)
          if (allocated(error)) return
@@ -187,6 +190,41 @@ contains
       end subroutine write_pictures
 
    end subroutine write_output
+
+   !> Warnings about the deck and remarks on the results
+   pure function all_warnings(warnings, remarks) result(texts)
+      !> Warnings about the deck
+      character(len=*), intent(in) :: warnings(:)
+      !> Remarks on the results
+      type(remark_type), intent(in) :: remarks(:)
+      !> All of them
+      character(len=:), allocatable :: texts(:)
+
+      integer :: k, length
+
+      length = len(warnings)
+      do k = 1, size(remarks)
+         length = max(length, len(remarks(k)%text))
+      end do
+      allocate (character(len=length) :: texts(size(warnings) + size(remarks)))
+      texts(:size(warnings)) = warnings
+      do k = 1, size(remarks)
+         texts(size(warnings) + k) = remarks(k)%text
+      end do
+   end function all_warnings
+
+   !> A text before others
+   pure function with_first(first, others) result(texts)
+      !> The text
+      character(len=*), intent(in) :: first
+      !> The others
+      character(len=*), intent(in) :: others(:)
+      !> All of them
+      character(len=max(len(first), len(others))) :: texts(1 + size(others))
+
+      texts(1) = first
+      texts(2:) = others
+   end function with_first
 
    !> Number of files that a job writes, by their endings
    pure integer function n_files(model)

@@ -20,7 +20,6 @@ module axijoint_output_summary
    use axijoint_output_table_in_situ, only : in_situ_json
    use axijoint_output_table_joint_proportion, only : proportions_json
    use axijoint_output_table_residuals, only : residuals_json
-   use axijoint_solver_choice, only : solver_names
    implicit none
    private
    public :: write_summary, write_failure_summary
@@ -52,7 +51,7 @@ contains
       call put_pair(file, "elements", json_number(n_elements(model%mesh)))
       call put_pair(file, "joints", json_number(n_joints(model%mesh)))
       call put_pair(file, "unknowns", json_number(n_unknowns(results)))
-      call put_pair(file, "solver", json_string(lower(trim(solver_names(results%solver)))))
+      call put_pair(file, "solver", json_string(lower(trim(results%solver%name))))
       call put_pair(file, "harmonics", json_integers(distinct((results%modes%harmonic))))
       call put_pair(file, "families", json_strings(family_names(results)))
       call put_pair(file, "planes", json_number(model%n_planes))

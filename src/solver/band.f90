@@ -7,11 +7,13 @@ module axijoint_solver_band
    use axijoint_linalg_band_solve, only : band_cholesky_solve
    use axijoint_linalg_lapack, only : band_cholesky
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
-   use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type, judge_pivots
+   use axijoint_order_orders, only : least_bandwidth
+   use axijoint_solver_entry, only : solver_entry_type, cost_type
    use axijoint_solver_trailing, only : trailing_factor_type
+   use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type, judge_pivots
    implicit none
    private
-   public :: band_solver_type
+   public :: band_solver_type, band_entry
 
    !> Plan: the half-bandwidth of the order that the matrix comes in
    type, extends(solver_type) :: band_solver_type
@@ -31,6 +33,28 @@ module axijoint_solver_band
    end type band_factor_type
 
 contains
+
+   !> LAPACK band Cholesky on a reverse Cuthill-McKee order
+   pure function band_entry() result(entry)
+      !> The solver
+      type(solver_entry_type) :: entry
+
+      entry%name = 'BAND'
+      entry%new_plan => new_plan
+      entry%order => least_bandwidth
+      entry%order_name = 'reverse Cuthill-McKee'
+      entry%cost = cost_type(share=0.83_wp, kept_entry=5.7e-9_wp, passing_entry=3.0e-9_wp, equation=3.0e-7_wp)
+      entry%automatic = .true.
+      entry%widest_band = 400
+   end function band_entry
+
+   !> An empty plan
+   subroutine new_plan(plan)
+      !> The plan
+      class(solver_type), allocatable, intent(out) :: plan
+
+      allocate (band_solver_type :: plan)
+   end subroutine new_plan
 
    !> Find the half-bandwidth
    subroutine analyse(self, pattern, error)

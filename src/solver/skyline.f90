@@ -5,11 +5,13 @@ module axijoint_solver_skyline
    use axijoint_base_large_pages, only : use_large_pages
    use axijoint_base_text, only : to_text
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
-   use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type, judge_pivots
+   use axijoint_order_orders, only : least_profile
+   use axijoint_solver_entry, only : solver_entry_type, cost_type
    use axijoint_solver_trailing, only : trailing_factor_type
+   use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type, judge_pivots
    implicit none
    private
-   public :: skyline_solver_type
+   public :: skyline_solver_type, skyline_entry
 
    !> Plan: the skyline of the order that the matrix comes in
    type, extends(solver_type) :: skyline_solver_type
@@ -35,6 +37,26 @@ module axijoint_solver_skyline
    end type skyline_factor_type
 
 contains
+
+   !> Skyline Cholesky on Sloan's order, or reverse Cuthill-McKee if smaller
+   pure function skyline_entry() result(entry)
+      !> The solver
+      type(solver_entry_type) :: entry
+
+      entry%name = 'SKYLINE'
+      entry%new_plan => new_plan
+      entry%order => least_profile
+      entry%order_name = 'Sloan, or reverse Cuthill-McKee if smaller'
+      entry%cost = cost_type(share=0.14_wp, equation=3.0e-7_wp)
+   end function skyline_entry
+
+   !> An empty plan
+   subroutine new_plan(plan)
+      !> The plan
+      class(solver_type), allocatable, intent(out) :: plan
+
+      allocate (skyline_solver_type :: plan)
+   end subroutine new_plan
 
    !> Find the skyline
    subroutine analyse(self, pattern, error)

@@ -7,14 +7,14 @@ module axijoint_solver_sparse
    use axijoint_base_text, only : to_text
    use axijoint_linalg_lapack, only : inverse_from_cholesky, product_with_transpose
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
+   use axijoint_order_orders, only : least_fill
+   use axijoint_solver_entry, only : solver_entry_type, cost_type
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type, judge_pivots, &
-                                    invert_flexibility, new_block
+                                    inverse_by_loads, invert_flexibility, new_block
    implicit none
    private
-   public :: sparse_solver_type
+   public :: sparse_solver_type, sparse_entry
 
-   !> Right-hand sides solved at once for a set that is not ordered last
-   integer, parameter :: block_size = 64
    !> The columns of a set have entries outside the set
    integer(c_int), parameter :: not_last = 2
 
@@ -90,6 +90,28 @@ module axijoint_solver_sparse
    end interface
 
 contains
+
+   !> Supernodal Cholesky on a nested dissection order
+   pure function sparse_entry() result(entry)
+      !> The solver
+      type(solver_entry_type) :: entry
+
+      entry%name = 'SPARSE'
+      entry%new_plan => new_plan
+      entry%order => least_fill
+      entry%order_name = 'nested dissection (METIS)'
+      entry%cost = cost_type(share=0.76_wp, kept_entry=9.0e-9_wp, passing_entry=7.0e-9_wp, equation=2.0e-7_wp)
+      entry%automatic = .true.
+      entry%library_bytes = 2500000_i8  ! measured
+   end function sparse_entry
+
+   !> An empty plan
+   subroutine new_plan(plan)
+      !> The plan
+      class(solver_type), allocatable, intent(out) :: plan
+
+      allocate (sparse_solver_type :: plan)
+   end subroutine new_plan
 
    !> Find the supernodes
    subroutine analyse(self, pattern, error)
@@ -279,39 +301,6 @@ contains
          arranged(place, place(j)) = matrix(:, j)
       end do
    end subroutine arrange
-
-   !> The inverse restricted to a set by unit loads
-   subroutine inverse_by_loads(self, set, inverse, error)
-      !> The factor
-      class(sparse_factor_type), intent(in) :: self
-      !> Equations, each once, in any order
-      integer, intent(in) :: set(:)
-      !> inverse(i, j) is the inverse's entry at set(i), set(j)
-      real(wp), allocatable, intent(out) :: inverse(:, :)
-      !> Out of memory
-      type(error_type), allocatable, intent(out) :: error
-
-      real(wp), allocatable :: b(:, :)
-      integer :: j, k, last
-
-      call new_block(inverse, size(set), size(set), error)
-      if (allocated(error)) return
-      do k = 1, size(set), block_size
-         last = min(k + block_size - 1, size(set))
-         call new_block(b, self%n, last - k + 1, error)
-         if (allocated(error)) return
-         do j = k, last
-            b(set(j), j - k + 1) = 1.0_wp
-         end do
-         call self%solve(b)
-         do j = k, last
-            inverse(:, j) = b(set, j - k + 1)
-         end do
-      end do
-      do j = 2, size(set)  ! as symmetric as the matrix
-         inverse(:j - 1, j) = inverse(j, :j - 1)
-      end do
-   end subroutine inverse_by_loads
 
    !> Free the symbolic factor
    subroutine free_solver(self)

@@ -8,13 +8,16 @@ module axijoint_solver_type
    implicit none
    private
    public :: solver_type, factor_type, pivot_report_type, judge_pivots
-   public :: invert_flexibility, new_block
+   public :: inverse_by_loads, invert_flexibility, new_block
 
    !> A pivot below this share of the diagonal entry that it started from is
    !> rounding, so the matrix is singular to working precision. Cholesky
    !> loses about one unit of rounding a pivot; the limit lies above that and
    !> below the 1e-14 that a condition number of 1e14 may leave
    real(wp), parameter :: pivot_limit = 8.0_wp*epsilon(1.0_wp)
+
+   !> Right-hand sides solved at once for an inverse
+   integer, parameter :: block_size = 64
 
    !> Where a factorization broke down, and how near it came to that
    type :: pivot_report_type
@@ -52,8 +55,8 @@ module axijoint_solver_type
    contains
       !> Solve for a block of right-hand sides
       procedure(solve_interface), deferred :: solve
-      !> Rows and columns of the inverse at a set of equations
-      procedure(inverse_interface), deferred :: inverse_block
+      !> Rows and columns of the inverse at a set of equations: the flexibility of these unknowns
+      procedure :: inverse_block => inverse_by_loads
       !> Schur complement on a set of equations
       procedure :: schur_complement => invert_flexibility
    end type factor_type
@@ -99,22 +102,42 @@ module axijoint_solver_type
          !> Right-hand sides, then solutions, shape (n, any)
          real(wp), intent(inout), contiguous :: b(:, :)
       end subroutine solve_interface
-
-      !> The inverse restricted to a set: the flexibility of its unknowns
-      subroutine inverse_interface(self, set, inverse, error)
-         import :: factor_type, error_type, wp
-         !> The factor
-         class(factor_type), intent(in) :: self
-         !> Equations, each once, in any order
-         integer, intent(in) :: set(:)
-         !> inverse(i, j) is the inverse's entry at set(i), set(j)
-         real(wp), allocatable, intent(out) :: inverse(:, :)
-         !> Out of memory
-         type(error_type), allocatable, intent(out) :: error
-      end subroutine inverse_interface
    end interface
 
 contains
+
+   !> The inverse restricted to a set by unit loads. Solvers that hold it in their factor do better
+   subroutine inverse_by_loads(self, set, inverse, error)
+      !> The factor
+      class(factor_type), intent(in) :: self
+      !> Equations, each once, in any order
+      integer, intent(in) :: set(:)
+      !> inverse(i, j) is the inverse's entry at set(i), set(j)
+      real(wp), allocatable, intent(out) :: inverse(:, :)
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp), allocatable :: b(:, :)
+      integer :: j, k, last
+
+      call new_block(inverse, size(set), size(set), error)
+      if (allocated(error)) return
+      do k = 1, size(set), block_size
+         last = min(k + block_size - 1, size(set))
+         call new_block(b, self%n, last - k + 1, error)
+         if (allocated(error)) return
+         do j = k, last
+            b(set(j), j - k + 1) = 1.0_wp
+         end do
+         call self%solve(b)
+         do j = k, last
+            inverse(:, j) = b(set, j - k + 1)
+         end do
+      end do
+      do j = 2, size(set)  ! as symmetric as the matrix
+         inverse(:j - 1, j) = inverse(j, :j - 1)
+      end do
+   end subroutine inverse_by_loads
 
    !> Schur complement K_bb - K_ba K_aa^-1 K_ab on a set b of equations: the
    !> inverse of the flexibility of the set. Solvers that hold it in their factor

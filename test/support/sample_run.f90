@@ -9,6 +9,8 @@ module axijoint_test_sample_run
    use axijoint_joints_residual, only : residual_record_type
    use axijoint_model_mesh, only : set_kinds
    use axijoint_model_model, only : model_type
+   use axijoint_solver_entry, only : solver_entry_type
+   use axijoint_solver_registry, only : known_solvers
    use axijoint_test_scenes, only : new_scene
    implicit none
    private
@@ -55,6 +57,7 @@ contains
       !> The results
       type(results_type) :: results
 
+      type(solver_entry_type), allocatable :: solvers(:)
       integer :: k
 
       results%converged = converged
@@ -62,7 +65,8 @@ contains
       allocate (results%orderings(0), results%remarks(0))
       results%part_node = [1]
       results%part_unbalance = reshape([(0.0_wp, k=1, 6)], [6, 1])
-      results%solver = 1
+      solvers = known_solvers()
+      results%solver = solvers(1)
       allocate (results%cut_resultants(6, 0))
       allocate (results%solves(2), results%path(3), results%states(1))
       results%solves%mode%harmonic = harmonics

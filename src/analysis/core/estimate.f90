@@ -10,7 +10,8 @@ module axijoint_analysis_core_estimate
    use axijoint_model_joint_points, only : new_joint_points
    use axijoint_model_model, only : model_type
    use axijoint_model_modes, only : used_modes
-   use axijoint_solver_choice, only : orders_type, solver_sparse
+   use axijoint_order_orders, only : orders_type
+   use axijoint_solver_entry, only : solver_entry_type
    implicit none
    private
    public :: estimate_type, estimate_job
@@ -33,22 +34,21 @@ module axijoint_analysis_core_estimate
       real(wp) :: seconds = 0.0_wp
    end type estimate_type
 
-   !> Program and libraries without any data while it solves; what the sparse solver's libraries
-   !> and what the output's add once they are used [byte]; measured
+   !> Program and libraries without any data while it solves; what the libraries of the output add
+   !> once they are used [byte]; measured
    integer(i8), parameter :: program_bytes = 16500000_i8
-   integer(i8), parameter :: sparse_bytes = 2500000_i8
    integer(i8), parameter :: output_bytes = 5500000_i8
 
 contains
 
    !> Costs of a job with a solver
-   subroutine estimate_job(model, orders, kind, rate, estimate, error)
+   subroutine estimate_job(model, orders, solver, rate, estimate, error)
       !> The job
       type(model_type), intent(in) :: model
       !> Orders of its nodes
       type(orders_type), intent(in) :: orders
-      !> Solver, one of the `solver_` parameters, not auto
-      integer, intent(in) :: kind
+      !> The solver
+      type(solver_entry_type), intent(in) :: solver
       !> Rate of large matrix products [operations/second]
       real(wp), intent(in) :: rate
       !> The costs
@@ -60,14 +60,14 @@ contains
       type(footprint_type) :: others
       integer :: k
 
-      call plan_solver(equations, model, used_modes(model), orders, kind, error)
+      call plan_solver(equations, model, used_modes(model), orders, solver, error)
       if (allocated(error)) return
       estimate%n_harmonics = size(equations%systems)
       do k = 1, size(equations%systems)
-         associate (solver => equations%plans(equations%systems(k)%class)%solver)
-            estimate%n_equations = estimate%n_equations + solver%n
-            estimate%factor_entries = estimate%factor_entries + solver%factor_entries
-            estimate%operations = estimate%operations + solver%operations
+         associate (plan => equations%plans(equations%systems(k)%class)%solver)
+            estimate%n_equations = estimate%n_equations + plan%n
+            estimate%factor_entries = estimate%factor_entries + plan%factor_entries
+            estimate%operations = estimate%operations + plan%operations
          end associate
       end do
       estimate%seconds = planned_seconds(equations, reuses_factors(model), rate)
@@ -78,12 +78,11 @@ contains
       associate (n => size(equations%systems))
          estimate%n_factors = equations%n_kept + min(equations%n_workers, n - equations%n_kept)
       end associate
-      estimate%bytes = program_bytes + others%mesh + standing_bytes(equations) + parts_bytes(equations) &
+      estimate%bytes = program_bytes + solver%library_bytes + others%mesh + standing_bytes(equations) + parts_bytes(equations) &
          + kept_bytes(equations) + others%joints + others%fine &
          + max(passing_bytes(equations) + others%loads + others%fine_work*equations%n_workers, &
                others%joint_work*equations%n_workers, &
                output_bytes + others%loads + others%stresses)
-      if (kind == solver_sparse) estimate%bytes = estimate%bytes + sparse_bytes
    end subroutine estimate_job
 
 end module axijoint_analysis_core_estimate

@@ -8,6 +8,7 @@ module axijoint_analysis_core_results
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_residual, only : residual_record_type
    use axijoint_joints_states, only : increment_state_type
+   use axijoint_solver_entry, only : solver_entry_type
    implicit none
    private
    public :: results_type, mode_solve_type, ordering_type, remark_type, nodal_stress_type, &
@@ -142,8 +143,8 @@ module axijoint_analysis_core_results
       integer :: combination = 0
       !> Modes that were solved, ascending
       type(mode_type), allocatable :: modes(:)
-      !> Solver that was used, one of the `solver_` parameters
-      integer :: solver = 0
+      !> Solver that was used
+      type(solver_entry_type) :: solver
       !> Orders of the nodes side by side
       type(ordering_type), allocatable :: orderings(:)
       !> One entry for each mode

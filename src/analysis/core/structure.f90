@@ -22,7 +22,7 @@ module axijoint_analysis_core_structure
    use axijoint_model_model, only : model_type, can_yield, can_yield_at, yielding_nodes
    use axijoint_model_modes, only : used_modes
    use axijoint_order_graph, only : bandwidth, profile, fill
-   use axijoint_solver_choice, only : orders_type, new_orders
+   use axijoint_order_orders, only : orders_type, new_orders
    implicit none
    private
    public :: structure_type, build_structure, reuses_factors

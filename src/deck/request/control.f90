@@ -8,6 +8,8 @@ module axijoint_deck_request_control
    use axijoint_fe_element_kind, only : kind_choice_type
    use axijoint_model_load, only : increment_type
    use axijoint_model_model, only : model_type, can_yield
+   use axijoint_solver_entry, only : solver_entry_type
+   use axijoint_solver_registry, only : known_solvers
    implicit none
    private
    public :: read_control, check_planes, field_harmonic, field_planes, field_method
@@ -31,14 +33,17 @@ contains
       !> Rules and formulation of the elements
       type(kind_choice_type), intent(out) :: choice
 
-      integer :: entry
+      type(solver_entry_type), allocatable :: solvers(:)
+      integer :: entry, word
 
       if (control%n > 0) then
          model%max_harmonic = integer_value(control, field_harmonic, 1)
          model%n_planes = integer_value(control, field_planes, 1)
          choice = kind_choice_type(integer_value(control, field_linear, 1), integer_value(control, field_quadratic, 1), &
                                    integer_value(control, field_formulation, 1))
-         model%solver = integer_value(control, field_solver, 1) - 1  ! words count from one
+         solvers = known_solvers()
+         word = integer_value(control, field_solver, 1)  ! the first one leaves the choice to the program
+         if (word > 1) model%solver = solvers(word - 1)
          model%method = integer_value(control, field_method, 1)
       end if
       if (model%n_planes == 0) model%n_planes = max(2, 4*model%max_harmonic + 1)

@@ -46,7 +46,7 @@ module axijoint_deck_text_field
       !> Whether the ends of the range are outside
       logical :: above_low = .false., below_high = .false.
       !> Words to choose from
-      character(len=12) :: words(4) = ''
+      character(len=12), allocatable :: words(:)
       !> Symbol of a real in the text of its range
       character(len=12) :: symbol = 'x'
    end type field_type
@@ -116,7 +116,7 @@ contains
       character(len=*), intent(in) :: name
       !> Columns
       integer, intent(in) :: first, last
-      !> The words, two or three
+      !> The words, as many as there are
       character(len=*), intent(in) :: words(:)
       !> Place of the word that a blank field means; without it the field is required
       integer, intent(in), optional :: default
@@ -127,7 +127,7 @@ contains
       field%first = first
       field%last = last
       field%kind = kind_word
-      field%words(:size(words)) = words
+      field%words = words
       field%required = .not. present(default)
       if (present(default)) field%default = real(default, wp)
    end function word_field
@@ -190,9 +190,9 @@ contains
          text = range_text(field)
       case (kind_word)
          text = trim(field%words(1))
-         do i = 2, count(field%words /= '')
-            text = text//merge(', ', '  ', i < count(field%words /= ''))
-            if (i == count(field%words /= '')) text = trim(text)//' or '
+         do i = 2, size(field%words)
+            text = text//merge(', ', '  ', i < size(field%words))
+            if (i == size(field%words)) text = trim(text)//' or '
             text = text//trim(field%words(i))
          end do
       case (kind_text)

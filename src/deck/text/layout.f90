@@ -11,7 +11,7 @@ module axijoint_deck_text_layout
    use axijoint_fe_element_kind, only : formulation_names
    use axijoint_model_model, only : method_names
    use axijoint_model_request, only : goal_names, goal_displacement
-   use axijoint_solver_choice, only : solver_names
+   use axijoint_solver_registry, only : known_solvers, solver_words
    implicit none
    private
    public :: section_names, section_fields, keyword_fields, nearest_section, cards_per_entry
@@ -141,7 +141,7 @@ contains
                    integer_field('the number of planes', 6, 10, 2, largest_division, default=0), &
                    integer_field('the number of Gauss points (linear)', 11, 15, 2, 3, default=2), &
                    integer_field('the number of Gauss points (quadratic)', 16, 20, 2, 3, default=3), &
-                   word_field('the solver', 21, 30, solver_names, 1), &
+                   word_field('the solver', 21, 30, solver_words(known_solvers()), 1), &
                    word_field('the formulation of 4-node elements', 31, 40, formulation_names, 1), &
                    word_field('the method', 41, 50, method_names, 1)]
       case (section_increments)

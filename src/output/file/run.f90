@@ -1,10 +1,11 @@
 !> What a run is called, the same in all its files
 module axijoint_output_file_run
    use axijoint_analysis_core_results, only : results_type
+   use axijoint_base_error, only : exit_ok, exit_not_converged, exit_singular
    use axijoint_base_system, only : process_id
    implicit none
    private
-   public :: run_type, new_run, status_name, status_error
+   public :: run_type, new_run, status_name, status_error, exit_code_of
 
    !> Status of a run that ended with an error
    character(len=*), parameter :: status_error = "error"
@@ -45,6 +46,15 @@ contains
       run%stamp = day//"T"//clock//"-"//trim(process)
       run%exit_code = exit_code
    end function new_run
+
+   !> Exit code of a finished run
+   pure integer function exit_code_of(results) result(code)
+      !> Results
+      type(results_type), intent(in) :: results
+
+      code = merge(exit_ok, exit_not_converged, results%converged)
+      if (allocated(results%mechanism)) code = exit_singular
+   end function exit_code_of
 
    !> Status of a finished run
    pure function status_name(results) result(name)

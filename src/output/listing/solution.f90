@@ -12,7 +12,6 @@ module axijoint_output_listing_solution
    use axijoint_output_file_headings, only : write_heading, write_result_heading, mark_not_converged
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_file_totals, only : circle_type, new_circle, total_displacement, n_unknowns
-   use axijoint_solver_choice, only : solver_names, order_name
    implicit none
    private
    public :: write_equations, write_convergence, write_displacements, write_total_displacements
@@ -59,8 +58,9 @@ contains
       integer :: i
 
       call write_heading(file, "EQUATIONS ("//to_text(n_unknowns(results))//" unknowns in all)")
-      call file%put("  solver: "//trim(solver_names(results%solver))//", nodes ordered by "// &
-         order_name(results%solver))
+      call file%put("  solver: "//trim(results%solver%name)//", nodes ordered by "// &
+         trim(results%solver%order_name))
+      if (results%solver%note /= "") call file%put("  "//trim(results%solver%note))
       call file%put("  order of the nodes       bandwidth         profile            fill")
       do i = 1, size(results%orderings)
          associate (ordering => results%orderings(i))

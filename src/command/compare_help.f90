@@ -1,5 +1,5 @@
 !> Help on `axijoint compare`
-module axijoint_help_compare
+module axijoint_command_compare_help
    implicit none
    private
    public :: compare_help
@@ -31,4 +31,4 @@ module axijoint_help_compare
       nl// &
       'Exit codes: 0 same; 1 different; 2 a file that cannot be read, or usage.'
 
-end module axijoint_help_compare
+end module axijoint_command_compare_help

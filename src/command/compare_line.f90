@@ -1,9 +1,9 @@
 !> Command line of `axijoint compare`
-module axijoint_cli_compare
+module axijoint_command_compare_line
    use axijoint_base_error, only : error_type, fatal_error, exit_deck
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : nearest_word
-   use axijoint_cli, only : word_type
+   use axijoint_command_line, only : word_type
    use axijoint_compare_tolerances, only : tolerances_type, special_type, name_type
    use axijoint_deck_text_token, only : read_real, read_integer, token_good
    implicit none
@@ -223,4 +223,4 @@ contains
       call fatal_error(error, exit_deck, message)
    end subroutine unknown_option
 
-end module axijoint_cli_compare
+end module axijoint_command_compare_line

@@ -1,19 +1,16 @@
-!> Reads a deck and judges what the cards alone do not tell: whether in-situ stress is in balance
-module axijoint_job_reader
+!> Judges what the cards alone do not tell: whether in-situ stress is in balance
+module axijoint_job_in_situ_messages
    use axijoint_analysis_core_in_situ, only : in_situ_type, in_situ_part_type, in_situ_boundary_type, misfit_type, &
       told_share, refused_share
    use axijoint_analysis_core_in_situ_balance, only : in_situ_balance
    use axijoint_analysis_core_in_situ_boundaries, only : place_of
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text, percent_text
-   use axijoint_deck_reader, only : read_deck
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, add_warning
-   use axijoint_deck_text_source, only : source_type
    use axijoint_model_model, only : model_type
-   use axijoint_model_request, only : refinement_type
    implicit none
    private
-   public :: read_job
+   public :: judge_in_situ
 
    !> How to mend what is out of balance
    character(len=*), parameter :: or_meant = '; MEANT in columns 51-60 of INSITU says that it is meant'
@@ -21,25 +18,6 @@ module axijoint_job_reader
    character(len=1), parameter :: direction_name(2) = ['r', 'z']
 
 contains
-
-   !> Read a deck with all that it includes. The model is valid only if there are no errors among
-   !> the messages
-   subroutine read_job(path, source, model, diagnostics, refinement)
-      !> The deck
-      character(len=*), intent(in) :: path
-      !> Its cards, for the echo and the messages
-      type(source_type), intent(out) :: source
-      !> The job
-      type(model_type), intent(out) :: model
-      !> Errors and warnings
-      type(diagnostics_type), intent(out) :: diagnostics
-      !> Refinement of what the deck says; none if absent
-      type(refinement_type), intent(in), optional :: refinement
-
-      call read_deck(path, source, model, diagnostics, refinement)
-      if (diagnostics%n_errors > 0) return
-      if (size(model%initial_stresses) > 0) call judge_in_situ(model, diagnostics)
-   end subroutine read_job
 
    !> Tell what is out of balance in any combination: everything once, and again if a further
    !> combination makes an error of what was a warning
@@ -227,4 +205,4 @@ contains
       text = 'body '//to_text(part%body)//' (with node '//to_text(model%mesh%node_label(part%node))//')'
    end function part_text
 
-end module axijoint_job_reader
+end module axijoint_job_in_situ_messages

@@ -1,14 +1,13 @@
 !> `axijoint check`: read decks and report on them
-module axijoint_driver_check
+module axijoint_command_check
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
    use axijoint_base_error, only : exit_ok, exit_deck
    use axijoint_base_text, only : to_text
-   use axijoint_cli, only : word_type
+   use axijoint_command_line, only : word_type
    use axijoint_deck_text_diagnostics, only : diagnostics_type, render
-   use axijoint_deck_text_source, only : source_type
-   use axijoint_job_reader, only : read_job
+   use axijoint_job_job, only : job_type
+   use axijoint_job_read, only : read_job
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
-   use axijoint_model_model, only : model_type
    use axijoint_model_modes, only : used_modes
    implicit none
    private
@@ -23,27 +22,26 @@ contains
       !> 0, or 2 if any deck has errors
       integer, intent(out) :: exit_code
 
-      type(source_type) :: source
-      type(model_type) :: model
+      type(job_type) :: job
       type(diagnostics_type) :: diagnostics
       integer :: k
 
       exit_code = exit_ok
       do k = 1, size(decks)
-         call read_job(decks(k)%text, source, model, diagnostics)
+         call read_job(decks(k)%text, job, diagnostics)
          if (diagnostics%n_errors + diagnostics%n_warnings > 0) then
-            write (error_unit, '(a)') render(diagnostics, source)
+            write (error_unit, '(a)') render(diagnostics, job%source)
          end if
          if (diagnostics%n_errors > 0) then
             exit_code = exit_deck
          else
             write (output_unit, '(a)') decks(k)%text//': ok, '// &
-               to_text(n_nodes(model%mesh))//' nodes, '// &
-               to_text(n_elements(model%mesh))//' elements, '// &
-               to_text(n_joints(model%mesh))//' joints, '// &
-               to_text(size(used_modes(model)))//' harmonics to solve'
+               to_text(n_nodes(job%model%mesh))//' nodes, '// &
+               to_text(n_elements(job%model%mesh))//' elements, '// &
+               to_text(n_joints(job%model%mesh))//' joints, '// &
+               to_text(size(used_modes(job%model)))//' harmonics to solve'
          end if
       end do
    end subroutine check_decks
 
-end module axijoint_driver_check
+end module axijoint_command_check

@@ -1,12 +1,13 @@
 !> Command line: words to a configuration
-module axijoint_cli
+module axijoint_command_line
    use axijoint_base_error, only : error_type, fatal_error, exit_deck
    use axijoint_base_kinds, only : i8
-   use axijoint_base_memory, only : no_limit
    use axijoint_base_text, only : nearest_word, upper, lower
-   use axijoint_help_compare, only : compare_help
    use axijoint_base_version, only : program_name, program_version
-   use axijoint_solver_choice, only : solver_names
+   use axijoint_command_compare_help, only : compare_help
+   use axijoint_job_job, only : options_type
+   use axijoint_solver_entry, only : solver_entry_type
+   use axijoint_solver_registry, only : find_solver, solver_words
    implicit none
    private
    public :: command_type, word_type, read_command, help_text
@@ -45,16 +46,12 @@ module axijoint_cli
       integer :: command = command_help
       !> Decks to run or check; of `compare`, all words that follow it
       type(word_type), allocatable :: decks(:)
-      !> Directory for results
-      character(len=:), allocatable :: directory
-      !> Solver asked for, one of the `solver_` parameters; negative: as the deck says
-      integer :: solver = -1
+      !> Solvers that can be asked for
+      type(solver_entry_type), allocatable :: solvers(:)
+      !> Directory for results, solver, memory, sweep
+      type(options_type) :: options
       !> Threads asked for; 0: as the environment says
       integer :: threads = 0
-      !> Bytes that the process may take
-      integer(i8) :: memory_limit = no_limit
-      !> Whether the bodies are to be swept through theta, whatever the deck says
-      logical :: swept = .false.
       !> Command that help was asked for; empty for all
       character(len=:), allocatable :: topic
    end type command_type
@@ -62,9 +59,11 @@ module axijoint_cli
 contains
 
    !> Read the command line of the process
-   subroutine read_command(command, error)
+   subroutine read_command(command, solvers, error)
       !> What the user asked for
       type(command_type), intent(out) :: command
+      !> Solvers that there are
+      type(solver_entry_type), intent(in) :: solvers(:)
       !> Unknown command or option, missing deck
       type(error_type), allocatable, intent(out) :: error
 
@@ -72,10 +71,11 @@ contains
       integer :: k
 
       allocate (words(command_argument_count()), command%decks(0))
+      command%solvers = solvers
       do k = 1, size(words)
          words(k)%text = argument(k)
       end do
-      command%directory = '.'
+      command%options%directory = '.'
       command%topic = ''
       if (size(words) == 0) return
 
@@ -157,7 +157,7 @@ contains
                call read_option(word, words(k)%text, command, error)
                if (allocated(error)) return
             else if (word == '--vtk' .and. command%command == command_run) then
-               command%swept = .true.
+               command%options%swept = .true.
             else if (word == '-h' .or. word == '--help') then
                command%topic = trim(command_names(command%command))
                command%command = command_help
@@ -195,12 +195,13 @@ contains
 
       select case (option)
       case ('-o')
-         command%directory = value
+         command%options%directory = value
       case ('--solver')
-         command%solver = findloc(solver_names == upper(value), .true., 1) - 1
-         if (command%solver < 0) call unknown('solver', value, lower_all(solver_names), error)
+         call find_solver(command%solvers, upper(value), command%options%solver, command%options%solver_given)
+         if (.not. command%options%solver_given) &
+            call unknown('solver', value, lower_all(solver_words(command%solvers)), error)
       case ('--memory')
-         call read_memory(value, command%memory_limit, error)
+         call read_memory(value, command%options%memory_limit, error)
       case default
          stat = 1
          if (verify(value, '0123456789') == 0 .and. len(value) <= 4) then
@@ -252,6 +253,22 @@ contains
       end do
    end function lower_all
 
+   !> Words as in: one, two or three
+   pure function alternatives(words) result(text)
+      !> The words, two or more
+      character(len=*), intent(in) :: words(:)
+      !> The text
+      character(len=:), allocatable :: text
+
+      integer :: k
+
+      text = trim(words(1))
+      do k = 2, size(words) - 1
+         text = text//', '//trim(words(k))
+      end do
+      text = text//' or '//trim(words(size(words)))
+   end function alternatives
+
    !> Error for a word that is not known
    subroutine unknown(what, word, known, error)
       !> Kind of word
@@ -291,9 +308,11 @@ contains
    end function argument
 
    !> Help on a command, or on all
-   function help_text(topic) result(text)
+   function help_text(topic, solvers) result(text)
       !> Name of a command; empty for all
       character(len=*), intent(in) :: topic
+      !> Solvers that there are
+      type(solver_entry_type), intent(in) :: solvers(:)
       !> Lines of help
       character(len=:), allocatable :: text
 
@@ -308,7 +327,7 @@ contains
             '(results), NAME being the name of the deck without its ending.'//nl// &
             nl// &
             '  -o DIR         directory for the results (default: the current one)'//nl// &
-            '  --solver NAME  auto, band, skyline or sparse (default: as the deck says)'//nl// &
+            '  --solver NAME  '//alternatives(lower_all(solver_words(solvers)))//' (default: as the deck says)'//nl// &
             '  --threads N    harmonics at once (default: OMP_NUM_THREADS, or all processors)'//nl// &
             '  --memory MIB   memory that the process may take: fewer factors at once then (default:'//nl// &
             '                 what the machine, its control group and limits leave)'//nl// &
@@ -347,4 +366,4 @@ contains
       end select
    end function help_text
 
-end module axijoint_cli
+end module axijoint_command_line

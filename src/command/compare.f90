@@ -1,15 +1,15 @@
 !> `axijoint compare`: two listings or result files, column by column
-module axijoint_driver_compare
+module axijoint_command_compare
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
    use axijoint_base_error, only : error_type, exit_ok, exit_deck
-   use axijoint_cli, only : word_type
-   use axijoint_cli_compare, only : compare_type, read_compare
+   use axijoint_command_compare_line, only : compare_type, read_compare
+   use axijoint_command_line, only : word_type
+   use axijoint_command_run, only : print_error
    use axijoint_compare_compare, only : compare_listings
    use axijoint_compare_read_own_format, only : own_format_text
    use axijoint_compare_read_reader, only : read_file
    use axijoint_compare_table_table, only : listing_type, words_type
    use axijoint_compare_table_totals, only : add_totals
-   use axijoint_driver_run, only : print_error
    implicit none
    private
    public :: compare_files
@@ -57,4 +57,4 @@ contains
       exit_code = merge(exit_ok, exit_different, same)
    end subroutine compare_files
 
-end module axijoint_driver_compare
+end module axijoint_command_compare

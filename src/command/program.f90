@@ -1,0 +1,54 @@
+!> The program: words of the command line to a command and an exit code
+module axijoint_command_program
+   use, intrinsic :: iso_fortran_env, only : output_unit
+   use axijoint_base_error, only : error_type, exit_ok
+   use axijoint_base_system, only : return_freed_memory
+   use axijoint_base_version, only : program_name, program_version
+   use axijoint_command_check, only : check_decks
+   use axijoint_command_compare, only : compare_files
+   use axijoint_command_estimate, only : estimate_decks
+   use axijoint_command_line, only : command_type, read_command, help_text, command_run, command_check, &
+      command_estimate, command_compare, command_help
+   use axijoint_command_run, only : run_decks, print_error
+   use axijoint_solver_entry, only : solver_entry_type
+   implicit none
+   private
+   public :: run_program
+
+contains
+
+   !> Do what the command line says
+   subroutine run_program(solvers, exit_code)
+      !> Solvers that there are
+      type(solver_entry_type), intent(in) :: solvers(:)
+      !> Exit code of the process
+      integer, intent(out) :: exit_code
+
+      type(command_type) :: command
+      type(error_type), allocatable :: error
+
+      exit_code = exit_ok
+      call return_freed_memory()
+      call read_command(command, solvers, error)
+      if (allocated(error)) then
+         call print_error('', error)
+         exit_code = error%code
+         return
+      end if
+      select case (command%command)
+      case (command_run)
+         call run_decks(command, exit_code)
+      case (command_check)
+         call check_decks(command%decks, exit_code)
+      case (command_estimate)
+         call estimate_decks(command, exit_code)
+      case (command_compare)
+         call compare_files(command%decks, exit_code)
+      case (command_help)
+         write (output_unit, '(a)') help_text(command%topic, solvers)
+      case default
+         write (output_unit, '(a)') program_name//' '//program_version
+      end select
+   end subroutine run_program
+
+end module axijoint_command_program

@@ -1,0 +1,185 @@
+!> `axijoint run`: decks to results
+module axijoint_command_run
+   use, intrinsic :: iso_fortran_env, only : output_unit, error_unit, compiler_options
+   use axijoint_analysis_core_results, only : results_type
+   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck
+   use axijoint_base_progress, only : show_progress, clear_progress
+   use axijoint_base_system, only : error_output_is_terminal
+   use axijoint_base_timer, only : phase_write
+   use axijoint_command_line, only : command_type, word_type
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, render
+   use axijoint_job_combination, only : solve_combination
+   use axijoint_job_goal, only : refine_to_goal
+   use axijoint_job_job, only : job_type, job_name
+   use axijoint_job_read, only : read_job
+   use axijoint_output_brief, only : brief_text
+   use axijoint_output_file_run, only : exit_code_of
+   use axijoint_output_output, only : check_output, write_output, write_error_summary
+   use omp_lib, only : omp_set_num_threads
+   implicit none
+   private
+   public :: run_decks, print_error
+
+contains
+
+   !> Run decks one after the other; one that fails does not stop the rest
+   subroutine run_decks(command, exit_code)
+      !> Decks and options
+      type(command_type), intent(in) :: command
+      !> Largest exit code of all decks
+      integer, intent(out) :: exit_code
+
+      type(error_type), allocatable :: error
+      integer :: k, code
+
+      exit_code = exit_ok
+      call warn_if_slow()
+      if (command%threads > 0) call omp_set_num_threads(command%threads)
+      call check_names(command%decks, error)
+      if (allocated(error)) then
+         call print_error('', error)
+         exit_code = error%code
+         return
+      end if
+      do k = 1, size(command%decks)
+         associate (deck => command%decks(k)%text)
+            call run_deck(deck, command, code, error)
+            if (allocated(error)) then
+               call print_error(deck, error)
+               if (len(job_name(deck)) > 0) then
+                  call write_error_summary(command%options%directory, job_name(deck), deck, error%code, &
+                                           [error%message])
+               end if
+               code = error%code
+            end if
+         end associate
+         exit_code = max(exit_code, code)
+      end do
+   end subroutine run_decks
+
+   !> One deck, told in order
+   subroutine run_deck(deck, command, exit_code, error)
+      !> The deck
+      character(len=*), intent(in) :: deck
+      !> Directory for results and other options
+      type(command_type), intent(in) :: command
+      !> 0, 3 if the results are not converged, 4 if they end in a mechanism
+      integer, intent(out) :: exit_code
+      !> Anything else that went wrong
+      type(error_type), allocatable, intent(out) :: error
+
+      type(job_type), target :: job
+      type(results_type), allocatable :: results(:)
+      integer :: k
+
+      exit_code = exit_ok
+      call begin(deck, command, job, error)
+      if (.not. allocated(error)) call check_output(job, error)
+      if (allocated(error)) return
+      if (job%model%error_goal%wanted) then
+         call refine_to_goal(job, results, error)
+         do k = 1, size(job%model%combinations)
+            if (allocated(error)) exit
+            call write_combination(job, results(k), exit_code, error)
+         end do
+      else
+         allocate (results(1))
+         do k = 1, size(job%model%combinations)  ! the results of each are written before the next is begun
+            call solve_combination(job, k, results(1), error)
+            if (.not. allocated(error)) call write_combination(job, results(1), exit_code, error)
+            if (allocated(error)) exit
+         end do
+      end if
+      call clear_progress(job%progress)
+   end subroutine run_deck
+
+   !> Read the deck, and tell what is wrong with it
+   subroutine begin(deck, command, job, error)
+      !> The deck
+      character(len=*), intent(in) :: deck
+      !> Options
+      type(command_type), intent(in) :: command
+      !> The job
+      type(job_type), intent(out) :: job
+      !> Errors of the deck
+      type(error_type), allocatable, intent(out) :: error
+
+      type(diagnostics_type) :: diagnostics
+
+      job%options = command%options
+      job%progress%enabled = error_output_is_terminal()
+      call job%timer%start()
+      call show_progress(job%progress, 'reading '//deck)
+      call read_job(deck, job, diagnostics)
+      call clear_progress(job%progress)
+      if (diagnostics%n_errors > 0) then
+         call fatal_error(error, exit_deck, render(diagnostics, job%source))
+      else if (diagnostics%n_warnings > 0) then
+         write (error_unit, '(a)') render(diagnostics, job%source)
+      end if
+   end subroutine begin
+
+   !> Write the results of a combination, and the lines on the screen
+   subroutine write_combination(job, results, exit_code, error)
+      !> The job, solved
+      type(job_type), intent(inout), target :: job
+      !> The results
+      type(results_type), intent(in) :: results
+      !> Largest of the combinations
+      integer, intent(inout) :: exit_code
+      !> The results cannot be written
+      type(error_type), allocatable, intent(out) :: error
+
+      call clear_progress(job%progress)
+      exit_code = max(exit_code, exit_code_of(results))
+      call job%timer%push(phase_write)
+      call write_output(job, results, error)
+      call job%timer%pop()
+      if (allocated(error)) return
+      write (output_unit, '(a)') brief_text(job, results)
+   end subroutine write_combination
+
+   !> Say that the program was built for debugging: fpm does so unless it is told otherwise
+   subroutine warn_if_slow()
+      if (index(compiler_options(), ' -O') > 0 .and. index(compiler_options(), ' -O0') == 0) return
+      write (error_unit, '(a)') 'axijoint: built without optimization, several times slower than need be; `fpm @install` '// &
+         'or `fpm @release` builds it with'
+   end subroutine warn_if_slow
+
+   !> Two decks of one name would write the same files
+   subroutine check_names(decks, error)
+      !> The decks
+      type(word_type), intent(in) :: decks(:)
+      !> The clash
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i, j
+
+      do i = 2, size(decks)
+         do j = 1, i - 1
+            if (job_name(decks(i)%text) /= job_name(decks(j)%text)) cycle
+            call fatal_error(error, exit_deck, decks(j)%text//' and '//decks(i)%text// &
+                             ' would write the same result files'//new_line('a')// &
+                             'mend: run them one after the other with different -o, or rename one')
+            return
+         end do
+      end do
+   end subroutine check_names
+
+   !> Print an error where errors go
+   subroutine print_error(deck, error)
+      !> Deck; empty if the error belongs to none
+      character(len=*), intent(in) :: deck
+      !> The error
+      type(error_type), intent(in) :: error
+
+      if (error%code == exit_deck .and. len(deck) > 0) then
+         write (error_unit, '(a)') error%message  ! names file and line itself
+      else if (len(deck) > 0) then
+         write (error_unit, '(a)') 'axijoint: '//deck//': '//error%message
+      else
+         write (error_unit, '(a)') 'axijoint: '//error%message
+      end if
+   end subroutine print_error
+
+end module axijoint_command_run

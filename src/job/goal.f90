@@ -1,0 +1,162 @@
+!> Rounds of refinement of a job that has an error target
+module axijoint_job_goal
+   use omp_lib, only : omp_get_wtime
+   use axijoint_analysis_core_remarks, only : remark_on_goal
+   use axijoint_analysis_core_results, only : results_type, round_type
+   use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_analysis_error_goal, only : goal_error, refine_further, too_large
+   use axijoint_base_error, only : error_type, fatal_error, exit_deck
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_progress, only : show_progress
+   use axijoint_base_text, only : to_text
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, render
+   use axijoint_job_combination, only : solve_combination
+   use axijoint_job_job, only : job_type
+   use axijoint_job_read, only : read_job
+   use axijoint_model_request, only : refinement_type
+   implicit none
+   private
+   public :: refine_to_goal
+
+contains
+
+   !> Solve a job, and again as it is refined, until its error is below its target
+   subroutine refine_to_goal(job, results, error)
+      !> The job; refined on return
+      type(job_type), intent(inout), target :: job
+      !> Results of its combinations, of the last round
+      type(results_type), allocatable, intent(out) :: results(:)
+      !> Errors of the refined job
+      type(error_type), allocatable, intent(out) :: error
+
+      type(round_type), allocatable :: rounds(:)
+      integer :: k
+
+      call run_rounds(job, results, rounds, error)
+      if (allocated(error)) return
+      do k = 1, size(results)
+         results(k)%rounds = rounds
+         call remark_on_goal(job%model, results(k))
+      end do
+   end subroutine refine_to_goal
+
+   !> Solve all combinations, and again with a refined job, until the largest error is below
+   !> the target or a limit is met
+   subroutine run_rounds(job, results, rounds, error)
+      !> The job; refined on return
+      type(job_type), intent(inout), target :: job
+      !> Results of its combinations
+      type(results_type), allocatable, intent(out) :: results(:)
+      !> What each round came to
+      type(round_type), allocatable, intent(out) :: rounds(:)
+      !> Errors of the refined job
+      type(error_type), allocatable, intent(out) :: error
+
+      type(refinement_type) :: refinement, before
+      type(structure_type), allocatable :: solved
+      integer :: worst
+      logical :: changed, back
+
+      allocate (rounds(0))
+      back = .false.
+      do
+         call solve_round(job, refinement, results, rounds, worst, error)
+         if (back) then
+            rounds = rounds(:size(rounds) - 1)  ! this one stands there already
+            return
+         end if
+         associate (last => rounds(size(rounds)))
+            back = allocated(last%failure) .and. size(rounds) > 1
+            if (back) then
+               refinement = before
+               if (allocated(error)) deallocate (error)
+            else
+               if (allocated(error) .or. allocated(last%failure)) return
+               if (last%error <= job%model%error_goal%target) return  ! met, or not known
+               if (size(rounds) >= job%model%error_goal%most_rounds) return
+               before = refinement
+               call refine_further(job%model, results(worst)%budget, last%n_unknowns, refinement, changed)
+               if (.not. changed) return
+            end if
+         end associate
+         call show_progress(job%progress, 'round '//to_text(size(rounds) + 1)//' of refinement')
+         call move_alloc(job%structure, solved)
+         call read_refined(job, refinement, error)
+         if (allocated(error)) return
+         if (too_large(job%model) .and. .not. back) then
+            call read_refined(job, before, error)
+            call move_alloc(solved, job%structure)  ! the results are of this round
+            return
+         end if
+         if (allocated(solved)) deallocate (solved)
+      end do
+   end subroutine run_rounds
+
+   !> Read the job as it is refined
+   subroutine read_refined(job, refinement, error)
+      !> The job
+      type(job_type), intent(inout) :: job
+      !> How it is refined
+      type(refinement_type), intent(inout) :: refinement
+      !> Errors of the refined job
+      type(error_type), allocatable, intent(out) :: error
+
+      type(diagnostics_type) :: diagnostics
+
+      call read_job(job%deck, job, diagnostics, refinement)
+      if (diagnostics%n_errors > 0 .and. abs(refinement%mesh - anint(refinement%mesh)) > 0.0_wp) then
+         ! an edge that faces two others keeps facing them if all are divided by the same integer
+         refinement%mesh = ceiling(refinement%mesh)
+         call read_job(job%deck, job, diagnostics, refinement)
+      end if
+      if (diagnostics%n_errors == 0) return
+      call fatal_error(error, exit_deck, 'the refined job (elements of BLOCKS times '// &
+                       to_text(refinement%mesh)//') has faults:'//new_line('a')//render(diagnostics, job%source))
+   end subroutine read_refined
+
+   !> Solve all combinations, and note what the round came to
+   subroutine solve_round(job, refinement, results, rounds, worst, error)
+      !> The job
+      type(job_type), intent(inout), target :: job
+      !> How it was refined
+      type(refinement_type), intent(in) :: refinement
+      !> Results of its combinations
+      type(results_type), allocatable, intent(out) :: results(:)
+      !> One more round
+      type(round_type), allocatable, intent(inout) :: rounds(:)
+      !> The combination with the largest error, or the first that did not converge
+      integer, intent(out) :: worst
+      !> Singular stiffness, or out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(round_type) :: round
+      real(wp) :: errors(size(job%model%combinations)), start
+      integer :: k
+
+      start = omp_get_wtime()
+      worst = 1
+      allocate (results(size(job%model%combinations)))
+      do k = 1, size(results)
+         call solve_combination(job, k, results(k), error)
+         if (allocated(error)) exit
+         if (results(k)%converged) cycle
+         if (.not. allocated(round%failure)) worst = k
+         round%failure = 'did not converge'
+      end do
+      if (allocated(error)) then
+         round%failure = 'could not be solved ('//error%message//')'
+      else if (.not. allocated(round%failure)) then
+         errors = [(goal_error(job%model, results(k)), k=1, size(results))]
+         worst = maxloc(errors, 1)
+         round%error = errors(worst)
+      end if
+      round%mesh = refinement%mesh
+      round%nodes = maxval(job%model%mesh%element_size)
+      round%harmonic = job%model%max_harmonic
+      round%planes = job%model%n_planes
+      if (allocated(results(worst)%solves)) round%n_unknowns = sum(results(worst)%solves%n_equations)
+      round%seconds = omp_get_wtime() - start
+      rounds = [rounds, round]
+   end subroutine solve_round
+
+end module axijoint_job_goal

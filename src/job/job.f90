@@ -1,0 +1,113 @@
+!> A job: what is run, and all that goes with it from its deck to its files
+module axijoint_job_job
+   use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_base_kinds, only : i8
+   use axijoint_base_memory, only : no_limit
+   use axijoint_base_progress, only : progress_type
+   use axijoint_base_text, only : to_text
+   use axijoint_base_timer, only : timer_type
+   use axijoint_deck_text_source, only : source_type, add_file, add_card
+   use axijoint_model_model, only : model_type
+   use axijoint_solver_entry, only : solver_entry_type
+   implicit none
+   private
+   public :: job_type, options_type, new_job, take_options, job_name, result_name
+
+   !> What is asked for beside the deck
+   type :: options_type
+      !> Directory for results; the current one unless another is given
+      character(len=:), allocatable :: directory
+      !> Whether a solver was asked for, and which; none if the choice is the program's
+      logical :: solver_given = .false.
+      type(solver_entry_type), allocatable :: solver
+      !> Bytes that the process may take
+      integer(i8) :: memory_limit = no_limit
+      !> Whether the bodies are to be swept through theta, whatever the deck says
+      logical :: swept = .false.
+   end type options_type
+
+   !> A job
+   type :: job_type
+      !> Path of the deck; it names the result files
+      character(len=:), allocatable :: deck
+      !> What is asked for beside it
+      type(options_type) :: options
+      !> Its cards, and warnings about them
+      type(source_type) :: source
+      character(len=:), allocatable :: warnings(:)
+      !> What it describes
+      type(model_type) :: model
+      !> Equations and joints, factored and condensed; there once something was solved
+      type(structure_type), allocatable :: structure
+      !> Times of the phases
+      type(timer_type) :: timer
+      !> Where to show progress
+      type(progress_type) :: progress
+   end type job_type
+
+contains
+
+   !> A job that a program describes, not a deck
+   function new_job(name, model) result(job)
+      !> Name of the result files
+      character(len=*), intent(in) :: name
+      !> What is to be solved
+      type(model_type), intent(in) :: model
+      !> The job
+      type(job_type) :: job
+
+      character(len=:), allocatable :: card
+
+      card = '! '//name//': described by a program'
+      job%deck = name
+      job%options%directory = '.'
+      call add_card(job%source, 1, 1, 1, len(card))
+      call add_file(job%source, name, card, 0)
+      allocate (character(len=0) :: job%warnings(0))
+      job%model = model
+   end function new_job
+
+   !> What the options say of the model
+   subroutine take_options(options, model)
+      !> The options
+      type(options_type), intent(in) :: options
+      !> The job
+      type(model_type), intent(inout) :: model
+
+      if (options%solver_given) then
+         if (allocated(model%solver)) deallocate (model%solver)
+         if (allocated(options%solver)) model%solver = options%solver
+      end if
+      model%memory_limit = options%memory_limit
+      model%sweep%wanted = model%sweep%wanted .or. options%swept
+   end subroutine take_options
+
+   !> Name of a deck without directories and ending
+   pure function job_name(deck) result(name)
+      !> Path of the deck
+      character(len=*), intent(in) :: deck
+      !> The name
+      character(len=:), allocatable :: name
+
+      integer :: dot
+
+      name = deck(index(deck, '/', back=.true.) + 1:)
+      dot = index(name, '.', back=.true.)
+      if (dot > 1) name = name(:dot - 1)
+   end function job_name
+
+   !> Name of the result files: that of the deck, with the number of the
+   !> combination if there are several
+   pure function result_name(job, combination) result(name)
+      !> The job
+      type(job_type), intent(in) :: job
+      !> The user's number of the combination; 0 if there is one only
+      integer, intent(in) :: combination
+      !> The name
+      character(len=:), allocatable :: name
+
+      name = job_name(job%deck)
+      if (combination > 0) name = name//'.'//to_text(combination)
+   end function result_name
+
+end module axijoint_job_job

@@ -1,0 +1,40 @@
+!> From a deck to a job
+module axijoint_job_read
+   use axijoint_base_timer, only : phase_read
+   use axijoint_deck_reader, only : read_deck
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, warning_texts
+   use axijoint_job_in_situ_messages, only : judge_in_situ
+   use axijoint_job_job, only : job_type, take_options
+   use axijoint_model_request, only : refinement_type
+   implicit none
+   private
+   public :: read_job
+
+contains
+
+   !> Read a deck with all that it includes. The job is of use only if there are no errors among
+   !> the messages; its options stay, and stand above what the deck says
+   subroutine read_job(path, job, diagnostics, refinement)
+      !> The deck
+      character(len=*), intent(in) :: path
+      !> The job
+      type(job_type), intent(inout) :: job
+      !> Errors and warnings
+      type(diagnostics_type), intent(out) :: diagnostics
+      !> Refinement of what the deck says; none if absent
+      type(refinement_type), intent(in), optional :: refinement
+
+      job%deck = path
+      if (.not. allocated(job%options%directory)) job%options%directory = '.'
+      if (allocated(job%structure)) deallocate (job%structure)
+      call job%timer%push(phase_read)
+      call read_deck(path, job%source, job%model, diagnostics, refinement)
+      if (diagnostics%n_errors == 0) then
+         if (size(job%model%initial_stresses) > 0) call judge_in_situ(job%model, diagnostics)
+      end if
+      call job%timer%pop()
+      job%warnings = warning_texts(diagnostics, job%source)
+      call take_options(job%options, job%model)
+   end subroutine read_job
+
+end module axijoint_job_read

@@ -1,0 +1,77 @@
+!> The orders of the nodes that solvers choose from
+module axijoint_order_orders
+   use axijoint_base_error, only : error_type
+   use axijoint_order_graph, only : graph_type, profile
+   use axijoint_order_metis, only : nested_dissection
+   use axijoint_order_rcm, only : reverse_cuthill_mckee
+   use axijoint_order_sloan, only : sloan
+   implicit none
+   private
+   public :: orders_type, new_orders, least_bandwidth, least_profile, least_fill
+
+   !> The nodes in different orders: order(k) is the k-th node
+   type :: orders_type
+      !> Graph of the nodes
+      type(graph_type) :: graph
+      !> Reverse Cuthill-McKee, Sloan, nested dissection
+      integer, allocatable :: cuthill_mckee(:), sloan(:), dissection(:)
+   end type orders_type
+
+contains
+
+   !> Order the nodes in every way
+   subroutine new_orders(orders, graph, last, error)
+      !> The orders
+      type(orders_type), intent(out) :: orders
+      !> Graph of the nodes
+      type(graph_type), intent(in) :: graph
+      !> Nodes whose flexibility is wanted: nested dissection orders them behind
+      !> all others, so that the factor holds their Schur complement
+      logical, intent(in), optional :: last(:)
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      orders%graph = graph
+      call reverse_cuthill_mckee(graph, orders%cuthill_mckee)
+      call sloan(graph, orders%sloan)
+      if (present(last)) then
+         associate (k => orders%cuthill_mckee)
+            call nested_dissection(graph, orders%dissection, pack(k, last(k)), error)
+         end associate
+      else
+         call nested_dissection(graph, orders%dissection, error=error)
+      end if
+   end subroutine new_orders
+
+   !> The order for factors in a band: reverse Cuthill-McKee
+   pure function least_bandwidth(orders) result(order)
+      !> All orders
+      type(orders_type), intent(in) :: orders
+      !> order(k) is the k-th node
+      integer, allocatable :: order(:)
+
+      order = orders%cuthill_mckee
+   end function least_bandwidth
+
+   !> The order for factors below a skyline: Sloan, or reverse Cuthill-McKee if its profile is smaller
+   pure function least_profile(orders) result(order)
+      !> All orders
+      type(orders_type), intent(in) :: orders
+      !> order(k) is the k-th node
+      integer, allocatable :: order(:)
+
+      order = orders%sloan
+      if (profile(orders%graph, orders%cuthill_mckee) < profile(orders%graph, order)) order = orders%cuthill_mckee
+   end function least_profile
+
+   !> The order for sparse factors: nested dissection
+   pure function least_fill(orders) result(order)
+      !> All orders
+      type(orders_type), intent(in) :: orders
+      !> order(k) is the k-th node
+      integer, allocatable :: order(:)
+
+      order = orders%dissection
+   end function least_fill
+
+end module axijoint_order_orders
