@@ -5,9 +5,7 @@ module axijoint_analysis_error_stiffer_state
    use axijoint_analysis_core_results, only : results_type, mode_solve_type
    use axijoint_analysis_core_solution, only : solve_displacements
    use axijoint_analysis_core_structure, only : structure_type, build_structure
-   use axijoint_assembly_equations, only : solve_mode
-   use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, release_factor
-   use axijoint_assembly_force, only : joint_force
+   use axijoint_analysis_error_excess_effect, only : add_excess_effect
    use axijoint_assembly_loading, only : loading_type, new_loading
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
@@ -23,11 +21,21 @@ module axijoint_analysis_error_stiffer_state
    use axijoint_model_model, only : model_type, method_newton
    implicit none
    private
-   public :: state_of_stiffer, state_anew
+   public :: stiffer_state_type, state_of_stiffer, state_anew
 
    !> Tolerance on the residual ratio, and most iterations: of a change three digits are enough
    real(wp), parameter :: tolerance = 1.0e-6_wp
    integer, parameter :: most = 60
+
+   !> A state
+   type :: stiffer_state_type
+      !> Whether it was found
+      logical :: found = .false.
+      !> Displacement amplitudes, shape (3, nodes, modes)
+      real(wp), allocatable :: displacement(:, :, :)
+      !> Stress of all joints on the planes of the results, shape (3, points, planes)
+      real(wp), allocatable :: stress(:, :, :)
+   end type stiffer_state_type
 
 contains
 
@@ -35,7 +43,7 @@ contains
    !> the structure was condensed with gives, less what the laws admit, so
    !> the structure stays as it is and Newton's method goes on from the state that was found:
    !> within the last increment, with the slip of those before it
-   subroutine state_of_stiffer(model, structure, history, field, results, times, displacement, stress, found)
+   subroutine state_of_stiffer(model, structure, history, field, results, times, state)
       !> The job
       type(model_type), intent(in), target :: model
       !> The structure, factored and condensed; the loads are in its response
@@ -48,10 +56,8 @@ contains
       type(results_type), intent(in) :: results
       !> How many times as stiff
       real(wp), intent(in) :: times
-      !> Displacement amplitudes, and stress of all joints on the planes
-      real(wp), allocatable, intent(out) :: displacement(:, :, :), stress(:, :, :)
-      !> Whether it was found
-      logical, intent(out) :: found
+      !> The state
+      type(stiffer_state_type), intent(out) :: state
 
       type(joint_field_type) :: now, stiffer
       real(wp), allocatable :: residual(:, :, :)
@@ -69,16 +75,17 @@ contains
          allocate (residual, mold=now%excess)
          call evaluate(scene, now, residual)
          now%carried = now%stress
-         call balance(scene, now, found)  ! no more than a look, but after the paper's loop
+         call balance(scene, now, state%found)  ! no more than a look, but after the paper's loop
          stiffer = now
          stiffer%share = times
-         if (found) call balance(scene, stiffer, found)
+         if (state%found) call balance(scene, stiffer, state%found)
          scene%method = method
-         if (.not. found) return
-         displacement = results%displacement
-         call add_effect(structure, stiffer%excess - now%excess, displacement)
-         call add_motions(scene%floating, stiffer%offset - now%offset, displacement)
-         call take_stress(model, structure, history%loading%case_factor, displacement, stiffer, stress)
+         if (.not. state%found) return
+         state%displacement = results%displacement
+         call add_excess_effect(structure%equations, scene%points, stiffer%excess - now%excess, state%displacement, &
+                                state%found)
+         call add_motions(scene%floating, stiffer%offset - now%offset, state%displacement)
+         call take_stress(model, structure, history%loading%case_factor, state%displacement, stiffer, state%stress)
       end associate
    end subroutine state_of_stiffer
 
@@ -99,41 +106,8 @@ contains
       found = verdict%converged
    end subroutine balance
 
-   !> Add the displacements that a change of the excess stress makes
-   subroutine add_effect(structure, change, displacement)
-      !> The structure, factored
-      type(structure_type), intent(inout) :: structure
-      !> Change of the excess stress, shape (3, points, modes)
-      real(wp), intent(in) :: change(:, :, :)
-      !> Displacement amplitudes, shape (3, nodes, modes)
-      real(wp), intent(inout) :: displacement(:, :, :)
-
-      type(workspace_type), allocatable :: spaces(:)
-      real(wp), allocatable :: force(:, :), effect(:, :)  ! threads have small stacks
-      integer :: s, i, k
-
-      associate (equations => structure%equations)
-         call new_workspaces(equations, spaces)
-         !$omp parallel do schedule(dynamic) private(i, k, force, effect) num_threads(size(spaces))
-         do s = 1, size(equations%systems)
-            call hold_factor(equations, s, spaces(own()))
-            if (equations%systems(s)%failed) cycle
-            do i = 1, size(equations%systems(s)%modes)
-               k = equations%systems(s)%modes(i)
-               force = joint_force(structure%scene%points, equations%modes(k)%harmonic, change(:, :, k), &
-                                   size(displacement, 2))
-               effect = force
-               call solve_mode(equations, k, force, effect)
-               displacement(:, :, k) = displacement(:, :, k) + effect
-            end do
-            call release_factor(equations, s, spaces(own()))
-         end do
-         !$omp end parallel do
-      end associate
-   end subroutine add_effect
-
    !> Solve the job anew, some of its laws stiffer
-   subroutine state_anew(model, combination, laws, times, results, displacement, stress, found, progress)
+   subroutine state_anew(model, combination, laws, times, results, state, progress)
       !> The job
       type(model_type), intent(in) :: model
       !> Factors of the load cases
@@ -143,10 +117,8 @@ contains
       real(wp), intent(in) :: times
       !> Results
       type(results_type), intent(in) :: results
-      !> Displacement amplitudes, and stress of all joints on the planes of the results
-      real(wp), allocatable, intent(out) :: displacement(:, :, :), stress(:, :, :)
-      !> Whether it was found
-      logical, intent(out) :: found
+      !> The state
+      type(stiffer_state_type), intent(out) :: state
       !> Where to show progress
       type(progress_type), intent(inout) :: progress
 
@@ -160,7 +132,6 @@ contains
       real(wp) :: factor_share
       integer :: i
 
-      found = .false.
       stiffer = model
       do i = 1, size(laws)
          associate (law => stiffer%joint_materials(laws(i))%law)
@@ -183,13 +154,14 @@ contains
          structure%scene%points = structure%joint_points(:0)
          allocate (yielding%excess(3, 0, size(structure%modes)))
       end if
-      allocate (displacement, mold=results%displacement)
+      allocate (state%displacement, mold=results%displacement)
       call solve_displacements(structure%equations, stiffer, history%loading, structure%scene%points, &
-                               yielding%excess, displacement, solves, factor_share, error)
-      found = .not. allocated(error)
-      if (.not. found) return
-      if (size(structure%yielding) > 0) call add_motions(structure%scene%floating, yielding%offset, displacement)
-      call take_stress(stiffer, structure, history%loading%case_factor, displacement, yielding, stress, results%plane_angles)
+                               yielding%excess, state%displacement, solves, factor_share, error)
+      state%found = .not. allocated(error)
+      if (.not. state%found) return
+      if (size(structure%yielding) > 0) call add_motions(structure%scene%floating, yielding%offset, state%displacement)
+      call take_stress(stiffer, structure, history%loading%case_factor, state%displacement, yielding, state%stress, &
+                       results%plane_angles)
    end subroutine state_anew
 
    !> Stress of all joints on the planes of the results

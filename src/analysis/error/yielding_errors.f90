@@ -4,14 +4,14 @@ module axijoint_analysis_error_yielding_errors
    use omp_lib, only : omp_get_wtime
    use axijoint_analysis_core_results, only : results_type, error_share_type
    use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_analysis_error_excess_effect, only : add_excess_effect
    use axijoint_analysis_error_largest_values, only : largest_vector, largest_elastic_stress
    use axijoint_analysis_fine_difference, only : difference_type, new_difference, find_difference
    use axijoint_analysis_fine_joints, only : fine_excess
    use axijoint_analysis_fine_level, only : fine_level_type, fine_load_type, new_fine_load
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type, new_mesh_error
-   use axijoint_assembly_equations, only : equations_type, solve_mode
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, release_factor
-   use axijoint_assembly_force, only : joint_force, joint_jump
+   use axijoint_assembly_force, only : joint_jump
    use axijoint_base_kinds, only : wp
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_floating, only : add_motions
@@ -71,7 +71,8 @@ contains
          displacement = results%displacement
          changes%iteration = change_between(scene, field, balanced, structure%judged(structure%yielding))
          changes%iteration%seconds = omp_get_wtime() - start
-         call add_displacement(scene, changes%iteration%excess, displacement)
+         call add_excess_effect(scene%equations, scene%points, changes%iteration%excess, displacement, &
+                                changes%iteration%known)
          call find_joint_changes(scene, balanced, history%start, &
                                  structure%judged(structure%yielding), changes)
          call take_share(structure, history, results, largest, changes%iteration, results%joint_errors(1))
@@ -144,13 +145,15 @@ contains
       real(wp), parameter :: none = 1.0e-9_wp
       real(wp), allocatable :: displacement(:, :, :)
       real(wp) :: start
+      logical :: found
 
       start = omp_get_wtime()
       share%seconds = change%seconds
       if (.not. change%known) return
       allocate (displacement, mold=results%displacement)
       displacement = 0.0_wp
-      call add_displacement(structure%scene, change%excess, displacement)
+      call add_excess_effect(structure%scene%equations, structure%scene%points, change%excess, displacement, found)
+      if (.not. found) return
       call add_motions(structure%scene%floating, change%offset, displacement)
       share%joint_stress = ratio(max(change%stress, elastic_change(structure, displacement)), &
                                  stress_scale(structure, history, results%displacement))
@@ -264,7 +267,8 @@ contains
          if (found) then
             error%joint_stress = largest_change(scene, balanced, after, 1, structure%judged(structure%yielding))
             before = error%displacement
-            call add_displacement(scene, after%excess - balanced%excess, error%displacement)
+            call add_excess_effect(scene%equations, scene%points, after%excess - balanced%excess, error%displacement, found)
+            error%known = error%known .and. found
             call add_motions(scene%floating, after%offset - balanced%offset, error%displacement)
             do k = 1, size(before, 3)
                error%jump(:, :, k) = error%jump(:, :, k) &
@@ -312,6 +316,7 @@ contains
          !$omp end parallel do
       end associate
       call new_mesh_error(difference, error)
+      error%known = .not. any(structure%equations%systems%failed)
    end subroutine all_differences
 
    !> Whether nothing acts in a mode but little excess stress. Its part in the error is as small: all such
@@ -333,37 +338,5 @@ contains
             .and. .not. any(abs(history%loading%right(:, :, k)) > 0.0_wp)
       end do
    end function is_weak
-
-   !> Add the displacements from excess joint stress
-   subroutine add_displacement(scene, excess, displacement)
-      !> The scene
-      type(scene_type), intent(inout) :: scene
-      !> Amplitudes, shape (3, points, modes)
-      real(wp), intent(in) :: excess(:, :, :)
-      !> Displacement amplitudes, shape (3, nodes, modes)
-      real(wp), intent(inout) :: displacement(:, :, :)
-
-      type(workspace_type), allocatable :: spaces(:)
-      real(wp), allocatable :: part(:, :), force(:, :)  ! threads have small stacks
-      integer :: s, i, k
-
-      if (.not. any(abs(excess) > 0.0_wp)) return
-      call new_workspaces(scene%equations, spaces)
-      !$omp parallel do schedule(dynamic) private(i, k, part, force) num_threads(size(spaces))
-      do s = 1, size(scene%equations%systems)
-         call hold_factor(scene%equations, s, spaces(own()))
-         if (scene%equations%systems(s)%failed) cycle
-         do i = 1, size(scene%equations%systems(s)%modes)
-            k = scene%equations%systems(s)%modes(i)
-            force = joint_force(scene%points, scene%equations%modes(k)%harmonic, excess(:, :, k), &
-                                size(displacement, 2))
-            part = force  ! for its shape
-            call solve_mode(scene%equations, k, force, part)
-            displacement(:, :, k) = displacement(:, :, k) + part
-         end do
-         call release_factor(scene%equations, s, spaces(own()))
-      end do
-      !$omp end parallel do
-   end subroutine add_displacement
 
 end module axijoint_analysis_error_yielding_errors
