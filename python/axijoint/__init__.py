@@ -10,7 +10,8 @@ Angles are in degrees, as in the deck and the listing; everything else is in the
 Figures are made by `axijoint.plot`, which needs matplotlib.
 """
 from .circle import cartesian_displacement, cartesian_stress, principal_stresses
-from .result import DISPLACEMENTS, STATES, STRESSES, OutsideError, Result, open_combinations
+from .components import DISPLACEMENTS, STRESSES
+from .result import STATES, OutsideError, Result, open_combinations
 from .result import open_result as open
 from .section import Section
 from .table import Table

@@ -7,12 +7,11 @@ import h5py
 import numpy as np
 
 from . import circle, elements
+from .components import DISPLACEMENTS, STRESSES
 from .mesh import Mesh
 from .section import Section, line_rows
 from .table import Table
 
-DISPLACEMENTS = ("u", "v", "w")
-STRESSES = ("sigma_r", "sigma_z", "sigma_theta", "tau_rz", "tau_rtheta", "tau_ztheta")
 STATES = np.array(["stick", "slip", "open"])
 
 

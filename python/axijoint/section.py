@@ -4,6 +4,7 @@ from typing import Optional
 
 import numpy as np
 
+from .components import DISPLACEMENTS, STRESSES
 from .table import Table
 
 
@@ -36,7 +37,6 @@ class Section:
 
     def table(self):
         """All angles below one another: a Table."""
-        from .result import DISPLACEMENTS, STRESSES
         count, n = len(self.theta), len(self.point)
         columns = {"theta": np.repeat(self.theta, n)}
         for name in ("point", "distance", "element", "body", "material"):

@@ -31,7 +31,7 @@ contains
       !> The means; none if the element does not take them
       type(dilatation_type), intent(inout) :: dilatation
 
-      real(wp) :: share
+      real(wp) :: weight
       integer :: k
 
       dilatation%averaged = reference%formulation == formulation_bbar
@@ -40,10 +40,10 @@ contains
       dilatation%shape = 0.0_wp
       do k = 1, size(points)
          associate (p => points(k))
-            share = p%weight/sum(points%weight)
-            dilatation%gradient(1:2, :) = dilatation%gradient(1:2, :) + share*p%gradient
-            dilatation%gradient(3, :) = dilatation%gradient(3, :) + share*p%shape/p%position(1)
-            dilatation%shape = dilatation%shape + share*p%shape
+            weight = p%weight/sum(points%weight)
+            dilatation%gradient(1:2, :) = dilatation%gradient(1:2, :) + weight*p%gradient
+            dilatation%gradient(3, :) = dilatation%gradient(3, :) + weight*p%shape/p%position(1)
+            dilatation%shape = dilatation%shape + weight*p%shape
          end associate
       end do
    end subroutine new_dilatation

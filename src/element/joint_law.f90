@@ -6,6 +6,7 @@ module axijoint_element_joint_law
    private
    public :: joint_law_type, memory_type, admit_stress, trial_stress, admit, renew, state_of, lost_at_opening, cuts_back
    public :: law_elastic, law_paper, slip_components, slip_resultant, opening_reversible, opening_bond
+   public :: law_names, slip_names, opening_names
    public :: state_stick, state_slip, state_open
    public :: xi, eta, theta
 
@@ -13,16 +14,22 @@ module axijoint_element_joint_law
    integer, parameter :: law_elastic = 0
    !> Joint that opens in tension and slips at the yield stress
    integer, parameter :: law_paper = 1
+   !> Their names on cards and in the listing
+   character(len=7), parameter :: law_names(0:1) = [character(len=7) :: 'ELASTIC', 'PAPER']
 
    !> Each shear stress is cut to the yield stress separately (Eq. 16)
    integer, parameter :: slip_components = 1
    !> The resultant of both shear stresses is cut, its direction kept
    integer, parameter :: slip_resultant = 2
+   !> Their names
+   character(len=10), parameter :: slip_names(2) = [character(len=10) :: 'COMPONENTS', 'RESULTANT']
 
    !> A point that closes again has its cohesion as before (the paper)
    integer, parameter :: opening_reversible = 1
    !> A bond holds tension until it breaks for good: then no cohesion is left
    integer, parameter :: opening_bond = 2
+   !> Their names
+   character(len=10), parameter :: opening_names(2) = [character(len=10) :: 'REVERSIBLE', 'BOND']
 
    !> Point holds: stress as the elastic joint gives it
    integer, parameter :: state_stick = 0

@@ -53,9 +53,9 @@ contains
       matrix = 0.0_wp
       do j = 1, n  ! functions orthonormal on the points
          do i = 1, j - 1
-            associate (share => sum(weight*at_points(:, i)*at_points(:, j)))
-               at_places(:, j) = at_places(:, j) - share*at_places(:, i)
-               at_points(:, j) = at_points(:, j) - share*at_points(:, i)
+            associate (projection => sum(weight*at_points(:, i)*at_points(:, j)))
+               at_places(:, j) = at_places(:, j) - projection*at_places(:, i)
+               at_points(:, j) = at_points(:, j) - projection*at_points(:, i)
             end associate
          end do
          associate (length => sqrt(sum(weight*at_points(:, j)**2)))

@@ -195,16 +195,16 @@ contains
       !> Memory on the planes
       type(memory_type) :: finer(size(memory, 1), count)
 
-      real(wp) :: share
+      real(wp) :: fraction
       integer :: j, k, place, next
 
       do j = 1, count
          place = (j - 1)/step + 1
          next = 1 + mod(place, size(memory, 2))
-         share = real(mod(j - 1, step), wp)/step
+         fraction = real(mod(j - 1, step), wp)/step
          finer(:, j) = memory(:, place)
          do k = 1, size(memory, 1)
-            finer(k, j)%slip = (1.0_wp - share)*memory(k, place)%slip + share*memory(k, next)%slip
+            finer(k, j)%slip = (1.0_wp - fraction)*memory(k, place)%slip + fraction*memory(k, next)%slip
          end do
       end do
    end function on_planes_memory

@@ -7,7 +7,7 @@ module axijoint_model_material
    implicit none
    private
    public :: solid_material_type, joint_material_type, elasticity, thermal_strain
-   public :: rule_centroid, rule_gauss, rule_lobatto
+   public :: rule_centroid, rule_gauss, rule_lobatto, rule_names
 
    !> One point at the middle of a joint (Eq. 13, the paper's rule)
    integer, parameter :: rule_centroid = 1
@@ -15,6 +15,8 @@ module axijoint_model_material
    integer, parameter :: rule_gauss = 2
    !> Points at the nodes of a joint
    integer, parameter :: rule_lobatto = 3
+   !> Their names on cards and in the listing
+   character(len=8), parameter :: rule_names(3) = [character(len=8) :: 'CENTROID', 'GAUSS', 'LOBATTO']
 
    !> Elastic solid. Directions 1 and 2 lie in the meridional plane, 3 is theta
    type :: solid_material_type

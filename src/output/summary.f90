@@ -1,6 +1,6 @@
 !> Summary of a run in JSON, for scripts
 module axijoint_output_summary
-   use axijoint_analysis_core_results, only : results_type, error_share_type
+   use axijoint_analysis_core_results, only : results_type, error_share_type, source_names
    use axijoint_analysis_error_budget, only : sum_of_shares
    use axijoint_base_kinds, only : wp
    use axijoint_base_system, only : peak_memory_mb
@@ -135,7 +135,7 @@ contains
       json = "{"
       do i = 1, size(results%budget)
          if (i > 1) json = json//", "
-         json = json//'"'//trim(results%budget(i)%source)//'": '//json_number(results%budget(i)%seconds)
+         json = json//'"'//trim(source_names(results%budget(i)%source))//'": '//json_number(results%budget(i)%seconds)
       end do
       json = json//"}"
    end function error_seconds_text
@@ -192,7 +192,7 @@ contains
          !> JSON
          character(len=:), allocatable :: json
 
-         json = '"'//trim(share%source)//'": {"energy": '//known(share%energy)// &
+         json = '"'//trim(source_names(share%source))//'": {"energy": '//known(share%energy)// &
                 ', "displacement": '//known(share%displacement)//', "joint_stress": '// &
                 known(share%joint_stress)//', "load": '//known(share%load)//'}, '
       end function share_text

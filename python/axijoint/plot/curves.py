@@ -1,7 +1,7 @@
 """Curves: profiles along sections, convergence path, spectrum of the harmonics."""
 import numpy as np
 
-from ..result import STRESSES
+from ..components import STRESSES
 from . import pieces, style
 from .style import plt
 

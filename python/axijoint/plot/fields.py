@@ -3,7 +3,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.tri import Triangulation
 
-from ..result import STRESSES
+from ..components import STRESSES
 from . import pieces, style
 from .style import plt
 

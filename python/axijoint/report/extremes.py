@@ -4,7 +4,7 @@ from functools import lru_cache
 import numpy as np
 
 from ..circle import SYMMETRIC
-from ..result import DISPLACEMENTS, STRESSES
+from ..components import DISPLACEMENTS, STRESSES
 
 # Step of the angles at which nodes are looked at [degree], as in what the program says at the end of a run
 STEP = 5.0

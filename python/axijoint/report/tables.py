@@ -2,7 +2,8 @@
 import numpy as np
 
 from ..circle import SYMMETRIC
-from ..result import DISPLACEMENTS, STATES, STRESSES
+from ..components import DISPLACEMENTS, STRESSES
+from ..result import STATES
 from .extremes import STEP, extremes, joint_peaks
 from .markup import Markup, escaped, number, table
 

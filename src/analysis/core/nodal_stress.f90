@@ -24,31 +24,31 @@ contains
       !> Results; stresses at the integration points are there already
       type(results_type), intent(inout) :: results
 
-      real(wp), allocatable :: weight(:), share(:)
+      real(wp), allocatable :: weight(:), weight_sum(:)
       integer :: element, k, n
 
       call number_values(model%mesh, results%nodal)
       associate (mesh => model%mesh, nodal => results%nodal)
-         allocate (weight(n_elements(mesh)), share(size(nodal%node)))
-         share = 0.0_wp
+         allocate (weight(n_elements(mesh)), weight_sum(size(nodal%node)))
+         weight_sum = 0.0_wp
          do element = 1, n_elements(mesh)
             n = mesh%element_size(element)
             weight(element) = 1.0_wp/area(mesh, element)
             associate (values => nodal%value_of(:n, element))
-               share(values) = share(values) + weight(element)
+               weight_sum(values) = weight_sum(values) + weight(element)
             end associate
          end do
          allocate (nodal%amplitude(6, size(nodal%node), size(results%modes)))
          !$omp parallel do schedule(dynamic)
          do k = 1, size(results%modes)
-            call smooth_mode(model, results, k, weight, share, nodal%amplitude(:, :, k))
+            call smooth_mode(model, results, k, weight, weight_sum, nodal%amplitude(:, :, k))
          end do
          !$omp end parallel do
       end associate
    end subroutine smooth_stress
 
    !> Stresses of one mode at the nodes
-   subroutine smooth_mode(model, results, k, weight, share, amplitude)
+   subroutine smooth_mode(model, results, k, weight, weight_sum, amplitude)
       !> The job
       type(model_type), intent(in) :: model
       !> Results
@@ -56,7 +56,7 @@ contains
       !> Place of the mode
       integer, intent(in) :: k
       !> Weight of each element, and their sum for each value
-      real(wp), intent(in) :: weight(:), share(:)
+      real(wp), intent(in) :: weight(:), weight_sum(:)
       !> Amplitudes, shape (6, values)
       real(wp), intent(out) :: amplitude(:, :)
 
@@ -85,7 +85,7 @@ contains
                if (pole(nodes(i))) at_nodes(:, i) = &
                   pole_stress(results%modes(k)%harmonic, at_nodes(:, i))
                amplitude(:, values(i)) = amplitude(:, values(i)) &
-                  + weight(element)/share(values(i))*at_nodes(:, i)
+                  + weight(element)/weight_sum(values(i))*at_nodes(:, i)
             end do
          end associate
          last = last + n_points

@@ -13,6 +13,8 @@ module axijoint_analysis_core_results
    private
    public :: results_type, mode_solve_type, ordering_type, remark_type, nodal_stress_type, &
              error_share_type, round_type, stiffer_type
+   public :: source_discretization, source_harmonics, source_planes, source_iteration, source_solver, source_sum, &
+             source_names
    public :: axial, lateral, moment, torque, lateral_90, moment_90, n_resultants
 
    !> Index of a resultant: force along z
@@ -67,11 +69,18 @@ module axijoint_analysis_core_results
       character(len=:), allocatable :: text
    end type remark_type
 
+   !> Sources of errors, in the order of the budget, and their sum
+   integer, parameter :: source_discretization = 1, source_harmonics = 2, source_planes = 3, source_iteration = 4, &
+      source_solver = 5, source_sum = 6
+   !> Their names
+   character(len=14), parameter :: source_names(6) = [character(len=14) :: &
+      'discretization', 'harmonics', 'planes', 'iteration', 'solver', 'sum']
+
    !> What one approximation leaves of the error, estimated. Relative values; negative
    !> if not known
    type :: error_share_type
-      !> The approximation
-      character(len=14) :: source = ''
+      !> The approximation: one of the `source_` parameters
+      integer :: source = 0
       !> Of the stresses, in the energy norm
       real(wp) :: energy = -1.0_wp
       !> Of the displacements

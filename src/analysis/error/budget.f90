@@ -1,7 +1,8 @@
 !> What each approximation leaves of the error of a run, side by side and in all, and what
 !> would halve it
 module axijoint_analysis_error_budget
-   use axijoint_analysis_core_results, only : results_type, error_share_type
+   use axijoint_analysis_core_results, only : results_type, error_share_type, source_discretization, source_harmonics, &
+      source_planes, source_iteration, source_solver, source_sum
    use axijoint_analysis_error_response_tail, only : response_tail
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
@@ -28,20 +29,20 @@ contains
 
       yields = size(results%path) > 0
       allocate (budget(5))
-      budget(1) = discretization_share(model, results)
-      budget(2) = harmonics_share(model, case_factor, results, yields)
-      budget(3) = error_share_type(source='planes', remedy='planes: '// &
+      budget(source_discretization) = discretization_share(model, results)
+      budget(source_harmonics) = harmonics_share(model, case_factor, results, yields)
+      budget(source_planes) = error_share_type(source=source_planes, remedy='planes: '// &
                                    to_text(nint(1.4142*(model%n_planes - 1)) + 1)//' in CONTROL')
-      budget(4) = error_share_type(source='iteration', remedy='half the tolerance in INCREMENTS')
+      budget(source_iteration) = error_share_type(source=source_iteration, remedy='half the tolerance in INCREMENTS')
       if (yields) then
-         call take(results%joint_errors(2), budget(3))
-         call take(results%joint_errors(1), budget(4))
+         call take(results%joint_errors(2), budget(source_planes))
+         call take(results%joint_errors(1), budget(source_iteration))
       else
-         budget(3:4)%displacement = 0.0_wp
-         if (size(results%joint_stress) > 0) budget(2:4)%joint_stress = 0.0_wp
+         budget(source_planes:source_iteration)%displacement = 0.0_wp
+         if (size(results%joint_stress) > 0) budget(source_harmonics:source_iteration)%joint_stress = 0.0_wp
       end if
-      budget(5) = error_share_type(source='solver', remedy='less contrast of the stiffnesses')
-      budget(5)%displacement = solver_error(results)
+      budget(source_solver) = error_share_type(source=source_solver, remedy='less contrast of the stiffnesses')
+      budget(source_solver)%displacement = solver_error(results)
    end function new_budget
 
    !> What rounding in the solver leaves of the displacements, over the largest
@@ -69,7 +70,7 @@ contains
       !> Their share
       type(error_share_type) :: share
 
-      share%source = 'discretization'
+      share%source = source_discretization
       share%energy = results%discretization%relative
       share%displacement = results%discretization%displacement
       share%joint_stress = results%discretization%joint_stress
@@ -98,7 +99,7 @@ contains
       integer, allocatable :: harmonic(:)
       integer :: k
 
-      share%source = 'harmonics'
+      share%source = source_harmonics
       share%remedy = 'harmonics: M = '//to_text(max(1, nint(1.4142*model%max_harmonic)))//' in CONTROL'
       share%displacement = 0.0_wp
       if (yields) call take(results%joint_errors(3), share)
@@ -137,7 +138,7 @@ contains
       !> The sums
       type(error_share_type) :: total
 
-      total%source = 'sum'
+      total%source = source_sum
       total%energy = known_sum((budget%energy))
       total%displacement = known_sum((budget%displacement))
       total%joint_stress = known_sum((budget%joint_stress))
@@ -160,7 +161,7 @@ contains
       !> The shares of a quantity
       real(wp), intent(in) :: values(:)
 
-      is_known = all(values >= 0.0_wp .or. budget%source == 'solver')
+      is_known = all(values >= 0.0_wp .or. budget%source == source_solver)
    end function is_known
 
 end module axijoint_analysis_error_budget

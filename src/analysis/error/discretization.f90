@@ -55,9 +55,13 @@ contains
          total = results%displacement
          if (size(field%offset) > 0) call add_motions(structure%condensed%floating, field%offset, total)
          estimate%largest_displacement = largest_vector(results%modes, total)
-         estimate%displacement = ratio(largest_vector(results%modes, mesh_error%displacement), &
-                                       estimate%largest_displacement)
-         estimate%joint_stress = joint_stress_error()
+         estimate%displacement = -1.0_wp
+         estimate%joint_stress = -1.0_wp
+         if (mesh_error%known) then
+            estimate%displacement = ratio(largest_vector(results%modes, mesh_error%displacement), &
+                                          estimate%largest_displacement)
+            estimate%joint_stress = joint_stress_error()
+         end if
          estimate%seconds = structure%fine%seconds + mesh_error%seconds + omp_get_wtime() - start
       end associate
 

@@ -1,6 +1,7 @@
 !> Refinement of a job until its error budget is below a target
 module axijoint_analysis_error_goal
-   use axijoint_analysis_core_results, only : error_share_type, results_type
+   use axijoint_analysis_core_results, only : error_share_type, results_type, source_discretization, source_harmonics, &
+      source_planes, source_iteration
    use axijoint_base_kinds, only : wp
    use axijoint_fe_element_kind, only : formulation_plain
    use axijoint_model_mesh, only : n_nodes
@@ -48,7 +49,7 @@ contains
       error = -1.0_wp
       associate (budget => results%budget, goal => model%error_goal)
          do i = 1, size(budget)
-            if (budget(i)%source == 'discretization' .and. share_of(budget(i), goal) < 0.0_wp) return
+            if (budget(i)%source == source_discretization .and. share_of(budget(i), goal) < 0.0_wp) return
             if (budget(i)%load >= 1.0_wp) return  ! what a concentrated load does has no limit
          end do
          error = sum([(safety_of(budget(i), goal)*max(0.0_wp, share_of(budget(i), goal)), i=1, size(budget))])
@@ -89,8 +90,8 @@ contains
 
    !> How a source is brought down
    pure type(rule_type) function rule_of(source, quantity) result(rule)
-      !> Name of the source
-      character(len=*), intent(in) :: source
+      !> One of the `source_` parameters
+      integer, intent(in) :: source
       !> What is asked for, one of the `goal_` parameters
       integer, intent(in) :: quantity
 
@@ -98,13 +99,13 @@ contains
       real(wp), parameter :: order(3) = [1.0_wp, 1.5_wp, 0.75_wp]  ! JOINTS, DISPL, ENERGY
 
       select case (source)
-      case ('discretization')
+      case (source_discretization)
          rule = rule_type(safety=1.4_wp, part=0.5_wp, order=order(quantity))
-      case ('harmonics')
+      case (source_harmonics)
          rule = rule_type(safety=1.3_wp, part=0.25_wp, order=1.5_wp)
-      case ('planes')
+      case (source_planes)
          rule = rule_type(safety=1.2_wp, part=0.2_wp, order=1.25_wp)
-      case ('iteration')
+      case (source_iteration)
          rule = rule_type(safety=1.1_wp, part=0.05_wp, order=1.0_wp)
       case default
          rule = rule_type()
@@ -136,14 +137,14 @@ contains
          if (.not. excess > aim) cycle
          excess = excess/aim
          select case (budget(i)%source)
-         case ('discretization')
+         case (source_discretization)
             need = excess
-         case ('harmonics')
+         case (source_harmonics)
             call raise_harmonics(model, excess**(1.0_wp/rule%order), refinement, changed)
-         case ('planes')
+         case (source_planes)
             refinement%planes = 1 + ceiling((model%n_planes - 1)*min(most_numbers, excess**(1.0_wp/rule%order)))
             changed = .true.
-         case ('iteration')
+         case (source_iteration)
             refinement%newton = .true.
             refinement%tolerance = refinement%tolerance/excess
             changed = .true.
@@ -207,7 +208,7 @@ contains
       type(rule_type) :: rule
       logical :: convert
 
-      rule = rule_of('discretization', model%error_goal%quantity)
+      rule = rule_of(source_discretization, model%error_goal%quantity)
       ! 4-node elements of another formulation than the plain one are chosen against locking
       associate (kinds => model%mesh%kinds)
          convert = any(kinds%n_nodes == 4) .and. .not. &

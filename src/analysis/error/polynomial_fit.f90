@@ -11,7 +11,7 @@ module axijoint_analysis_error_polynomial_fit
    integer, parameter :: powers(2, max_functions) = reshape([0, 0, 1, 0, 0, 1, 2, 0, 1, 1, 0, 2, &
                                                              3, 0, 2, 1, 1, 2, 0, 3, &
                                                              4, 0, 3, 1, 2, 2, 1, 3, 0, 4], [2, max_functions])
-   !> A function whose part that is new to the points is a smaller share of it is left out:
+   !> A function whose part that is new to the points is a smaller projection of it is left out:
    !> a patch two points wide knows nothing of curvature across
    real(wp), parameter :: least_share = 0.1_wp
 
@@ -72,7 +72,7 @@ contains
       real(wp) :: basis(size(x, 2), size(coefficient, 1))
       !> Functions that are orthonormal, in terms of the others, by columns
       real(wp) :: combination(size(coefficient, 1), size(coefficient, 1))
-      real(wp) :: before, share
+      real(wp) :: before, rest, projection
       integer :: i, j
 
       do i = 1, size(x, 2)
@@ -84,18 +84,18 @@ contains
          combination(j, j) = 1.0_wp
          before = sum(basis(:, j)**2)
          do i = 1, j - 1
-            share = dot_product(basis(:, i), basis(:, j))
-            basis(:, j) = basis(:, j) - share*basis(:, i)
-            combination(:j, j) = combination(:j, j) - share*combination(:j, i)
+            projection = dot_product(basis(:, i), basis(:, j))
+            basis(:, j) = basis(:, j) - projection*basis(:, i)
+            combination(:j, j) = combination(:j, j) - projection*combination(:j, i)
          end do
-         share = sum(basis(:, j)**2)
-         if (share <= least_share**2*before) then
+         rest = sum(basis(:, j)**2)
+         if (rest <= least_share**2*before) then
             basis(:, j) = 0.0_wp
             combination(:, j) = 0.0_wp
             cycle
          end if
-         basis(:, j) = basis(:, j)/sqrt(share)
-         combination(:, j) = combination(:, j)/sqrt(share)
+         basis(:, j) = basis(:, j)/sqrt(rest)
+         combination(:, j) = combination(:, j)/sqrt(rest)
          do i = 1, size(x, 2)
             coefficient(:j, i) = coefficient(:j, i) + combination(:j, j)*(basis(i, j)*sqrt(weight(i)))
          end do

@@ -3,7 +3,7 @@
 module axijoint_analysis_error_stiffer_joints
    use axijoint_analysis_core_results, only : results_type, stiffer_type
    use axijoint_analysis_core_structure, only : structure_type
-   use axijoint_analysis_error_stiffer_state, only : state_of_stiffer, state_anew
+   use axijoint_analysis_error_stiffer_state, only : stiffer_state_type, state_of_stiffer, state_anew
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_progress, only : progress_type
    use axijoint_joints_field, only : joint_field_type
@@ -89,23 +89,25 @@ contains
       !> Where to show progress
       type(progress_type), intent(inout) :: progress
 
-      real(wp), allocatable :: displacement(:, :, :), stress(:, :, :)
+      type(stiffer_state_type) :: state
       type(planes_type) :: planes
       integer :: i
 
       if (same_set(stiffer%laws, model%mesh%joint_material(structure%joint_points(structure%yielding)%joint))) then
-         call state_of_stiffer(model, structure, history, field, results, times, displacement, stress, stiffer%known)
+         call state_of_stiffer(model, structure, history, field, results, times, state)
       else
-         call state_anew(model, combination, stiffer%laws, times, results, displacement, stress, stiffer%known, progress)
+         call state_anew(model, combination, stiffer%laws, times, results, state, progress)
       end if
+      stiffer%known = state%found
       if (stiffer%known) then
          planes = new_view([(i*step*degree, i=0, 360/step)], results%modes)
-         call changes(lengths(results%displacement, planes), lengths(displacement, planes), &
-                      lengths(displacement - results%displacement, planes), &
+         call changes(lengths(results%displacement, planes), lengths(state%displacement, planes), &
+                      lengths(state%displacement - results%displacement, planes), &
                       stiffer%displacement, stiffer%displacement_anywhere, stiffer%known)
       end if
       if (stiffer%known) then
-         call changes(maxval(abs(results%joint_stress)), maxval(abs(stress)), maxval(abs(stress - results%joint_stress)), &
+         call changes(maxval(abs(results%joint_stress)), maxval(abs(state%stress)), &
+                      maxval(abs(state%stress - results%joint_stress)), &
                       stiffer%joint_stress, stiffer%joint_stress_anywhere, stiffer%known)
       end if
    end subroutine find_change

@@ -5,13 +5,13 @@ module axijoint_analysis_error_stiffer_state
    use axijoint_analysis_core_results, only : results_type, mode_solve_type
    use axijoint_analysis_core_solution, only : solve_displacements
    use axijoint_analysis_core_structure, only : structure_type, build_structure
+   use axijoint_analysis_error_excess_effect, only : add_excess_effect
    use axijoint_assembly_loading, only : new_loading
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : progress_type
    use axijoint_base_timer, only : timer_type
    use axijoint_joints_condensed, only : condensed_type
-   use axijoint_joints_effect, only : add_effect
    use axijoint_joints_field, only : joint_field_type, set_initial_stress
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_history, only : history_type, new_state
@@ -27,11 +27,21 @@ module axijoint_analysis_error_stiffer_state
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: state_of_stiffer, state_anew
+   public :: stiffer_state_type, state_of_stiffer, state_anew
 
    !> Tolerance on the residual ratio, and most iterations: of a change three digits are enough
    real(wp), parameter :: tolerance = 1.0e-6_wp
    integer, parameter :: most = 60
+
+   !> A state
+   type :: stiffer_state_type
+      !> Whether it was found
+      logical :: found = .false.
+      !> Displacement amplitudes, shape (3, nodes, modes)
+      real(wp), allocatable :: displacement(:, :, :)
+      !> Stress of all joints on the planes of the results, shape (3, points, planes)
+      real(wp), allocatable :: stress(:, :, :)
+   end type stiffer_state_type
 
 contains
 
@@ -39,7 +49,7 @@ contains
    !> the structure was condensed with gives, less what the laws admit, so
    !> the structure stays as it is and Newton's method goes on from the state that was found:
    !> within the last increment, with the slip of those before it
-   subroutine state_of_stiffer(model, structure, history, field, results, times, displacement, stress, found)
+   subroutine state_of_stiffer(model, structure, history, field, results, times, state)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure, factored and condensed
@@ -52,10 +62,8 @@ contains
       type(results_type), intent(in) :: results
       !> How many times as stiff
       real(wp), intent(in) :: times
-      !> Displacement amplitudes, and stress of all joints on the planes
-      real(wp), allocatable, intent(out) :: displacement(:, :, :), stress(:, :, :)
-      !> Whether it was found
-      logical, intent(out) :: found
+      !> The state
+      type(stiffer_state_type), intent(out) :: state
 
       type(joint_field_type) :: now, stiffer
       real(wp), allocatable :: residual(:, :, :)
@@ -70,15 +78,16 @@ contains
          allocate (residual, mold=now%excess)
          call evaluate(condensed, scene, now, residual)
          now%carried = now%stress
-         call balance(condensed, scene, now, found)  ! no more than a look, but after the paper's loop
+         call balance(condensed, scene, now, state%found)  ! no more than a look, but after the paper's loop
          stiffer = now
          stiffer%share = times
-         if (found) call balance(condensed, scene, stiffer, found)
-         if (.not. found) return
-         displacement = results%displacement
-         call add_effect(structure%equations, condensed%points, stiffer%excess - now%excess, displacement)
-         call add_motions(condensed%floating, stiffer%offset - now%offset, displacement)
-         call take_stress(model, structure, history, displacement, stiffer, stress)
+         if (state%found) call balance(condensed, scene, stiffer, state%found)
+         if (.not. state%found) return
+         state%displacement = results%displacement
+         call add_excess_effect(structure%equations, condensed%points, stiffer%excess - now%excess, state%displacement, &
+                                state%found)
+         call add_motions(condensed%floating, stiffer%offset - now%offset, state%displacement)
+         call take_stress(model, structure, history, state%displacement, stiffer, state%stress)
       end associate
    end subroutine state_of_stiffer
 
@@ -103,7 +112,7 @@ contains
    end subroutine balance
 
    !> Solve the job anew, some of its laws stiffer
-   subroutine state_anew(model, combination, laws, times, results, displacement, stress, found, progress)
+   subroutine state_anew(model, combination, laws, times, results, state, progress)
       !> The job
       type(model_type), intent(in) :: model
       !> Factors of the load cases
@@ -113,10 +122,8 @@ contains
       real(wp), intent(in) :: times
       !> Results
       type(results_type), intent(in) :: results
-      !> Displacement amplitudes, and stress of all joints on the planes of the results
-      real(wp), allocatable, intent(out) :: displacement(:, :, :), stress(:, :, :)
-      !> Whether it was found
-      logical, intent(out) :: found
+      !> The state
+      type(stiffer_state_type), intent(out) :: state
       !> Where to show progress
       type(progress_type), intent(inout) :: progress
 
@@ -129,7 +136,6 @@ contains
       real(wp) :: factor_share
       integer :: i
 
-      found = .false.
       stiffer = model
       do i = 1, size(laws)
          associate (law => stiffer%joint_materials(laws(i))%law)
@@ -148,13 +154,16 @@ contains
                           combination_type(combination%label, final_factors(stiffer, combination)), history%loading)
          allocate (history%field%excess(3, 0, size(structure%modes)))
       end if
-      allocate (displacement, mold=results%displacement)
+      allocate (state%displacement, mold=results%displacement)
       call solve_displacements(structure%equations, stiffer, history%loading, structure%condensed%points, &
-                               history%field%excess, displacement, solves, factor_share, error)
-      found = .not. allocated(error)
-      if (.not. found) return
-      if (size(structure%yielding) > 0) call add_motions(structure%condensed%floating, history%field%offset, displacement)
-      call take_stress(stiffer, structure, history, displacement, history%field, stress, results%plane_angles)
+                               history%field%excess, state%displacement, solves, factor_share, error)
+      state%found = .not. allocated(error)
+      if (.not. state%found) return
+      if (size(structure%yielding) > 0) then
+         call add_motions(structure%condensed%floating, history%field%offset, state%displacement)
+      end if
+      call take_stress(stiffer, structure, history, state%displacement, history%field, state%stress, &
+                       results%plane_angles)
    end subroutine state_anew
 
    !> Stress of all joints on the planes of the results

@@ -4,16 +4,15 @@ module axijoint_analysis_error_yielding_errors
    use omp_lib, only : omp_get_wtime
    use axijoint_analysis_core_results, only : results_type, error_share_type
    use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_analysis_error_excess_effect, only : add_excess_effect
    use axijoint_analysis_error_largest_values, only : largest_vector, largest_elastic_stress
    use axijoint_analysis_fine_difference, only : difference_type, new_difference, find_difference
    use axijoint_analysis_fine_joints, only : fine_excess
    use axijoint_analysis_fine_level, only : fine_level_type, fine_load_type, new_fine_load
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type, new_mesh_error
-   use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, release_factor
    use axijoint_assembly_force, only : joint_jump
    use axijoint_base_kinds, only : wp
-   use axijoint_joints_effect, only : add_effect
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_history, only : history_type
@@ -69,7 +68,8 @@ contains
          displacement = results%displacement
          changes%iteration = change_between(scene, field, balanced, structure%judged(structure%yielding))
          changes%iteration%seconds = omp_get_wtime() - start
-         call add_effect(structure%equations, condensed%points, changes%iteration%excess, displacement)
+         call add_excess_effect(structure%equations, condensed%points, changes%iteration%excess, displacement, &
+                                changes%iteration%known)
          call find_joint_changes(condensed, scene, balanced, history%start, &
                                  structure%judged(structure%yielding), changes)
          call take_share(structure, history, results, largest, changes%iteration, results%joint_errors(1))
@@ -125,13 +125,15 @@ contains
       real(wp), parameter :: none = 1.0e-9_wp
       real(wp), allocatable :: displacement(:, :, :)
       real(wp) :: start
+      logical :: found
 
       start = omp_get_wtime()
       share%seconds = change%seconds
       if (.not. change%known) return
       allocate (displacement, mold=results%displacement)
       displacement = 0.0_wp
-      call add_effect(structure%equations, structure%condensed%points, change%excess, displacement)
+      call add_excess_effect(structure%equations, structure%condensed%points, change%excess, displacement, found)
+      if (.not. found) return
       call add_motions(structure%condensed%floating, change%offset, displacement)
       share%joint_stress = ratio(max(change%stress, elastic_change(structure, displacement)), &
                                  stress_scale(structure, history, results%displacement))
@@ -245,7 +247,9 @@ contains
          if (found) then
             error%joint_stress = largest_change(scene, balanced, after, 1, structure%judged(structure%yielding))
             before = error%displacement
-            call add_effect(structure%equations, condensed%points, after%excess - balanced%excess, error%displacement)
+            call add_excess_effect(structure%equations, condensed%points, after%excess - balanced%excess, &
+                                   error%displacement, found)
+            error%known = error%known .and. found
             call add_motions(condensed%floating, after%offset - balanced%offset, error%displacement)
             do k = 1, size(before, 3)
                error%jump(:, :, k) = error%jump(:, :, k) &
@@ -293,6 +297,7 @@ contains
          !$omp end parallel do
       end associate
       call new_mesh_error(difference, error)
+      error%known = .not. any(structure%equations%systems%failed)
    end subroutine all_differences
 
    !> Whether nothing acts in a mode but little excess stress. Its part in the error is as small: all such

@@ -113,7 +113,7 @@ contains
       !> Stress at the fine points, shape (3, 2 points, planes)
       real(wp), intent(out) :: fine_stress(:, :, :)
 
-      real(wp) :: x(3), w(3), share(3)
+      real(wp) :: x(3), w(3), value(3)
       integer :: first, n, half, i, k
 
       fine_stress = 0.0_wp
@@ -124,10 +124,10 @@ contains
          end associate
          do half = 1, 2
             do i = 1, n
-               share(:n) = lagrange(x(:n), 0.5_wp*x(i) + half - 1.5_wp)
+               value(:n) = lagrange(x(:n), 0.5_wp*x(i) + half - 1.5_wp)
                do k = 1, n
                   associate (to => fine_stress(:, 2*(first - 1) + n*(half - 1) + i, :))
-                     to = to + share(k)*stress(:, first - 1 + k, :)
+                     to = to + value(k)*stress(:, first - 1 + k, :)
                   end associate
                end do
             end do
@@ -148,7 +148,7 @@ contains
       !> Memory of the fine points, shape (2 points, planes)
       type(memory_type), intent(inout) :: fine_memory(:, :)
 
-      real(wp) :: x(3), w(3), at, share(3)
+      real(wp) :: x(3), w(3), at, value(3)
       integer :: first, n, half, i, j, k, to
 
       first = 1
@@ -158,12 +158,12 @@ contains
             do i = 1, n
                to = 2*(first - 1) + n*(half - 1) + i
                at = 0.5_wp*x(i) + half - 1.5_wp
-               share(:n) = lagrange(x(:n), at)
+               value(:n) = lagrange(x(:n), at)
                fine_memory(to, :) = memory(first - 1 + minloc(abs(x(:n) - at), 1), :)
                do j = 1, size(memory, 2)
                   fine_memory(to, j)%slip = 0.0_wp
                   do k = 1, n
-                     fine_memory(to, j)%slip = fine_memory(to, j)%slip + share(k)*memory(first - 1 + k, j)%slip
+                     fine_memory(to, j)%slip = fine_memory(to, j)%slip + value(k)*memory(first - 1 + k, j)%slip
                   end do
                end do
             end do

@@ -24,8 +24,8 @@ module axijoint_analysis_fine_mesh
    type :: parents_type
       !> Those of a node are listed from start(node) to start(node + 1) - 1
       integer, allocatable :: start(:), node(:)
-      !> Their shares
-      real(wp), allocatable :: share(:)
+      !> Their weights
+      real(wp), allocatable :: weight(:)
    end type parents_type
 
    !> The fine mesh. Its first nodes are those of the coarse mesh; element k becomes the elements
@@ -174,7 +174,7 @@ contains
       integer :: node, k, i, last
 
       associate (parents => fine%parents)
-         allocate (parents%start(n + 1), parents%node(max_element_nodes*n), parents%share(max_element_nodes*n))
+         allocate (parents%start(n + 1), parents%node(max_element_nodes*n), parents%weight(max_element_nodes*n))
       end associate
       last = 0
       do node = 1, n_nodes(coarse)
@@ -197,21 +197,21 @@ contains
       end do
       fine%parents%start(n + 1) = last + 1
       fine%parents%node = fine%parents%node(:last)
-      fine%parents%share = fine%parents%share(:last)
+      fine%parents%weight = fine%parents%weight(:last)
 
    contains
 
       !> Note the parents of a node
-      subroutine follow(node, parents, shares)
+      subroutine follow(node, parents, weights)
          !> The node; they come in their order
          integer, intent(in) :: node
-         !> Its parents and their shares
+         !> Its parents and their weights
          integer, intent(in) :: parents(:)
-         real(wp), intent(in) :: shares(:)
+         real(wp), intent(in) :: weights(:)
 
          fine%parents%start(node) = last + 1
          fine%parents%node(last + 1:last + size(parents)) = parents
-         fine%parents%share(last + 1:last + size(parents)) = shares
+         fine%parents%weight(last + 1:last + size(parents)) = weights
          last = last + size(parents)
       end subroutine follow
 
@@ -370,14 +370,14 @@ contains
 
       allocate (other%start(size(order) + 1))
       allocate (other%node, mold=parents%node)
-      allocate (other%share, mold=parents%share)
+      allocate (other%weight, mold=parents%weight)
       last = 0
       do k = 1, size(order)
          other%start(k) = last + 1
          associate (from => parents%start(order(k)))
             n = parents%start(order(k) + 1) - from
             other%node(last + 1:last + n) = parents%node(from:from + n - 1)
-            other%share(last + 1:last + n) = parents%share(from:from + n - 1)
+            other%weight(last + 1:last + n) = parents%weight(from:from + n - 1)
          end associate
          last = last + n
       end do
@@ -398,7 +398,7 @@ contains
       values = 0.0_wp
       do node = 1, size(values, 2)
          do k = parents%start(node), parents%start(node + 1) - 1
-            values(:, node) = values(:, node) + parents%share(k)*coarse_values(:, parents%node(k))
+            values(:, node) = values(:, node) + parents%weight(k)*coarse_values(:, parents%node(k))
          end do
       end do
    end subroutine prolong
@@ -418,7 +418,7 @@ contains
       do node = 1, size(forces, 2)
          do k = parents%start(node), parents%start(node + 1) - 1
             associate (parent => parents%node(k))
-               coarse_forces(:, parent) = coarse_forces(:, parent) + parents%share(k)*forces(:, node)
+               coarse_forces(:, parent) = coarse_forces(:, parent) + parents%weight(k)*forces(:, node)
             end associate
          end do
       end do

@@ -17,6 +17,8 @@ module axijoint_analysis_fine_mesh_error
 
    !> Errors left by the mesh
    type :: mesh_error_type
+      !> Whether it was found: a factor that is not kept may lack the memory to be formed again
+      logical :: known = .true.
       !> Of displacements of the nodes, amplitudes, shape (3, nodes, modes); zero where it is not known
       real(wp), allocatable :: displacement(:, :, :)
       !> Of the jumps at all joint points, their stress fixed, amplitudes, shape (3, points, modes)

@@ -8,7 +8,9 @@ module axijoint_deck_text_layout
    use axijoint_deck_text_field, only : field_type, integer_field, real_field, word_field, code_field, &
       text_field, largest_number
    use axijoint_deck_text_load_fields, only : load_fields, harmonic_range
+   use axijoint_element_joint_law, only : law_names, law_paper, law_elastic, slip_names, opening_names
    use axijoint_fe_element_kind, only : formulation_names
+   use axijoint_model_material, only : rule_names
    use axijoint_model_model, only : method_names
    use axijoint_model_request, only : goal_names, goal_displacement
    use axijoint_solver_registry, only : known_solvers, solver_words
@@ -244,8 +246,8 @@ contains
                    real_field('the cohesion', 36, 45, from=0.0_wp, default=0.0_wp, symbol='C'), &
                    real_field('the friction angle', 46, 55, from=0.0_wp, below=90.0_wp, default=0.0_wp, &
                               symbol='phi'), &
-                   word_field('the kind of law', 56, 65, [character(len=7) :: 'PAPER', 'ELASTIC'], 1), &
-                   word_field('the rule', 66, 75, [character(len=8) :: 'CENTROID', 'GAUSS', 'LOBATTO'], 2)]
+                   word_field('the kind of law', 56, 65, law_names([law_paper, law_elastic]), 1), &
+                   word_field('the rule', 66, 75, rule_names, 2)]
       end if
    end function property_fields
 
@@ -255,8 +257,8 @@ contains
       type(field_type), allocatable :: fields(:)
 
       fields = [number('the law', 1), &
-                word_field('the kind of slip', 6, 15, [character(len=10) :: 'COMPONENTS', 'RESULTANT'], 1), &
-                word_field('the kind of opening', 16, 25, [character(len=10) :: 'REVERSIBLE', 'BOND'], 1), &
+                word_field('the kind of slip', 6, 15, slip_names, 1), &
+                word_field('the kind of opening', 16, 25, opening_names, 1), &
                 real_field('the residual cohesion', 26, 35, from=0.0_wp, default=0.0_wp, symbol='C'), &
                 real_field('the residual friction angle', 36, 45, from=0.0_wp, below=90.0_wp, &
                            default=0.0_wp, symbol='phi'), &

@@ -1,6 +1,6 @@
 !> Results file for programs: all arrays of a run in HDF5 (doc/results.md)
 module axijoint_output_hdf5_results
-   use axijoint_analysis_core_results, only : results_type
+   use axijoint_analysis_core_results, only : results_type, source_names
    use axijoint_base_kinds, only : wp
    use axijoint_base_version, only : program_name, program_version
    use axijoint_deck_text_source, only : source_type
@@ -224,9 +224,9 @@ contains
 
       if (.not. allocated(results%budget)) return
       associate (budget => results%budget)
-         sources = trim(budget(1)%source)
+         sources = trim(source_names(budget(1)%source))
          do i = 2, size(budget)
-            sources = sources//', '//trim(budget(i)%source)
+            sources = sources//', '//trim(source_names(budget(i)%source))
          end do
          call file%group("/errors")
          call file%attribute("/errors", "sources", sources)

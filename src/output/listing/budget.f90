@@ -1,7 +1,7 @@
 !> What the listing says about approximations: what was left out without any error, and
 !> the error that each of the others leaves
 module axijoint_output_listing_budget
-   use axijoint_analysis_core_results, only : results_type, error_share_type
+   use axijoint_analysis_core_results, only : results_type, error_share_type, source_names
    use axijoint_analysis_error_budget, only : sum_of_shares, is_known
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
@@ -62,7 +62,7 @@ contains
       !> The line
       character(len=:), allocatable :: line
 
-      line = "  "//share%source//value_text(share%energy)//value_text(share%displacement)// &
+      line = "  "//source_names(share%source)//value_text(share%energy)//value_text(share%displacement)// &
              value_text(share%joint_stress)//value_text(share%load)
    end function share_line
 
@@ -192,7 +192,7 @@ contains
       if (.not. is_known(budget, shares)) text = "at least "//text
       if (total > 0.0_wp) then
          associate (most => maxloc(shares, 1))
-            text = text//", most by "//trim(budget(most)%source)//" ("//percent(shares(most))//")"
+            text = text//", most by "//trim(source_names(budget(most)%source))//" ("//percent(shares(most))//")"
          end associate
       end if
    end function quantity_text

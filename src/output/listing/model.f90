@@ -2,9 +2,9 @@
 module axijoint_output_listing_model
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text
-   use axijoint_element_joint_law, only : law_elastic, slip_resultant, opening_bond
+   use axijoint_element_joint_law, only : law_elastic, law_names, slip_names, opening_names
    use axijoint_fe_element_kind, only : formulations
-   use axijoint_model_material, only : rule_centroid, rule_gauss, rule_lobatto
+   use axijoint_model_material, only : rule_names
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, n_joints, element_references
    use axijoint_model_model, only : model_type
    use axijoint_output_file_columns, only : columns
@@ -189,7 +189,7 @@ contains
             write (label, format_label) material%label
             call file%put(label//columns([material%law%stiffness, material%law%cohesion, &
                atan(material%law%friction)/degree], wide)//"  "// &
-               law_name(material%law%kind)//"  "//rule_name(material%rule))
+               law_names(material%law%kind)//"  "//rule_names(material%rule))
          end associate
       end do
       if (all(model%joint_materials%law%kind == law_elastic)) return
@@ -200,8 +200,8 @@ contains
          associate (material => model%joint_materials(i), law => model%joint_materials(i)%law)
             if (law%kind == law_elastic) cycle
             write (label, format_label) material%label
-            call file%put(label//"   "//merge("RESULTANT ", "COMPONENTS", law%slip == slip_resultant)// &
-               "  "//merge("BOND      ", "REVERSIBLE", law%opening == opening_bond)// &
+            call file%put(label//"   "//slip_names(law%slip)// &
+               "  "//opening_names(law%opening)// &
                columns([merge(law%residual_cohesion, law%cohesion, law%softens), &
                         atan(merge(law%residual_friction, law%friction, law%softens))/degree, &
                         atan(law%dilation)/degree, law%gap, law%initial_stress], wide))
@@ -301,34 +301,5 @@ contains
 
       text = to_text(minval(values))//" to "//to_text(maxval(values))
    end function extent_text
-
-   !> Name of a joint law as in the deck
-   pure function law_name(kind) result(name)
-      !> One of the `law_` parameters
-      integer, intent(in) :: kind
-      !> The name
-      character(len=7) :: name
-
-      name = "PAPER"
-      if (kind == law_elastic) name = "ELASTIC"
-   end function law_name
-
-   !> Name of an integration rule as in the deck
-   pure function rule_name(rule) result(name)
-      !> One of the `rule_` parameters
-      integer, intent(in) :: rule
-      !> The name
-      character(len=8) :: name
-
-      name = ""
-      select case (rule)
-      case (rule_centroid)
-         name = "CENTROID"
-      case (rule_gauss)
-         name = "GAUSS"
-      case (rule_lobatto)
-         name = "LOBATTO"
-      end select
-   end function rule_name
 
 end module axijoint_output_listing_model

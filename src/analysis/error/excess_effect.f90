@@ -1,5 +1,5 @@
-!> What excess stress of the joints does to all nodes
-module axijoint_joints_effect
+!> What a change of the excess stress of joints does to the displacements
+module axijoint_analysis_error_excess_effect
    use axijoint_assembly_equations, only : equations_type, solve_mode
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, release_factor
    use axijoint_assembly_force, only : joint_force
@@ -7,30 +7,35 @@ module axijoint_joints_effect
    use axijoint_model_joint_points, only : model_joint_point_type
    implicit none
    private
-   public :: add_effect
+   public :: add_excess_effect
 
 contains
 
    !> Add the displacements from excess joint stress
-   subroutine add_effect(equations, points, excess, displacement)
-      !> Equations of all modes; factors are made again where they are not kept
+   subroutine add_excess_effect(equations, points, excess, displacement, found)
+      !> The equations, factored
       type(equations_type), intent(inout) :: equations
-      !> The joint points
+      !> Joint points
       type(model_joint_point_type), intent(in) :: points(:)
       !> Amplitudes, shape (3, points, modes)
       real(wp), intent(in) :: excess(:, :, :)
       !> Displacement amplitudes, shape (3, nodes, modes)
       real(wp), intent(inout) :: displacement(:, :, :)
+      !> Whether all are there: a factor that is not kept may lack the memory to be formed again
+      logical, intent(out) :: found
 
       type(workspace_type), allocatable :: spaces(:)
       real(wp), allocatable :: part(:, :), force(:, :)  ! threads have small stacks
       integer :: s, i, k
 
+      found = .true.
       if (.not. any(abs(excess) > 0.0_wp)) return
       call new_workspaces(equations, spaces)
-      !$omp parallel do schedule(dynamic) private(i, k, part, force) num_threads(size(spaces))
+      !$omp parallel do schedule(dynamic) private(i, k, part, force) num_threads(size(spaces)) &
+      !$omp reduction(.and.: found)
       do s = 1, size(equations%systems)
          call hold_factor(equations, s, spaces(own()))
+         found = found .and. .not. equations%systems(s)%failed
          if (equations%systems(s)%failed) cycle
          do i = 1, size(equations%systems(s)%modes)
             k = equations%systems(s)%modes(i)
@@ -42,6 +47,6 @@ contains
          call release_factor(equations, s, spaces(own()))
       end do
       !$omp end parallel do
-   end subroutine add_effect
+   end subroutine add_excess_effect
 
-end module axijoint_joints_effect
+end module axijoint_analysis_error_excess_effect
