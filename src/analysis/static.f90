@@ -215,17 +215,17 @@ contains
       type(results_type), intent(inout) :: results
 
       real(wp), allocatable :: motion(:, :, :)
-      character(len=len(results%idle)) :: name
-      integer :: k
+      integer :: k, n
 
-      allocate (results%idle(0))
-      if (.not. results%converged .or. .not. allocated(history%verdict%mechanism%idle)) return
+      n = 0
+      if (results%converged .and. allocated(history%verdict%mechanism%idle)) n = size(history%verdict%mechanism%idle, 2)
+      allocate (results%idle(n))
+      if (n == 0) return
       allocate (motion, mold=results%displacement)
-      do k = 1, size(history%verdict%mechanism%idle, 2)
+      do k = 1, n
          motion = 0.0_wp
          call add_motions(structure%scene%floating, history%verdict%mechanism%idle(:, k), motion)
-         name = motion_text(model%mesh, results%modes, motion)
-         results%idle = [results%idle, name]
+         results%idle(k) = motion_text(model%mesh, results%modes, motion)
       end do
    end subroutine name_idle_motions
 
