@@ -47,7 +47,6 @@ contains
       real(wp), parameter :: part = 0.1_wp
       real(wp), allocatable :: jump(:, :, :)
       type(strictest_type) :: found
-      real(wp) :: factor_share
       integer :: k
 
       associate (scene => structure%scene)
@@ -61,8 +60,8 @@ contains
             call balance_again(scene, yielding, history)
             results%converged = history%verdict%converged
             results%path = history%path
-            call solve_displacements(structure%equations, model, history%loading, scene%points, &
-                                     yielding%excess, results%displacement, results%solves, factor_share, error)
+            call solve_displacements(structure, model, history%loading, results%displacement, results%solves, &
+                                     error, yielding%excess)
             if (allocated(error)) return
          end do
       end associate
@@ -106,7 +105,7 @@ contains
       real(wp), parameter :: part = 0.3_wp
       type(error_share_type) :: share
       type(joint_field_type), allocatable :: balanced
-      real(wp) :: factor_share, tolerance, excess
+      real(wp) :: tolerance, excess
       integer :: k
 
       associate (scene => structure%scene)
@@ -123,8 +122,8 @@ contains
             call balance_again(scene, yielding, history, tolerance)
             results%path = history%path
             if (.not. history%verdict%converged) exit
-            call solve_displacements(structure%equations, model, history%loading, scene%points, &
-                                     yielding%excess, results%displacement, results%solves, factor_share, error)
+            call solve_displacements(structure, model, history%loading, results%displacement, results%solves, &
+                                     error, yielding%excess)
             if (allocated(error)) return
          end do
          results%converged = .false.

@@ -157,7 +157,6 @@ contains
       type(mode_solve_type), allocatable :: solves(:)
       type(timer_type) :: timer
       type(error_type), allocatable :: error
-      real(wp) :: factor_share
       integer :: i
 
       found = .false.
@@ -184,8 +183,7 @@ contains
          allocate (yielding%excess(3, 0, size(structure%modes)))
       end if
       allocate (displacement, mold=results%displacement)
-      call solve_displacements(structure%equations, stiffer, history%loading, structure%scene%points, &
-                               yielding%excess, displacement, solves, factor_share, error)
+      call solve_displacements(structure, stiffer, history%loading, displacement, solves, error, yielding%excess)
       found = .not. allocated(error)
       if (.not. found) return
       if (size(structure%yielding) > 0) call add_motions(structure%scene%floating, yielding%offset, displacement)
