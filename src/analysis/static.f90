@@ -17,7 +17,6 @@ module axijoint_analysis_static
    use axijoint_analysis_error_stiffer_joints, only : compare_stiffer
    use axijoint_analysis_error_yielding_errors, only : estimate_yielding_errors
    use axijoint_analysis_fine_difference, only : difference_type, new_difference
-   use axijoint_analysis_fine_level, only : new_fine_load
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type, new_mesh_error
    use axijoint_assembly_loading, only : new_loading
    use axijoint_base_error, only : error_type
@@ -147,7 +146,6 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(joint_field_type), allocatable :: other
-      real(wp) :: factor_share
 
       call run_increments(model, structure%equations, structure%condensed, structure%joint_points, &
                           structure%support_points, combination, history, progress)
@@ -164,9 +162,8 @@ contains
       results%tolerance = model%increments(size(model%increments))%tolerance
       allocate (results%displacement, mold=history%loading%right)
       if (allocated(history%runaway)) then
-         call solve_displacements(structure%equations, model, history%loading, &
-                                  structure%condensed%points, history%runaway, results%displacement, &
-                                  results%solves, factor_share, error)
+         call solve_displacements(structure, model, history%loading, results%displacement, results%solves, error, &
+                                  history%runaway)
          if (allocated(error)) return
          results%mechanism = mechanism_text(model, history%reached, results)
       end if
@@ -175,9 +172,8 @@ contains
          call add_motions(structure%condensed%floating, history%motion, results%displacement)
          results%mechanism = mechanism_text(model, history%reached, results)
       end if
-      call solve_displacements(structure%equations, model, history%loading, structure%condensed%points, &
-                               history%field%excess, results%displacement, results%solves, factor_share, &
-                               error)
+      call solve_displacements(structure, model, history%loading, results%displacement, results%solves, error, &
+                               history%field%excess)
       if (allocated(error)) return
       call correct_rounding(model, structure, history, results, error)
       if (allocated(error)) return
@@ -211,17 +207,17 @@ contains
       type(results_type), intent(inout) :: results
 
       real(wp), allocatable :: motion(:, :, :)
-      character(len=len(results%idle)) :: name
-      integer :: k
+      integer :: k, n
 
-      allocate (results%idle(0))
-      if (.not. results%converged .or. .not. allocated(history%verdict%mechanism%idle)) return
+      n = 0
+      if (results%converged .and. allocated(history%verdict%mechanism%idle)) n = size(history%verdict%mechanism%idle, 2)
+      allocate (results%idle(n))
+      if (n == 0) return
       allocate (motion, mold=results%displacement)
-      do k = 1, size(history%verdict%mechanism%idle, 2)
+      do k = 1, n
          motion = 0.0_wp
          call add_motions(structure%condensed%floating, history%verdict%mechanism%idle(:, k), motion)
-         name = motion_text(model%mesh, results%modes, motion)
-         results%idle = [results%idle, name]
+         results%idle(k) = motion_text(model%mesh, results%modes, motion)
       end do
    end subroutine name_idle_motions
 
@@ -248,26 +244,22 @@ contains
 
       type(planes_type) :: planes
       type(difference_type) :: difference
-      real(wp), allocatable :: none(:, :, :)
-      real(wp) :: factor_share
 
       call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
                        combination_type(combination%label, final_factors(model, combination)), &
                        history%loading)
       history%peak = history%loading
       allocate (results%displacement, mold=history%loading%right)
-      allocate (results%path(0), results%residuals(0), results%residual_part_node(0), none(3, 0, size(structure%modes)))
+      allocate (results%path(0), results%residuals(0), results%residual_part_node(0))
       results%states = loads_of_increments(model, combination)
       if (.not. model%sweep%wanted) results%states = results%states(size(results%states):)
       call new_difference(size(results%displacement, 2), size(structure%joint_points), size(structure%modes), &
                           difference)
       call timer%push(phase_joints)
-      call solve_displacements(structure%equations, model, history%loading, &
-                               structure%joint_points(:0), none, results%displacement, &
-                               results%solves, factor_share, error, structure%fine, &
-                               new_fine_load(structure%fine, structure%modes, history%loading), difference)
+      call solve_displacements(structure, model, history%loading, results%displacement, results%solves, error, &
+                               difference=difference)
       call new_mesh_error(difference, mesh_error)
-      call timer%pop(phase_factor, factor_share)
+      call timer%pop(phase_factor, difference%factor_share)
       if (allocated(error)) return
       results%converged = .true.  ! if the residual says so, too
       results%tolerance = linear_tolerance

@@ -89,7 +89,7 @@ contains
             real(estimate%bytes, wp)/2.0_wp**20, estimate%seconds
       end do
       do k = 1, size(solvers)
-         if (solvers(k)%note /= '') write (output_unit, '(2x, a)') trim(solvers(k)%name)//': '//trim(solvers(k)%note)
+         if (solvers(k)%note /= '') write (output_unit, '(2x, a)') trim(solvers(k)%note)
       end do
    end subroutine estimate_deck
 

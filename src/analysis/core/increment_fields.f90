@@ -73,23 +73,16 @@ contains
 
       type(loading_type) :: loading
       type(mode_solve_type), allocatable :: solves(:)
-      real(wp), allocatable :: force(:, :), none(:, :, :)
-      real(wp) :: factor_share
+      real(wp), allocatable :: force(:, :)
       integer :: k
 
       results%modes = final%modes
       allocate (results%displacement, mold=final%displacement)
       allocate (results%stress, mold=final%stress)
-      allocate (none(3, 0, size(final%modes)))
       call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
                        combination_type(0, state%case_factor), loading)
-      if (allocated(state%excess)) then
-         call solve_displacements(structure%equations, model, loading, structure%condensed%points, &
-                                  state%excess, results%displacement, solves, factor_share, error)
-      else
-         call solve_displacements(structure%equations, model, loading, structure%joint_points(:0), &
-                                  none, results%displacement, solves, factor_share, error)
-      end if
+      ! where no joint yields there is no excess stress
+      call solve_displacements(structure, model, loading, results%displacement, solves, error, state%excess)
       if (allocated(error)) return
       !$omp parallel do schedule(dynamic) private(force) if (worth_threads(structure%equations))
       do k = 1, size(results%modes)

@@ -47,7 +47,6 @@ contains
       real(wp), parameter :: part = 0.1_wp
       real(wp), allocatable :: jump(:, :, :)
       type(strictest_type) :: found
-      real(wp) :: factor_share
       integer :: k
 
       associate (condensed => structure%condensed, scene => history%scene)
@@ -62,8 +61,8 @@ contains
             call balance_again(condensed, history)
             results%converged = history%verdict%converged
             results%path = history%path
-            call solve_displacements(structure%equations, model, history%loading, condensed%points, &
-                                     history%field%excess, results%displacement, results%solves, factor_share, error)
+            call solve_displacements(structure, model, history%loading, results%displacement, results%solves, &
+                                     error, history%field%excess)
             if (allocated(error)) return
          end do
       end associate
@@ -105,7 +104,7 @@ contains
       real(wp), parameter :: part = 0.3_wp
       type(error_share_type) :: share
       type(joint_field_type), allocatable :: balanced
-      real(wp) :: factor_share, tolerance, excess
+      real(wp) :: tolerance, excess
       integer :: k
 
       associate (condensed => structure%condensed, scene => history%scene)
@@ -122,8 +121,8 @@ contains
             call balance_again(condensed, history, tolerance)
             results%path = history%path
             if (.not. history%verdict%converged) exit
-            call solve_displacements(structure%equations, model, history%loading, condensed%points, &
-                                     history%field%excess, results%displacement, results%solves, factor_share, error)
+            call solve_displacements(structure, model, history%loading, results%displacement, results%solves, &
+                                     error, history%field%excess)
             if (allocated(error)) return
          end do
          results%converged = .false.

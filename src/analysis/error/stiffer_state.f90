@@ -133,7 +133,6 @@ contains
       type(mode_solve_type), allocatable :: solves(:)
       type(timer_type) :: timer
       type(error_type), allocatable :: error
-      real(wp) :: factor_share
       integer :: i
 
       stiffer = model
@@ -155,8 +154,7 @@ contains
          allocate (history%field%excess(3, 0, size(structure%modes)))
       end if
       allocate (state%displacement, mold=results%displacement)
-      call solve_displacements(structure%equations, stiffer, history%loading, structure%condensed%points, &
-                               history%field%excess, state%displacement, solves, factor_share, error)
+      call solve_displacements(structure, stiffer, history%loading, state%displacement, solves, error, history%field%excess)
       state%found = .not. allocated(error)
       if (.not. state%found) return
       if (size(structure%yielding) > 0) then

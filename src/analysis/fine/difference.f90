@@ -31,8 +31,8 @@ module axijoint_analysis_fine_difference
       real(wp), allocatable :: displacement(:, :, :)
       !> Of the jumps at its joint points, amplitudes, shape (3, points, modes)
       real(wp), allocatable :: jump(:, :, :)
-      !> Time of all threads [second]
-      real(wp) :: seconds = 0.0_wp
+      !> Time of all threads [second], and share of the time of the solution that went into factorizations
+      real(wp) :: seconds = 0.0_wp, factor_share = 0.0_wp
    end type difference_type
 
 contains
