@@ -5,7 +5,7 @@ program axijoint
    use axijoint_base_system, only : return_freed_memory
    use axijoint_base_version, only : program_name, program_version
    use axijoint_cli, only : command_type, read_command, help_text, command_run, command_check, &
-                            command_estimate, command_compare, command_help
+                            command_estimate, command_compare, command_help, command_help_card
    use axijoint_driver_check, only : check_decks
    use axijoint_driver_compare, only : compare_files
    use axijoint_driver_estimate, only : estimate_decks
@@ -34,6 +34,8 @@ program axijoint
          call compare_files(command%decks, exit_code)
       case (command_help)
          write (output_unit, '(a)') help_text(command%topic)
+      case (command_help_card)
+         write (output_unit, '(a)') command%card_help
       case default
          write (output_unit, '(a)') program_name//' '//program_version
       end select

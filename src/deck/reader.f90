@@ -13,8 +13,8 @@ module axijoint_deck_reader
    use axijoint_deck_gmsh_joints, only : lay_group_joints
    use axijoint_deck_gmsh_solids, only : draft_gmsh
    use axijoint_deck_job_card, only : cards_of
-   use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_job, stage_properties, stage_elements, &
-      stage_blocks, stage_faces, stage_joints, stage_loads, stage_requests
+   use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_job, stage_properties, &
+      stage_elements, stage_blocks, stage_faces, stage_joints, stage_loads, stage_requests
    use axijoint_deck_job_moves, only : take_moves
    use axijoint_deck_job_supports, only : gather_supported_faces
    use axijoint_deck_load_lists, only : new_load_lists, take_loads
@@ -23,7 +23,7 @@ module axijoint_deck_reader
    use axijoint_deck_mesh_edges, only : new_edge_table, check_edges
    use axijoint_deck_mesh_places, only : group_places, new_point_tree, point_tree_type, same_place
    use axijoint_deck_property_properties, only : properties_type, new_properties
-   use axijoint_deck_registry, only : all_sections
+   use axijoint_deck_registry, only : all_sections, without_readers
    use axijoint_deck_section_case, only : warn_of_lacking_loads
    use axijoint_deck_section_chains, only : lay_chains
    use axijoint_deck_section_combine, only : keyword_combine
@@ -37,9 +37,10 @@ module axijoint_deck_reader
    use axijoint_deck_section_joints, only : keyword_joints
    use axijoint_deck_section_sections, only : place_lines
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
-   use axijoint_deck_text_sections, only : read_sections
+   use axijoint_deck_text_sections, only : read_sections, table_of
    use axijoint_deck_text_source, only : source_type
    use axijoint_deck_text_source_reader, only : read_source
+   use axijoint_deck_text_table, only : table_type
    use axijoint_model_model, only : model_type, element_references
    use axijoint_model_request, only : refinement_type
    implicit none
@@ -66,7 +67,7 @@ contains
       type(read_section_type), allocatable :: sections(:)
 
       sections = all_sections()
-      call read_source(path, sections%section_type, source, diagnostics)
+      call read_source(path, without_readers(sections), source, diagnostics)
       if (source%n_cards == 0) return
       call read_sections(source, deck%sections, diagnostics)
       if (.not. deck%sections%complete) return
@@ -149,13 +150,15 @@ contains
          deck%draft%faces%good = .false.
          return
       end if
-      associate (draft => deck%draft, edges => deck%edges, group => deck%group, diagnostics => deck%diagnostics)
+      associate (draft => deck%draft, edges => deck%edges, group => deck%group, &
+                 diagnostics => deck%diagnostics)
          call lay_faces(deck)
          call lay_chains(deck)
          call lay_group_faces(cards_of(deck, keyword_groups), deck%import, edges, draft)
          call check_joints(cards_of(deck, keyword_joints), deck%properties%laws, group, edges, draft)
          call lay_interfaces(deck)
-         call lay_group_joints(cards_of(deck, keyword_groups), deck%import, deck%properties, group, edges, draft)
+         call lay_group_joints(cards_of(deck, keyword_groups), deck%import, deck%properties, &
+                               group, edges, draft)
          call check_joint_edges(edges, draft, diagnostics)
          if (tiles) call check_overlap(draft, edges, diagnostics)
          if (diagnostics%n_errors == 0) then
@@ -205,13 +208,14 @@ contains
       !> All sections
       type(read_section_type), intent(in) :: sections(:)
 
+      type(table_type), pointer :: combinations
+
       deck%loads = new_load_lists(deck%draft%n_nodes)
       call read_stage(deck, sections, stage_loads)
       call refer_increments(deck)
       if (deck%diagnostics%n_errors == 0) then
-         associate (combinations => cards_of(deck, keyword_combine))
-            call warn_of_idle_cases(deck, combinations%table%n > 0)
-         end associate
+         combinations => table_of(deck%sections, keyword_combine)
+         call warn_of_idle_cases(deck, combinations%n > 0)
       end if
       call warn_of_lacking_loads(deck)
       call take_moves(deck)

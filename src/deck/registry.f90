@@ -43,9 +43,10 @@ module axijoint_deck_registry
    use axijoint_deck_section_sweep, only : sweep_section
    use axijoint_deck_section_temperatures, only : temperatures_section
    use axijoint_deck_section_tractions, only : tractions_section
+   use axijoint_deck_text_section, only : section_type
    implicit none
    private
-   public :: all_sections
+   public :: all_sections, without_readers
 
 contains
 
@@ -64,7 +65,8 @@ contains
                   harmonics_section(), shapes_section(), restraints_section(), fixed_faces_section(), &
                   case_section(), tractions_section(), pressures_section(), resultants_section(), &
                   ring_loads_section(), point_loads_section(), gravity_section(), rotation_section(), &
-                  temperatures_section(), node_temps_section(), moved_nodes_section(), moved_faces_section(), &
+                  temperatures_section(), node_temps_section(), moved_nodes_section(), &
+                  moved_faces_section(), &
                   in_situ_section(), springs_section(), combine_section(), &
                   sections_section(), cuts_section(), sweep_section(), error_section(), &
                   include_section(), end_section()]
@@ -72,5 +74,20 @@ contains
          if (.not. allocated(sections(k)%fields)) allocate (sections(k)%fields(0))
       end do
    end function all_sections
+
+   !> What cards look like, for those who read or describe any sections
+   pure function without_readers(sections) result(described)
+      !> The sections
+      type(read_section_type), intent(in) :: sections(:)
+      !> The same without their readers
+      type(section_type), allocatable :: described(:)
+
+      integer :: k
+
+      allocate (described(size(sections)))
+      do k = 1, size(sections)
+         described(k) = sections(k)%section_type
+      end do
+   end function without_readers
 
 end module axijoint_deck_registry

@@ -77,9 +77,11 @@ contains
          associate (a => nodes(lower(i)), b => nodes(upper(i)))
             if (group(a) == group(b)) cycle
             call card_fault(card, &
-                             'nodes '//to_text(draft%node_label(a))//' and '//to_text(draft%node_label(b))// &
+                             'nodes '//to_text(draft%node_label(a))//' and '// &
+                             to_text(draft%node_label(b))// &
                              ' do not coincide', &
-                             found=place_text(draft%position(:, a))//'; '//place_text(draft%position(:, b)), &
+                             found=place_text(draft%position(:, a))//'; '// &
+                             place_text(draft%position(:, b)), &
                              allowed='4 at the place of 1, 3 at the place of 2, 6 at the place of 5', mend=mend)
             if (len(mend) > 0) return
          end associate

@@ -26,13 +26,16 @@ contains
       associate (draft => deck%draft, mesh => deck%model%mesh, properties => deck%properties, &
                  shapes => deck%shapes, sections => deck%sections, diagnostics => deck%diagnostics)
          call tell('material', (properties%materials%label), properties%material_card, &
-                   occur(mesh%element_material, size(properties%materials)), 'used by no element', diagnostics)
+                   occur(mesh%element_material, size(properties%materials)), &
+                   'used by no element', diagnostics)
          call tell('law', (properties%laws%label), properties%law_card, &
                    occur(mesh%joint_material, size(properties%laws)), 'used by no joint', diagnostics)
          call tell('face', (draft%faces%label), (draft%faces%card), &
-                   are_in((draft%faces%label), numbers_that_refer_to(sections, 'face')), 'used by no card', diagnostics)
+                   are_in((draft%faces%label), numbers_that_refer_to(sections, 'face')), &
+                   'used by no card', diagnostics)
          call tell('shape', shapes%label, shapes%card, &
-                   are_in(shapes%label, numbers_that_refer_to(sections, 'shape')), 'used by no load', diagnostics)
+                   are_in(shapes%label, numbers_that_refer_to(sections, 'shape')), &
+                   'used by no load', diagnostics)
          do k = 1, size(sections%empty)
             associate (keyword => deck%source%cards(sections%empty(k))%keyword)
                call add_warning(diagnostics, sections%empty(k), 0, 0, &
@@ -134,7 +137,8 @@ contains
       integer :: entry
 
       do entry = 1, table%n
-         if (table%given(field, entry)) call insert_number(numbers, integer_value(table, field, entry), entry)
+         if (table%given(field, entry)) call insert_number(numbers, &
+            integer_value(table, field, entry), entry)
       end do
    end subroutine add_field
 

@@ -3,7 +3,7 @@ module axijoint_deck_gmsh_faces
    use axijoint_base_number_map, only : number_map_type, find_number, insert_number
    use axijoint_base_text, only : to_text
    use axijoint_deck_gmsh_import, only : gmsh_import_type, use_face, name_number, name_group
-   use axijoint_deck_mesh_draft, only : draft_type, edge_type, face_type, place_text
+   use axijoint_deck_mesh_draft, only : draft_type, face_type, place_text
    use axijoint_deck_mesh_edges, only : edge_table_type, find_edge, outer_edge
    use axijoint_deck_text_entry, only : entry_type, is_given, field_fault, first_card, field_named
    use axijoint_deck_text_labels, only : repeated_label
@@ -234,7 +234,8 @@ contains
             if (all(lines_at(:, place) > 0)) then
                face%good = .false.
                call field_fault(card, field_named(card, name_group), 'the curve branches at '// &
-                                place_text(draft%position(:, ends(k, i))), allowed='one line, open or closed')
+                                place_text(draft%position(:, ends(k, i))), &
+                                allowed='one line, open or closed')
                return
             end if
             lines_at(count(lines_at(:, place) > 0) + 1, place) = i

@@ -8,7 +8,8 @@ module axijoint_deck_job_card
    use axijoint_deck_mesh_face_geometry, only : moment_of_radius
    use axijoint_deck_mesh_faces, only : find_face
    use axijoint_deck_mesh_node_range, only : find_nodes
-   use axijoint_deck_text_entry, only : entry_type, next_entry, is_given, integer_of, field_fault, first_card
+   use axijoint_deck_text_entry, only : entry_type, next_entry, is_given, integer_of, field_fault, &
+      first_card
    use axijoint_deck_text_sections, only : table_of
    implicit none
    private

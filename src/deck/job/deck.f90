@@ -16,8 +16,8 @@ module axijoint_deck_job_deck
    implicit none
    private
    public :: deck_type, read_section_type
-   public :: stage_job, stage_properties, stage_elements, stage_blocks, stage_faces, stage_joints, stage_loads, &
-      stage_requests, n_stages
+   public :: stage_job, stage_properties, stage_elements, stage_blocks, stage_faces, stage_joints, &
+      stage_loads, stage_requests, n_stages
 
    !> When a section is read. Control data, materials and laws, the mesh file
    integer, parameter :: stage_job = 1, stage_properties = 2

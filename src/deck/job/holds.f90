@@ -22,7 +22,8 @@ contains
       !> The field
       type(field_type) :: field
 
-      field = described(code_field(name_code, first, first + 4), 'code: three digits for u, v, w; 1 fixed, 0 free')
+      field = described(code_field(name_code, first, first + 4), &
+                        'code: three digits for u, v, w; 1 fixed, 0 free')
    end function code
 
    !> Hold the nodes of one card
@@ -74,10 +75,12 @@ contains
       if (is_given(card, field + last)) range%last = integer_of(card, field + last)
       if (range%last < range%first) then
          call field_fault(card, field + last, &
-                          'the last harmonic is below the first', allowed=to_text(range%first)//' or more')
+                          'the last harmonic is below the first', allowed=to_text(range%first)// &
+                          ' or more')
       else if (card%deck%highest >= 0 .and. range%first > card%deck%highest) then
          call field_fault(card, field, &
-                          'harmonic '//to_text(range%first)//' is above the highest, M = '//to_text(card%deck%highest), &
+                          'harmonic '//to_text(range%first)//' is above the highest, M = '// &
+                          to_text(card%deck%highest), &
                           allowed='0 to '//to_text(card%deck%highest), &
                           mend='what holds in every harmonic needs no harmonic on its card')
       end if

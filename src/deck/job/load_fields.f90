@@ -5,7 +5,8 @@ module axijoint_deck_job_load_fields
    use axijoint_deck_text_field, only : field_type, integer_field, real_field, word_field, described
    implicit none
    private
-   public :: harmonic, family, shape_number, harmonic_range, held_in, displacements, any_body
+   public :: harmonic, sole_harmonic, family, sole_family, shape_number, harmonic_range, held_in, &
+      displacements, any_body
    public :: name_harmonic, name_first, name_family, name_shape, name_held
 
    !> Names by which the fields of the distribution round the circle are found
@@ -26,9 +27,29 @@ contains
       integer, intent(in) :: first
       !> The field
       type(field_type) :: field
-      field = described(integer_field(name_harmonic, first, first + 4, 0, largest_harmonic, default=0), &
-                        'harmonic m', blank='given by the shape', limits='of those in use; blank if a shape is given')
+      field = described(integer_field(name_harmonic, first, first + 4, 0, largest_harmonic, &
+         default=0), &
+                        'harmonic m', blank='given by the shape', &
+                        limits='of those in use; blank if a shape is given')
    end function harmonic
+
+   !> Field of a harmonic where no shape can be given
+   pure function sole_harmonic(first) result(field)
+      !> First column
+      integer, intent(in) :: first
+      !> The field
+      type(field_type) :: field
+      field = described(harmonic(first), 'harmonic m', blank='must be given', limits='of those in use')
+   end function sole_harmonic
+
+   !> Field of a family where no shape can be given
+   pure function sole_family(first) result(field)
+      !> First column
+      integer, intent(in) :: first
+      !> The field
+      type(field_type) :: field
+      field = described(family(first), 'family S or A', limits='S, A')
+   end function sole_family
 
    !> Field of a family
    pure function family(first) result(field)
@@ -48,8 +69,10 @@ contains
       type(field_type) :: fields(3)
       fields = [described(integer_field(name_first, first, first + 4, 0, largest_harmonic, default=0), &
                           'first harmonic that it holds in', blank='every harmonic', limits='0 … M'), &
-                described(integer_field('the last harmonic', first + 5, first + 9, 0, largest_harmonic, default=0), &
-                          'last harmonic; it may be above M', blank='the first', limits='first … 9999'), &
+                described(integer_field('the last harmonic', first + 5, first + 9, 0, &
+                largest_harmonic, default=0), &
+                          'last harmonic; it may be above M', blank='the first', &
+                          limits='first … 9999'), &
                 described(family(first + 10), 'family S or A', blank='both', limits='S, A')]
    end function harmonic_range
 
@@ -59,7 +82,8 @@ contains
       integer, intent(in) :: first
       !> The field
       type(field_type) :: field
-      field = described(word_field(name_held, first, first + 4, [character(len=5) :: 'EVERY', 'ONLY'], 1), &
+      field = described(word_field(name_held, first, first + 4, &
+                                   [character(len=5) :: 'EVERY', 'ONLY'], 1), &
                         'EVERY: held in all harmonics; ONLY: in this harmonic and family')
    end function held_in
 
@@ -94,7 +118,8 @@ contains
       integer, intent(in) :: first
       !> The field
       type(field_type) :: field
-      field = described(integer_field('the body', first, first + 4, 1, largest_body, default=0), 'body', &
+      field = described(integer_field('the body', first, first + 4, 1, largest_body, default=0), &
+                        'body', &
                         blank='all')
    end function any_body
 

@@ -8,8 +8,8 @@ module axijoint_deck_job_modes
    use axijoint_deck_job_load_fields, only : name_harmonic, name_family, name_shape
    use axijoint_deck_load_shares, only : share_type, shares_of, add_truncation
    use axijoint_deck_text_diagnostics, only : add_warning
-   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, field_named, field_fault, card_fault, &
-      is_good, is_sound, first_card
+   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, field_named, field_fault, &
+      card_fault, is_good, is_sound, first_card
    use axijoint_fe_circle_function, only : circle_function_type, share_left_out
    use axijoint_fe_mode, only : mode_type, family_symmetric
    implicit none
@@ -40,7 +40,8 @@ contains
          shares = [share_type(mode_type(integer_of(card, harmonic), integer_of(card, family)))]
          return
       end if
-      if (is_given(card, harmonic)) call field_fault(card, harmonic, 'harmonic and shape are both given', &
+      if (is_given(card, harmonic)) call field_fault(card, harmonic, &
+         'harmonic and shape are both given', &
          allowed='one of them; the program decomposes the shape')
       if (is_given(card, family)) call field_fault(card, family, 'family and shape are both given', &
          allowed='blank: the program decomposes the shape into both families')
@@ -78,7 +79,8 @@ contains
          name = 'harmonic '//to_text(harmonic)
          if (harmonic > card%deck%highest) then
             call field_fault(card, field, &
-                             'the load''s '//name//' is above the highest, M = '//to_text(card%deck%highest), &
+                             'the load''s '//name//' is above the highest, M = '// &
+                             to_text(card%deck%highest), &
                              allowed='0 to '//to_text(card%deck%highest), &
                              mend='raise M on the CONTROL card to '//to_text(harmonic))
          else if (.not. any(card%deck%harmonics == harmonic)) then

@@ -10,7 +10,8 @@ module axijoint_deck_job_moves
    use axijoint_deck_mesh_draft, only : draft_type
    use axijoint_deck_text_common_fields, only : name_node
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
-   use axijoint_deck_text_entry, only : integer_of, field_named, field_fault, is_good, is_sound, first_card
+   use axijoint_deck_text_entry, only : integer_of, field_named, field_fault, is_good, is_sound, &
+      first_card
    use axijoint_deck_text_source, only : source_type, card_position
    use axijoint_fe_mode, only : mode_type, same_mode, is_torsion, mode_name
    use axijoint_model_model, only : model_type, held_at
@@ -106,7 +107,8 @@ contains
       type(mode_type), intent(in) :: mode
 
       call field_fault(card, first - 1 + component, &
-                       'node '//to_text(card%deck%draft%node_label(node))//' is on the axis and has no '// &
+                       'node '//to_text(card%deck%draft%node_label(node))// &
+                       ' is on the axis and has no '// &
                        component_name(component)//' in harmonic '//mode_name(mode), &
                        allowed='on the axis v in harmonic 0, and u = -w in harmonic 1')
    end subroutine report_pole
@@ -121,7 +123,8 @@ contains
       logical, allocatable :: kept(:)
       integer :: i, k
 
-      associate (moves => deck%loads%moves(:deck%loads%n_moves), draft => deck%draft, diagnostics => deck%diagnostics)
+      associate (moves => deck%loads%moves(:deck%loads%n_moves), draft => deck%draft, &
+                 diagnostics => deck%diagnostics)
          kept = abs(moves%value) > 0.0_wp
          call check_restraints(draft, deck%loads, deck%model, diagnostics)
          order = order_of(moves)
@@ -153,7 +156,8 @@ contains
          return
       end if
       model%held_by_default(move%component, move%node) = move%of_nodes &
-         .and. (model%held_by_default(move%component, move%node) .or. .not. model%fixed(move%component, move%node))
+         .and. (model%held_by_default(move%component, &
+         move%node) .or. .not. model%fixed(move%component, move%node))
       model%fixed(move%component, move%node) = .true.
    end subroutine hold_component
 

@@ -27,7 +27,8 @@ contains
          if (.not. deck%source%sections(k)%is_support) cycle
          associate (table => deck%sections%tables(k))
             do field = 1, size(table%fields)
-               if (table%fields(field)%refers_to == 'face') call gather(table, field, deck%draft, known, faces)
+               if (table%fields(field)%refers_to == 'face') call gather(table, field, deck%draft, &
+                  known, faces)
             end do
          end associate
       end do

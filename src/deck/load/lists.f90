@@ -10,7 +10,8 @@ module axijoint_deck_load_lists
    implicit none
    private
    public :: load_lists_type, move_type, new_load_lists, take_loads
-   public :: add_tractions, add_ring_load, add_body_load, add_temperatures, add_move, add_initial_stress, &
+   public :: add_tractions, add_ring_load, add_body_load, add_temperatures, add_move, &
+      add_initial_stress, &
       add_edge_support
 
    !> A given displacement, and what its card says of it

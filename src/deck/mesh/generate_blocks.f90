@@ -22,7 +22,8 @@ module axijoint_deck_mesh_generate_blocks
    end type block_type
 
    !> Places of an element's nodes on the grid of half elements, from its first corner
-   integer, parameter :: grid_1(9) = [0, 2, 2, 0, 1, 2, 1, 0, 1], grid_2(9) = [0, 0, 2, 2, 0, 1, 2, 1, 1]
+   integer, parameter :: grid_1(9) = [0, 2, 2, 0, 1, 2, 1, 0, 1], &
+      grid_2(9) = [0, 0, 2, 2, 0, 1, 2, 1, 1]
    !> Places among them of the nodes of the two triangles of a cell, cut from corner 1
    !> to 3 or from 2 to 4, shape (nodes, triangles, cuts)
    integer, parameter :: in_cell(6, 2, 2) = reshape([1, 2, 3, 5, 6, 9, 1, 3, 4, 9, 7, 8, &
@@ -119,7 +120,8 @@ contains
             k = candidates%n + 1
             candidates%n = k
             candidates%position(:, k) = &
-               map_block(block%corners, half_grid(i, n1, block%ratio(1)), half_grid(j, n2, block%ratio(2)))
+               map_block(block%corners, half_grid(i, n1, block%ratio(1)), &
+                         half_grid(j, n2, block%ratio(2)))
             candidates%body(k) = block%body
             candidates%card(k) = block%card
             node(i, j) = draft%n_nodes + k

@@ -67,7 +67,8 @@ contains
 
       label = maxval([0, draft%joint_label(:draft%n_joints)])
       do i = 1, size(a)
-         nodes = [a(i)%nodes(1), a(i)%nodes(2), b(i)%nodes(2), b(i)%nodes(1), a(i)%nodes(3), b(i)%nodes(3)]
+         nodes = [a(i)%nodes(1), a(i)%nodes(2), b(i)%nodes(2), b(i)%nodes(1), a(i)%nodes(3), &
+                  b(i)%nodes(3)]
          if (a(i)%body_on_left) nodes(:4) = nodes([2, 1, 4, 3])
          call add_joint(draft, label + i, card, 0, law, nodes(:merge(6, 4, nodes(5) > 0)))
       end do

@@ -4,7 +4,8 @@ module axijoint_deck_mesh_node_range
    use axijoint_base_text, only : to_text
    use axijoint_deck_mesh_draft, only : draft_type
    use axijoint_deck_text_common_fields, only : name_node, name_last, name_step
-   use axijoint_deck_text_entry, only : entry_type, is_given, integer_of, is_good, field_fault, field_named
+   use axijoint_deck_text_entry, only : entry_type, is_given, integer_of, is_good, field_fault, &
+      field_named
    implicit none
    private
    public :: find_nodes

@@ -8,7 +8,7 @@ module axijoint_deck_mesh_straight_face
    use axijoint_deck_text_entry, only : entry_type, card_fault
    implicit none
    private
-   public :: line_type, new_line, outer_edges, lay_straight_face
+   public :: line_type, line_between, outer_edges, lay_straight_face
 
    !> Distance of an edge from the line of its face, in extents of the model: the
    !> ends of the line are typed with few digits
@@ -27,7 +27,7 @@ module axijoint_deck_mesh_straight_face
 contains
 
    !> The line between two points
-   pure function new_line(first, last, extent) result(line)
+   pure function line_between(first, last, extent) result(line)
       !> First and last point
       real(wp), intent(in) :: first(2), last(2)
       !> Extent of the model
@@ -41,7 +41,7 @@ contains
       line%tolerance = line_tolerance*extent
       if (line%length <= 2.0_wp*line%tolerance) line%length = 0.0_wp
       if (line%length > 0.0_wp) line%direction = (last - first)/line%length
-   end function new_line
+   end function line_between
 
    !> Indices of the edges that one element has
    pure function outer_edges(edges) result(outer)

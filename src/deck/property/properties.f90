@@ -30,7 +30,8 @@ contains
       !> Without any
       type(properties_type) :: properties
 
-      allocate (properties%materials(0), properties%laws(0), properties%material_card(0), properties%law_card(0))
+      allocate (properties%materials(0), properties%laws(0), properties%material_card(0), &
+                properties%law_card(0))
    end function new_properties
 
    !> Add a material, and report its number if another has it
@@ -59,7 +60,8 @@ contains
       type(properties_type), intent(inout) :: properties
 
       properties%laws = [properties%laws, law]
-      call add_number(card, field, 'law', properties%law_card, properties%law_of, properties%laws_complete)
+      call add_number(card, field, 'law', properties%law_card, properties%law_of, &
+                      properties%laws_complete)
    end subroutine add_law
 
    !> Note the number of a thing, and report it if it is there already
@@ -101,7 +103,8 @@ contains
       !> Its index; 0 if there is none
       integer, intent(out) :: material
 
-      call find_property(card, field, 'material', properties%material_of, properties%materials_complete, material)
+      call find_property(card, field, 'material', properties%material_of, &
+                         properties%materials_complete, material)
    end subroutine find_material
 
    !> Find the law that a field names, or report it

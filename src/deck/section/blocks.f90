@@ -9,7 +9,8 @@ module axijoint_deck_section_blocks
    use axijoint_deck_property_properties, only : find_material
    use axijoint_deck_text_common_fields, only : number, body, ratio, largest_division
    use axijoint_deck_text_diagnostics, only : add_error
-   use axijoint_deck_text_entry, only : integer_of, real_of, reals_of, is_good, field_fault, card_fault, first_card
+   use axijoint_deck_text_entry, only : integer_of, real_of, reals_of, is_good, field_fault, &
+      card_fault, first_card
    use axijoint_deck_text_field, only : field_type, integer_field, real_field, described
    implicit none
    private
@@ -19,7 +20,8 @@ module axijoint_deck_section_blocks
    !> The keyword
    character(len=*), parameter :: keyword_blocks = 'BLOCKS'
    !> Fields; coordinates of the corners from `field_corner` on
-   integer, parameter :: field_body = 1, field_material = 2, field_size = 3, field_n1 = 4, field_n2 = 5, &
+   integer, parameter :: field_body = 1, field_material = 2, field_size = 3, field_n1 = 4, &
+      field_n2 = 5, &
       field_ratio1 = 6, field_ratio2 = 7, field_corner = 8
    !> Least sine of the angle at a corner of a block
    real(wp), parameter :: least_sine = 1.0e-6_wp
@@ -38,14 +40,17 @@ contains
       section%stage = stage_blocks
       section%read => read_blocks
       section%fields = &
-         [body(1), described(number('the material', 6), 'material', limits='of MATERIALS or ORTHOTROPIC'), &
-          described(integer_field('the number of nodes per element', 11, 15, 3, 9), 'nodes per element', &
+         [body(1), described(number('the material', 6), 'material', &
+                             limits='of MATERIALS or ORTHOTROPIC'), &
+          described(integer_field('the number of nodes per element', 11, 15, 3, 9), &
+                    'nodes per element', &
                     limits='3, 4, 6, 8, 9'), &
           described(integer_field('the number of elements along 1-2', 16, 20, 1, largest_division), &
                     'n1: elements along side 1-2'), &
           described(integer_field('the number of elements along 2-3', 21, 25, 1, largest_division), &
                     'n2: elements along side 2-3'), &
-          described(ratio('the ratio along 1-2', 26), 'ratio of the last to the first element along 1-2'), &
+          described(ratio('the ratio along 1-2', 26), &
+                    'ratio of the last to the first element along 1-2'), &
           described(ratio('the ratio along 2-3', 36), 'the same along 2-3'), &
           described(corner_fields(), 'r1 z1 r2 z2 r3 z3 r4 z4: corners, counterclockwise; or r1 z1 r3 z3 '// &
                     'alone: opposite corners of a rectangle', limits='r ≥ 0')]

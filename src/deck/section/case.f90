@@ -31,7 +31,8 @@ contains
       section%stage = stage_loads
       section%read => read_cases
       section%fields = [described(number('the load case', 1), 'load case', limits='each number once'), &
-                        described(text_field('the name of the load case', 6, 80), 'name, without commas', &
+                        described(text_field('the name of the load case', 6, 80), &
+                                  'name, without commas', &
                                   limits='blanks inside are allowed')]
       section%fields(field_name)%required = .false.
    end function case_section

@@ -30,7 +30,8 @@ contains
       section%purpose = 'faces along chains of corner nodes'
       section%stage = stage_faces
       section%read => read_chains
-      section%fields = [number('the face', 1), described(nodes('node', 15, 2, 6), 'corner nodes, two at least')]
+      section%fields = [number('the face', 1), &
+                        described(nodes('node', 15, 2, 6), 'corner nodes, two at least')]
    end function chains_section
 
    !> Note the numbers of the faces

@@ -40,7 +40,7 @@ contains
                            real_field('factor '//to_text(i), 15*i - 4, default=0.0_wp)]
       end do
       section%fields(field_pair:) = described(section%fields(field_pair:), &
-         'five pairs of load case and factor, the first at least', blank='none', limits='each case once')
+         'five pairs, one at least: load case I5, factor F10', blank='none', limits='each case once')
    end function combine_section
 
    !> Make the combinations. Without cards every load case is one of its own
@@ -73,7 +73,8 @@ contains
             if (.not. is_given(card, field_label)) cycle
             i = find_number(index_of, integer_of(card, field_label))
             if (i == 0) then
-               model%combinations = [model%combinations, combination_type(integer_of(card, field_label), factor)]
+               model%combinations = [model%combinations, &
+                  combination_type(integer_of(card, field_label), factor)]
                i = size(model%combinations)
                call insert_number(index_of, model%combinations(i)%label, i)
             end if
@@ -128,7 +129,8 @@ contains
          if (.not. all(card%table%given(field:field + 1, card%entry))) then
             call field_fault(card, &
                              merge(field + 1, field, is_given(card, field)), &
-                             'a pair of the combination is not complete', allowed='pairs load case, factor')
+                             'a pair of the combination is not complete', &
+                             allowed='pairs load case, factor')
             cycle
          end if
          case = find_number(cases%index_of, integer_of(card, field))

@@ -38,7 +38,8 @@ contains
       section%fields = &
          [integer_field('the highest harmonic M', 1, 5, 0, largest_harmonic), &
           described(integer_field('the number of planes', 6, 10, 2, largest_division, default=0), &
-                    'planes θ from 0 to π on which the joint law is checked', blank='4M+1, at least 2', &
+                    'planes θ from 0 to π on which the joint law is checked', &
+                    blank='4M+1, at least 2', &
                     limits='2 … 100000; at least M+1 if a joint can open or slip'), &
           described(integer_field('the number of Gauss points (linear)', 11, 15, 2, 3, default=2), &
                     'Gauss points per direction of 4-node elements; 3-node triangles: 2 for three points, '// &
@@ -88,7 +89,8 @@ contains
          card = cards_of(deck, keyword_control)
          card%entry = 1
          call field_fault(card, field_planes, &
-                          'there are too few planes for harmonics up to '//to_text(model%max_harmonic), &
+                          'there are too few planes for harmonics up to '// &
+                          to_text(model%max_harmonic), &
                           allowed='at least M + 1 = '//to_text(model%max_harmonic + 1)// &
                              ' planes where joints can open or slip', &
                           mend='leave the field blank: the default is 4 M + 1')

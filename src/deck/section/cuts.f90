@@ -31,7 +31,8 @@ contains
       section%stage = stage_requests
       section%read => read_cuts
       section%fields = [described(number('the cut', 1), 'cut', limits='each number once'), &
-                        described(length('z', 6), 'z [length]', limits='lowest … highest z of the body'), &
+                        described(length('z', 6), 'z [length]', &
+                                  limits='lowest … highest z of the body'), &
                         described(body(16), 'body', blank='all')]
    end function cuts_section
 
@@ -78,7 +79,8 @@ contains
             high = -huge(high)
             do element = 1, size(mesh%element_body)
                if (cut%body > 0 .and. mesh%element_body(element) /= cut%body) cycle
-               associate (z => mesh%coordinates(2, mesh%element_nodes(:mesh%element_size(element), element)))
+               associate (z => mesh%coordinates(2, &
+                  mesh%element_nodes(:mesh%element_size(element), element)))
                   low = min(low, minval(z))
                   high = max(high, maxval(z))
                end associate

@@ -8,7 +8,7 @@ module axijoint_deck_section_elements
    use axijoint_deck_mesh_draft, only : draft_type, add_node, add_element
    use axijoint_deck_property_properties, only : find_material
    use axijoint_deck_text_common_fields, only : number, nodes_field => nodes, body_field => body
-   use axijoint_deck_text_entry, only : is_given, integer_of, is_good, is_sound, field_fault, card_fault, first_card
+   use axijoint_deck_text_entry, only : integer_of, is_good, field_fault, card_fault, first_card
    use axijoint_deck_text_field, only : described
    use axijoint_deck_text_labels, only : check_label
    use axijoint_deck_text_source, only : card_position
@@ -36,8 +36,10 @@ contains
       section%stage = stage_elements
       section%read => read_elements
       section%fields = [number('the element', 1), &
-                        described(number('the material', 6), 'material', limits='of MATERIALS or ORTHOTROPIC'), &
-                        body_field(11), described(nodes_field('node', 9, 3, 16), 'nodes', limits='3, 4, 6, 8 or 9')]
+                        described(number('the material', 6), 'material', &
+                                  limits='of MATERIALS or ORTHOTROPIC'), &
+                        body_field(11), described(nodes_field('node', 9, 3, 16), 'nodes', &
+                        limits='3, 4, 6, 8 or 9')]
    end function elements_section
 
    !> Add the elements

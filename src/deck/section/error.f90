@@ -35,7 +35,8 @@ contains
       section%stage = stage_requests
       section%read => read_goal
       section%fields = &
-         [described(real_field('the target', 1, above=0.0_wp, to=100.0_wp), 'target [%]', limits='0 < … ≤ 100'), &
+         [described(real_field('the target', 1, above=0.0_wp, to=100.0_wp), 'target [%]', &
+                    limits='0 < … ≤ 100'), &
           described(word_field('the quantity', 11, 20, goal_names, goal_displacement), &
                     'of what: JOINTS (joint stress), DISPL (displacements), ENERGY (stresses in the energy norm)'), &
           integer_field('the most rounds', 21, 25, 1, 99, default=8), &
@@ -50,7 +51,7 @@ contains
 
       type(card_type) :: card
 
-      deck%model%error_goal%mesh_too = can_refine_mesh(deck)
+      deck%model%error_goal%mesh_too = can_refine_mesh(deck%sections)
       card = cards_of(deck, keyword_error)
       if (card%table%n == 0) return
       if (card%table%n > 1) then
@@ -79,7 +80,8 @@ contains
       blocks => table_of(sections, keyword_blocks)
       control => table_of(sections, keyword_control)
       increments => table_of(sections, keyword_increments)
-      associate (n => blocks%values(field_n1:field_n2, :blocks%n), size => blocks%values(field_size, :blocks%n))
+      associate (n => blocks%values(field_n1:field_n2, :blocks%n), &
+                 size => blocks%values(field_size, :blocks%n))
          n = max(1.0_wp, anint(refinement%mesh*n))
          if (refinement%quadratic) where (nint(size) == 4) size = 8.0_wp
       end associate
@@ -94,34 +96,21 @@ contains
 
    !> Whether more elements make the same job: the mesh is of BLOCKS alone, and no card
    !> calls nodes by their numbers, which change
-   logical function can_refine_mesh(deck)
+   logical function can_refine_mesh(sections)
       !> The deck
-      type(deck_type), intent(in), target :: deck
+      type(sections_type), intent(in), target :: sections
 
+      type(table_type), pointer :: blocks, groups
       integer :: k
 
-      associate (sections => deck%sections)
-         can_refine_mesh = n_entries(keyword_blocks) > 0 .and. n_entries(keyword_groups) == 0
-         do k = 1, size(sections%tables)
-            associate (table => sections%tables(k))
-               if (table%n > 0 .and. any(table%fields%refers_to == 'node')) can_refine_mesh = .false.
-            end associate
-         end do
-      end associate
-
-   contains
-
-      !> Number of entries of a section
-      integer function n_entries(keyword)
-         !> Its keyword
-         character(len=*), intent(in) :: keyword
-
-         type(table_type), pointer :: table
-
-         table => table_of(deck%sections, keyword)
-         n_entries = table%n
-      end function n_entries
-
+      blocks => table_of(sections, keyword_blocks)
+      groups => table_of(sections, keyword_groups)
+      can_refine_mesh = blocks%n > 0 .and. groups%n == 0
+      do k = 1, size(sections%tables)
+         associate (table => sections%tables(k))
+            if (table%n > 0 .and. any(table%fields%refers_to == 'node')) can_refine_mesh = .false.
+         end associate
+      end do
    end function can_refine_mesh
 
 end module axijoint_deck_section_error

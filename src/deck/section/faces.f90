@@ -8,7 +8,7 @@ module axijoint_deck_section_faces
    use axijoint_deck_mesh_draft, only : draft_type, face_type
    use axijoint_deck_mesh_edges, only : edge_table_type
    use axijoint_deck_mesh_faces, only : number_face
-   use axijoint_deck_mesh_straight_face, only : line_type, new_line, outer_edges, lay_straight_face
+   use axijoint_deck_mesh_straight_face, only : line_type, line_between, outer_edges, lay_straight_face
    use axijoint_deck_text_common_fields, only : number, body, length
    use axijoint_deck_text_entry, only : integer_of, reals_of, is_good, field_fault, first_card
    use axijoint_deck_text_field, only : described
@@ -33,9 +33,11 @@ contains
       section%stage = stage_faces
       section%read => read_faces
       section%fields = [number('the face', 1), body(6), &
-                        described([length('r of the first point', 11, 0.0_wp), length('z of the first point', 21)], &
+                        described([length('r of the first point', 11, 0.0_wp), &
+                                   length('z of the first point', 21)], &
                                   'r1 z1: first point', limits='r ≥ 0'), &
-                        described([length('r of the last point', 31, 0.0_wp), length('z of the last point', 41)], &
+                        described([length('r of the last point', 31, 0.0_wp), &
+                                   length('z of the last point', 41)], &
                                   'r2 z2: last point', limits='r ≥ 0')]
    end function faces_section
 
@@ -90,7 +92,7 @@ contains
 
       type(line_type) :: line
 
-      line = new_line(reals_of(card, field_first, 2), reals_of(card, field_last, 2), draft%extent)
+      line = line_between(reals_of(card, field_first, 2), reals_of(card, field_last, 2), draft%extent)
       if (.not. line%length > 0.0_wp) then
          face%good = .false.
          call field_fault(card, field_last, 'the face has no length', allowed='two different points')

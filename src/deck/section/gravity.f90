@@ -78,7 +78,8 @@ contains
       do k = 1, 2
          associate (g => shares(k)%factor*real_of(card, field_lateral))
             if (.not. any(abs(g) > 0.0_wp)) cycle
-            call add_body_load(card%deck%loads, body_load_type(shares(k)%mode, card%case, [g(1), 0.0_wp, -g(3)]))
+            call add_body_load(card%deck%loads, &
+                               body_load_type(shares(k)%mode, card%case, [g(1), 0.0_wp, -g(3)]))
          end associate
       end do
    end subroutine read_weight

@@ -1,8 +1,8 @@
 !> GROUPS: what the physical groups of the mesh file mean
 module axijoint_deck_section_groups
    use axijoint_base_text, only : to_text, count_of, nearest_word
-   use axijoint_deck_gmsh_import, only : gmsh_import_type, group_use_type, use_body, use_joint, name_number, &
-      name_group
+   use axijoint_deck_gmsh_import, only : gmsh_import_type, group_use_type, use_body, use_joint, &
+      name_number, name_group
    use axijoint_deck_job_card, only : card_type, cards_of, next_card
    use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_properties
    use axijoint_deck_property_properties, only : properties_type, find_material, find_law
@@ -40,7 +40,8 @@ contains
          [described(word_field('the kind of group', 1, 10, kinds), 'kind'), &
           described(number(name_number, 11), 'number of the body or face; law of the joints', &
                     limits='body: 1 … 9999; law: of LAWS'), &
-          described(number('the material', 16), 'material', limits='BODY: of MATERIALS or ORTHOTROPIC; else blank'), &
+          described(number('the material', 16), 'material', blank='none', &
+                    limits='BODY: of MATERIALS or ORTHOTROPIC; else blank'), &
           described(text_field(name_group, 21, 80), 'name of the physical group, or its number', &
                     limits='the name may have blanks inside, and stand in quotation marks')]
       section%fields(field_material)%required = .false.
@@ -76,7 +77,8 @@ contains
                            mend='below GROUPS, name the physical surfaces that are bodies')
          end if
          if (import%sound) call check_overlap(card, import)
-         import%sound = import%sound .and. diagnostics%n_errors == errors_before .and. all(table%good(:table%n))
+         import%sound = import%sound .and. diagnostics%n_errors == errors_before &
+            .and. all(table%good(:table%n))
       end associate
    end subroutine read_groups
 
@@ -133,7 +135,8 @@ contains
       integer :: i, n_same
 
       name = text_of(card, field_name)
-      if (len(name) > 2 .and. name(1:1) == '"' .and. name(len(name):) == '"') name = name(2:len(name) - 1)
+      if (len(name) > 2 .and. name(1:1) == '"' &
+          .and. name(len(name):) == '"') name = name(2:len(name) - 1)
       group = 0
       n_same = 0
       do i = 1, size(mesh%groups)

@@ -29,9 +29,10 @@ contains
       section%fields = &
          [described(integer_field('the first harmonic', 1, 5, 0, largest_harmonic), 'first harmonic', &
                     limits='0 … M'), &
-          described(integer_field('the last harmonic', 6, 10, 0, largest_harmonic, default=0), 'last harmonic', &
+          described(integer_field('the last harmonic', 6, 10, 0, largest_harmonic, default=0), &
+                    'last harmonic', &
                     blank='the first', limits='first … M'), &
-          described(step_field(11), 'step', limits='divides the difference')]
+          step_field(11)]
    end function harmonics_section
 
    !> The harmonics in use: those of the cards, or all from 0 to M if there are none. If a

@@ -37,8 +37,12 @@ contains
                     'factor on all loads, added to those of earlier increments', limits='any'), &
           described(real_field('the tolerance', 11, above=0.0_wp, below=1.0_wp, default=1.0e-6_wp, &
                                symbol='tolerance'), &
-                    'tolerance ε on residual forces, see below', limits='0 < ε < 1'), &
-          integer_field('the most iterations', 21, 25, 1, largest_number, default=default_iterations), &
+                    'tolerance ε on residual forces: of the whole over the applied, and of each part in each '// &
+                    'harmonic over what its joints would carry; the largest counts', &
+                    limits='0 < ε < 1'), &
+          described(integer_field('the most iterations', 21, 25, 1, largest_number, &
+                                  default=default_iterations), &
+                    'most iterations', limits='≥ 1'), &
           described(integer_field('the load case', 26, 30, 1, largest_number, default=0), &
                     'load case that the factor belongs to', blank='all', limits='of CASE, or 1')]
    end function increments_section
@@ -95,16 +99,20 @@ contains
                  combinations => deck%model%combinations, cards => card%table%cards)
          if (size(cases) == 1 .or. .not. any(increments%case > 0)) return
          if (.not. combined) then
-            call add_warning(deck%diagnostics, cards(1, findloc(increments%case > 0, .true., 1)), 0, 0, &
+            call add_warning(deck%diagnostics, cards(1, findloc(increments%case > 0, .true., 1)), &
+                             0, 0, &
                              'INCREMENTS names load cases, and no COMBINE puts them together: each is a job '// &
-                             'without the others', mend='add COMBINE with all load cases of the history')
+                             'without the others', &
+                             mend='add COMBINE with all load cases of the history')
             return
          end if
          do case = 1, size(cases)
             if (any(increments%case == case .or. increments%case == 0)) cycle
-            if (.not. any([(abs(combinations(k)%factor(case)) > 0.0_wp, k=1, size(combinations))])) cycle
+            if (.not. any([(abs(combinations(k)%factor(case)) > 0.0_wp, k=1, &
+                            size(combinations))])) cycle
             call add_warning(deck%diagnostics, cards(1, 1), 0, 0, &
-                             'load case '//to_text(cases(case)%label)//' is in no increment: its loads never act', &
+                             'load case '//to_text(cases(case)%label)// &
+                             ' is in no increment: its loads never act', &
                              mend='give it an increment, or leave its number blank on a card: then the factor '// &
                                 'is of all')
          end do

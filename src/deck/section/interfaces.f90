@@ -113,7 +113,8 @@ contains
          call card_fault(card, names//' do not have the same nodes', &
                           found=count_of(size(a), 'edge')//' and '//count_of(size(b), 'edge')// &
                           '; they part at '//place_text(draft%position(:, a(i)%nodes(1))), &
-                          allowed='the same nodes along both faces', mend='divide both bodies alike there')
+                          allowed='the same nodes along both faces', &
+                          mend='divide both bodies alike there')
          return
       end do
       do i = 1, size(a)

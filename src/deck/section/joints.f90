@@ -30,7 +30,8 @@ contains
       section%purpose = 'joints one by one'
       section%stage = stage_joints
       section%read => read_joints
-      section%fields = [number('the joint', 1), described(number('the law', 6), 'law', limits='of LAWS'), &
+      section%fields = [number('the joint', 1), &
+                        described(number('the law', 6), 'law', limits='of LAWS'), &
                         described(nodes_field('node', 6, 4, 11), 'nodes 1 2 3 4, or 1 2 3 4 5 6')]
    end function joints_section
 
@@ -57,7 +58,8 @@ contains
             end if
          end associate
          call find_joint_nodes(card, n, deck%draft, nodes(:n))
-         call add_joint(deck%draft, integer_of(card, field_label), first_card(card), card%entry, law, nodes(:n))
+         call add_joint(deck%draft, integer_of(card, field_label), first_card(card), card%entry, &
+                        law, nodes(:n))
       end do
    end subroutine read_joints
 

@@ -6,7 +6,8 @@ module axijoint_deck_section_law_details
    use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_properties
    use axijoint_deck_property_properties, only : find_law
    use axijoint_deck_text_common_fields, only : number
-   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, is_good, field_fault, card_fault, first_card
+   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, is_good, field_fault, &
+      card_fault, first_card
    use axijoint_deck_text_field, only : field_type, real_field, word_field, described
    use axijoint_deck_text_source, only : card_position
    use axijoint_element_joint_law, only : joint_law_type, law_elastic, slip_components
@@ -56,18 +57,23 @@ contains
       !> The fields
       type(field_type), allocatable :: fields(:)
 
-      fields = [described(real_field('the residual cohesion', 26, from=0.0_wp, default=0.0_wp, symbol='C'), &
-                          'residual cohesion, once a point has slipped [stress]', blank='C', limits='0 … C'), &
+      fields = [described(real_field('the residual cohesion', 26, from=0.0_wp, default=0.0_wp, &
+         symbol='C'), &
+                          'residual cohesion, once a point has slipped [stress]', blank='C', &
+                          limits='0 … C'), &
                 described(real_field('the residual friction angle', 36, from=0.0_wp, below=90.0_wp, &
                                      default=0.0_wp, symbol='phi'), &
                           'residual friction angle [degree]', blank='φ', limits='0 … φ'), &
-                described(real_field('the angle of dilation', 46, from=0.0_wp, below=90.0_wp, default=0.0_wp, &
+                described(real_field('the angle of dilation', 46, from=0.0_wp, below=90.0_wp, &
+                default=0.0_wp, &
                                      symbol='psi'), &
                           'angle of dilation ψ [degree]: slip s opens the joint by s tan ψ, either way; a '// &
-                          'joint that stands open by less presses', limits='0 … φ; only with RESULTANT'), &
+                          'joint that stands open by less presses', &
+                          limits='0 … φ; only with RESULTANT'), &
                 described(real_field('the gap', 56, from=0.0_wp, default=0.0_wp, symbol='gap'), &
                           'gap before loading [length]'), &
-                described(real_field('the initial normal stress', 66, to=0.0_wp, default=0.0_wp, symbol='sigma'), &
+                described(real_field('the initial normal stress', 66, to=0.0_wp, default=0.0_wp, &
+                symbol='sigma'), &
                           'initial normal stress, in equilibrium with what is not modelled [stress]', &
                           limits='≤ 0; not with a gap')]
    end function strength_fields

@@ -42,7 +42,8 @@ contains
           described(real_field('k_theta', 26, from=0.0_wp, symbol='k_theta'), 'k_θ [stress/length]'), &
           described(real_field('the cohesion', 36, from=0.0_wp, default=0.0_wp, symbol='C'), &
                     'cohesion C [stress]', limits='≥ 0; blank if ELASTIC'), &
-          described(real_field('the friction angle', 46, from=0.0_wp, below=90.0_wp, default=0.0_wp, symbol='phi'), &
+          described(real_field('the friction angle', 46, from=0.0_wp, below=90.0_wp, &
+                               default=0.0_wp, symbol='phi'), &
                     'friction angle φ [degree]', limits='0 ≤ φ < 90; blank if ELASTIC'), &
           described(word_field('the kind of law', 56, 65, kinds, 1), &
                     'PAPER: opens in tension, slips at C − σ tan φ; ELASTIC: neither'), &
@@ -80,7 +81,8 @@ contains
 
       do field = field_cohesion, field_angle
          if (.not. is_given(card, field)) cycle
-         call field_fault(card, field, 'an elastic joint has no '//trim(card%table%fields(field)%name(5:)), &
+         call field_fault(card, field, 'an elastic joint has no '// &
+                          trim(card%table%fields(field)%name(5:)), &
                           allowed='blank', mend='leave the field blank, or write PAPER instead of ELASTIC')
       end do
    end subroutine check_elastic

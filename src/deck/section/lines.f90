@@ -7,8 +7,8 @@ module axijoint_deck_section_lines
    use axijoint_deck_mesh_draft, only : draft_type, add_node, most_nodes
    use axijoint_deck_mesh_grading, only : graded_fraction, between
    use axijoint_deck_text_common_fields, only : node, step, ratio
-   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, is_good, is_sound, field_fault, card_fault, &
-      first_card
+   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, is_good, is_sound, &
+      field_fault, card_fault, first_card
    use axijoint_deck_text_field, only : described
    use axijoint_deck_text_source, only : card_position
    implicit none
@@ -32,8 +32,10 @@ contains
       section%stage = stage_elements
       section%read => read_lines
       section%fields = &
-         [described(node('the first node', 1), 'first node', limits='of a NODES card or an earlier LINES card'), &
-          described(node('the last node', 6), 'last node; may be less than the first', limits='the same'), &
+         [described(node('the first node', 1), 'first node', &
+                    limits='of a NODES card or an earlier LINES card'), &
+          described(node('the last node', 6), 'last node; may be less than the first', &
+                    limits='the same'), &
           described(step(11), 'step', limits='divides the difference of the numbers'), &
           described(ratio('the ratio', 16), &
                     'ratio of the last to the first interval (geometric progression)')]
@@ -80,7 +82,8 @@ contains
       if (any(ends == 0)) draft%nodes_complete = .false.
       distance = abs(labels(2) - labels(1))
       if (distance == 0) then
-         call field_fault(card, field_last, 'the line ends where it begins', allowed='two different nodes')
+         call field_fault(card, field_last, 'the line ends where it begins', &
+                          allowed='two different nodes')
       else if (mod(distance, integer_of(card, field_step)) /= 0) then
          call field_fault(card, merge(field_step, field_last, is_given(card, field_step)), &
                           'the step does not lead from node '//to_text(labels(1))//' to node ' &

@@ -3,7 +3,7 @@ module axijoint_deck_section_moved_faces
    use axijoint_base_kinds, only : wp
    use axijoint_deck_job_card, only : card_type, cards_of, next_card, find_any_face
    use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_loads
-   use axijoint_deck_job_load_fields, only : harmonic, family, held_in, displacements
+   use axijoint_deck_job_load_fields, only : sole_harmonic, sole_family, held_in, displacements
    use axijoint_deck_job_modes, only : read_shares, check_components
    use axijoint_deck_job_moves, only : check_given, move_node, component_name
    use axijoint_deck_load_shares, only : share_type
@@ -34,12 +34,13 @@ contains
       section%stage = stage_loads
       section%read => read_moved_faces
       section%fields = &
-         [face_field(1), harmonic(6), &
-          described(displacements(' at the first point', 11), 'u v w [length] at the first point of the face', &
+         [face_field(1), sole_harmonic(6), &
+          described(displacements(' at the first point', 11), &
+                    'u v w [length] at the first point of the face', &
                     blank='not held by this card', limits='one at least must be given'), &
           described(displacements(' at the last point', 41), 'the same at its last point', &
                     blank='as at the first'), &
-          family(71), held_in(76)]
+          sole_family(71), held_in(76)]
    end function moved_faces_section
 
    !> Note the displacements
@@ -70,7 +71,8 @@ contains
       given_last = [(is_given(card, field_last + i), i=0, 2)]
       do i = 1, 3
          if (given(i) .or. .not. given_last(i) .or. .not. is_good(card)) cycle
-         call field_fault(card, field_first - 1 + i, component_name(i)//' at the first point is blank', &
+         call field_fault(card, field_first - 1 + i, component_name(i)// &
+                          ' at the first point is blank', &
                           allowed='values at both points, or at the first alone')
       end do
       call check_given(card, field_first, given .or. given_last)

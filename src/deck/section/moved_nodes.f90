@@ -2,7 +2,7 @@
 module axijoint_deck_section_moved_nodes
    use axijoint_deck_job_card, only : card_type, cards_of, next_card, find_row
    use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_loads
-   use axijoint_deck_job_load_fields, only : harmonic, family, held_in, displacements
+   use axijoint_deck_job_load_fields, only : sole_harmonic, sole_family, held_in, displacements
    use axijoint_deck_job_modes, only : read_shares, check_components
    use axijoint_deck_job_moves, only : check_given, move_node
    use axijoint_deck_load_shares, only : share_type
@@ -31,10 +31,11 @@ contains
       section%stage = stage_loads
       section%read => read_moved_nodes
       section%fields = &
-         [node(name_node, 1), harmonic(6), &
-          described(displacements('', 11), 'u v w: amplitudes [length]', blank='not held by this card', &
+         [node(name_node, 1), sole_harmonic(6), &
+          described(displacements('', 11), 'u v w: amplitudes [length]', &
+                    blank='not held by this card', &
                     limits='one at least must be given'), &
-          family(41), last_node(46), step(51), held_in(56)]
+          sole_family(41), last_node(46), step(51), held_in(56)]
    end function moved_nodes_section
 
    !> Note the displacements

@@ -52,7 +52,8 @@ contains
          if (known > 0) then
             call repeated_label(card, field_label, 'node', deck%draft%node_card(known))
          else
-            call add_node(deck%draft, label, first_card(card), reals_of(card, field_position, 2), is_good(card))
+            call add_node(deck%draft, label, first_card(card), reals_of(card, field_position, 2), &
+                          is_good(card))
          end if
       end do
    end subroutine read_nodes

@@ -45,12 +45,14 @@ contains
       integer :: i
 
       fields = [number('the material', 1), &
-                described([(real_field('E_'//to_text(i), 10*i - 4, above=0.0_wp, symbol='E'), i=1, 3)], &
+                described([(real_field('E_'//to_text(i), 10*i - 4, above=0.0_wp, symbol='E'), &
+                            i=1, 3)], &
                           'E_1 E_2 E_3 [stress]'), &
                 described(real_field('the angle of direction 1', 36, from=-360.0_wp, to=360.0_wp, &
                                      default=0.0_wp, symbol='angle'), &
                           'angle from r to direction 1, counterclockwise [degree]'), &
-                described(real_field('the density', 46, from=0.0_wp, default=0.0_wp, symbol='density'), &
+                described(real_field('the density', 46, from=0.0_wp, default=0.0_wp, &
+                symbol='density'), &
                           'density [mass/volume]'), &
                 described([(real_field('expansion '//to_text(i), 10*i + 46, default=0.0_wp), i=1, 2)], &
                           'thermal expansion along 1 and 2 [1/temperature]')]

@@ -6,8 +6,10 @@ module axijoint_deck_section_point_loads
    use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_loads
    use axijoint_deck_load_lists, only : add_ring_load
    use axijoint_deck_load_shares, only : add_truncation
-   use axijoint_deck_text_common_fields, only : node_field => node, angle_field => angle, components, name_node
-   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, reals_of, is_good, is_sound, field_fault
+   use axijoint_deck_text_common_fields, only : node_field => node, angle_field => angle, &
+      components, name_node
+   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, reals_of, is_good, &
+      is_sound, field_fault
    use axijoint_deck_text_field, only : described
    use axijoint_fe_fourier, only : cosine_of_degrees, sine_of_degrees
    use axijoint_fe_mode, only : mode_type, family_symmetric, family_antisymmetric
@@ -35,7 +37,8 @@ contains
       section%read => read_point_loads
       section%fields = &
          [node_field(name_node, 1), described(angle_field('theta', 6), 'θ [degree]'), &
-          described(components('F', '', 16), 'F_r F_z F_θ [force]', limits='one at least must be given')]
+          described(components('F', '', 16), 'F_r F_z F_θ [force]', &
+                    limits='one at least must be given')]
       section%fields(field_angle)%required = .true.
    end function point_loads_section
 
@@ -76,7 +79,8 @@ contains
             left_out = share_of_axis(loads, card%deck%harmonics)
          end if
       end associate
-      call add_truncation(card%deck%loads%truncations, 'POINTLOADS, node '//to_text(integer_of(card, field_node))// &
+      call add_truncation(card%deck%loads%truncations, 'POINTLOADS, node '// &
+                          to_text(integer_of(card, field_node))// &
                           ', theta = '//to_text(real_of(card, field_angle)), left_out, card%case)
       do k = 1, size(loads)
          if (.not. any(card%deck%harmonics == loads(k)%mode%harmonic)) cycle

@@ -35,7 +35,8 @@ contains
       section%fields = &
          [face_field(1), harmonic(6), &
           described(real_field('p at the first point', 11), &
-                    'p [stress] at the first point of the face, positive into the body', limits='any'), &
+                    'p [stress] at the first point of the face, positive into the body', &
+                    limits='any'), &
           described(real_field('p at the last point', 21, default=0.0_wp), 'p at its last point', &
                     blank='as at the first', limits='any'), &
           family(31), shape_number(36)]

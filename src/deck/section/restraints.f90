@@ -36,7 +36,8 @@ contains
       integer, allocatable :: nodes(:)
 
       associate (model => deck%model)
-         allocate (model%fixed(3, deck%draft%n_nodes), model%held_by_default(3, deck%draft%n_nodes), source=.false.)
+         allocate (model%fixed(3, deck%draft%n_nodes), &
+                   model%held_by_default(3, deck%draft%n_nodes), source=.false.)
          allocate (model%restraints(0))
          card = cards_of(deck, keyword_restraints)
          do while (next_card(card))

@@ -20,7 +20,8 @@ module axijoint_deck_section_resultants
    !> Fields
    integer, parameter :: field_face = 1, field_kind = 2, field_value = 3, field_direction = 4
    !> Words of the kind, and their places
-   character(len=7), parameter :: kinds(4) = [character(len=7) :: 'LATERAL', 'MOMENT', 'AXIAL', 'TORQUE']
+   character(len=7), parameter :: kinds(4) = [character(len=7) :: 'LATERAL', 'MOMENT', 'AXIAL', &
+      'TORQUE']
    integer, parameter :: kind_lateral = 1, kind_moment = 2, kind_axial = 3, kind_torque = 4
 
 contains
@@ -37,7 +38,8 @@ contains
       section%read => read_resultants
       section%fields = &
          [face_field(1), described(word_field('the kind of resultant', 6, 15, kinds), 'kind'), &
-          described(real_field('the value', 16), 'value [force], [force × length] of MOMENT and TORQUE', &
+          described(real_field('the value', 16), &
+                    'value [force], [force × length] of MOMENT and TORQUE', &
                     limits='any'), &
           described(angle('theta0', 26), 'direction θ0 [degree] of LATERAL and MOMENT')]
    end function resultants_section
@@ -74,18 +76,21 @@ contains
          associate (kind => integer_of(card, field_kind))
             call needs_harmonic(card, merge(1, 0, kind <= kind_moment), trim(name(kind)))
             if (kind > kind_moment .and. is_given(card, field_direction)) then
-               call field_fault(card, field_direction, trim(name(kind))//' has no direction', allowed='blank')
+               call field_fault(card, field_direction, trim(name(kind))//' has no direction', &
+                                allowed='blank')
             end if
          end associate
       end if
       if (face == 0 .or. .not. is_sound(card)) return
       associate (kind => integer_of(card, field_kind), edges => card%deck%draft%faces(face)%edges)
          mean = real_of(card, field_value) &
-                /moment_of_radius(card%deck%draft, edges, merge(3, 1, kind == kind_moment .or. kind == kind_torque))
+                /moment_of_radius(card%deck%draft, edges, &
+                                  merge(3, 1, kind == kind_moment .or. kind == kind_torque))
          allocate (traction(3, 3, size(edges)), source=0.0_wp)
          do i = 1, size(edges)
             do k = 1, count(edges(i)%nodes > 0)
-               traction(:, k, i) = mean*resultant_traction(kind, card%deck%draft%position(1, edges(i)%nodes(k)))
+               traction(:, k, i) = mean*resultant_traction(kind, &
+                  card%deck%draft%position(1, edges(i)%nodes(k)))
             end do
          end do
          if (kind <= kind_moment) shares = directed_shares(real_of(card, field_direction))

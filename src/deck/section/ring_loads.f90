@@ -4,14 +4,14 @@ module axijoint_deck_section_ring_loads
    use axijoint_base_text, only : to_text
    use axijoint_deck_job_card, only : card_type, cards_of, next_card, find_node
    use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_loads
-   use axijoint_deck_job_load_fields, only : harmonic_field => harmonic, family, shape_number, name_harmonic, &
-      name_shape
+   use axijoint_deck_job_load_fields, only : harmonic_field => harmonic, family, shape_number, &
+      name_harmonic, name_shape
    use axijoint_deck_job_modes, only : read_shares, check_components
    use axijoint_deck_load_lists, only : add_ring_load
    use axijoint_deck_load_shares, only : share_type
    use axijoint_deck_text_common_fields, only : node_field => node, components, name_node
-   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, reals_of, is_good, is_sound, field_fault, &
-      field_named
+   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, reals_of, is_good, &
+      is_sound, field_fault, field_named
    use axijoint_deck_text_field, only : described
    use axijoint_fe_mode, only : mode_integral
    use axijoint_model_load, only : ring_load_type
@@ -74,7 +74,8 @@ contains
       call read_shares(card, shares)
       if (node == 0 .or. .not. is_sound(card)) return
       do k = 1, size(shares)
-         associate (r => card%deck%draft%position(1, node), q => shares(k)%factor*reals_of(card, field_first, 3))
+         associate (r => card%deck%draft%position(1, node), &
+                    q => shares(k)%factor*reals_of(card, field_first, 3))
             if (size(shares) > 1 .and. .not. any(abs(q) > 0.0_wp)) cycle
             ! On the axis the circle is a point: the force itself is given. The work of a
             ! lateral force on the amplitudes u and w = -u of a translation is counted with u.
@@ -95,7 +96,8 @@ contains
 
       if (card%deck%draft%position(1, node) > 0.0_wp) return
       if (is_given(card, field_named(card, name_shape))) then
-         call field_fault(card, field_named(card, name_shape), 'a node on the axis has no load with a shape', &
+         call field_fault(card, field_named(card, name_shape), &
+                          'a node on the axis has no load with a shape', &
                           allowed='harmonic 0 or 1', mend='give the force by a POINTLOADS card')
       end if
       if (.not. is_given(card, field_named(card, name_harmonic))) return

@@ -33,7 +33,8 @@ contains
       section%stage = stage_loads
       section%read => read_rotation
       section%fields = &
-         [described(real_field('the angular velocity', 1), 'angular velocity ω about the axis [radian/time]', &
+         [described(real_field('the angular velocity', 1), &
+                    'angular velocity ω about the axis [radian/time]', &
                     limits='any')]
    end function rotation_section
 
@@ -56,7 +57,8 @@ contains
       type(card_type), intent(in) :: card
 
       call needs_harmonic(card, 0, 'rotation')
-      if (any(card%deck%loads%body_loads%case == card%case .and. card%deck%loads%body_loads%spin_squared > 0.0_wp)) then
+      if (any(card%deck%loads%body_loads%case == card%case &
+              .and. card%deck%loads%body_loads%spin_squared > 0.0_wp)) then
          call field_fault(card, field_velocity, 'the load case has a rotation already', &
                           allowed='one angular velocity in a load case', &
                           mend='centrifugal forces go with its square: they do not add up')

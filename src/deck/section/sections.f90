@@ -21,7 +21,8 @@ module axijoint_deck_section_sections
    !> The keyword
    character(len=*), parameter :: keyword_sections = 'SECTIONS'
    !> Fields: number, r and z of both ends, number of points, angles
-   integer, parameter :: field_label = 1, field_first = 2, field_last = 4, field_points = 6, field_angles = 7
+   integer, parameter :: field_label = 1, field_first = 2, field_last = 4, field_points = 6, &
+      field_angles = 7
 
 contains
 
@@ -59,17 +60,20 @@ contains
       card = cards_of(deck, keyword_sections)
       allocate (deck%model%lines(card%table%n))
       do while (next_card(card))
-         call check_label(card, field_label, 'section', seen, allowed='a number of its own for each section')
+         call check_label(card, field_label, 'section', seen, &
+                          allowed='a number of its own for each section')
          associate (line => deck%model%lines(card%entry), table => card%table)
             line%label = integer_of(card, field_label)
             line%first = reals_of(card, field_first, 2)
             line%last = reals_of(card, field_last, 2)
             line%n_points = integer_of(card, field_points)
-            line%angles = degree*pack(table%values(field_angles:, card%entry), table%given(field_angles:, card%entry))
+            line%angles = degree*pack(table%values(field_angles:, card%entry), &
+               table%given(field_angles:, card%entry))
             if (size(line%angles) == 0) line%angles = deck%model%output_angles
             if (.not. is_good(card)) cycle
             if (norm2(line%last - line%first) <= same_place*maxval(abs([line%first, line%last]))) then
-               call card_fault(card, 'the section has no length', found=place_text(line%first)//' at both ends', &
+               call card_fault(card, 'the section has no length', found=place_text(line%first)// &
+                               ' at both ends', &
                                mend='give two different points')
             end if
          end associate
@@ -102,9 +106,11 @@ contains
                                allowed='points in elements: r from '//range_text(mesh, 1)// &
                                   ', z from '//range_text(mesh, 2))
             else if (outside > 0) then
-               call add_warning(deck%diagnostics, first_card(card), 0, 0, to_text(outside)//' of the '// &
+               call add_warning(deck%diagnostics, first_card(card), 0, 0, to_text(outside)// &
+                                ' of the '// &
                                 to_text(line%n_points)//' points of section '//to_text(line%label)// &
-                                trim(merge(' lies', ' lie ', outside == 1))//' outside the mesh: no results there', &
+                                trim(merge(' lies', ' lie ', outside == 1))// &
+                                ' outside the mesh: no results there', &
                                 found='the first at '//place_text(line_position(line, missing)))
             end if
          end associate
@@ -120,7 +126,8 @@ contains
       !> Such as "0 to 2"
       character(len=:), allocatable :: text
 
-      text = to_text(minval(mesh%coordinates(axis, :)))//' to '//to_text(maxval(mesh%coordinates(axis, :)))
+      text = to_text(minval(mesh%coordinates(axis, :)))//' to '// &
+         to_text(maxval(mesh%coordinates(axis, :)))
    end function range_text
 
 end module axijoint_deck_section_sections

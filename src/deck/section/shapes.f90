@@ -38,8 +38,11 @@ contains
       section%read => read_shapes
       section%fields = &
          [number('the shape', 1), described(word_field('the kind of shape', 6, 15, kinds), 'kind'), &
-          described([(real_field('number '//to_text(i)//' of the shape', 6 + 10*i, default=0.0_wp), i=1, 6)], &
-                    'PATCH: θ1 θ2; COSINE: m θ0; TABLE: θ f, three times; see below', blank='see below')]
+          described([(real_field('number '//to_text(i)//' of the shape', 6 + 10*i, &
+                                 default=0.0_wp), i=1, 6)], &
+                    'PATCH: θ1 θ2 [degree], f = 1 between them; COSINE: m θ0, f = cos m(θ − θ0); '// &
+                    'TABLE: θ f θ f θ f, linear between', blank='θ0 of COSINE: 0', &
+                    limits='θ: −360 … 360; m: 0, 1, …, 9999')]
       section%fields(field_number)%required = .true.
    end function shapes_section
 
@@ -105,7 +108,8 @@ contains
          call insert_number(shapes%shape_of, label, n + 1)
          first_entry(n + 1) = card%entry
          shape_of_entry(card%entry) = n + 1
-      else if (all(nint(card%table%values(field_kind, [first_entry(known), card%entry])) == kind_table)) then
+      else if (all(nint(card%table%values(field_kind, &
+         [first_entry(known), card%entry])) == kind_table)) then
          shape_of_entry(card%entry) = known
       else if (all(card%table%given(field_kind, [first_entry(known), card%entry]))) then
          call repeated_label(card, field_label, 'shape', card%table%cards(1, first_entry(known)), &
@@ -137,7 +141,8 @@ contains
       width = real_of(card, field_number + 1) - from
       if (width > 360.0_wp) then
          call field_fault(card, field_number + 1, &
-                          'the patch is wider than the circle', allowed='at most 360 degrees beyond theta1', &
+                          'the patch is wider than the circle', &
+                          allowed='at most 360 degrees beyond theta1', &
                           mend='the whole circle is 0 to 360')
          return
       end if

@@ -36,7 +36,8 @@ contains
          [described(real_field('the first angle', 1, from=-360.0_wp, to=360.0_wp, default=0.0_wp, &
                                symbol='theta'), 'first angle θ [degree]'), &
           described(real_field('the last angle', 11, from=-360.0_wp, to=360.0_wp, default=360.0_wp, &
-                               symbol='theta'), 'last angle', limits='above the first by 360 at most'), &
+                               symbol='theta'), 'last angle', &
+                               limits='above the first by 360 at most'), &
           described(integer_field('the number of sectors', 21, 25, 1, largest_division, default=0), &
                     'number of sectors', &
                     blank='16 for each wave of the highest harmonic solved, at least 36 for the circle', &

@@ -36,7 +36,8 @@ contains
          [any_body(1), harmonic(6), &
           described([real_field('T0', 11, default=0.0_wp), real_field('dT/dr', 21, default=0.0_wp), &
                      real_field('dT/dz', 31, default=0.0_wp)], &
-                    'T0, dT/dr, dT/dz: T = T0 + r dT/dr + z dT/dz', limits='one at least must be given'), &
+                    'T0, dT/dr, dT/dz: T = T0 + r dT/dr + z dT/dz', &
+                    limits='one at least must be given'), &
           family(41), shape_number(46)]
    end function temperatures_section
 

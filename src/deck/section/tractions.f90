@@ -77,7 +77,8 @@ contains
                    [(is_given(card, field_last + i), i=0, 2)])
       associate (edges => card%deck%draft%faces(face)%edges)
          call add_tractions(card%deck%loads, card%case, edges, &
-                            linear_along(card%deck%draft, edges, reals_of(card, field_first, 3), last), shares)
+                            linear_along(card%deck%draft, edges, reals_of(card, field_first, 3), &
+                            last), shares)
       end associate
    end subroutine read_traction
 

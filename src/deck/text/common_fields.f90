@@ -5,14 +5,16 @@ module axijoint_deck_text_common_fields
    use axijoint_deck_text_field, only : field_type, integer_field, real_field, described, largest_number
    implicit none
    private
-   public :: number, node, nodes, face, last_number, last_node, body, step, length, ratio, components, angle
+   public :: number, node, nodes, face, last_number, last_node, body, step, length, ratio, &
+      components, angle
    public :: largest_body, largest_division, largest_harmonic
    public :: name_node, name_last, name_step
 
    !> Largest numbers of a body, of elements along a side of a block, of a harmonic
    integer, parameter :: largest_body = 9999, largest_division = 100000, largest_harmonic = 9999
    !> Names of the fields of a row of nodes
-   character(len=*), parameter :: name_node = 'the node', name_last = 'the last node', name_step = 'the step'
+   character(len=*), parameter :: name_node = 'the node', name_last = 'the last node', &
+      name_step = 'the step'
    !> Greatest grading of a block or a line, and its inverse
    real(wp), parameter :: largest_ratio = 1.0e6_wp
 
@@ -89,7 +91,9 @@ contains
       integer, intent(in) :: first
       !> The field
       type(field_type) :: field
-      field = integer_field(name_step, first, first + 4, 1, largest_number, default=1)
+      field = described(integer_field(name_step, first, first + 4, 1, largest_number, default=1), &
+                        'step', &
+                        limits='divides the difference')
    end function step
 
    !> Field of a coordinate

@@ -4,8 +4,8 @@ module axijoint_deck_text_entry
    use axijoint_base_kinds, only : wp
    use axijoint_deck_text_diagnostics, only : diagnostics_type
    use axijoint_deck_text_source, only : source_type
-   use axijoint_deck_text_table, only : table_type, integer_value, text_value, field_error, field_warning, &
-      entry_error
+   use axijoint_deck_text_table, only : table_type, integer_value, text_value, field_error, &
+      field_warning, entry_error
    implicit none
    private
    public :: entry_type, new_entries, next_entry
@@ -138,7 +138,8 @@ contains
       !> What is allowed, how to mend it
       character(len=*), intent(in), optional :: allowed, mend
 
-      call field_error(card%diagnostics, card%source, card%table, card%entry, field, text, allowed, mend)
+      call field_error(card%diagnostics, card%source, card%table, card%entry, field, text, &
+                       allowed, mend)
    end subroutine field_fault
 
    !> Warn of the value of a field

@@ -4,7 +4,8 @@ module axijoint_deck_text_section
    use axijoint_deck_text_field, only : field_type, integer_field, text_field, largest_number, kind_word
    implicit none
    private
-   public :: section_type, cards_per_entry, keyword_fields, first_words, section_named, ordinal, cardinal
+   public :: section_type, cards_per_entry, keyword_fields, first_words, section_named, names_of, ordinal, &
+      cardinal
    public :: form_entries, form_title, form_end, form_include, form_file
    public :: needs_nothing, needs_density, needs_expansion
 
@@ -98,6 +99,20 @@ contains
       end do
    end function first_words
 
+   !> Keywords of sections
+   pure function names_of(sections) result(names)
+      !> The sections
+      type(section_type), intent(in) :: sections(:)
+      !> The keywords
+      character(len=keyword_length) :: names(size(sections))
+
+      integer :: k
+
+      do k = 1, size(sections)
+         names(k) = sections(k)%name
+      end do
+   end function names_of
+
    !> Place of a section among others; 0 if it is not there
    pure integer function section_named(sections, name)
       !> The sections
@@ -117,7 +132,8 @@ contains
       !> The word
       character(len=:), allocatable :: word
 
-      character(len=7), parameter :: words(most_cards) = [character(len=7) :: 'first', 'second', 'third', &
+      character(len=7), parameter :: words(most_cards) = [character(len=7) :: 'first', 'second', &
+         'third', &
          'fourth', 'fifth', 'sixth', 'seventh', 'eighth', 'ninth']
 
       word = trim(words(n))
@@ -130,7 +146,8 @@ contains
       !> The word
       character(len=:), allocatable :: word
 
-      character(len=5), parameter :: words(most_cards) = [character(len=5) :: 'one', 'two', 'three', 'four', &
+      character(len=5), parameter :: words(most_cards) = [character(len=5) :: 'one', 'two', &
+         'three', 'four', &
          'five', 'six', 'seven', 'eight', 'nine']
 
       word = trim(words(n))

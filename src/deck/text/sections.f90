@@ -5,10 +5,10 @@ module axijoint_deck_text_sections
    use axijoint_deck_text_field, only : field_type
    use axijoint_deck_text_section, only : cards_per_entry, keyword_fields, ordinal, cardinal, &
       form_entries, form_include, form_file, keyword_length, card_width
-   use axijoint_deck_text_source, only : source_type, card_text, card_content, card_position, card_title, &
-      card_data, card_keyword, form_of, tab
-   use axijoint_deck_text_table, only : table_type, new_table, read_entry, entry_error, field_error, &
-      integer_value
+   use axijoint_deck_text_source, only : source_type, card_text, card_content, card_position, &
+      card_title, card_data, card_keyword, form_of, tab
+   use axijoint_deck_text_table, only : table_type, new_table, read_entry, entry_error, &
+      field_error, integer_value
    implicit none
    private
    public :: sections_type, read_sections, table_of
@@ -36,7 +36,7 @@ contains
       !> The deck
       type(source_type), intent(in) :: source
       !> Its sections
-      type(sections_type), intent(inout) :: sections
+      type(sections_type), intent(out) :: sections
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
@@ -263,7 +263,8 @@ contains
             n_begun(keyword) = n_begun(keyword) + 1
             begun(n_begun(keyword), keyword) = card
             if (n_begun(keyword) < cards_per_entry(source%sections(section))) cycle
-            call read_entry(sections%tables(section), source, begun(:n_begun(keyword), keyword), diagnostics)
+            call read_entry(sections%tables(section), source, begun(:n_begun(keyword), keyword), &
+                            diagnostics)
             n_begun(keyword) = 0
             entries(keyword) = entries(keyword) + 1
          end associate
@@ -271,7 +272,8 @@ contains
       do card = 1, source%n_cards
          if (n_begun(card) == 0) cycle
          sections%complete = .false.
-         if (source%complete) call report_lacking(source, card, begun(1, card), n_begun(card), diagnostics)
+         if (source%complete) call report_lacking(source, card, begun(1, card), n_begun(card), &
+            diagnostics)
       end do
    end subroutine read_entries
 
@@ -365,7 +367,8 @@ contains
 
       name = trim(source%sections(section)%name)
       associate (field => source%sections(section)%fields(1), table => sections%tables(section))
-         first_field = trim(field%name)//' in columns '//to_text(field%first)//' to '//to_text(field%last)
+         first_field = trim(field%name)//' in columns '//to_text(field%first)//' to '// &
+            to_text(field%last)
          if (table%n > 1) then
             call entry_error(diagnostics, table, 2, name//' has one data card only', &
                              mend='a fixed card may have comments, but no second line')

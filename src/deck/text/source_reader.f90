@@ -4,10 +4,10 @@ module axijoint_deck_text_source_reader
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
    use axijoint_deck_text_file_bytes, only : read_bytes, line_end, next_line, control_byte
    use axijoint_deck_text_include_path, only : locate_path, path_fault, nesting_fault, folder
-   use axijoint_deck_text_section, only : section_type, section_named, first_words, form_title, &
+   use axijoint_deck_text_section, only : section_type, section_named, names_of, first_words, form_title, &
       form_include, form_file, form_end, keyword_last, keyword_length
-   use axijoint_deck_text_source, only : source_type, add_file, add_card, card_content, &
-      card_text, card_title, card_data, card_keyword, form_of, tab
+   use axijoint_deck_text_source, only : source_type, add_file, add_card, card_content, card_text, &
+      card_title, card_data, card_keyword, form_of, tab
    use axijoint_deck_text_strange_byte, only : report_strange_byte
    implicit none
    private
@@ -269,7 +269,7 @@ contains
       integer :: meant, i
       character(len=:), allocatable :: names, mend
 
-      meant = nearest_word(word, source%sections%name)
+      meant = nearest_word(word, names_of(source%sections))
       names = trim(source%sections(1)%name)
       do i = 2, size(source%sections)
          names = names//' '//trim(source%sections(i)%name)

@@ -11,7 +11,8 @@ module axijoint_deck_text_table
       token_too_large, token_too_small, token_not_finite, token_asterisks
    implicit none
    private
-   public :: table_type, new_table, read_entry, integer_value, text_value, entry_error, field_error, field_warning
+   public :: table_type, new_table, read_entry, integer_value, text_value, entry_error, &
+      field_error, field_warning
 
    !> Entries of a section
    type :: table_type
