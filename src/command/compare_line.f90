@@ -2,8 +2,8 @@
 module axijoint_command_compare_line
    use axijoint_base_error, only : error_type, fatal_error, exit_deck
    use axijoint_base_kinds, only : wp
-   use axijoint_base_text, only : nearest_word
    use axijoint_command_line, only : word_type
+   use axijoint_command_unknown_word, only : unknown
    use axijoint_compare_tolerances, only : tolerances_type, special_type, name_type
    use axijoint_deck_text_token, only : read_real, read_integer, token_good
    implicit none
@@ -62,7 +62,7 @@ contains
             k = k + 1
             call set_value(words(k - 1)%text, words(k)%text, compare, error)
          else
-            call unknown_option(words(k)%text, error)
+            call unknown('option', words(k)%text, [character(len=15) :: value_options, plain_options], error)
          end if
          if (allocated(error)) return
       end do
@@ -200,27 +200,5 @@ contains
                           "', allowed are tables, columns, rows, all")
       end select
    end subroutine allow_missing
-
-   !> Error for an option that is not known
-   subroutine unknown_option(option, error)
-      !> The option
-      character(len=*), intent(in) :: option
-      !> The error
-      type(error_type), allocatable, intent(out) :: error
-
-      character(len=15) :: known(size(value_options) + size(plain_options))
-      character(len=:), allocatable :: message
-      integer :: k
-
-      known = [value_options, plain_options]
-      message = "unknown option '"//option//"'"
-      k = nearest_word(option, known)
-      if (k > 0) message = message//"; did you mean '"//trim(known(k))//"'?"
-      message = message//new_line('a')//'known:'
-      do k = 1, size(known)
-         message = message//' '//trim(known(k))
-      end do
-      call fatal_error(error, exit_deck, message)
-   end subroutine unknown_option
 
 end module axijoint_command_compare_line

@@ -2,16 +2,19 @@
 module axijoint_command_line
    use axijoint_base_error, only : error_type, fatal_error, exit_deck
    use axijoint_base_kinds, only : i8
-   use axijoint_base_text, only : nearest_word, upper, lower
+   use axijoint_base_text, only : upper, lower
    use axijoint_base_version, only : program_name, program_version
+   use axijoint_command_card_help, only : card_help, card_usage
    use axijoint_command_compare_help, only : compare_help
+   use axijoint_command_unknown_word, only : unknown
    use axijoint_job_job, only : options_type
    use axijoint_solver_entry, only : solver_entry_type
    use axijoint_solver_registry, only : find_solver, solver_words
    implicit none
    private
    public :: command_type, word_type, read_command, help_text
-   public :: command_run, command_check, command_estimate, command_compare, command_help
+   public :: command_run, command_check, command_estimate, command_compare, command_help, &
+      command_help_card
 
    !> Solve decks
    integer, parameter :: command_run = 1
@@ -25,6 +28,8 @@ module axijoint_command_line
    integer, parameter :: command_help = 5
    !> Print the version
    integer, parameter :: command_version = 6
+   !> Print help on cards
+   integer, parameter :: command_help_card = 7
 
    !> Names of the commands, by number
    character(len=*), parameter :: command_names(5) = [character(len=8) :: 'run', 'check', &
@@ -54,6 +59,8 @@ module axijoint_command_line
       integer :: threads = 0
       !> Command that help was asked for; empty for all
       character(len=:), allocatable :: topic
+      !> Help on cards, where it was asked for
+      character(len=:), allocatable :: card_help
    end type command_type
 
 contains
@@ -90,10 +97,7 @@ contains
          call read_compare_words(words(2:), command)
          return
       case ('help', '--help', '-h')
-         if (size(words) > 1) command%topic = words(2)%text
-         if (len(command%topic) > 0 .and. .not. any(command_names == command%topic)) then
-            call unknown('command', command%topic, command_names, error)
-         end if
+         call read_help_words(words(2:), command, error)
          return
       case ('--version')
          command%command = command_version
@@ -105,6 +109,31 @@ contains
       end select
       call read_arguments(words(2:), command, error)
    end subroutine read_command
+
+   !> Words of `help`: a command, or `card` and what follows it
+   subroutine read_help_words(words, command, error)
+      !> Words after the command
+      type(word_type), intent(in) :: words(:)
+      !> What the user asked for
+      type(command_type), intent(inout) :: command
+      !> Unknown command or card
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=80) :: names(max(0, size(words) - 1))
+      integer :: k
+
+      if (size(words) == 0) return
+      command%topic = words(1)%text
+      if (command%topic == 'card') then
+         command%command = command_help_card
+         do k = 2, size(words)
+            names(k - 1) = words(k)%text
+         end do
+         call card_help(names, command%card_help, error)
+      else if (.not. any(command_names == command%topic)) then
+         call unknown('command', command%topic, [character(len=8) :: command_names, 'card'], error)
+      end if
+   end subroutine read_help_words
 
    !> Words of `compare`, which reads them itself, unless help is asked for
    subroutine read_compare_words(words, command)
@@ -269,30 +298,6 @@ contains
       text = text//' or '//trim(words(size(words)))
    end function alternatives
 
-   !> Error for a word that is not known
-   subroutine unknown(what, word, known, error)
-      !> Kind of word
-      character(len=*), intent(in) :: what
-      !> The word
-      character(len=*), intent(in) :: word
-      !> Words of that kind
-      character(len=*), intent(in) :: known(:)
-      !> The error
-      type(error_type), allocatable, intent(out) :: error
-
-      character(len=:), allocatable :: message
-      integer :: k
-
-      message = "unknown "//what//" '"//word//"'"
-      k = nearest_word(word, known)
-      if (k > 0) message = message//"; did you mean '"//trim(known(k))//"'?"
-      message = message//new_line('a')//'known:'
-      do k = 1, size(known)
-         message = message//' '//trim(known(k))
-      end do
-      call fatal_error(error, exit_deck, message)
-   end subroutine unknown
-
    !> A word of the command line
    function argument(k) result(text)
       !> Its number
@@ -350,7 +355,7 @@ contains
       case ('compare')
          text = compare_help
       case ('help')
-         text = 'usage: axijoint help [COMMAND]'
+         text = 'usage: axijoint help [COMMAND]'//nl//nl//card_usage
       case default
          text = program_name//' '//program_version//': Fourier finite element analysis of '// &
             'axisymmetric bodies with joints'//nl// &
@@ -362,6 +367,7 @@ contains
             '  estimate DECK...       say what decks would cost'//nl// &
             '  compare A B [OPTIONS]  compare two listings or result files'//nl// &
             '  help [COMMAND]         help on a command'//nl// &
+            '  help card [NAME]       the cards of a deck, or the fields of one'//nl// &
             '  --version              version'
       end select
    end function help_text

@@ -8,7 +8,7 @@ module axijoint_command_program
    use axijoint_command_compare, only : compare_files
    use axijoint_command_estimate, only : estimate_decks
    use axijoint_command_line, only : command_type, read_command, help_text, command_run, command_check, &
-      command_estimate, command_compare, command_help
+      command_estimate, command_compare, command_help, command_help_card
    use axijoint_command_run, only : run_decks, print_error
    use axijoint_solver_entry, only : solver_entry_type
    implicit none
@@ -46,6 +46,8 @@ contains
          call compare_files(command%decks, exit_code)
       case (command_help)
          write (output_unit, '(a)') help_text(command%topic, solvers)
+      case (command_help_card)
+         write (output_unit, '(a)') command%card_help
       case default
          write (output_unit, '(a)') program_name//' '//program_version
       end select

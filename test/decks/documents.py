@@ -2,6 +2,7 @@
 import os
 import re
 
+import card_tables
 from support import HERE, INPUTS, Test, expected, read_text, write
 
 ROOT = os.path.realpath(os.path.join(HERE, '..', '..'))
@@ -21,7 +22,7 @@ RUNNABLE = ('README.md', 'doc/user.md', 'doc/deck.md')
 SHOWING = ('README.md', 'doc/user.md')
 CHANGING = ('deck', 'residual ratio', 'equilibrium error', 'time, peak memory', 'files')
 INDENTED = re.compile(r'^    \S.*(?:\n    .*)*', re.MULTILINE)
-USE = re.compile(r'^\s*use axijoint_([a-z0-9]+)_', re.MULTILINE)
+USE = re.compile(r'^\s*use axijoint_([a-z0-9_]+)', re.MULTILINE)
 
 
 def tests(program):
@@ -32,7 +33,8 @@ def tests(program):
               for name in RUNNABLE]
     found += [Test(f'documents/outputs of {name}', lambda folder, name=name: output_faults(program, name, folder))
               for name in SHOWING]
-    return found + [Test('documents/keywords', keyword_faults), Test('documents/folders', folder_faults)]
+    return found + [Test('documents/keywords', lambda folder: keyword_faults(program, folder)),
+                    Test('documents/folders', folder_faults)]
 
 
 def documents():
@@ -126,18 +128,17 @@ def output_faults(program, name, folder):
     return faults
 
 
-def keyword_faults(folder):
-    """Keywords that doc/deck.md has no heading for"""
+def keyword_faults(program, folder):
+    """Keywords that doc/deck.md has no heading for, tables there that are not those of the program"""
     del folder
-    layout = read_text(os.path.join(ROOT, 'src', 'deck', 'layout.f90'))
-    names = re.search(r'section_names\(n_sections\) = &\n(.*?)\]\n', layout, re.DOTALL)[1]
-    keywords = re.findall(r"'([A-Z]+)'", names)
-    count = int(re.search(r'n_sections = (\d+)', layout)[1])
+    faults = card_tables.faults(program.path)
     headings = ' '.join(re.findall(r'^#+ (.*)$', text_of('doc/deck.md'), re.MULTILINE))
     bold = ' '.join(re.findall(r'\*\*(.*?)\*\*', text_of('doc/deck.md')))
     # GMSH and GROUPS share a section, END stands among the rules of all cards
     elsewhere = ('GMSH', 'GROUPS', 'END')
-    faults = expected('number of keywords', count, len(keywords))
+    keywords = card_tables.cards(program.path)
+    if not keywords:
+        faults.append('found no keyword')
     for keyword in keywords:
         place = text_of('doc/deck.md') if keyword in elsewhere else headings + ' ' + bold
         if not re.search(rf'\b{keyword}\b', place):
@@ -149,24 +150,29 @@ def folder_faults(folder):
     """Where the table of doc/architecture.md differs from the folders of `src`"""
     del folder
     table = text_of('doc/architecture.md').partition('| folder |')[2].partition('\n\n')[0]
-    rows = re.findall(r'^\| `(\w+)` \|[^|]*\| ([\w ]*)\|$', table, re.MULTILINE)
-    told = {name: sorted(uses.split()) for name, uses in rows}
-    source = os.path.join(ROOT, 'src')
-    found = {name: sorted(used_by(os.path.join(source, name)) - {name}) for name in sorted(os.listdir(source))
-             if os.path.isdir(os.path.join(source, name))}
-    faults = expected('folders', sorted(found), sorted(told))
-    order = list(told)
-    for name in order:
-        faults += expected(f'folders that {name} uses', found.get(name), told[name])
-        faults += [f'{name} uses {used}, which stands below it' for used in told[name]
+    rows = dict(re.findall(r'^\| `([\w/]+)` \|[^|]*\| ([^|]*)\|$', table, re.MULTILINE))
+    found = folders_in_use()
+    faults = expected('folders', sorted(found), sorted(rows))
+    order = list(rows)
+    for name, words in rows.items():
+        told = {word for word in re.findall(r'[\w/]+', re.sub('all of `[^`]*`', '', words))}
+        for whole in re.findall('all of `([^`]*)/`', words):
+            told |= {part for part in order if part.startswith(whole + '/')}
+        faults += expected(f'folders that {name} uses', sorted(found.get(name, ())), sorted(told))
+        faults += [f'{name} uses {used}, which stands below it' for used in sorted(told)
                    if used in order and order.index(used) > order.index(name)]
     return faults
 
 
-def used_by(folder):
-    """Folders whose modules the files of a folder use"""
-    used = set()
-    for file in os.listdir(folder):
-        if file.endswith('.f90'):
-            used |= set(USE.findall(read_text(os.path.join(folder, file))))
-    return used
+def folders_in_use():
+    """Folders of `src`, and those whose modules their files use. A module has the name of its path"""
+    source = os.path.join(ROOT, 'src')
+    paths = [os.path.relpath(os.path.join(folder, file), source) for folder, _, files in os.walk(source)
+             for file in files if file.endswith('.f90')]
+    folder_of = {path.removesuffix('.f90').replace('/', '_'): os.path.dirname(path) for path in paths}
+    found = {folder: set() for folder in folder_of.values() if folder}
+    for path in paths:
+        used = {folder_of[module] for module in USE.findall(read_text(os.path.join(source, path)))}
+        if os.path.dirname(path):
+            found[os.path.dirname(path)] |= used - {os.path.dirname(path)}
+    return found

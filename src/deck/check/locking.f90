@@ -2,9 +2,8 @@
 module axijoint_deck_check_locking
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
+   use axijoint_deck_property_properties, only : properties_type
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_warning
-   use axijoint_deck_text_layout, only : section_materials, section_orthotropic
-   use axijoint_deck_text_sections, only : sections_type
    use axijoint_fe_element_kind, only : locks
    use axijoint_model_material, only : solid_material_type, elasticity
    use axijoint_model_model, only : model_type
@@ -18,9 +17,9 @@ module axijoint_deck_check_locking
 contains
 
    !> Warn of nearly incompressible materials in 3-node and plain 4-node elements
-   subroutine warn_of_locking(sections, model, diagnostics)
-      !> The deck
-      type(sections_type), intent(in) :: sections
+   subroutine warn_of_locking(properties, model, diagnostics)
+      !> Materials, with their cards
+      type(properties_type), intent(in) :: properties
       !> The job
       type(model_type), intent(in) :: model
       !> Messages
@@ -54,7 +53,7 @@ contains
          !> Kind of elements, and the remedy
          character(len=*), intent(in) :: kind, mend
 
-         call add_warning(diagnostics, material_card(sections, material), 0, 0, &
+         call add_warning(diagnostics, properties%material_card(material), 0, 0, &
                           'material '//to_text(model%materials(material)%label)// &
                           ' is nearly incompressible: '//kind//' elements of it are much too stiff', &
                           found='nu = '//to_text(effective_ratio(model%materials(material))), mend=mend)
@@ -77,22 +76,5 @@ contains
       shear = (d(4, 4) + d(5, 5) + d(6, 6))/3.0_wp
       ratio = (3.0_wp*bulk - 2.0_wp*shear)/(6.0_wp*bulk + 2.0_wp*shear)
    end function effective_ratio
-
-   !> Card of a material
-   pure integer function material_card(sections, material) result(card)
-      !> The deck
-      type(sections_type), intent(in) :: sections
-      !> The material: those of MATERIALS come first, then those of ORTHOTROPIC
-      integer, intent(in) :: material
-
-      associate (isotropic => sections%tables(section_materials), &
-                 orthotropic => sections%tables(section_orthotropic))
-         if (material <= isotropic%n) then
-            card = isotropic%cards(1, material)
-         else
-            card = orthotropic%cards(1, material - isotropic%n)
-         end if
-      end associate
-   end function material_card
 
 end module axijoint_deck_check_locking

@@ -2,29 +2,14 @@
 module axijoint_deck_check_unused
    use axijoint_base_number_map, only : number_map_type, find_number, insert_number
    use axijoint_base_text, only : to_text
-   use axijoint_deck_mesh_draft, only : draft_type
+   use axijoint_deck_job_deck, only : deck_type
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_warning
-   use axijoint_deck_text_layout, only : section_names, section_materials, section_orthotropic, section_laws, &
-      section_shapes, section_interfaces, section_fixed_faces, section_moved_faces, section_springs, &
-      section_tractions, section_pressures, section_resultants, section_ring_loads, section_temperatures, &
-      section_node_temps
-   use axijoint_deck_text_load_fields, only : name_shape
    use axijoint_deck_text_sections, only : sections_type
-   use axijoint_deck_text_source, only : source_type
    use axijoint_deck_text_table, only : table_type, integer_value
-   use axijoint_model_mesh, only : mesh_type
    implicit none
    private
    public :: warn_of_unused
 
-   !> Sections whose first field is a face
-   integer, parameter :: sections_of_faces(6) = [section_fixed_faces, section_moved_faces, section_springs, &
-      section_tractions, section_pressures, section_resultants]
-   !> Faces on the cards of INTERFACES
-   integer, parameter :: field_face_a = 2, field_face_b = 3
-   !> Sections whose loads may have a shape
-   integer, parameter :: sections_with_shapes(5) = [section_tractions, section_pressures, section_ring_loads, &
-      section_temperatures, section_node_temps]
    !> Numbers that are listed in a message
    integer, parameter :: most_listed = 10
 
@@ -32,38 +17,33 @@ contains
 
    !> Warn of materials, laws, faces and shapes that nothing uses, and of sections without cards.
    !> For decks without errors: of others too little is known
-   subroutine warn_of_unused(source, sections, draft, mesh, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
-      !> Its sections
-      type(sections_type), intent(in) :: sections
-      !> Faces
-      type(draft_type), intent(in) :: draft
-      !> Elements and joints, with their materials
-      type(mesh_type), intent(in) :: mesh
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
+   subroutine warn_of_unused(deck)
+      !> The deck with its model
+      type(deck_type), intent(inout), target :: deck
 
       integer :: k
 
-      associate (materials => sections%tables(section_materials), orthotropic => sections%tables(section_orthotropic), &
-                 laws => sections%tables(section_laws), shapes => sections%tables(section_shapes))
-         call tell('material', [numbers_of(materials), numbers_of(orthotropic)], &
-                   [cards_of(materials), cards_of(orthotropic)], &
-                   occur(mesh%element_material, materials%n + orthotropic%n), &
+      associate (draft => deck%draft, mesh => deck%model%mesh, properties => deck%properties, &
+                 shapes => deck%shapes, sections => deck%sections, diagnostics => deck%diagnostics)
+         call tell('material', (properties%materials%label), properties%material_card, &
+                   occur(mesh%element_material, size(properties%materials)), &
                    'used by no element', diagnostics)
-         call tell('law', numbers_of(laws), cards_of(laws), occur(mesh%joint_material, laws%n), &
-                   'used by no joint', diagnostics)
-         call tell('face', (draft%faces%label), (draft%faces%card), are_in((draft%faces%label), faces_in_use(sections)), &
+         call tell('law', (properties%laws%label), properties%law_card, &
+                   occur(mesh%joint_material, size(properties%laws)), 'used by no joint', diagnostics)
+         call tell('face', (draft%faces%label), (draft%faces%card), &
+                   are_in((draft%faces%label), numbers_that_refer_to(sections, 'face')), &
                    'used by no card', diagnostics)
-         call tell('shape', numbers_of(shapes), cards_of(shapes), &
-                   are_in(numbers_of(shapes), shapes_in_use(sections)), 'used by no load', diagnostics)
+         call tell('shape', shapes%label, shapes%card, &
+                   are_in(shapes%label, numbers_that_refer_to(sections, 'shape')), &
+                   'used by no load', diagnostics)
+         do k = 1, size(sections%empty)
+            associate (keyword => deck%source%cards(sections%empty(k))%keyword)
+               call add_warning(diagnostics, sections%empty(k), 0, 0, &
+                                trim(sections%names(keyword))//' has no cards', &
+                                mend='remove the keyword, or write 0 behind it from column 11 on if that is meant')
+            end associate
+         end do
       end associate
-      do k = 1, size(sections%empty)
-         call add_warning(diagnostics, sections%empty(k), 0, 0, &
-                          trim(section_names(source%cards(sections%empty(k))%keyword))//' has no cards', &
-                          mend='remove the keyword, or write 0 behind it from column 11 on if that is meant')
-      end do
    end subroutine warn_of_unused
 
    !> Warn of the things of one kind that nothing uses, in one message
@@ -99,26 +79,6 @@ contains
                        mend='remove what is not needed, or correct the number on the cards that should use it')
    end subroutine tell
 
-   !> Numbers of the entries of a section, its first field
-   pure function numbers_of(table) result(numbers)
-      !> The section
-      type(table_type), intent(in) :: table
-      !> The numbers
-      integer, allocatable :: numbers(:)
-
-      numbers = nint(table%values(1, :table%n))
-   end function numbers_of
-
-   !> First cards of the entries of a section
-   pure function cards_of(table) result(cards)
-      !> The section
-      type(table_type), intent(in) :: table
-      !> The cards
-      integer, allocatable :: cards(:)
-
-      cards = table%cards(1, :table%n)
-   end function cards_of
-
    !> Whether indices occur in a list
    pure function occur(list, n)
       !> The list
@@ -146,39 +106,24 @@ contains
       are_in = [(find_number(others, numbers(k)) > 0, k=1, size(numbers))]
    end function are_in
 
-   !> Numbers of the faces that cards name
-   pure function faces_in_use(sections) result(numbers)
+   !> Numbers of the things of a kind that cards refer to
+   pure function numbers_that_refer_to(sections, kind) result(numbers)
       !> The sections
       type(sections_type), intent(in) :: sections
-      !> The numbers
-      type(number_map_type) :: numbers
-
-      integer :: k
-
-      do k = 1, size(sections_of_faces)
-         call add_field(sections%tables(sections_of_faces(k)), 1, numbers)
-      end do
-      call add_field(sections%tables(section_interfaces), field_face_a, numbers)
-      call add_field(sections%tables(section_interfaces), field_face_b, numbers)
-   end function faces_in_use
-
-   !> Numbers of the shapes that loads name
-   pure function shapes_in_use(sections) result(numbers)
-      !> The sections
-      type(sections_type), intent(in) :: sections
+      !> The kind: face, shape
+      character(len=*), intent(in) :: kind
       !> The numbers
       type(number_map_type) :: numbers
 
       integer :: k, field
 
-      do k = 1, size(sections_with_shapes)
-         associate (table => sections%tables(sections_with_shapes(k)))
-            do field = 1, size(table%fields)
-               if (table%fields(field)%name == name_shape) call add_field(table, field, numbers)
-            end do
-         end associate
+      do k = 1, size(sections%tables)
+         do field = 1, size(sections%tables(k)%fields)
+            if (sections%tables(k)%fields(field)%refers_to /= kind) cycle
+            call add_field(sections%tables(k), field, numbers)
+         end do
       end do
-   end function shapes_in_use
+   end function numbers_that_refer_to
 
    !> Add the numbers in a field of a section
    pure subroutine add_field(table, field, numbers)
@@ -192,7 +137,8 @@ contains
       integer :: entry
 
       do entry = 1, table%n
-         if (table%given(field, entry)) call insert_number(numbers, integer_value(table, field, entry), entry)
+         if (table%given(field, entry)) call insert_number(numbers, &
+            integer_value(table, field, entry), entry)
       end do
    end subroutine add_field
 

@@ -2,50 +2,44 @@
 module axijoint_deck_gmsh_faces
    use axijoint_base_number_map, only : number_map_type, find_number, insert_number
    use axijoint_base_text, only : to_text
-   use axijoint_deck_gmsh_import, only : gmsh_import_type, use_face
-   use axijoint_deck_mesh_draft, only : draft_type, edge_type, face_type, place_text
+   use axijoint_deck_gmsh_import, only : gmsh_import_type, use_face, name_number, name_group
+   use axijoint_deck_mesh_draft, only : draft_type, face_type, place_text
    use axijoint_deck_mesh_edges, only : edge_table_type, find_edge, outer_edge
-   use axijoint_deck_text_diagnostics, only : diagnostics_type
+   use axijoint_deck_text_entry, only : entry_type, is_given, field_fault, first_card, field_named
    use axijoint_deck_text_labels, only : repeated_label
-   use axijoint_deck_text_source, only : source_type
-   use axijoint_deck_text_table, only : table_type, field_error
    use axijoint_gmsh_mesh, only : dimension_of_type
    implicit none
    private
    public :: number_group_faces, lay_group_faces, lines_of_group, copies
 
-   !> Fields of GROUPS
-   integer, parameter :: field_number = 2, field_name = 4
-
 contains
 
    !> Note the numbers of the faces of GROUPS
-   subroutine number_group_faces(source, table, import, draft, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
-      !> GROUPS
-      type(table_type), intent(in) :: table
+   subroutine number_group_faces(cards, import, draft)
+      !> The cards of GROUPS
+      class(entry_type), intent(in) :: cards
       !> The mesh
       type(gmsh_import_type), intent(in) :: import
       !> The mesh of the deck
       type(draft_type), intent(inout) :: draft
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
 
+      class(entry_type), allocatable :: card
       type(face_type) :: face
-      integer :: use, known
+      integer :: use, known, field
 
+      card = cards
+      field = field_named(card, name_number)
       do use = 1, size(import%uses)
          if (import%uses(use)%kind /= use_face) cycle
-         associate (label => import%uses(use)%number, entry => import%uses(use)%entry)
-            if (.not. table%given(field_number, entry)) cycle
+         card%entry = import%uses(use)%entry
+         if (.not. is_given(card, field)) cycle
+         associate (label => import%uses(use)%number)
             known = find_number(draft%face_of, label)
             if (known > 0) then
-               call repeated_label(source, table, entry, field_number, 'face', draft%faces(known)%card, &
-                                   diagnostics)
+               call repeated_label(card, field, 'face', draft%faces(known)%card)
                cycle
             end if
-            face = face_type(label=label, card=table%cards(1, entry), is_chain=.true., good=import%sound)
+            face = face_type(label=label, card=first_card(card), is_chain=.true., good=import%sound)
             allocate (face%edges(0))
             draft%faces = [draft%faces, face]
             call insert_number(draft%face_of, label, size(draft%faces))
@@ -54,34 +48,33 @@ contains
    end subroutine number_group_faces
 
    !> Find the edges of the faces of GROUPS
-   subroutine lay_group_faces(source, table, import, edges, draft, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
-      !> GROUPS
-      type(table_type), intent(in) :: table
+   subroutine lay_group_faces(cards, import, edges, draft)
+      !> The cards of GROUPS
+      class(entry_type), intent(in) :: cards
       !> The mesh
       type(gmsh_import_type), intent(in) :: import
       !> Edges of the elements
       type(edge_table_type), intent(in) :: edges
       !> The mesh of the deck
       type(draft_type), intent(inout) :: draft
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
 
+      class(entry_type), allocatable :: card
       integer, allocatable :: lines(:, :), ends(:, :)
       integer :: use, face
 
       if (.not. import%sound) return
+      card = cards
       do use = 1, size(import%uses)
          if (import%uses(use)%kind /= use_face) cycle
+         card%entry = import%uses(use)%entry
          face = find_number(draft%face_of, import%uses(use)%number)
          if (face == 0) cycle
-         if (draft%faces(face)%card /= table%cards(1, import%uses(use)%entry)) cycle
+         if (draft%faces(face)%card /= first_card(card)) cycle
          lines = lines_of_group(import, import%uses(use)%group)
-         call find_ends(source, table, import%uses(use)%entry, import, lines, edges, draft, ends, diagnostics)
+         call find_ends(card, import, lines, edges, draft, ends)
          draft%faces(face)%good = size(ends, 2) == size(lines, 2)
          if (.not. draft%faces(face)%good) cycle
-         call chain(source, table, import%uses(use)%entry, ends, edges, draft, draft%faces(face), diagnostics)
+         call chain(card, ends, edges, draft, draft%faces(face))
       end do
    end subroutine lay_group_faces
 
@@ -119,12 +112,9 @@ contains
 
    !> Ends of the outer edge along each line, as nodes of the deck's mesh; the first line without
    !> one is reported
-   subroutine find_ends(source, table, entry, import, lines, edges, draft, ends, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
-      !> GROUPS, and the entry
-      type(table_type), intent(in) :: table
-      integer, intent(in) :: entry
+   subroutine find_ends(card, import, lines, edges, draft, ends)
+      !> The card of GROUPS
+      class(entry_type), intent(in) :: card
       !> The mesh
       type(gmsh_import_type), intent(in) :: import
       !> Nodes of the file, shape (2, lines)
@@ -135,8 +125,6 @@ contains
       type(draft_type), intent(in) :: draft
       !> Nodes of the deck's mesh, shape (2, lines up to the first at fault)
       integer, allocatable, intent(out) :: ends(:, :)
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
 
       integer, allocatable :: a(:), b(:), found(:, :)
       integer :: line, i, k
@@ -162,8 +150,7 @@ contains
       end do
       if (line > size(lines, 2)) return
       ends = ends(:, :line - 1)
-      call report_line(source, table, entry, place_text(import%mesh%position(:2, lines(1, line))), &
-                       found, draft, diagnostics)
+      call report_line(card, place_text(import%mesh%position(:2, lines(1, line))), found, draft)
    end subroutine find_ends
 
    !> Nodes of the deck's mesh that a node of the file has become
@@ -189,20 +176,15 @@ contains
    end function copies
 
    !> Report a line along which no face can run
-   subroutine report_line(source, table, entry, place, found, draft, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
-      !> GROUPS, and the entry
-      type(table_type), intent(in) :: table
-      integer, intent(in) :: entry
+   subroutine report_line(card, place, found, draft)
+      !> The card of GROUPS
+      class(entry_type), intent(in) :: card
       !> Where the line begins
       character(len=*), intent(in) :: place
       !> Ends of the edges along it, shape (2, edges)
       integer, intent(in) :: found(:, :)
       !> The mesh of the deck
       type(draft_type), intent(in) :: draft
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
 
       character(len=:), allocatable :: text, mend
 
@@ -217,17 +199,14 @@ contains
                 to_text(draft%node_body(found(1, 2)))//' both have an edge along the curve at '//place
          mend = 'give the face on a FACES or CHAINS card, which names its body'
       end select
-      call field_error(diagnostics, source, table, entry, field_name, text, &
+      call field_fault(card, field_named(card, name_group), text, &
                        allowed='a curve along outer edges of one body', mend=mend)
    end subroutine report_line
 
    !> Put the edges of a face one after another, in the direction of the first line
-   subroutine chain(source, table, entry, ends, edges, draft, face, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
-      !> GROUPS, and the entry
-      type(table_type), intent(in) :: table
-      integer, intent(in) :: entry
+   subroutine chain(card, ends, edges, draft, face)
+      !> The card of GROUPS
+      class(entry_type), intent(in) :: card
       !> Nodes of the lines, shape (2, lines)
       integer, intent(in) :: ends(:, :)
       !> Edges of the elements
@@ -236,8 +215,6 @@ contains
       type(draft_type), intent(in) :: draft
       !> The face
       type(face_type), intent(inout) :: face
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
 
       type(number_map_type) :: place_of
       integer, allocatable :: lines_at(:, :), nodes(:)
@@ -256,8 +233,9 @@ contains
             end if
             if (all(lines_at(:, place) > 0)) then
                face%good = .false.
-               call field_error(diagnostics, source, table, entry, field_name, 'the curve branches at '// &
-                                place_text(draft%position(:, ends(k, i))), allowed='one line, open or closed')
+               call field_fault(card, field_named(card, name_group), 'the curve branches at '// &
+                                place_text(draft%position(:, ends(k, i))), &
+                                allowed='one line, open or closed')
                return
             end if
             lines_at(count(lines_at(:, place) > 0) + 1, place) = i
@@ -272,7 +250,7 @@ contains
       end if
       if (.not. all(passed)) then
          face%good = .false.
-         call field_error(diagnostics, source, table, entry, field_name, 'the curve is in several pieces', &
+         call field_fault(card, field_named(card, name_group), 'the curve is in several pieces', &
                           allowed='one line along one body, open or closed', &
                           mend='make a physical curve of each piece: one more begins at '// &
                           place_text(draft%position(:, ends(1, findloc(passed, .false., 1)))))

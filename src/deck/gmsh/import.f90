@@ -9,10 +9,12 @@ module axijoint_deck_gmsh_import
    implicit none
    private
    public :: gmsh_import_type, group_use_type, read_mesh_file, mesh_line_error, mesh_line_text, &
-      copy_label, use_body, use_face, use_joint
+      copy_label, use_body, use_face, use_joint, name_number, name_group
 
    !> What a group is used for, in the order of the words of GROUPS
    integer, parameter :: use_body = 1, use_face = 2, use_joint = 3
+   !> Names of the fields of GROUPS that messages point at
+   character(len=*), parameter :: name_number = 'the number', name_group = 'the name of the group'
    !> Longest piece of a line of the mesh file in messages
    integer, parameter :: longest_line = 120
 

@@ -3,29 +3,28 @@ module axijoint_deck_gmsh_joints
    use axijoint_base_sort, only : refine_order
    use axijoint_base_text, only : to_text
    use axijoint_deck_gmsh_faces, only : lines_of_group, copies
-   use axijoint_deck_gmsh_import, only : gmsh_import_type, use_joint
+   use axijoint_deck_gmsh_import, only : gmsh_import_type, use_joint, name_number, name_group
    use axijoint_deck_mesh_draft, only : draft_type, edge_type, place_text
    use axijoint_deck_mesh_edges, only : edge_table_type, find_edge, outer_edge
-   use axijoint_deck_mesh_interfaces, only : check_interface, lay_interface
+   use axijoint_deck_mesh_joint_layer, only : check_layer, lay_joints
    use axijoint_deck_property_properties, only : properties_type
-   use axijoint_deck_text_diagnostics, only : diagnostics_type
-   use axijoint_deck_text_source, only : source_type
-   use axijoint_deck_text_table, only : table_type, field_error
+   use axijoint_deck_text_entry, only : entry_type, field_fault, first_card, field_named
    implicit none
    private
    public :: lay_group_joints
 
-   !> Fields of GROUPS
-   integer, parameter :: field_number = 2, field_name = 4
+   !> Which nodes are at one place
+   type :: places_type
+      !> Number of each node's place, and the nodes in the order of these numbers
+      integer, allocatable :: group(:), order(:)
+   end type places_type
 
 contains
 
    !> Add the joints of GROUPS, numbered on from the highest number
-   subroutine lay_group_joints(source, table, import, properties, group, edges, draft, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
-      !> GROUPS
-      type(table_type), intent(in) :: table
+   subroutine lay_group_joints(cards, import, properties, group, edges, draft)
+      !> The cards of GROUPS
+      class(entry_type), intent(in) :: cards
       !> The mesh
       type(gmsh_import_type), intent(in) :: import
       !> Laws
@@ -36,53 +35,49 @@ contains
       type(edge_table_type), intent(in) :: edges
       !> The mesh of the deck
       type(draft_type), intent(inout) :: draft
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
 
+      class(entry_type), allocatable :: card
+      type(places_type) :: places
       type(edge_type), allocatable :: a(:), b(:)
-      integer, allocatable :: order(:)
       integer :: i, errors_before
 
       if (.not. import%sound) return
-      order = [(i, i=1, draft%n_nodes)]
-      call refine_order(order, group)
+      card = cards
+      places%group = group
+      places%order = [(i, i=1, draft%n_nodes)]
+      call refine_order(places%order, group)
       do i = 1, size(import%uses)
          associate (use => import%uses(i))
             if (use%kind /= use_joint .or. use%number == 0) cycle
-            errors_before = diagnostics%n_errors
-            call find_sides(source, table, use%entry, import, lines_of_group(import, use%group), &
-                            group, order, edges, draft, a, b, diagnostics)
-            if (diagnostics%n_errors > errors_before) cycle
-            call check_interface(source, table, use%entry, [field_number, field_name], &
-                                 properties%laws(use%number)%rule, draft, a, b, diagnostics)
-            if (diagnostics%n_errors > errors_before) cycle
-            call lay_interface(table%cards(1, use%entry), use%number, a, b, draft)
+            card%entry = use%entry
+            errors_before = card%diagnostics%n_errors
+            call find_sides(card, import, lines_of_group(import, use%group), places, edges, draft, a, b)
+            if (card%diagnostics%n_errors > errors_before) cycle
+            call check_layer(card, [field_named(card, name_number), field_named(card, name_group)], &
+                             properties%laws(use%number)%rule, draft, a, b)
+            if (card%diagnostics%n_errors > errors_before) cycle
+            call lay_joints(first_card(card), use%number, a, b, draft)
          end associate
       end do
    end subroutine lay_group_joints
 
    !> The edges of two bodies along each line of a group; where the group has the lines of both
    !> bodies, once. The first line without two bodies is reported
-   subroutine find_sides(source, table, entry, import, lines, group, order, edges, draft, a, b, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
-      !> GROUPS, and the entry
-      type(table_type), intent(in) :: table
-      integer, intent(in) :: entry
+   subroutine find_sides(card, import, lines, places, edges, draft, a, b)
+      !> The card of GROUPS
+      class(entry_type), intent(in) :: card
       !> The mesh
       type(gmsh_import_type), intent(in) :: import
       !> Nodes of the file, shape (2, lines)
       integer, intent(in) :: lines(:, :)
-      !> Number of each node's place, and the nodes in the order of these numbers
-      integer, intent(in) :: group(:), order(:)
+      !> Which nodes are at one place
+      type(places_type), intent(in) :: places
       !> Edges of the elements
       type(edge_table_type), intent(in) :: edges
       !> The mesh of the deck
       type(draft_type), intent(in) :: draft
       !> Edges of the body of the lesser number, and of the other, in the direction of the lines
       type(edge_type), allocatable, intent(out) :: a(:), b(:)
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
 
       type(edge_type), allocatable :: sides(:)
       logical, allocatable :: laid(:)
@@ -94,10 +89,9 @@ contains
       do line = 1, size(lines, 2)
          ends = [place_of(lines(1, line)), place_of(lines(2, line))]
          allocate (sides(0))
-         if (all(ends > 0)) sides = edges_between(ends, group, order, edges, draft)
-         if (.not. good_sides(draft, group, sides)) then
-            call report_sides(source, table, entry, place_text(import%mesh%position(:2, lines(1, line))), &
-                              sides, draft, diagnostics)
+         if (all(ends > 0)) sides = edges_between(ends, places, edges, draft)
+         if (.not. good_sides(draft, places%group, sides)) then
+            call report_sides(card, place_text(import%mesh%position(:2, lines(1, line))), sides, draft)
             return
          end if
          first = find_edge(edges, sides(1)%nodes(1), sides(1)%nodes(2))
@@ -123,16 +117,16 @@ contains
 
          nodes = copies(import, node, draft)
          place_of = 0
-         if (size(nodes) > 0) place_of = group(nodes(1))
+         if (size(nodes) > 0) place_of = places%group(nodes(1))
       end function place_of
    end subroutine find_sides
 
    !> Edges of elements between two places, by body; both elements' if the edge is inside a body
-   pure function edges_between(ends, group, order, edges, draft) result(sides)
+   pure function edges_between(ends, places, edges, draft) result(sides)
       !> Numbers of the places
       integer, intent(in) :: ends(2)
-      !> Number of each node's place, and the nodes in the order of these numbers
-      integer, intent(in) :: group(:), order(:)
+      !> Which nodes are at one place
+      type(places_type), intent(in) :: places
       !> Edges of the elements
       type(edge_table_type), intent(in) :: edges
       !> The mesh of the deck
@@ -144,15 +138,15 @@ contains
 
       allocate (sides(0))
       first = [first_at(ends(1)), first_at(ends(2))]
-      do i = first(1), size(order)
-         if (group(order(i)) /= ends(1)) exit
-         do k = first(2), size(order)
-            if (group(order(k)) /= ends(2)) exit
-            edge = find_edge(edges, order(i), order(k))
+      do i = first(1), size(places%order)
+         if (places%group(places%order(i)) /= ends(1)) exit
+         do k = first(2), size(places%order)
+            if (places%group(places%order(k)) /= ends(2)) exit
+            edge = find_edge(edges, places%order(i), places%order(k))
             if (edge == 0) cycle
-            sides = [sides, outer_edge(draft, edges, edge, order(i))]
+            sides = [sides, outer_edge(draft, edges, edge, places%order(i))]
             twin = edges%twin(edge)
-            if (twin > 0) sides = [sides, outer_edge(draft, edges, twin, order(i))]
+            if (twin > 0) sides = [sides, outer_edge(draft, edges, twin, places%order(i))]
          end do
       end do
       if (size(sides) /= 2) return
@@ -168,10 +162,10 @@ contains
          integer :: high, middle
 
          low = 1
-         high = size(order)
+         high = size(places%order)
          do while (low < high)
             middle = (low + high)/2
-            if (group(order(middle)) < place) then
+            if (places%group(places%order(middle)) < place) then
                low = middle + 1
             else
                high = middle
@@ -199,20 +193,15 @@ contains
    end function good_sides
 
    !> Report a line along which no joint can lie
-   subroutine report_sides(source, table, entry, place, sides, draft, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
-      !> GROUPS, and the entry
-      type(table_type), intent(in) :: table
-      integer, intent(in) :: entry
+   subroutine report_sides(card, place, sides, draft)
+      !> The card of GROUPS
+      class(entry_type), intent(in) :: card
       !> Where the line begins
       character(len=*), intent(in) :: place
       !> Edges along it
       type(edge_type), intent(in) :: sides(:)
       !> The mesh of the deck
       type(draft_type), intent(in) :: draft
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
 
       character(len=:), allocatable :: text, mend
 
@@ -235,7 +224,7 @@ contains
       case default
          text = 'more than two elements have an edge along the curve at '//place
       end select
-      call field_error(diagnostics, source, table, entry, field_name, text, &
+      call field_fault(card, field_named(card, name_group), text, &
                        allowed='a curve between two bodies', mend=mend)
    end subroutine report_sides
 

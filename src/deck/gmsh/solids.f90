@@ -8,6 +8,7 @@ module axijoint_deck_gmsh_solids
    use axijoint_deck_gmsh_shared, only : check_shared
    use axijoint_deck_mesh_draft, only : draft_type, add_node, add_element
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_warning
+   use axijoint_deck_text_entry, only : entry_type
    use axijoint_deck_text_source, only : source_type
    use axijoint_deck_text_table, only : table_type
    use axijoint_fe_shape, only : n_corners
@@ -19,11 +20,11 @@ module axijoint_deck_gmsh_solids
 contains
 
    !> Add the nodes and elements of the mesh file
-   subroutine draft_gmsh(source, table, import, draft, diagnostics)
+   subroutine draft_gmsh(cards, source, import, draft, diagnostics)
+      !> The cards of GROUPS
+      class(entry_type), intent(in) :: cards
       !> The deck; lines of the file at fault become cards
       type(source_type), intent(inout) :: source
-      !> GROUPS
-      type(table_type), intent(in) :: table
       !> The mesh
       type(gmsh_import_type), intent(inout) :: import
       !> The mesh of the deck
@@ -41,12 +42,12 @@ contains
          call copy_nodes(import, use_of, draft)
          call check_positions(source, import, diagnostics)
          call check_numbers(source, import, use_of, draft, diagnostics)
-         call check_shared(table, import, use_of, diagnostics)
+         call check_shared(cards%table, import, use_of, diagnostics)
       end if
       import%sound = import%sound .and. diagnostics%n_errors == errors_before
       if (import%sound) then
          call add_nodes(source, import, draft)
-         call add_elements(table, import, use_of, draft)
+         call add_elements(cards%table, import, use_of, draft)
       else
          draft%nodes_complete = .false.
          draft%elements_complete = .false.

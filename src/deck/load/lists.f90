@@ -1,7 +1,7 @@
 !> Loads while they are being read
 module axijoint_deck_load_lists
    use axijoint_base_kinds, only : wp
-   use axijoint_deck_load_modes, only : share_type, truncation_list_type
+   use axijoint_deck_load_shares, only : share_type, truncation_list_type
    use axijoint_deck_mesh_draft, only : edge_type
    use axijoint_fe_mode, only : mode_type, same_mode
    use axijoint_model_load, only : edge_load_type, ring_load_type, body_load_type, &
@@ -10,7 +10,9 @@ module axijoint_deck_load_lists
    implicit none
    private
    public :: load_lists_type, move_type, new_load_lists, take_loads
-   public :: add_tractions, add_ring_load, add_temperatures, add_move
+   public :: add_tractions, add_ring_load, add_body_load, add_temperatures, add_move, &
+      add_initial_stress, &
+      add_edge_support
 
    !> A given displacement, and what its card says of it
    type, extends(prescribed_type) :: move_type
@@ -124,8 +126,63 @@ contains
       lists%ring_loads(lists%n_ring_loads) = load
    end subroutine add_ring_load
 
+   !> Add a force on masses
+   pure subroutine add_body_load(lists, load)
+      !> The lists
+      type(load_lists_type), intent(inout) :: lists
+      !> The load
+      type(body_load_type), intent(in) :: load
+
+      lists%body_loads = [lists%body_loads, load]
+   end subroutine add_body_load
+
+   !> Add an in-situ stress
+   pure subroutine add_initial_stress(lists, stress)
+      !> The lists
+      type(load_lists_type), intent(inout) :: lists
+      !> The stress
+      type(initial_stress_type), intent(in) :: stress
+
+      lists%initial_stresses = [lists%initial_stresses, stress]
+   end subroutine add_initial_stress
+
+   !> Add a spring to the ground
+   pure subroutine add_edge_support(lists, support)
+      !> The lists
+      type(load_lists_type), intent(inout) :: lists
+      !> The spring
+      type(edge_support_type), intent(in) :: support
+
+      lists%edge_supports = [lists%edge_supports, support]
+   end subroutine add_edge_support
+
+   !> Add a temperature in each mode: it goes with cos in the symmetric and with sin in the
+   !> antisymmetric family
+   pure subroutine add_temperatures(lists, case, shares, body, nodes, temperature)
+      !> The lists
+      type(load_lists_type), intent(inout) :: lists
+      !> Load case
+      integer, intent(in) :: case
+      !> What each mode takes
+      type(share_type), intent(in) :: shares(:)
+      !> Body; 0 for all
+      integer, intent(in) :: body
+      !> Nodes, and their temperatures
+      integer, intent(in) :: nodes(:)
+      real(wp), intent(in) :: temperature(:)
+
+      integer :: k
+
+      do k = 1, size(shares)
+         associate (factor => shares(k)%factor(1))
+            if (.not. abs(factor) > 0.0_wp) cycle
+            call add_temperature(lists, case, shares(k)%mode, body, nodes, factor*temperature)
+         end associate
+      end do
+   end subroutine add_temperatures
+
    !> Add temperatures to those of the same case, mode and body
-   pure subroutine add_temperatures(lists, case, mode, body, nodes, temperature)
+   pure subroutine add_temperature(lists, case, mode, body, nodes, temperature)
       !> The lists
       type(load_lists_type), intent(inout) :: lists
       !> Load case
@@ -152,7 +209,7 @@ contains
       associate (all_nodes => lists%thermal_loads(k)%temperature)
          all_nodes(nodes) = all_nodes(nodes) + temperature
       end associate
-   end subroutine add_temperatures
+   end subroutine add_temperature
 
    !> Add a temperature of zero. The others are moved, not copied: each has a value a node
    pure subroutine add_temperature_field(lists, case, mode, body)

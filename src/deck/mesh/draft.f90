@@ -90,16 +90,17 @@ module axijoint_deck_mesh_draft
 
 contains
 
-   !> A draft with room for some nodes, elements and joints
-   pure function new_draft(n_nodes, n_elements, n_joints) result(draft)
-      !> Expected numbers; more may be added
-      integer, intent(in) :: n_nodes, n_elements, n_joints
+   !> A draft without nodes, elements, joints and faces
+   pure function new_draft() result(draft)
       !> The empty draft
       type(draft_type) :: draft
 
-      call resize_nodes(draft, max(16, n_nodes))
-      call resize_elements(draft, max(16, n_elements))
-      call resize_joints(draft, max(16, n_joints))
+      integer, parameter :: room = 16
+
+      call resize_nodes(draft, room)
+      call resize_elements(draft, room)
+      call resize_joints(draft, room)
+      allocate (draft%faces(0))
    end function new_draft
 
    !> Add a node

@@ -1,23 +1,29 @@
 !> Graded blocks of quadrilaterals or triangles
 module axijoint_deck_mesh_generate_blocks
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, i8
    use axijoint_base_sort, only : refine_order
-   use axijoint_deck_mesh_blocks, only : block_type, check_blocks, count_nodes, field_body, field_size, &
-      field_n1, field_n2, field_ratio1, field_ratio2
    use axijoint_deck_mesh_draft, only : draft_type, add_node, add_element
-   use axijoint_deck_mesh_generate_lines, only : graded_fraction, between
+   use axijoint_deck_mesh_grading, only : graded_fraction, between
    use axijoint_deck_mesh_places, only : group_places, extent_of, same_place
-   use axijoint_deck_property_properties, only : properties_type
-   use axijoint_deck_text_diagnostics, only : diagnostics_type
-   use axijoint_deck_text_source, only : source_type
-   use axijoint_deck_text_table, only : table_type, integer_value
    use axijoint_fe_shape, only : n_corners
    implicit none
    private
-   public :: draft_blocks
+   public :: block_type, draft_blocks, nodes_of_block
+
+   !> A block
+   type :: block_type
+      !> Its card, body, material (index), and nodes of an element
+      integer :: card = 0, body = 1, material = 0, size = 4
+      !> Elements along sides 1-2 and 2-3, and the ratio of the last to the first of them
+      integer :: n(2) = 1
+      real(wp) :: ratio(2) = 1.0_wp
+      !> Corners, counterclockwise, shape (2, 4)
+      real(wp) :: corners(2, 4) = 0.0_wp
+   end type block_type
 
    !> Places of an element's nodes on the grid of half elements, from its first corner
-   integer, parameter :: grid_1(9) = [0, 2, 2, 0, 1, 2, 1, 0, 1], grid_2(9) = [0, 0, 2, 2, 0, 1, 2, 1, 1]
+   integer, parameter :: grid_1(9) = [0, 2, 2, 0, 1, 2, 1, 0, 1], &
+      grid_2(9) = [0, 0, 2, 2, 0, 1, 2, 1, 1]
    !> Places among them of the nodes of the two triangles of a cell, cut from corner 1
    !> to 3 or from 2 to 4, shape (nodes, triangles, cuts)
    integer, parameter :: in_cell(6, 2, 2) = reshape([1, 2, 3, 5, 6, 9, 1, 3, 4, 9, 7, 8, &
@@ -34,38 +40,47 @@ module axijoint_deck_mesh_generate_blocks
 
 contains
 
-   !> Add the nodes and elements of the BLOCKS cards
-   subroutine draft_blocks(source, table, properties, draft, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
-      !> BLOCKS
-      type(table_type), intent(in) :: table
-      !> Materials
-      type(properties_type), intent(in) :: properties
+   !> Add the nodes and elements of blocks
+   subroutine draft_blocks(blocks, draft)
+      !> The blocks
+      type(block_type), intent(in) :: blocks(:)
       !> The mesh
       type(draft_type), intent(inout) :: draft
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
 
-      type(block_type), allocatable :: blocks(:)
       type(candidates_type) :: candidates
       integer :: i, n_before, label
 
-      call check_blocks(source, table, properties, draft, blocks, diagnostics)
-      call make_room(table, blocks, candidates)
+      call make_room(blocks, candidates)
       n_before = draft%n_elements
       label = maxval([0, draft%element_label(:n_before)])
       do i = 1, size(blocks)
-         call fill_block(table, blocks(i), label, draft, candidates)
+         call fill_block(blocks(i), label, draft, candidates)
       end do
       call number_candidates(candidates, n_before, draft)
    end subroutine draft_blocks
 
+   !> Nodes of a block
+   pure integer(i8) function nodes_of_block(block) result(n)
+      !> The block
+      type(block_type), intent(in) :: block
+
+      integer(i8) :: n1, n2
+
+      n1 = block%n(1)
+      n2 = block%n(2)
+      select case (block%size)
+      case (3, 4)
+         n = (n1 + 1)*(n2 + 1)
+      case (8)
+         n = (2*n1 + 1)*(2*n2 + 1) - n1*n2
+      case default
+         n = (2*n1 + 1)*(2*n2 + 1)
+      end select
+   end function nodes_of_block
+
    !> Room for the nodes of all blocks
-   pure subroutine make_room(table, blocks, candidates)
-      !> BLOCKS
-      type(table_type), intent(in) :: table
-      !> Sound blocks
+   pure subroutine make_room(blocks, candidates)
+      !> The blocks
       type(block_type), intent(in) :: blocks(:)
       !> The nodes
       type(candidates_type), intent(out) :: candidates
@@ -74,16 +89,14 @@ contains
 
       total = 0
       do i = 1, size(blocks)
-         total = total + int(count_nodes(table, blocks(i)%entry))
+         total = total + int(nodes_of_block(blocks(i)))
       end do
       allocate (candidates%position(2, total), candidates%body(total), candidates%card(total))
    end subroutine make_room
 
    !> Make the nodes and elements of a block. The elements refer to the nodes by
    !> their place among the candidates, behind the nodes of the draft
-   pure subroutine fill_block(table, block, label, draft, candidates)
-      !> BLOCKS
-      type(table_type), intent(in) :: table
+   pure subroutine fill_block(block, label, draft, candidates)
       !> The block
       type(block_type), intent(in) :: block
       !> Number of the last element
@@ -96,9 +109,9 @@ contains
       integer, allocatable :: node(:, :)
       integer :: i, j, k, n, n1, n2, cell(9)
 
-      n = integer_value(table, field_size, block%entry)
-      n1 = integer_value(table, field_n1, block%entry)
-      n2 = integer_value(table, field_n2, block%entry)
+      n = block%size
+      n1 = block%n(1)
+      n2 = block%n(2)
       allocate (node(0:2*n1, 0:2*n2), source=0)
       do j = 0, 2*n2
          do i = 0, 2*n1
@@ -107,29 +120,25 @@ contains
             k = candidates%n + 1
             candidates%n = k
             candidates%position(:, k) = &
-               map_block(block%corners, half_grid(i, n1, table%values(field_ratio1, block%entry)), &
-                         half_grid(j, n2, table%values(field_ratio2, block%entry)))
-            candidates%body(k) = integer_value(table, field_body, block%entry)
-            candidates%card(k) = table%cards(1, block%entry)
+               map_block(block%corners, half_grid(i, n1, block%ratio(1)), &
+                         half_grid(j, n2, block%ratio(2)))
+            candidates%body(k) = block%body
+            candidates%card(k) = block%card
             node(i, j) = draft%n_nodes + k
          end do
       end do
       do j = 0, n2 - 1
          do i = 0, n1 - 1
             cell = [(node(2*i + grid_1(k), 2*j + grid_2(k)), k=1, 9)]
-            call add_cell(table, block, n, cell, 1 + mod(i + j, 2), label, draft, candidates)
+            call add_cell(block, cell, 1 + mod(i + j, 2), label, draft, candidates)
          end do
       end do
    end subroutine fill_block
 
    !> Add the quadrilateral or both triangles of a cell
-   pure subroutine add_cell(table, block, n, cell, cut, label, draft, candidates)
-      !> BLOCKS
-      type(table_type), intent(in) :: table
+   pure subroutine add_cell(block, cell, cut, label, draft, candidates)
       !> The block
       type(block_type), intent(in) :: block
-      !> Nodes of an element
-      integer, intent(in) :: n
       !> Nodes of the cell, behind the nodes of the draft by their place among the candidates
       integer, intent(in) :: cell(9)
       !> How triangles cut it: 1 from corner 1 to 3, 2 from corner 2 to 4
@@ -141,20 +150,19 @@ contains
       !> Nodes of blocks
       type(candidates_type), intent(inout) :: candidates
 
-      integer :: i, body
+      integer :: i
 
-      body = integer_value(table, field_body, block%entry)
-      if (n_corners(n) == 4) then
+      if (n_corners(block%size) == 4) then
          label = label + 1
-         call add_element(draft, label, table%cards(1, block%entry), block%material, body, cell(:n))
+         call add_element(draft, label, block%card, block%material, block%body, cell(:block%size))
          return
       end if
       do i = 1, 2
          label = label + 1
-         call add_element(draft, label, table%cards(1, block%entry), block%material, body, &
-                          cell(in_cell(:n, i, cut)))
+         call add_element(draft, label, block%card, block%material, block%body, &
+                          cell(in_cell(:block%size, i, cut)))
       end do
-      if (n == 6) then  ! the cut is straight
+      if (block%size == 6) then  ! the cut is straight
          associate (x => candidates%position, k => cell - draft%n_nodes)
             x(:, k(9)) = between(x(:, k(cut)), x(:, k(cut + 2)), 0.5_wp)
          end associate

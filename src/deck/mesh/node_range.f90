@@ -3,9 +3,9 @@ module axijoint_deck_mesh_node_range
    use axijoint_base_number_map, only : find_number
    use axijoint_base_text, only : to_text
    use axijoint_deck_mesh_draft, only : draft_type
-   use axijoint_deck_text_diagnostics, only : diagnostics_type
-   use axijoint_deck_text_source, only : source_type
-   use axijoint_deck_text_table, only : table_type, integer_value, field_error
+   use axijoint_deck_text_common_fields, only : name_node, name_last, name_step
+   use axijoint_deck_text_entry, only : entry_type, is_given, integer_of, is_good, field_fault, &
+      field_named
    implicit none
    private
    public :: find_nodes
@@ -13,33 +13,27 @@ module axijoint_deck_mesh_node_range
 contains
 
    !> Find the nodes of a card, or report those that do not exist
-   subroutine find_nodes(source, table, entry, field_last, field_step, draft, nodes, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
-      !> The section; its first field is the first node
-      type(table_type), intent(in) :: table
-      !> The entry
-      integer, intent(in) :: entry
-      !> Fields of the last node, which may be blank, and of the step
-      integer, intent(in) :: field_last, field_step
+   subroutine find_nodes(card, draft, nodes)
+      !> The card; its section has fields of a node, the last node and the step
+      class(entry_type), intent(in) :: card
       !> The mesh
       type(draft_type), intent(in) :: draft
       !> The nodes (indices); none if something is wrong
       integer, allocatable, intent(out) :: nodes(:)
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
 
-      integer :: first, last, step, i
+      integer :: field_first, field_last, field_step, first, last, step, i
 
       allocate (nodes(0))
-      if (.not. table%good(entry)) return
-      first = integer_value(table, 1, entry)
+      if (.not. is_good(card)) return
+      field_first = field_named(card, name_node)
+      field_last = field_named(card, name_last)
+      field_step = field_named(card, name_step)
+      first = integer_of(card, field_first)
       last = first
-      if (table%given(field_last, entry)) last = integer_value(table, field_last, entry)
-      step = integer_value(table, field_step, entry)
+      if (is_given(card, field_last)) last = integer_of(card, field_last)
+      step = integer_of(card, field_step)
       if (mod(abs(last - first), step) /= 0) then
-         call field_error(diagnostics, source, table, entry, &
-                          merge(field_step, field_last, table%given(field_step, entry)), &
+         call field_fault(card, merge(field_step, field_last, is_given(card, field_step)), &
                           'the step does not lead from node '//to_text(first)//' to node '// &
                           to_text(last), allowed='a divisor of '//to_text(abs(last - first)))
          return
@@ -50,7 +44,7 @@ contains
       i = findloc(nodes, 0, 1)
       if (i == 0) return
       if (draft%nodes_complete) then
-         call field_error(diagnostics, source, table, entry, merge(field_last, 1, i > 1), &
+         call field_fault(card, merge(field_last, field_first, i > 1), &
                           'node '//to_text(first + (i - 1)*step)//' is not defined', &
                           allowed='nodes first, first + step, ..., last must all exist')
       end if

@@ -5,15 +5,11 @@ module axijoint_deck_mesh_straight_face
    use axijoint_base_text, only : to_text
    use axijoint_deck_mesh_draft, only : draft_type, face_type, place_text
    use axijoint_deck_mesh_edges, only : edge_table_type, outer_edge
-   use axijoint_deck_text_diagnostics, only : diagnostics_type
-   use axijoint_deck_text_source, only : source_type
-   use axijoint_deck_text_table, only : table_type, field_error, entry_error
+   use axijoint_deck_text_entry, only : entry_type, card_fault
    implicit none
    private
-   public :: outer_edges, lay_straight_face
+   public :: line_type, line_between, outer_edges, lay_straight_face
 
-   !> Fields of FACES
-   integer, parameter :: field_body = 2, field_first = 3, field_last = 5
    !> Distance of an edge from the line of its face, in extents of the model: the
    !> ends of the line are typed with few digits
    real(wp), parameter :: line_tolerance = 1.0e-6_wp
@@ -29,6 +25,23 @@ module axijoint_deck_mesh_straight_face
    end type line_type
 
 contains
+
+   !> The line between two points
+   pure function line_between(first, last, extent) result(line)
+      !> First and last point
+      real(wp), intent(in) :: first(2), last(2)
+      !> Extent of the model
+      real(wp), intent(in) :: extent
+      !> The line; without direction if it has no length
+      type(line_type) :: line
+
+      line%first = first
+      line%last = last
+      line%length = norm2(last - first)
+      line%tolerance = line_tolerance*extent
+      if (line%length <= 2.0_wp*line%tolerance) line%length = 0.0_wp
+      if (line%length > 0.0_wp) line%direction = (last - first)/line%length
+   end function line_between
 
    !> Indices of the edges that one element has
    pure function outer_edges(edges) result(outer)
@@ -49,42 +62,27 @@ contains
    end function outer_edges
 
    !> Find the edges of a straight face
-   subroutine lay_straight_face(source, table, entry, edges, outer, draft, face, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
-      !> FACES
-      type(table_type), intent(in) :: table
-      !> The entry
-      integer, intent(in) :: entry
+   subroutine lay_straight_face(card, line, edges, outer, draft, face)
+      !> The card of the face
+      class(entry_type), intent(in) :: card
+      !> The line, which has a length
+      type(line_type), intent(in) :: line
       !> Edges of the elements, and which are outer edges
       type(edge_table_type), intent(in) :: edges
       integer, intent(in) :: outer(:)
       !> The mesh
       type(draft_type), intent(in) :: draft
-      !> The face
+      !> The face; good if its edges cover the line
       type(face_type), intent(inout) :: face
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
 
-      type(line_type) :: line
       integer, allocatable :: found(:)
       integer :: i, first
       real(wp), allocatable :: start(:)
 
-      line%first = table%values(field_first:field_first + 1, entry)
-      line%last = table%values(field_last:field_last + 1, entry)
-      line%length = norm2(line%last - line%first)
-      line%tolerance = line_tolerance*draft%extent
       face%good = .false.
-      if (line%length <= 2.0_wp*line%tolerance) then
-         call field_error(diagnostics, source, table, entry, field_last, 'the face has no length', &
-                          allowed='two different points')
-         return
-      end if
-      line%direction = (line%last - line%first)/line%length
       call edges_on_line(line, face%body, edges, outer, draft, found)
       if (size(found) == 0) then
-         call report_no_edges(source, table, entry, line, edges, outer, draft, diagnostics)
+         call report_no_edges(card, line, face%body, edges, outer, draft)
          return
       end if
       start = [(minval(distances(line, draft, edges%nodes(:, found(i)))), i=1, size(found))]
@@ -97,7 +95,7 @@ contains
          end associate
          face%edges(i) = outer_edge(draft, edges, found(i), first)
       end do
-      call check_cover(table, entry, line, draft, face, diagnostics)
+      call check_cover(card, line, draft, face)
    end subroutine lay_straight_face
 
    !> Distances of an edge's corner nodes from the first point, along the line
@@ -163,57 +161,41 @@ contains
    end function is_on_line
 
    !> Report a line without outer edges of the body
-   subroutine report_no_edges(source, table, entry, line, edges, outer, draft, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
-      !> FACES
-      type(table_type), intent(in) :: table
-      !> The entry
-      integer, intent(in) :: entry
+   subroutine report_no_edges(card, line, body, edges, outer, draft)
+      !> The card of the face
+      class(entry_type), intent(in) :: card
       !> The line
       type(line_type), intent(in) :: line
+      !> The body, which has elements
+      integer, intent(in) :: body
       !> Edges of the elements, and which are outer edges
       type(edge_table_type), intent(in) :: edges
       integer, intent(in) :: outer(:)
       !> The mesh
       type(draft_type), intent(in) :: draft
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
 
       integer, allocatable :: found(:)
-      integer :: body
 
-      body = nint(table%values(field_body, entry))
-      if (.not. any(draft%element_body(:draft%n_elements) == body)) then
-         call field_error(diagnostics, source, table, entry, field_body, &
-                          'there is no body '//to_text(body), &
-                          allowed='the body of an ELEMENTS or BLOCKS card (1 if blank there)')
-         return
-      end if
       call edges_on_line(line, 0, edges, outer, draft, found)
       if (size(found) > 0) then
-         call entry_error(diagnostics, table, entry, 'body '//to_text(body)//' has no outer edge on this line', &
+         call card_fault(card, 'body '//to_text(body)//' has no outer edge on this line', &
                           mend='body '//to_text(draft%element_body(edges%element(found(1))))//' has')
       else
-         call entry_error(diagnostics, table, entry, 'body '//to_text(body)//' has no outer edge on this line', &
+         call card_fault(card, 'body '//to_text(body)//' has no outer edge on this line', &
                           allowed='a line from node to node along the outside of the body')
       end if
    end subroutine report_no_edges
 
    !> Check that the edges of a face follow each other from end to end
-   subroutine check_cover(table, entry, line, draft, face, diagnostics)
-      !> FACES
-      type(table_type), intent(in) :: table
-      !> The entry
-      integer, intent(in) :: entry
+   subroutine check_cover(card, line, draft, face)
+      !> The card of the face
+      class(entry_type), intent(in) :: card
       !> The line
       type(line_type), intent(in) :: line
       !> The mesh
       type(draft_type), intent(in) :: draft
       !> The face
       type(face_type), intent(inout) :: face
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
 
       real(wp) :: reached(2), next(2)
       integer :: i, n
@@ -224,7 +206,7 @@ contains
          next = line%last
          if (i <= n) next = draft%position(:, face%edges(i)%nodes(1))
          if (norm2(next - reached) > 2.0_wp*line%tolerance) then
-            call entry_error(diagnostics, table, entry, 'face '//to_text(face%label)// &
+            call card_fault(card, 'face '//to_text(face%label)// &
                              ' is not covered by outer edges of body '//to_text(face%body), &
                              found='no edge from '//place_text(reached)//' to '//place_text(next), &
                              mend='end the face at nodes; use several faces where the outline bends')

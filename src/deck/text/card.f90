@@ -4,7 +4,7 @@ module axijoint_deck_text_card
    use axijoint_deck_text_decimal_comma, only : has_decimal_comma, report_decimal_comma
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
    use axijoint_deck_text_field, only : field_type, kind_text
-   use axijoint_deck_text_layout, only : card_width
+   use axijoint_deck_text_section, only : card_width
    use axijoint_deck_text_source, only : source_type, card_content, tab
    use axijoint_deck_text_strange_byte, only : has_strange_byte, report_strange_byte
    implicit none

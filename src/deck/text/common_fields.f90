@@ -2,32 +2,63 @@
 module axijoint_deck_text_common_fields
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
-   use axijoint_deck_text_field, only : field_type, integer_field, real_field, largest_number
+   use axijoint_deck_text_field, only : field_type, integer_field, real_field, described, largest_number
    implicit none
    private
-   public :: number, numbers, last_number, body, step, length, ratio, components, angle
+   public :: number, node, nodes, face, last_number, last_node, body, step, length, ratio, &
+      components, angle
    public :: largest_body, largest_division, largest_harmonic
+   public :: name_node, name_last, name_step
 
    !> Largest numbers of a body, of elements along a side of a block, of a harmonic
    integer, parameter :: largest_body = 9999, largest_division = 100000, largest_harmonic = 9999
+   !> Names of the fields of a row of nodes
+   character(len=*), parameter :: name_node = 'the node', name_last = 'the last node', &
+      name_step = 'the step'
    !> Greatest grading of a block or a line, and its inverse
    real(wp), parameter :: largest_ratio = 1.0e6_wp
 
 contains
 
    !> Field of the number of a thing
-   pure function number(name, first) result(field)
+   pure function number(name, first, of) result(field)
+      !> Name
+      character(len=*), intent(in) :: name
+      !> First column
+      integer, intent(in) :: first
+      !> What has the number, as far as others need to know: node, face, shape
+      character(len=*), intent(in), optional :: of
+      !> The field
+      type(field_type) :: field
+      field = integer_field(name, first, first + 4, 1, largest_number)
+      if (present(of)) field%refers_to = of
+   end function number
+
+   !> Field of a node
+   pure function node(name, first) result(field)
       !> Name
       character(len=*), intent(in) :: name
       !> First column
       integer, intent(in) :: first
       !> The field
       type(field_type) :: field
-      field = integer_field(name, first, first + 4, 1, largest_number)
-   end function number
+      field = number(name, first, of='node')
+   end function node
 
-   !> Fields of several numbers, the first of which are required
-   pure function numbers(name, n, n_required, first) result(fields)
+   !> Field of a face that a card refers to
+   pure function face(first, name) result(field)
+      !> First column
+      integer, intent(in) :: first
+      !> Name, if it is not simply the face
+      character(len=*), intent(in), optional :: name
+      !> The field
+      type(field_type) :: field
+      field = number('the face', first, of='face')
+      if (present(name)) field%name = name
+   end function face
+
+   !> Fields of several nodes, the first of which are required
+   pure function nodes(name, n, n_required, first) result(fields)
       !> Name of one
       character(len=*), intent(in) :: name
       !> How many, and how many at least
@@ -40,10 +71,10 @@ contains
       integer :: i
 
       do i = 1, n
-         fields(i) = number(name//' '//to_text(i), first + 5*(i - 1))
+         fields(i) = node(name//' '//to_text(i), first + 5*(i - 1))
          fields(i)%required = i <= n_required
       end do
-   end function numbers
+   end function nodes
 
    !> Field of a body
    pure function body(first) result(field)
@@ -60,7 +91,9 @@ contains
       integer, intent(in) :: first
       !> The field
       type(field_type) :: field
-      field = integer_field('the step', first, first + 4, 1, largest_number, default=1)
+      field = described(integer_field(name_step, first, first + 4, 1, largest_number, default=1), &
+                        'step', &
+                        limits='divides the difference')
    end function step
 
    !> Field of a coordinate
@@ -73,7 +106,7 @@ contains
       real(wp), intent(in), optional :: from
       !> The field
       type(field_type) :: field
-      field = real_field(name, first, first + 9, from=from, symbol=name(1:1))
+      field = real_field(name, first, from=from, symbol=name(1:1))
    end function length
 
    !> Field of the ratio of the last to the first interval
@@ -84,7 +117,7 @@ contains
       integer, intent(in) :: first
       !> The field
       type(field_type) :: field
-      field = real_field(name, first, first + 9, from=1.0_wp/largest_ratio, to=largest_ratio, &
+      field = real_field(name, first, from=1.0_wp/largest_ratio, to=largest_ratio, &
                          default=1.0_wp, symbol='ratio')
    end function ratio
 
@@ -99,9 +132,9 @@ contains
       !> The fields
       type(field_type) :: fields(3)
 
-      fields = [real_field(symbol//'_r'//place, first, first + 9, default=0.0_wp), &
-                real_field(symbol//'_z'//place, first + 10, first + 19, default=0.0_wp), &
-                real_field(symbol//'_theta'//place, first + 20, first + 29, default=0.0_wp)]
+      fields = [real_field(symbol//'_r'//place, first, default=0.0_wp), &
+                real_field(symbol//'_z'//place, first + 10, default=0.0_wp), &
+                real_field(symbol//'_theta'//place, first + 20, default=0.0_wp)]
    end function components
 
    !> Field of the last of a row of numbers, that of the first alone if blank
@@ -115,6 +148,17 @@ contains
       field = integer_field(name, first, first + 4, 1, largest_number, default=0)
    end function last_number
 
+   !> Field of the last of a row of nodes
+   pure function last_node(first) result(field)
+      !> First column
+      integer, intent(in) :: first
+      !> The field
+      type(field_type) :: field
+      field = described(last_number(name_last, first), 'last node: node, node + step, …', &
+                        blank='the node alone')
+      field%refers_to = 'node'
+   end function last_node
+
    !> Field of an angle theta
    pure function angle(name, first) result(field)
       !> Name
@@ -123,7 +167,7 @@ contains
       integer, intent(in) :: first
       !> The field; 0 if blank
       type(field_type) :: field
-      field = real_field(name, first, first + 9, from=-360.0_wp, to=360.0_wp, default=0.0_wp, &
+      field = real_field(name, first, from=-360.0_wp, to=360.0_wp, default=0.0_wp, &
                          symbol='theta')
    end function angle
 

@@ -4,7 +4,7 @@ module axijoint_deck_text_field
    use axijoint_base_text, only : to_text
    implicit none
    private
-   public :: field_type, integer_field, real_field, word_field, code_field, text_field
+   public :: field_type, integer_field, real_field, word_field, code_field, text_field, described
    public :: allowed_text, in_range
    public :: kind_integer, kind_real, kind_word, kind_code, kind_text
    public :: largest_number, largest_real, smallest_real
@@ -27,11 +27,23 @@ module axijoint_deck_text_field
    !> quotients of them would leave the range of the machine
    real(wp), parameter :: largest_real = 1.0e30_wp, smallest_real = 1.0e-30_wp
 
+   !> Columns of a field for a real
+   integer, parameter :: real_width = 10
+
    !> One field of the cards of a section
    type :: field_type
       !> Name in messages
       character(len=40) :: name = ''
-      !> Card of an entry that has the field, if an entry has two
+      !> What it means, with its unit, for those who write cards; the name without its article if blank
+      character(len=200) :: meaning = ''
+      !> What a blank field means, and what is allowed, for them, too; told by the values if blank
+      character(len=80) :: blank = ''
+      character(len=100) :: limits = ''
+      !> Whether it is told of together with the field before it
+      logical :: joined = .false.
+      !> What it is the number of, as far as others need to know: node, face, shape
+      character(len=8) :: refers_to = ''
+      !> Card of an entry that has the field, if an entry has several
       integer :: card = 1
       !> First and last column on a fixed card
       integer :: first = 0, last = 0
@@ -50,6 +62,12 @@ module axijoint_deck_text_field
       !> Symbol of a real in the text of its range
       character(len=12) :: symbol = 'x'
    end type field_type
+
+   !> Fields with what those who write cards are told of them
+   interface described
+      module procedure described_field
+      module procedure described_row
+   end interface described
 
 contains
 
@@ -76,12 +94,12 @@ contains
       if (present(default)) field%default = real(default, wp)
    end function integer_field
 
-   !> A real field
-   pure function real_field(name, first, last, from, above, to, below, default, symbol) result(field)
+   !> A real field, of 10 columns
+   pure function real_field(name, first, from, above, to, below, default, symbol) result(field)
       !> Name
       character(len=*), intent(in) :: name
-      !> Columns
-      integer, intent(in) :: first, last
+      !> First column
+      integer, intent(in) :: first
       !> Lower end of the range: allowed (from) or not (above)
       real(wp), intent(in), optional :: from, above
       !> Upper end of the range: allowed (to) or not (below)
@@ -95,7 +113,7 @@ contains
 
       field%name = name
       field%first = first
-      field%last = last
+      field%last = first + real_width - 1
       field%kind = kind_real
       field%low = -largest_real
       field%high = largest_real
@@ -161,6 +179,39 @@ contains
       field%last = last
       field%kind = kind_text
    end function text_field
+
+   !> A field with what those who write cards are told of it
+   pure function described_field(field, meaning, blank, limits) result(new)
+      !> The field
+      type(field_type), intent(in) :: field
+      !> What it means, with its unit
+      character(len=*), intent(in) :: meaning
+      !> What a blank one means; what is allowed
+      character(len=*), intent(in), optional :: blank, limits
+      !> The same with these
+      type(field_type) :: new
+
+      new = field
+      new%meaning = meaning
+      if (present(blank)) new%blank = blank
+      if (present(limits)) new%limits = limits
+   end function described_field
+
+   !> Fields one after another that are told of together
+   pure function described_row(fields, meaning, blank, limits) result(new)
+      !> The fields
+      type(field_type), intent(in) :: fields(:)
+      !> What they mean, with their unit
+      character(len=*), intent(in) :: meaning
+      !> What a blank one means; what is allowed
+      character(len=*), intent(in), optional :: blank, limits
+      !> The same with these
+      type(field_type) :: new(size(fields))
+
+      new = fields
+      new(1) = described_field(fields(1), meaning, blank, limits)
+      new(2:)%joined = .true.
+   end function described_row
 
    !> Whether a value is in a field's range
    pure logical function in_range(field, value)

@@ -1,7 +1,7 @@
 !> The path on an INCLUDE or a GMSH card, and whether it may be followed
 module axijoint_deck_text_include_path
    use axijoint_base_text, only : to_text
-   use axijoint_deck_text_layout, only : card_width, keyword_last
+   use axijoint_deck_text_section, only : card_width, keyword_last
    use axijoint_deck_text_source, only : source_type, tab
    implicit none
    private

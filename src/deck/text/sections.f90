@@ -2,21 +2,24 @@
 module axijoint_deck_text_sections
    use axijoint_base_text, only : to_text, count_of
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, add_warning
-   use axijoint_deck_text_layout, only : n_sections, section_names, section_fields, keyword_fields, &
-      cards_per_entry, section_title, section_control, section_include, section_end, section_orthotropic, &
-      section_gmsh, section_sweep, card_width
-   use axijoint_deck_text_source, only : source_type, card_text, card_content, card_position, card_title, &
-      card_data, card_keyword, tab
-   use axijoint_deck_text_table, only : table_type, new_table, read_entry, entry_error, field_error, &
-      integer_value
+   use axijoint_deck_text_field, only : field_type
+   use axijoint_deck_text_section, only : cards_per_entry, keyword_fields, ordinal, cardinal, &
+      form_entries, form_include, form_file, keyword_length, card_width
+   use axijoint_deck_text_source, only : source_type, card_text, card_content, card_position, &
+      card_title, card_data, card_keyword, form_of, tab
+   use axijoint_deck_text_table, only : table_type, new_table, read_entry, entry_error, &
+      field_error, integer_value
    implicit none
    private
-   public :: sections_type, read_sections
+   public :: sections_type, read_sections, table_of
 
    !> What the cards of a deck say, before anything is made of it
    type :: sections_type
-      !> Entries of each section
-      type(table_type) :: tables(n_sections)
+      !> Keyword and entries of each section of the source
+      character(len=keyword_length), allocatable :: names(:)
+      type(table_type), allocatable :: tables(:)
+      !> The entries of a section that the source cannot have: none
+      type(table_type) :: none
       !> Title
       character(len=:), allocatable :: title
       !> Keyword cards that no entries follow and that do not announce none
@@ -33,31 +36,38 @@ contains
       !> The deck
       type(source_type), intent(in) :: source
       !> Its sections
-      type(sections_type), intent(inout) :: sections
+      type(sections_type), intent(out) :: sections
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
       integer, allocatable :: owner(:), entries(:)
-      integer :: section, card, n_cards(0:n_sections)
+      integer, allocatable :: n_cards(:)
+      integer :: section, card
 
+      allocate (n_cards(0:size(source%sections)), source=0)
+      allocate (sections%tables(size(source%sections)))
+      sections%names = source%sections%name
+      sections%none = new_table([field_type ::], 0)
       sections%complete = source%complete
       call find_owners(source, owner, sections%complete, diagnostics)
       call check_repeated(source, diagnostics)
       call read_title(source, sections%title, diagnostics)
-      n_cards = 0
       do card = 1, source%n_cards
          if (owner(card) == 0) cycle
          section = source%cards(owner(card))%keyword
          n_cards(section) = n_cards(section) + 1
       end do
-      do section = 1, n_sections
-         sections%tables(section) = new_table(section_fields(section), &
-                                              n_cards(section)/cards_per_entry(section))
+      do section = 1, size(source%sections)
+         associate (kind => source%sections(section))
+            sections%tables(section) = new_table(kind%fields, n_cards(section)/cards_per_entry(kind))
+         end associate
       end do
       allocate (entries(source%n_cards), source=0)
       call read_entries(source, owner, sections, entries, diagnostics)
       call read_keywords(source, entries, sections, diagnostics)
-      call check_control(source, sections%tables(section_control), diagnostics)
+      do section = 1, size(source%sections)
+         if (source%sections(section)%required) call check_there(source, section, sections, diagnostics)
+      end do
    end subroutine read_sections
 
    !> The keyword card that each data card belongs to. A file begins in the section
@@ -84,7 +94,7 @@ contains
          file = source%cards(card)%file
          if (open_section(file) == unset) open_section(file) = open_section(source%files(file)%parent)
          if (source%cards(card)%kind == card_keyword) then
-            if (all(source%cards(card)%keyword /= [section_include, section_gmsh])) open_section(file) = card
+            if (all(form_of(source, card) /= [form_include, form_file])) open_section(file) = card
          else if (source%cards(card)%kind == card_data) then
             if (takes_data(source, open_section(file))) then
                owner(card) = open_section(file)
@@ -104,7 +114,7 @@ contains
       integer, intent(in) :: card
 
       takes_data = card > 0
-      if (takes_data) takes_data = all(source%cards(card)%keyword /= [0, section_title, section_end])
+      if (takes_data) takes_data = form_of(source, card) == form_entries
    end function takes_data
 
    !> Report a data card that belongs to no section
@@ -132,23 +142,26 @@ contains
                      mend='a keyword, written from column 1, opens a section; comments begin with !')
    end subroutine report_homeless
 
-   !> Report a second TITLE, CONTROL or GMSH
+   !> Report the second keyword of a section that is there once
    subroutine check_repeated(source, diagnostics)
       !> The deck
       type(source_type), intent(in) :: source
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
-      integer :: card, seen(n_sections)
+      character(len=:), allocatable :: name
+      integer, allocatable :: seen(:)
+      integer :: card
 
-      seen = 0
+      allocate (seen(size(source%sections)), source=0)
       do card = 1, source%n_cards
          if (source%cards(card)%kind /= card_keyword) cycle
          associate (section => source%cards(card)%keyword)
-            if (all(section /= [section_title, section_control, section_gmsh, section_sweep])) cycle
+            if (section == 0) cycle
+            if (.not. source%sections(section)%once) cycle
             if (seen(section) > 0) then
-               call add_error(diagnostics, card, 1, len_trim(section_names(section)), &
-                              trim(section_names(section))//' is there twice, first on '// &
+               name = trim(source%sections(section)%name)
+               call add_error(diagnostics, card, 1, len(name), name//' is there twice, first on '// &
                               card_position(source, seen(section), card))
             else
                seen(section) = card
@@ -235,40 +248,56 @@ contains
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
-      integer, allocatable :: first_card(:)
-      integer :: card
+      integer, allocatable :: begun(:, :), n_begun(:)
+      integer :: card, n
 
-      allocate (first_card(size(owner)), source=0)
+      n = 1
+      do card = 1, size(source%sections)
+         n = max(n, cards_per_entry(source%sections(card)))
+      end do
+      ! Cards of the entry that is being read below each keyword card
+      allocate (begun(n, size(owner)), n_begun(size(owner)), source=0)
       do card = 1, source%n_cards
          if (owner(card) == 0) cycle
-         associate (section => source%cards(owner(card))%keyword, first => first_card(owner(card)))
-            if (cards_per_entry(section) == 1) then
-               call read_entry(sections%tables(section), source, [card], diagnostics)
-            else if (first == 0) then
-               first = card
-               cycle
-            else
-               call read_entry(sections%tables(section), source, [first, card], diagnostics)
-               first = 0
-            end if
-            entries(owner(card)) = entries(owner(card)) + 1
+         associate (keyword => owner(card), section => source%cards(owner(card))%keyword)
+            n_begun(keyword) = n_begun(keyword) + 1
+            begun(n_begun(keyword), keyword) = card
+            if (n_begun(keyword) < cards_per_entry(source%sections(section))) cycle
+            call read_entry(sections%tables(section), source, begun(:n_begun(keyword), keyword), &
+                            diagnostics)
+            n_begun(keyword) = 0
+            entries(keyword) = entries(keyword) + 1
          end associate
       end do
       do card = 1, source%n_cards
-         if (first_card(card) == 0) cycle
+         if (n_begun(card) == 0) cycle
          sections%complete = .false.
-         if (.not. source%complete) cycle
-         if (source%cards(card)%keyword == section_orthotropic) then
-            call add_error(diagnostics, first_card(card), 0, 0, &
-                           'the second card of the material is lacking', &
-                           allowed='two cards: E, angle, density; then nu and G')
-         else
-            call add_error(diagnostics, first_card(card), 0, 0, &
-                           'the second card of the block is lacking', &
-                           allowed='two cards: numbers and divisions; then the corners')
-         end if
+         if (source%complete) call report_lacking(source, card, begun(1, card), n_begun(card), &
+            diagnostics)
       end do
    end subroutine read_entries
+
+   !> Report an entry of which the last cards are lacking
+   subroutine report_lacking(source, keyword_card, first_card, n, diagnostics)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> The keyword card, the first card of the entry, and the number of its cards that are there
+      integer, intent(in) :: keyword_card, first_card, n
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      character(len=:), allocatable :: allowed
+      integer :: k
+
+      associate (section => source%sections(source%cards(keyword_card)%keyword))
+         allowed = cardinal(cards_per_entry(section))//' cards: '//trim(section%cards(1))
+         do k = 2, cards_per_entry(section)
+            allowed = allowed//'; then '//trim(section%cards(k))
+         end do
+         call add_error(diagnostics, first_card, 0, 0, 'the '//ordinal(n + 1)//' card of the '// &
+                        trim(section%entry)//' is lacking', allowed=allowed)
+      end associate
+   end subroutine report_lacking
 
    !> Read the keyword cards and check the numbers of entries given there
    subroutine read_keywords(source, entries, sections, diagnostics)
@@ -288,18 +317,19 @@ contains
       do card = 1, source%n_cards
          if (source%cards(card)%kind /= card_keyword) cycle
          associate (section => source%cards(card)%keyword)
-            if (any(section == [0, section_include, section_gmsh])) cycle
+            if (any(form_of(source, card) == [0, form_include, form_file])) cycle
             if (.not. starts_with_letter(source, card)) cycle  ! reported already
-            table = new_table(keyword_fields(section), 1)
+            table = new_table(keyword_fields(source%sections(section)), 1)
             call read_entry(table, source, [card], diagnostics)
-            if (size(table%fields) == 1) cycle  ! TITLE, END
+            if (source%sections(section)%form /= form_entries) cycle
             if (.not. table%given(2, 1)) then
-               if (entries(card) == 0 .and. section /= section_sweep) sections%empty = [sections%empty, card]
+               if (entries(card) == 0 .and. .not. source%sections(section)%alone) &
+                  sections%empty = [sections%empty, card]
                cycle
             end if
             if (integer_value(table, 2, 1) == entries(card) .or. .not. sections%complete) cycle
             call field_error(diagnostics, source, table, 1, 2, &
-                             trim(section_names(section))//' announces '// &
+                             trim(source%sections(section)%name)//' announces '// &
                              count_of(integer_value(table, 2, 1), 'entry')//' but has '// &
                              to_text(entries(card)), &
                              mend='correct the number, or leave it out')
@@ -321,30 +351,55 @@ contains
       starts_with_letter = scan(content, ' '//tab) /= 1 .and. iachar(content(1:1)) < 128
    end function starts_with_letter
 
-   !> Check that there is one CONTROL card
-   subroutine check_control(source, control, diagnostics)
+   !> Check that a section which must be there has one entry
+   subroutine check_there(source, section, sections, diagnostics)
       !> The deck
       type(source_type), intent(in) :: source
       !> The section
-      type(table_type), intent(in) :: control
+      integer, intent(in) :: section
+      !> Entries of all sections
+      type(sections_type), intent(in) :: sections
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
+      character(len=:), allocatable :: name, first_field
       integer :: card
 
-      if (control%n > 1) then
-         call entry_error(diagnostics, control, 2, 'CONTROL has one data card only', &
-                          mend='a fixed card may have comments, but no second line')
-      else if (control%n == 0 .and. source%complete) then
-         card = findloc(source%cards(:source%n_cards)%keyword, section_control, 1)
-         if (card > 0) then
-            call add_error(diagnostics, card, 0, 0, 'the data card of CONTROL is missing', &
-                           mend='below CONTROL, give the highest harmonic M in columns 1 to 5')
-            return
+      name = trim(source%sections(section)%name)
+      associate (field => source%sections(section)%fields(1), table => sections%tables(section))
+         first_field = trim(field%name)//' in columns '//to_text(field%first)//' to '// &
+            to_text(field%last)
+         if (table%n > 1) then
+            call entry_error(diagnostics, table, 2, name//' has one data card only', &
+                             mend='a fixed card may have comments, but no second line')
+         else if (table%n == 0 .and. source%complete) then
+            card = findloc(source%cards(:source%n_cards)%keyword, section, 1)
+            if (card > 0) then
+               call add_error(diagnostics, card, 0, 0, 'the data card of '//name//' is missing', &
+                              mend='below '//name//', give '//first_field)
+            else
+               call add_error(diagnostics, 0, 0, 0, 'the deck has no '//name//' card', &
+                              mend='add '//name//' and, below it, '//first_field)
+            end if
          end if
-         call add_error(diagnostics, 0, 0, 0, 'the deck has no CONTROL card', &
-                        mend='add CONTROL and, below it, the highest harmonic M in columns 1 to 5')
-      end if
-   end subroutine check_control
+      end associate
+   end subroutine check_there
+
+   !> Entries of a section; none if the source cannot have it
+   function table_of(sections, name) result(table)
+      !> The sections
+      type(sections_type), intent(in), target :: sections
+      !> The keyword
+      character(len=*), intent(in) :: name
+      !> The entries
+      type(table_type), pointer :: table
+
+      integer :: k
+
+      table => sections%none
+      do k = 1, size(sections%names)
+         if (sections%names(k) == name) table => sections%tables(k)
+      end do
+   end function table_of
 
 end module axijoint_deck_text_sections

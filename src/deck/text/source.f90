@@ -1,9 +1,10 @@
 !> The physical lines of a deck and of the files that it includes
 module axijoint_deck_text_source
+   use axijoint_deck_text_section, only : section_type
    implicit none
    private
    public :: source_type, add_file, add_card
-   public :: card_text, card_content, card_file, card_line, card_position, printable, tab
+   public :: card_text, card_content, card_file, card_line, card_position, form_of, printable, tab
    public :: card_title, card_data, card_keyword
 
    !> Blank card, comment card, or a card that was already found at fault
@@ -36,12 +37,14 @@ module axijoint_deck_text_source
       integer :: first = 1, last = 0
       !> One of the `card_` parameters
       integer :: kind = card_ignored
-      !> Section that a keyword card opens; 0 if unknown
+      !> Section that a keyword card opens, among those of the source; 0 if unknown
       integer :: keyword = 0
    end type card_type
 
    !> A deck with its included files spliced in; every physical line is kept
    type :: source_type
+      !> Sections that it may have
+      type(section_type), allocatable :: sections(:)
       !> Number of cards in `cards`
       integer :: n_cards = 0
       !> The cards in the order in which they are read, at least n_cards
@@ -145,6 +148,19 @@ contains
       if (comment > 0) text = text(:comment - 1)
       text = text(:verify(text, ' '//tab, back=.true.))
    end function card_content
+
+   !> Form of the section that a card opens; 0 if it opens none that is known
+   pure integer function form_of(source, card) result(form)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> Index of the card
+      integer, intent(in) :: card
+
+      form = 0
+      associate (section => source%cards(card)%keyword)
+         if (section > 0) form = source%sections(section)%form
+      end associate
+   end function form_of
 
    !> Path of the file that a card stands in
    pure function card_file(source, card) result(path)

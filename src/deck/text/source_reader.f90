@@ -1,13 +1,13 @@
 !> From files to cards: INCLUDE and GMSH cards are followed, END cards are sought
 module axijoint_deck_text_source_reader
-   use axijoint_base_text, only : upper
+   use axijoint_base_text, only : upper, nearest_word
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
    use axijoint_deck_text_file_bytes, only : read_bytes, line_end, next_line, control_byte
    use axijoint_deck_text_include_path, only : locate_path, path_fault, nesting_fault, folder
-   use axijoint_deck_text_layout, only : n_sections, section_names, section_title, section_include, section_gmsh, &
-      section_end, group_kinds, nearest_section, keyword_last, keyword_length
-   use axijoint_deck_text_source, only : source_type, add_file, add_card, card_content, &
-      card_text, card_title, card_data, card_keyword, tab
+   use axijoint_deck_text_section, only : section_type, section_named, names_of, first_words, form_title, &
+      form_include, form_file, form_end, keyword_last, keyword_length
+   use axijoint_deck_text_source, only : source_type, add_file, add_card, card_content, card_text, &
+      card_title, card_data, card_keyword, form_of, tab
    use axijoint_deck_text_strange_byte, only : report_strange_byte
    implicit none
    private
@@ -16,14 +16,17 @@ module axijoint_deck_text_source_reader
 contains
 
    !> Read a deck and all that it includes
-   subroutine read_source(path, source, diagnostics)
+   subroutine read_source(path, sections, source, diagnostics)
       !> The deck
       character(len=*), intent(in) :: path
+      !> Sections that it may have
+      type(section_type), intent(in) :: sections(:)
       !> Its cards
       type(source_type), intent(inout) :: source
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
+      source%sections = sections
       call splice_file(source, path, 0, 0, 0, 0, 0, diagnostics)
    end subroutine read_source
 
@@ -118,7 +121,7 @@ contains
          call add_card(source, file, line, first, last)
          first = next_line(source%files(file)%bytes, last)
          card = source%n_cards
-         if (title_next .and. looks_like_keyword(card_text(source, card))) then
+         if (title_next .and. looks_like_keyword(source%sections, card_text(source, card))) then
             title_next = .false.
             call report_keyword_as_title(source, card, diagnostics)
          end if
@@ -134,11 +137,11 @@ contains
          else
             call classify(source, card, diagnostics)
             last_card = card
-            title_next = source%cards(card)%keyword == section_title
-            ended = source%cards(card)%keyword == section_end
-            if (source%cards(card)%keyword == section_include) then
+            title_next = form_of(source, card) == form_title
+            ended = form_of(source, card) == form_end
+            if (form_of(source, card) == form_include) then
                call include_file(source, card, depth, diagnostics)
-            else if (source%cards(card)%keyword == section_gmsh .and. source%mesh_card == 0) then
+            else if (form_of(source, card) == form_file .and. source%mesh_card == 0) then
                call attach_mesh(source, card, diagnostics)
             end if
          end if
@@ -149,7 +152,9 @@ contains
    end subroutine splice_lines
 
    !> Whether a card has a keyword from column 1, and at most a number of entries behind it
-   pure logical function looks_like_keyword(text)
+   pure logical function looks_like_keyword(sections, text)
+      !> Sections that the deck may have
+      type(section_type), intent(in) :: sections(:)
       !> The card
       character(len=*), intent(in) :: text
 
@@ -159,7 +164,7 @@ contains
       word = text
       behind = scan(text, ' !'//tab)
       if (behind > 0 .and. behind <= keyword_length) word(behind:) = ''
-      looks_like_keyword = any(section_names == upper(word))
+      looks_like_keyword = section_named(sections, upper(word)) > 0
       if (behind == 0) behind = len(text) + 1
       looks_like_keyword = looks_like_keyword .and. &
                            verify(text(min(behind, keyword_last + 1):), ' 0123456789'//tab) == 0
@@ -196,10 +201,10 @@ contains
       first = max(1, first_letter(content))
       word = content(first:min(len(content), first + keyword_length - 1))
       word = word(:scan(word//' ', ' ,'//tab) - 1)
-      keyword = findloc(section_names, upper(word), 1)
+      keyword = section_named(source%sections, upper(word))
       source%cards(card)%kind = card_data
       if (keyword == 0 .and. .not. is_letter(content(1:1))) return
-      if (is_group_card(content, word)) return
+      if (is_worded_card(source%sections, content, word)) return
       source%cards(card)%kind = card_keyword
       source%cards(card)%keyword = keyword
       if (keyword == 0) then
@@ -212,20 +217,23 @@ contains
       end if
    end subroutine classify
 
-   !> Whether a card with a letter in column 1 is no keyword card but one of GROUPS: a kind of
-   !> group and two values more. A misspelt FACES or JOINTS is followed by its number of entries only
-   pure logical function is_group_card(content, word)
+   !> Whether a card with a letter in column 1 is no keyword card but an entry that begins with a
+   !> word: one of the words that such entries begin with (JOINT), and two values more. A misspelt
+   !> keyword (JOINTS) is followed by its number of entries only
+   pure logical function is_worded_card(sections, content, word)
+      !> Sections that the deck may have
+      type(section_type), intent(in) :: sections(:)
       !> The card without its comment, and its first word
       character(len=*), intent(in) :: content, word
 
       integer :: first
 
-      is_group_card = any(group_kinds == upper(word))
-      if (.not. is_group_card) return
+      is_worded_card = any(first_words(sections) == upper(word))
+      if (.not. is_worded_card) return
       first = len(word) + verify(content(len(word) + 1:)//'.', ' ,'//tab)
       first = first - 1 + scan(content(min(first, len(content)):)//' ', ' ,'//tab)
-      is_group_card = verify(content(min(first, len(content) + 1):), ' ,'//tab) > 0
-   end function is_group_card
+      is_worded_card = verify(content(min(first, len(content) + 1):), ' ,'//tab) > 0
+   end function is_worded_card
 
    !> Place of the first byte that is ASCII and no blank: a byte order mark or a blank that
    !> is not ASCII does not hide a keyword. 0 if there is none
@@ -261,14 +269,14 @@ contains
       integer :: meant, i
       character(len=:), allocatable :: names, mend
 
-      meant = nearest_section(word)
-      names = trim(section_names(1))
-      do i = 2, n_sections
-         names = names//' '//trim(section_names(i))
+      meant = nearest_word(word, names_of(source%sections))
+      names = trim(source%sections(1)%name)
+      do i = 2, size(source%sections)
+         names = names//' '//trim(source%sections(i)%name)
       end do
       source%cards(card)%keyword = meant
       mend = 'write one of these keywords from column 1'
-      if (meant > 0) mend = 'did you mean '//trim(section_names(meant))//'?'
+      if (meant > 0) mend = 'did you mean '//trim(source%sections(meant)%name)//'?'
       if (meant == 0) source%complete = .false.
       call add_error(diagnostics, card, 1, len(word), 'this keyword is unknown', &
                      found=word, allowed=names, mend=mend)
@@ -375,7 +383,7 @@ contains
       content = card_content(source, card)
       call locate_path(content, first, last, fault)
       path = content(first:last)
-      if (len(fault) == 0) fault = path_fault(trim(section_names(source%cards(card)%keyword)), path)
+      if (len(fault) == 0) fault = path_fault(trim(source%sections(source%cards(card)%keyword)%name), path)
       if (len(fault) > 0) return
       if (index(path, './') == 1) path = path(3:)
       path = folder(source%files(source%cards(card)%file)%path)//path

@@ -11,7 +11,8 @@ module axijoint_deck_text_table
       token_too_large, token_too_small, token_not_finite, token_asterisks
    implicit none
    private
-   public :: table_type, new_table, read_entry, integer_value, text_value, entry_error, field_error, field_warning
+   public :: table_type, new_table, read_entry, integer_value, text_value, entry_error, &
+      field_error, field_warning
 
    !> Entries of a section
    type :: table_type
@@ -19,7 +20,7 @@ module axijoint_deck_text_table
       type(field_type), allocatable :: fields(:)
       !> Number of entries
       integer :: n = 0
-      !> Cards of each entry, shape (2, entries); the second is 0 if there is one only
+      !> Cards of each entry, shape (cards, entries)
       integer, allocatable :: cards(:, :)
       !> Value of each field of each entry; the default where it is blank
       real(wp), allocatable :: values(:, :)
@@ -41,7 +42,7 @@ contains
       type(table_type) :: table
 
       table%fields = fields
-      allocate (table%cards(2, most), source=0)
+      allocate (table%cards(max(1, maxval(fields%card)), most), source=0)
       allocate (table%values(size(fields), most), source=0.0_wp)
       allocate (table%given(size(fields), most), source=.false.)
       allocate (table%good(most), source=.false.)
@@ -63,7 +64,7 @@ contains
       type(table_type), intent(inout) :: table
       !> The deck
       type(source_type), intent(in) :: source
-      !> The entry's cards, one or two
+      !> The entry's cards
       integer, intent(in) :: cards(:)
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
@@ -72,7 +73,7 @@ contains
 
       errors_before = diagnostics%n_errors
       table%n = table%n + 1
-      table%cards(:size(cards), table%n) = cards
+      table%cards(:, table%n) = cards
       do k = 1, size(cards)
          call read_card(table, source, cards(k), k, diagnostics)
       end do

@@ -1,0 +1,70 @@
+!> Help on the cards of a deck: an index, or the fields of one
+module axijoint_command_card_help
+   use axijoint_base_error, only : error_type, fatal_error, exit_deck
+   use axijoint_base_text, only : upper
+   use axijoint_deck_registry, only : all_sections, without_readers
+   use axijoint_deck_text_reference, only : index_text, index_table, section_text, section_table
+   use axijoint_deck_text_section, only : section_type, section_named, names_of
+   use axijoint_command_unknown_word, only : unknown
+   implicit none
+   private
+   public :: card_help, card_usage
+
+   !> The option for tables as they stand in the manual
+   character(len=*), parameter :: markdown_option = '--markdown'
+   !> Lines of help on this help
+   character(len=*), parameter :: card_usage = &
+      'usage: axijoint help card [NAME] [--markdown]'//new_line('a')// &
+      new_line('a')// &
+      'Without NAME, an index of all cards; with it, the fields of the card NAME.'//new_line('a')// &
+      new_line('a')// &
+      '  --markdown  the table of doc/deck.md'
+
+contains
+
+   !> What `axijoint help card` prints
+   subroutine card_help(names, text, error)
+      !> Words after `card`: the name of a card, the option
+      character(len=*), intent(in) :: names(:)
+      !> Lines of help
+      character(len=:), allocatable, intent(out) :: text
+      !> Unknown card or option
+      type(error_type), allocatable, intent(out) :: error
+
+      type(section_type), allocatable :: sections(:)
+      character(len=:), allocatable :: name
+      logical :: markdown
+      integer :: k
+
+      text = ''
+      name = ''
+      markdown = .false.
+      do k = 1, size(names)
+         if (names(k) == markdown_option) then
+            markdown = .true.
+         else if (index(names(k), '-') == 1) then
+            call unknown('option', trim(names(k)), [markdown_option], error)
+            return
+         else if (len(name) > 0) then
+            call fatal_error(error, exit_deck, 'help on one card at a time; use: axijoint help card NAME')
+            return
+         else
+            name = upper(trim(names(k)))
+         end if
+      end do
+      sections = without_readers(all_sections())
+      if (len(name) == 0) then
+         text = index_text(sections)
+         if (markdown) text = index_table(sections)
+         return
+      end if
+      k = section_named(sections, name)
+      if (k == 0) then
+         call unknown('card', name, names_of(sections), error)
+         return
+      end if
+      text = section_text(sections(k))
+      if (markdown) text = section_table(sections(k))
+   end subroutine card_help
+
+end module axijoint_command_card_help

@@ -1,0 +1,35 @@
+!> Words of the command line that are not known
+module axijoint_command_unknown_word
+   use axijoint_base_error, only : error_type, fatal_error, exit_deck
+   use axijoint_base_text, only : nearest_word
+   implicit none
+   private
+   public :: unknown
+
+contains
+
+   !> Error for a word that is not known: the likeliest one, and all that are
+   subroutine unknown(what, word, known, error)
+      !> Kind of word
+      character(len=*), intent(in) :: what
+      !> The word
+      character(len=*), intent(in) :: word
+      !> Words of that kind
+      character(len=*), intent(in) :: known(:)
+      !> The error
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: message
+      integer :: k
+
+      message = "unknown "//what//" '"//word//"'"
+      k = nearest_word(word, known)
+      if (k > 0) message = message//"; did you mean '"//trim(known(k))//"'?"
+      message = message//new_line('a')//'known:'
+      do k = 1, size(known)
+         message = message//' '//trim(known(k))
+      end do
+      call fatal_error(error, exit_deck, message)
+   end subroutine unknown
+
+end module axijoint_command_unknown_word

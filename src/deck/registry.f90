@@ -1,0 +1,93 @@
+!> All sections that a deck may have. A section stands in a file of `deck/section`, with its fields
+!> and its reader; here it is put on the list
+module axijoint_deck_registry
+   use axijoint_deck_job_deck, only : read_section_type
+   use axijoint_deck_section_blocks, only : blocks_section
+   use axijoint_deck_section_case, only : case_section
+   use axijoint_deck_section_chains, only : chains_section
+   use axijoint_deck_section_combine, only : combine_section
+   use axijoint_deck_section_control, only : control_section
+   use axijoint_deck_section_cuts, only : cuts_section
+   use axijoint_deck_section_elements, only : elements_section
+   use axijoint_deck_section_error, only : error_section
+   use axijoint_deck_section_faces, only : faces_section
+   use axijoint_deck_section_fixed_faces, only : fixed_faces_section
+   use axijoint_deck_section_frame, only : title_section, include_section, end_section
+   use axijoint_deck_section_gmsh, only : gmsh_section
+   use axijoint_deck_section_gravity, only : gravity_section
+   use axijoint_deck_section_groups, only : groups_section
+   use axijoint_deck_section_harmonics, only : harmonics_section
+   use axijoint_deck_section_in_situ, only : in_situ_section
+   use axijoint_deck_section_increments, only : increments_section
+   use axijoint_deck_section_interfaces, only : interfaces_section
+   use axijoint_deck_section_joints, only : joints_section
+   use axijoint_deck_section_law_details, only : law_details_section
+   use axijoint_deck_section_laws, only : laws_section
+   use axijoint_deck_section_lines, only : lines_section
+   use axijoint_deck_section_materials, only : materials_section
+   use axijoint_deck_section_moved_faces, only : moved_faces_section
+   use axijoint_deck_section_moved_nodes, only : moved_nodes_section
+   use axijoint_deck_section_node_temps, only : node_temps_section
+   use axijoint_deck_section_nodes, only : nodes_section
+   use axijoint_deck_section_orthotropic, only : orthotropic_section
+   use axijoint_deck_section_output, only : output_section
+   use axijoint_deck_section_point_loads, only : point_loads_section
+   use axijoint_deck_section_pressures, only : pressures_section
+   use axijoint_deck_section_resultants, only : resultants_section
+   use axijoint_deck_section_restraints, only : restraints_section
+   use axijoint_deck_section_ring_loads, only : ring_loads_section
+   use axijoint_deck_section_rotation, only : rotation_section
+   use axijoint_deck_section_sections, only : sections_section
+   use axijoint_deck_section_shapes, only : shapes_section
+   use axijoint_deck_section_springs, only : springs_section
+   use axijoint_deck_section_sweep, only : sweep_section
+   use axijoint_deck_section_temperatures, only : temperatures_section
+   use axijoint_deck_section_tractions, only : tractions_section
+   use axijoint_deck_text_section, only : section_type
+   implicit none
+   private
+   public :: all_sections, without_readers
+
+contains
+
+   !> The sections. Those of one stage are read in this order, and all are listed in it
+   function all_sections() result(sections)
+      !> The sections
+      type(read_section_type), allocatable :: sections(:)
+
+      integer :: k
+
+      sections = [title_section(), control_section(), increments_section(), output_section(), &
+                  materials_section(), orthotropic_section(), laws_section(), law_details_section(), &
+                  gmsh_section(), groups_section(), &
+                  nodes_section(), lines_section(), elements_section(), blocks_section(), &
+                  faces_section(), chains_section(), joints_section(), interfaces_section(), &
+                  harmonics_section(), shapes_section(), restraints_section(), fixed_faces_section(), &
+                  case_section(), tractions_section(), pressures_section(), resultants_section(), &
+                  ring_loads_section(), point_loads_section(), gravity_section(), rotation_section(), &
+                  temperatures_section(), node_temps_section(), moved_nodes_section(), &
+                  moved_faces_section(), &
+                  in_situ_section(), springs_section(), combine_section(), &
+                  sections_section(), cuts_section(), sweep_section(), error_section(), &
+                  include_section(), end_section()]
+      do k = 1, size(sections)
+         if (.not. allocated(sections(k)%fields)) allocate (sections(k)%fields(0))
+      end do
+   end function all_sections
+
+   !> What cards look like, for those who read or describe any sections
+   pure function without_readers(sections) result(described)
+      !> The sections
+      type(read_section_type), intent(in) :: sections(:)
+      !> The same without their readers
+      type(section_type), allocatable :: described(:)
+
+      integer :: k
+
+      allocate (described(size(sections)))
+      do k = 1, size(sections)
+         described(k) = sections(k)%section_type
+      end do
+   end function without_readers
+
+end module axijoint_deck_registry
