@@ -2,10 +2,10 @@
 module axijoint_command_card_help
    use axijoint_base_error, only : error_type, fatal_error, exit_deck
    use axijoint_base_text, only : upper
+   use axijoint_command_unknown_word, only : unknown
    use axijoint_deck_registry, only : all_sections, without_readers
    use axijoint_deck_text_reference, only : index_text, index_table, section_text, section_table
    use axijoint_deck_text_section, only : section_type, section_named, names_of
-   use axijoint_command_unknown_word, only : unknown
    implicit none
    private
    public :: card_help, card_usage

@@ -33,8 +33,8 @@ module axijoint_deck_registry
    use axijoint_deck_section_output, only : output_section
    use axijoint_deck_section_point_loads, only : point_loads_section
    use axijoint_deck_section_pressures, only : pressures_section
-   use axijoint_deck_section_resultants, only : resultants_section
    use axijoint_deck_section_restraints, only : restraints_section
+   use axijoint_deck_section_resultants, only : resultants_section
    use axijoint_deck_section_ring_loads, only : ring_loads_section
    use axijoint_deck_section_rotation, only : rotation_section
    use axijoint_deck_section_sections, only : sections_section
