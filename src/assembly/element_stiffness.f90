@@ -2,9 +2,9 @@
 module axijoint_assembly_element_stiffness
    use axijoint_base_kinds, only : wp
    use axijoint_element_blocks, only : n_blocks
-   use axijoint_element_dilatation, only : dilatation_type, new_dilatation
+   use axijoint_element_dilatation, only : dilatation_type, formulated_points
    use axijoint_element_solid, only : solid_blocks, stiffness_kernel_type, new_stiffness_kernel
-   use axijoint_element_solid_point, only : solid_point_type, solid_points
+   use axijoint_element_solid_point, only : solid_point_type
    use axijoint_fe_quadrature, only : max_element_points
    use axijoint_fe_reference, only : reference_type
    use axijoint_model_material, only : elasticity
@@ -63,9 +63,8 @@ contains
                  kernel => integrands%kernels(model%mesh%element_material(element)))
          n = reference%n_nodes
          n_points = reference%n_points
-         call solid_points(model%mesh%coordinates(:, model%mesh%element_nodes(:n, element)), reference, &
-                           points(:n_points))
-         call new_dilatation(points(:n_points), reference, dilatation)
+         call formulated_points(model%mesh%coordinates(:, model%mesh%element_nodes(:n, element)), reference, &
+                                points(:n_points), dilatation)
          call solid_blocks(points(:n_points), n, kernel, blocks(:, :, :, :n_blocks(n)), dilatation)
       end associate
    end subroutine element_blocks

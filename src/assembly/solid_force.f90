@@ -1,7 +1,7 @@
 !> Stresses of the solids and the nodal forces that they and their mass give
 module axijoint_assembly_solid_force
    use axijoint_base_kinds, only : wp
-   use axijoint_element_dilatation, only : dilatation_type, new_dilatation, strain_shape
+   use axijoint_element_dilatation, only : dilatation_type, formulated_points, strain_shape
    use axijoint_element_solid, only : solid_stress, add_solid_force
    use axijoint_element_solid_point, only : solid_point_type, solid_points
    use axijoint_fe_fourier, only : circle_integral
@@ -61,8 +61,7 @@ contains
                     material => model%materials(model%mesh%element_material(element)))
             d = elasticity(material)
             n_points = reference%n_points
-            call solid_points(model%mesh%coordinates(:, nodes), reference, points(:n_points))
-            call new_dilatation(points(:n_points), reference, dilatation)
+            call formulated_points(model%mesh%coordinates(:, nodes), reference, points(:n_points), dilatation)
             local(:, :n) = displacement(:, nodes)
             element_force = 0.0_wp
             do i = 1, n_points

@@ -2,12 +2,12 @@
 !> weights r dA (B-bar, Hughes, Int. J. Numer. Meth. Eng. 15, 1980)
 module axijoint_element_dilatation
    use axijoint_base_kinds, only : wp
-   use axijoint_element_solid_point, only : solid_point_type
+   use axijoint_element_solid_point, only : solid_point_type, solid_points
    use axijoint_fe_element_kind, only : formulation_bbar
    use axijoint_fe_reference, only : reference_type
    implicit none
    private
-   public :: dilatation_type, new_dilatation, average_volume, mean_volume, strain_shape
+   public :: dilatation_type, formulated_points, average_volume, mean_volume, strain_shape
 
    !> Means over an element: what is linear in the harmonic stays so, as the mean of B0 + m B1 is the
    !> sum of the means
@@ -22,20 +22,32 @@ module axijoint_element_dilatation
 
 contains
 
-   !> Means over an element
-   pure subroutine new_dilatation(points, reference, dilatation)
-      !> Integration points of the element
-      type(solid_point_type), intent(in) :: points(:)
+   !> Integration points of an element, and what its formulation takes for the volumetric strain there
+   pure subroutine formulated_points(coordinates, reference, points, dilatation)
+      !> r and z of the nodes, shape (2, nodes)
+      real(wp), intent(in) :: coordinates(:, :)
       !> The element in natural coordinates
       type(reference_type), intent(in) :: reference
-      !> The means; none if the element does not take them
+      !> The points, shape (reference%n_points)
+      type(solid_point_type), intent(out) :: points(:)
+      !> The means; none if the formulation takes none
+      type(dilatation_type), intent(inout) :: dilatation
+
+      call solid_points(coordinates, reference, points)
+      dilatation%averaged = reference%formulation == formulation_bbar
+      if (dilatation%averaged) call take_means(points, dilatation)
+   end subroutine formulated_points
+
+   !> Means over an element
+   pure subroutine take_means(points, dilatation)
+      !> Integration points of the element
+      type(solid_point_type), intent(in) :: points(:)
+      !> The means
       type(dilatation_type), intent(inout) :: dilatation
 
       real(wp) :: weight
       integer :: k
 
-      dilatation%averaged = reference%formulation == formulation_bbar
-      if (.not. dilatation%averaged) return
       dilatation%gradient = 0.0_wp
       dilatation%shape = 0.0_wp
       do k = 1, size(points)
@@ -46,7 +58,7 @@ contains
             dilatation%shape = dilatation%shape + weight*p%shape
          end associate
       end do
-   end subroutine new_dilatation
+   end subroutine take_means
 
    !> Replace the volumetric part of strain matrices by its mean
    pure subroutine average_volume(dilatation, n, b0, b1)
