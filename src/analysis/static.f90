@@ -93,14 +93,15 @@ contains
       results%in_situ = in_situ_balance(model, combination)
       call timer%push(phase_joints)
       if (size(structure%yielding) > 0) then
-         call solve_joints(model, structure, combination, history, field, mesh_error, results, progress, error)
+         call solve_joints(model, structure, combination, history, mesh_error, results, progress, error)
       else
-         call solve_linear(model, structure, combination, history, field, mesh_error, results, timer, error)
+         call solve_linear(model, structure, combination, history, mesh_error, results, timer, error)
       end if
       if (allocated(error)) then
          call timer%pop()
          return
       end if
+      call join_joints(model, structure, history, results, field)
       call take_joint_results(structure%joint_points, field, results)
       call timer%pop()
 
@@ -125,7 +126,7 @@ contains
 
    !> Joints that yield: the increments on the condensed structure, then the
    !> displacements of the whole
-   subroutine solve_joints(model, structure, combination, history, field, mesh_error, results, progress, error)
+   subroutine solve_joints(model, structure, combination, history, mesh_error, results, progress, error)
       !> The job
       type(model_type), intent(in), target :: model
       !> The structure, factored and condensed
@@ -134,8 +135,6 @@ contains
       type(combination_type), intent(in) :: combination
       !> How the increments ended
       type(history_type), intent(out) :: history
-      !> State of all joints
-      type(joint_field_type), intent(out) :: field
       !> Takes what the mesh leaves of the error
       type(mesh_error_type), intent(out) :: mesh_error
       !> Results that take displacements and convergence
@@ -184,15 +183,6 @@ contains
       call name_idle_motions(model, structure, history, results)
       call estimate_yielding_errors(structure, history, other, results, mesh_error)
       results%plane_angles = structure%planes%angle
-      call elastic_field(model, structure, structure%planes, history%loading%case_factor, &
-                         results%displacement, field)
-      associate (yield => structure%yielding, planes => history%scene%planes, yielding => history%field)
-         field%jump(:, yield, :) = on_all(planes, yielding%jump)
-         field%stress(:, yield, :) = on_all(planes, yielding%stress)
-         field%state(yield, :) = yielding%state(:, planes%place)
-         field%excess(:, yield, :) = yielding%excess + yielding%pending
-         field%offset = yielding%offset
-      end associate
    end subroutine solve_joints
 
    !> Name the motions that nothing resists and no load acts on
@@ -222,7 +212,7 @@ contains
    end subroutine name_idle_motions
 
    !> Joints that stay elastic: one solution
-   subroutine solve_linear(model, structure, combination, history, field, mesh_error, results, timer, error)
+   subroutine solve_linear(model, structure, combination, history, mesh_error, results, timer, error)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure, assembled
@@ -231,8 +221,6 @@ contains
       type(combination_type), intent(in) :: combination
       !> Takes the loads
       type(history_type), intent(out) :: history
-      !> State of all joints
-      type(joint_field_type), intent(out) :: field
       !> Takes what the mesh leaves of the error
       type(mesh_error_type), intent(out) :: mesh_error
       !> Results that take displacements and convergence
@@ -242,7 +230,6 @@ contains
       !> Singular stiffness, or out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      type(planes_type) :: planes
       type(difference_type) :: difference
 
       call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
@@ -263,9 +250,7 @@ contains
       if (allocated(error)) return
       results%converged = .true.  ! if the residual says so, too
       results%tolerance = linear_tolerance
-      planes = new_view(model%output_angles, structure%modes)
-      results%plane_angles = planes%angle
-      call elastic_field(model, structure, planes, history%loading%case_factor, results%displacement, field)
+      results%plane_angles = model%output_angles
    end subroutine solve_linear
 
    !> Loads at the end of the increments: of the last one, or of the one that failed
@@ -282,6 +267,36 @@ contains
       if (allocated(history%runaway) .or. allocated(history%motion)) state%load_factor = history%reached
       state%case_factor = history%loading%case_factor
    end function last_state
+
+   !> State of all joints: of those that yield as the increments left it
+   subroutine join_joints(model, structure, history, results, field)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> Results with displacements
+      type(results_type), intent(in) :: results
+      !> The state
+      type(joint_field_type), intent(out) :: field
+
+      type(planes_type) :: shown
+
+      if (size(structure%yielding) == 0) then
+         shown = new_view(results%plane_angles, structure%modes)
+         call elastic_field(model, structure, shown, history%loading%case_factor, results%displacement, field)
+         return
+      end if
+      call elastic_field(model, structure, structure%planes, history%loading%case_factor, results%displacement, field)
+      associate (yield => structure%yielding, planes => history%scene%planes, yielding => history%field)
+         field%jump(:, yield, :) = on_all(planes, yielding%jump)
+         field%stress(:, yield, :) = on_all(planes, yielding%stress)
+         field%state(yield, :) = yielding%state(:, planes%place)
+         field%excess(:, yield, :) = yielding%excess + yielding%pending
+         field%offset = yielding%offset
+      end associate
+   end subroutine join_joints
 
    !> Joint points and their state into the results
    subroutine take_joint_results(points, field, results)

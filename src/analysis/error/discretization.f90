@@ -7,9 +7,9 @@ module axijoint_analysis_error_discretization
    use axijoint_analysis_error_solid_error, only : solid_errors
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type, away_from_infinite
    use axijoint_assembly_loading, only : loading_type
-   use axijoint_assembly_support, only : add_support_force
+   use axijoint_assembly_support, only : support_point_type, add_support_force
    use axijoint_base_kinds, only : wp
-   use axijoint_fe_mode, only : mode_integral
+   use axijoint_fe_mode, only : mode_type, mode_integral
    use axijoint_joints_field, only : joint_field_type, stress_amplitude
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_planes, only : new_view
@@ -47,7 +47,8 @@ contains
                         error, energy)
       associate (estimate => results%discretization)
          estimate%error_energy = sum(error, 2)
-         estimate%energy = sum(energy, 2) + [(joint_energy(k) + spring_energy(k), &
+         estimate%energy = sum(energy, 2) + [(joint_energy(k) + spring_energy(structure%support_points, results%modes(k), &
+                                                                          results%displacement(:, :, k)), &
                                               k=1, size(results%modes))]
          estimate%mode_relative = sqrt(ratio(estimate%error_energy, estimate%energy))
          estimate%relative = sqrt(ratio(sum(estimate%error_energy), sum(estimate%energy)))
@@ -109,21 +110,24 @@ contains
          joint_energy = mode_integral(results%modes(k))*joint_energy
       end function joint_energy
 
-      !> Energy of the springs in one mode
-      real(wp) function spring_energy(k)
-         !> Place of the mode
-         integer, intent(in) :: k
-
-         real(wp), allocatable :: force(:, :)
-
-         allocate (force, mold=results%displacement(:, :, k))
-         force = 0.0_wp
-         call add_support_force(structure%support_points, results%modes(k)%harmonic, &
-                                results%displacement(:, :, k), force)
-         spring_energy = 0.5_wp*sum(force*results%displacement(:, :, k))
-      end function spring_energy
-
    end subroutine estimate_discretization
+
+   !> Energy of the springs in one mode
+   pure real(wp) function spring_energy(supports, mode, displacement) result(energy)
+      !> Points of the springs
+      type(support_point_type), intent(in) :: supports(:)
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> Displacement amplitudes, shape (3, nodes)
+      real(wp), intent(in) :: displacement(:, :)
+
+      real(wp), allocatable :: force(:, :)
+
+      allocate (force, mold=displacement)
+      force = 0.0_wp
+      call add_support_force(supports, mode%harmonic, displacement, force)
+      energy = 0.5_wp*sum(force*displacement)
+   end function spring_energy
 
    !> Twice the energy of a joint per area; a direction without stiffness has none
    pure real(wp) function energy_density(stress, stiffness) result(density)

@@ -8,7 +8,7 @@ module axijoint_compare_read_hdf5_cells
    use axijoint_compare_table_table, only : words_type, column_type, word_index, kind_coordinate
    implicit none
    private
-   public :: array_type, array, at, number, word_cell, new_column, coordinates
+   public :: array_type, array, at, number, word_cell, new_column, columns_of, coordinates
 
    !> An array of the file
    type :: array_type
@@ -100,5 +100,18 @@ contains
       columns(1) = new_column('r', kind_coordinate)
       columns(2) = new_column('z', kind_coordinate)
    end function coordinates
+
+   !> Columns of the components of a quantity
+   pure function columns_of(names, kind) result(columns)
+      !> Names of the components, and their quantity
+      character(len=*), intent(in) :: names(:)
+      integer, intent(in) :: kind
+      !> The columns
+      type(column_type) :: columns(size(names))
+
+      integer :: k
+
+      columns = [(new_column(trim(names(k)), kind), k=1, size(names))]
+   end function columns_of
 
 end module axijoint_compare_read_hdf5_cells

@@ -4,9 +4,9 @@ module axijoint_compare_read_hdf5_lines
    use axijoint_base_text, only : to_text
    use axijoint_compare_read_hdf5_arrays, only : result_file_type
    use axijoint_compare_read_hdf5_cells, only : array_type, array, at, number, word_cell, new_column, &
-      coordinates
+      columns_of, coordinates
    use axijoint_compare_table_cell, only : cell_type
-   use axijoint_compare_table_table, only : listing_type, words_type, open_table, add_row, kind_label, &
+   use axijoint_compare_table_table, only : listing_type, words_type, column_type, open_table, add_row, kind_label, &
       kind_key, kind_coordinate, kind_angle, kind_displacement, kind_stress, kind_force, kind_moment
    implicit none
    private
@@ -40,6 +40,7 @@ contains
       type(listing_type), intent(inout) :: listing
 
       type(array_type) :: body, material, label
+      real(wp), allocatable :: owners(:, :)
       character(len=:), allocatable :: group
       integer :: section
 
@@ -48,31 +49,31 @@ contains
       material = array(file, '/mesh/element_material')
       label = array(file, '/materials/label')
       if (len(file%failure) > 0) return
+      allocate (owners(2, size(body%value)))
+      owners(1, :) = body%value
+      owners(2, :) = label%value(nint(material%value))
       do section = 1, most_sections
          group = '/sections/'//to_text(section)
          if (.not. file%has(group)) cycle
          call add_section(file, listing, 'displacements on sections', to_text(section), &
-                          group, '/displacement', displacement_names, kind_displacement, body%value, &
-                          label%value(nint(material%value)))
+                          group, '/displacement', columns_of(displacement_names, kind_displacement), owners)
          call add_section(file, listing, 'stresses on sections', to_text(section), &
-                          group, '/stress', stress_names, kind_stress, body%value, &
-                          label%value(nint(material%value)))
+                          group, '/stress', columns_of(stress_names, kind_stress), owners)
       end do
    end subroutine read_sections
 
    !> One array of a section
-   subroutine add_section(file, listing, title, section, group, name, value_names, kind, body, material)
+   subroutine add_section(file, listing, title, section, group, name, components, owners)
       !> The file
       type(result_file_type), intent(inout) :: file
       !> The tables
       type(listing_type), intent(inout) :: listing
       !> Name of the table, number of the section, its group, name of the dataset
       character(len=*), intent(in) :: title, section, group, name
-      !> Names of the components, and their quantity
-      character(len=*), intent(in) :: value_names(:)
-      integer, intent(in) :: kind
-      !> Body and number of the material of each element
-      real(wp), intent(in) :: body(:), material(:)
+      !> Columns of the components
+      type(column_type), intent(in) :: components(:)
+      !> Body and number of the material of each element, shape (2, elements)
+      real(wp), intent(in) :: owners(:, :)
 
       type(array_type) :: angle, point, element, position, values
       integer :: table, i, j, k
@@ -85,14 +86,12 @@ contains
       if (len(file%failure) > 0) return
       call open_table(listing, title, 'section = '//section, [new_column('theta', kind_angle), &
                       new_column('point', kind_label), coordinates(), new_column('body', kind_key), &
-                      new_column('material', kind_key), &
-                      (new_column(trim(value_names(k)), kind), k=1, size(value_names))], table)
+                      new_column('material', kind_key), components], table)
       do j = 1, size(angle%value)
          do i = 1, size(point%value)
             call add_row(listing%tables(table), [number(at(angle, j)/degree), number(at(point, i)), &
-                         number([(at(position, k, i), k=1, 2)]), number(body(nint(at(element, i)))), &
-                         number(material(nint(at(element, i)))), &
-                         number([(at(values, k, i, j), k=1, size(value_names))])], 0)
+                         number([(at(position, k, i), k=1, 2)]), number(owners(:, nint(at(element, i)))), &
+                         number([(at(values, k, i, j), k=1, size(components))])], 0)
          end do
       end do
    end subroutine add_section

@@ -5,7 +5,7 @@ module axijoint_compare_read_hdf5_reader
    use axijoint_base_text, only : to_text
    use axijoint_compare_read_hdf5_arrays, only : result_file_type
    use axijoint_compare_read_hdf5_cells, only : array_type, array, at, number, word_cell, new_column, &
-      coordinates
+      columns_of, coordinates
    use axijoint_compare_read_hdf5_lines, only : read_sections, read_cuts, read_resultants, &
       displacement_names, stress_names
    use axijoint_compare_table_cell, only : cell_type, cell_blank
@@ -127,15 +127,15 @@ contains
       material = array(file, '/stress/nodal_material')
       name = array(file, '/materials/label')
       if (len(file%failure) > 0) return
-      call add_modes(file, listing, 'displacement amplitudes', '/displacement', displacement_names, &
-                     kind_displacement, [new_column('node', kind_label)], label%value, place%value)
-      call add_modes(file, listing, 'reactions', '/reaction', reaction_names, kind_force, &
+      call add_modes(file, listing, 'displacement amplitudes', '/displacement', &
+                     columns_of(displacement_names, kind_displacement), [new_column('node', kind_label)], label%value, place%value)
+      call add_modes(file, listing, 'reactions', '/reaction', columns_of(reaction_names, kind_force), &
                      [new_column('node', kind_label)], label%value, place%value)
       call add_modes(file, listing, 'stress amplitudes at Gauss points', '/stress/amplitude', &
-                     stress_names, kind_stress, [new_column('element', kind_label)], &
+                     columns_of(stress_names, kind_stress), [new_column('element', kind_label)], &
                      element%value(nint(owner%value)), position%value)
-      call add_modes(file, listing, 'stress amplitudes at nodes', '/stress/nodal', stress_names, &
-                     kind_stress, [new_column('node', kind_label), new_column('material', kind_key)], &
+      call add_modes(file, listing, 'stress amplitudes at nodes', '/stress/nodal', &
+                     columns_of(stress_names, kind_stress), [new_column('node', kind_label), new_column('material', kind_key)], &
                      [(label%value(nint(node%value(i))), name%value(nint(material%value(i))), &
                        i=1, size(node%value))], &
                      [(at(place, 1, nint(node%value(i))), at(place, 2, nint(node%value(i))), &
@@ -144,16 +144,15 @@ contains
 
    !> One array of amplitudes: a table for each mode. Reactions of nodes that nothing holds
    !> are left out, as in the listing
-   subroutine add_modes(file, listing, title, name, value_names, kind, label_columns, labels, places)
+   subroutine add_modes(file, listing, title, name, components, label_columns, labels, places)
       !> The file
       type(result_file_type), intent(inout) :: file
       !> The tables
       type(listing_type), intent(inout) :: listing
       !> Name of the tables, and of the dataset
       character(len=*), intent(in) :: title, name
-      !> Names of the components, and their quantity
-      character(len=*), intent(in) :: value_names(:)
-      integer, intent(in) :: kind
+      !> Columns of the components
+      type(column_type), intent(in) :: components(:)
       !> Columns before the coordinates
       type(column_type), intent(in) :: label_columns(:)
       !> Their values, row by row, and r and z of the rows
@@ -170,8 +169,7 @@ contains
       n = size(label_columns)
       do mode = 1, values%extent(3)
          call open_table(listing, title, 'm = '//to_text(at(harmonic, mode))//', family = '// &
-                         trim(family_names(nint(at(family, mode)))), [label_columns, coordinates(), &
-                         (new_column(trim(value_names(k)), kind), k=1, size(value_names))], table)
+                         trim(family_names(nint(at(family, mode)))), [label_columns, coordinates(), components], table)
          do row = 1, values%extent(2)
             if (name == '/reaction') then
                if (.not. any([(at(fixed, k, row) > 0.5_wp .or. &
@@ -179,7 +177,7 @@ contains
             end if
             call add_row(listing%tables(table), [number(labels(n*(row - 1) + 1:n*row)), &
                          number(places(2*row - 1:2*row)), &
-                         number([(at(values, k, row, mode), k=1, size(value_names))])], 0)
+                         number([(at(values, k, row, mode), k=1, size(components))])], 0)
          end do
       end do
    end subroutine add_modes
