@@ -103,7 +103,9 @@ class Reports(unittest.TestCase):
         self.assertIn(f"{largest:.6g} m at node 5, r = 0.5, z = -0.5, θ = 180°", page.texts["td"])
         summary = json.loads(pathlib.Path(f"{path}.json").read_text(encoding="utf-8"))
         self.assertIn(f"{summary['unknowns']} of all harmonics", page.texts["td"])
-        self.assertIn("48 slip, 32 open", page.texts["td"])
+        states = summary["joint_states"]
+        self.assertGreater(min(states["slip"], states["open"]), 0)
+        self.assertIn(f"{states['slip']} slip, {states['open']} open", page.texts["td"])
         for message in summary["messages"]:
             self.assertIn(message, page.texts["li"])
         self.assertIn("Converged in 17 iterations", page.texts["div"])

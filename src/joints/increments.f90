@@ -102,7 +102,7 @@ contains
             return
          end if
          if (.not. (allocated(history%runaway) .or. allocated(history%motion))) return
-         if (.not. history%verdict%mechanism%loaded) second = second_opinion(history%method)
+         if (.not. history%verdict%mechanism%loaded) call second_opinion(history%method, second)
          if (allocated(second)) then
             history%field = before
             call put(to)

@@ -46,16 +46,16 @@ contains
 
    !> The method to ask where one runs away: Newton's may where there is a state, and it is no mechanism if the mix
    !> finds one; not allocated if there is none to ask
-   function second_opinion(method) result(second)
+   subroutine second_opinion(method, second)
       !> A method
       class(method_type), intent(in) :: method
       !> Another
-      class(method_type), allocatable :: second
+      class(method_type), allocatable, intent(out) :: second
 
       select type (method)
       type is (newton_method_type)
-         second = new_method(method_anderson)
+         allocate (second, source=new_method(method_anderson))
       end select
-   end function second_opinion
+   end subroutine second_opinion
 
 end module axijoint_joints_methods

@@ -28,8 +28,8 @@ JOINT         2      head
 
 
 def generated_deck(nodes):
-    """The deck of inputs, with elements of 3, 4, 6, 8 or 9 nodes"""
-    lines = INPUT.read_text(encoding="utf-8").splitlines()
+    """The deck of inputs, with elements of 3, 4, 6, 8 or 9 nodes and joints at Gauss points"""
+    lines = INPUT.read_text(encoding="utf-8").replace("CENTROID", "   GAUSS").splitlines()
     start = lines.index("BLOCKS")
     for i in range(start, lines.index("FACES")):
         if lines[i][:1] not in "!B" and "." not in lines[i]:

@@ -94,7 +94,7 @@ contains
       do k = 1, size(sections)
          if (size(sections(k)%fields) == 0) cycle
          associate (field => sections(k)%fields(1))
-            if (field%kind == kind_word) words = [words, field%words]
+            if (field%kind == kind_word) words = [words, pack(field%words, field%words /= '')]
          end associate
       end do
    end function first_words
