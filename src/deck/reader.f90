@@ -21,7 +21,6 @@ module axijoint_deck_reader
    use axijoint_deck_mesh_arrange, only : sort_nodes_and_elements, sort_joints
    use axijoint_deck_mesh_draft, only : draft_type, new_draft, corners_known
    use axijoint_deck_mesh_edges, only : new_edge_table, check_edges
-   use axijoint_deck_mesh_kinds, only : choose_kinds
    use axijoint_deck_mesh_places, only : group_places, new_point_tree, point_tree_type, same_place
    use axijoint_deck_property_properties, only : properties_type, new_properties
    use axijoint_deck_registry, only : all_sections, without_readers
@@ -36,6 +35,7 @@ module axijoint_deck_reader
    use axijoint_deck_section_increments, only : refer_increments, warn_of_idle_cases
    use axijoint_deck_section_interfaces, only : lay_interfaces
    use axijoint_deck_section_joints, only : keyword_joints
+   use axijoint_deck_section_kinds, only : choose_kinds
    use axijoint_deck_section_sections, only : place_lines
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
    use axijoint_deck_text_sections, only : read_sections, table_of
@@ -123,7 +123,7 @@ contains
          call sort_nodes_and_elements(draft)
          call read_stage(deck, sections, stage_blocks)
          call snap_to_axis(draft, diagnostics)
-         call choose_kinds(deck%choice, draft)
+         call choose_kinds(deck)
          call check_elements(draft, diagnostics)
          if (draft%n_elements == 0 .and. draft%elements_complete) then
             call add_error(diagnostics, 0, 0, 0, 'the deck has no elements', &

@@ -21,6 +21,7 @@ module axijoint_deck_registry
    use axijoint_deck_section_increments, only : increments_section
    use axijoint_deck_section_interfaces, only : interfaces_section
    use axijoint_deck_section_joints, only : joints_section
+   use axijoint_deck_section_kinds, only : kinds_section
    use axijoint_deck_section_law_details, only : law_details_section
    use axijoint_deck_section_laws, only : laws_section
    use axijoint_deck_section_lines, only : lines_section
@@ -60,7 +61,7 @@ contains
       sections = [title_section(), control_section(), increments_section(), output_section(), &
                   materials_section(), orthotropic_section(), laws_section(), law_details_section(), &
                   gmsh_section(), groups_section(), &
-                  nodes_section(), lines_section(), elements_section(), blocks_section(), &
+                  nodes_section(), lines_section(), elements_section(), blocks_section(), kinds_section(), &
                   faces_section(), chains_section(), joints_section(), interfaces_section(), &
                   harmonics_section(), shapes_section(), restraints_section(), fixed_faces_section(), &
                   case_section(), tractions_section(), pressures_section(), resultants_section(), &

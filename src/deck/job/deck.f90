@@ -44,7 +44,7 @@ module axijoint_deck_job_deck
       !> The mesh file, and the mesh
       type(gmsh_import_type) :: import
       type(draft_type) :: draft
-      !> Rules and formulation of the elements
+      !> Rules and formulation of the elements, but where KINDS says others
       type(kind_choice_type) :: choice
       !> Edges of the elements, and number of each node's place, once the mesh is sound
       type(edge_table_type) :: edges
