@@ -31,7 +31,7 @@ module axijoint_deck_text_field
    integer, parameter :: real_width = 10
 
    !> Most words to choose from
-   integer, parameter :: most_words = 16
+   integer, parameter :: most_words = 64
 
    !> One field of the cards of a section
    type :: field_type
