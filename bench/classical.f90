@@ -24,13 +24,14 @@ program classical
    use axijoint_deck_reader, only : read_deck
    use axijoint_deck_text_diagnostics, only : diagnostics_type
    use axijoint_deck_text_source, only : source_type
-   use axijoint_joints_field, only : joint_field_type, new_joint_field, admit_jump
-   use axijoint_joints_increments, only : history_type, run_increments
+   use axijoint_joints_field, only : joint_field_type, admit_jump
+   use axijoint_joints_history, only : history_type, new_state
+   use axijoint_joints_increments, only : run_increments
    use axijoint_joints_planes, only : synthesize, analyse
    use axijoint_joints_residual, only : residual_norm, load_norm, ratio
-   use axijoint_joints_scene, only : views
+   use axijoint_joints_scene, only : scene_type, new_scene, views
    use axijoint_linalg_lapack, only : use_one_blas_thread
-   use axijoint_model_model, only : model_type, method_total
+   use axijoint_model_model, only : model_type
    implicit none
 
    !> More sweeps are not made
@@ -126,50 +127,42 @@ contains
       !> The job
       type(model_type), intent(in), target :: model
 
-      type(structure_type), target :: structure
+      type(structure_type) :: structure
       type(timer_type) :: timer
       type(progress_type) :: progress
       type(error_type), allocatable :: error
-      type(joint_field_type) :: field
       type(history_type) :: history
       type(mode_solve_type), allocatable :: solves(:)
-      real(wp), allocatable :: displacement(:, :, :), none(:, :, :)
-      real(wp) :: start, share
+      real(wp), allocatable :: displacement(:, :, :)
+      real(wp) :: start
 
       call timer%start()
       start = seconds()
       call build_structure(model, structure, timer, progress, error)
       call stop_on(error)
-      associate (scene => structure%scene)
-         if (size(structure%yielding) > 0) then
-            scene%model => model
-            scene%equations => structure%equations
-            scene%method = model%method
-            call run_increments(scene, structure%joint_points, structure%support_points, &
-                                model%combinations(1), field, history, progress)
-            displacement = history%loading%right
-            call solve_displacements(structure%equations, model, history%loading, scene%points, field%excess, &
-                                     displacement, solves, share, error)
-         else
-            call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
-                             model%combinations(1), history%loading)
-            displacement = history%loading%right
-            allocate (none(3, 0, size(structure%modes)))
-            call solve_displacements(structure%equations, model, history%loading, structure%joint_points(:0), none, &
-                                     displacement, solves, share, error)
-         end if
-      end associate
+      if (size(structure%yielding) > 0) then
+         call run_increments(model, structure%equations, structure%condensed, structure%joint_points, &
+                             structure%support_points, model%combinations(1), history, progress)
+         allocate (displacement, mold=history%loading%right)
+         call solve_displacements(structure, model, history%loading, displacement, solves, error, history%field%excess)
+      else
+         call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
+                          model%combinations(1), history%loading)
+         allocate (displacement, mold=history%loading%right)
+         call solve_displacements(structure, model, history%loading, displacement, solves, error)
+      end if
       call stop_on(error)
       time = seconds() - start
    end function solution_time
 
    !> The loop on total jumps with the structure's factors, to Newton's residual
    subroutine run_loop()
-      type(structure_type), target :: structure
+      type(structure_type) :: structure
       type(timer_type) :: timer
       type(progress_type) :: progress
       type(error_type), allocatable :: error
       type(loading_type) :: loading
+      type(scene_type) :: scene
       type(joint_field_type) :: field
       real(wp), allocatable :: jump(:, :, :), total(:, :, :), excess(:, :, :), residual(:, :, :), force(:, :)
       real(wp) :: start, norm
@@ -179,13 +172,12 @@ contains
       call build_structure(model, structure, timer, progress, error)
       call stop_on(error)
       start = seconds()
-      associate (scene => structure%scene, equations => structure%equations)
-         scene%model => model
+      scene = new_scene(model, structure%condensed)
+      field = new_state(structure%condensed, scene)
+      associate (points => structure%condensed%points, equations => structure%equations)
          call new_loading(model, structure%joint_points, structure%support_points, equations%modes, &
                           model%combinations(1), loading)
          norm = load_norm(equations, loading)
-         scene%method = method_total
-         field = new_joint_field(size(scene%points), size(scene%planes%angle), size(equations%modes), size(scene%floating))
          allocate (jump, residual, mold=field%excess)
          allocate (excess, mold=field%jump)
          field_of_loop = loading%right
@@ -194,17 +186,18 @@ contains
             do s = 1, size(equations%systems)
                do i = 1, size(equations%systems(s)%modes)
                   k = equations%systems(s)%modes(i)
-                  force = loading%right(:, :, k) + joint_force(scene%points, equations%modes(k)%harmonic, &
+                  force = loading%right(:, :, k) + joint_force(points, equations%modes(k)%harmonic, &
                      field%excess(:, :, k), size(loading%right, 2))
                   call solve_mode(equations, k, force, field_of_loop(:, :, k))
-                  jump(:, :, k) = joint_jump(scene%points, field_of_loop(:, :, k))
+                  jump(:, :, k) = joint_jump(points, field_of_loop(:, :, k))
                end do
             end do
             !$omp end parallel do
             total = synthesize(scene%planes, jump)
-            call admit_jump(model, scene%points, total, views(scene, 1.0_wp), field, excess)
+            call admit_jump(scene%laws, reshape([(points(k)%base, k=1, size(points))], [3, size(points)]), total, &
+                            views(structure%condensed, scene, field), field, excess)
             residual = analyse(scene%planes, excess) - field%excess
-            if (ratio(residual_norm(scene%measure, residual), norm) <= model%increments(1)%tolerance) exit
+            if (ratio(residual_norm(structure%condensed%measure, residual), norm) <= model%increments(1)%tolerance) exit
             field%excess = field%excess + residual
          end do
       end associate
