@@ -35,7 +35,6 @@ module axijoint_deck_reader
    use axijoint_deck_section_increments, only : refer_increments, warn_of_idle_cases
    use axijoint_deck_section_interfaces, only : lay_interfaces
    use axijoint_deck_section_joints, only : keyword_joints
-   use axijoint_deck_section_kinds, only : choose_kinds
    use axijoint_deck_section_sections, only : place_lines
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
    use axijoint_deck_text_sections, only : read_sections, table_of
@@ -123,7 +122,6 @@ contains
          call sort_nodes_and_elements(draft)
          call read_stage(deck, sections, stage_blocks)
          call snap_to_axis(draft, diagnostics)
-         call choose_kinds(deck)
          call check_elements(draft, diagnostics)
          if (draft%n_elements == 0 .and. draft%elements_complete) then
             call add_error(diagnostics, 0, 0, 0, 'the deck has no elements', &

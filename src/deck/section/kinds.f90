@@ -2,7 +2,7 @@
 module axijoint_deck_section_kinds
    use axijoint_base_text, only : to_text
    use axijoint_deck_job_card, only : card_type, cards_of, next_card, check_body
-   use axijoint_deck_job_deck, only : deck_type, read_section_type
+   use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_blocks
    use axijoint_deck_job_load_fields, only : any_body
    use axijoint_deck_property_properties, only : find_material
    use axijoint_deck_text_common_fields, only : last_number
@@ -13,7 +13,7 @@ module axijoint_deck_section_kinds
       formulations, formulation_names
    implicit none
    private
-   public :: kinds_section, choose_kinds
+   public :: kinds_section
 
    !> The keyword
    character(len=*), parameter :: keyword_kinds = 'KINDS'
@@ -29,6 +29,8 @@ contains
 
       section%name = keyword_kinds
       section%purpose = 'rule and formulation of elements that differ from CONTROL'
+      section%stage = stage_blocks  ! after BLOCKS: all elements are there
+      section%read => choose_kinds
       section%fields = &
          [described(any_body(1), 'body', blank='all', limits='1 … 9999; one card an element'), &
           described(last_number('the material', 6), 'material: of the body''s elements of this material alone', &
