@@ -96,7 +96,7 @@ contains
       do found = 1, size(words%word)
          if (words%word(found) == small) return
       end do
-      words%word = [words%word, small]
+      words%word = [character(len=len(small)) :: words%word, small]
    end subroutine word_index
 
    !> Index of a table, a new one if there is none of its name and parameters

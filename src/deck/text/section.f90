@@ -94,7 +94,8 @@ contains
       do k = 1, size(sections)
          if (size(sections(k)%fields) == 0) cycle
          associate (field => sections(k)%fields(1))
-            if (field%kind == kind_word) words = [words, pack(field%words, field%words /= '')]
+            if (field%kind /= kind_word) cycle
+            words = [character(len=keyword_length) :: words, pack(field%words, field%words /= '')]
          end associate
       end do
    end function first_words
