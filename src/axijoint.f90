@@ -1,5 +1,5 @@
-!> What a program needs that uses this library: read a job from a deck or describe it, solve it, write its results.
-!> doc/user.md shows how
+!> What a program needs that uses this library: read a job from a deck or describe it, solve it,
+!> write its results. doc/user.md shows how
 module axijoint
    use axijoint_analysis_core_results, only : results_type
    use axijoint_base_error, only : error_type
@@ -11,7 +11,8 @@ module axijoint
    use axijoint_job_read, only : read_job
    use axijoint_job_solve, only : solve
    use axijoint_model_blank, only : new_model
-   use axijoint_model_build, only : add_material, add_law, add_block, add_rectangle, add_interface, hold_edges, &
+   use axijoint_model_build, only : add_material, add_law, add_block, add_rectangle, &
+      add_interface, hold_edges, &
       add_traction, node_at
    use axijoint_model_material, only : solid_material_type, rule_centroid, rule_gauss, rule_lobatto
    use axijoint_model_model, only : model_type
@@ -20,14 +21,17 @@ module axijoint
    private
    public :: wp, error_type, diagnostics_type, render
    public :: job_type, read_job, new_job, solve, write_results, results_type
-   public :: model_type, new_model, add_material, add_law, add_block, add_rectangle, add_interface, hold_edges, &
+   public :: model_type, new_model, add_material, add_law, add_block, add_rectangle, &
+      add_interface, hold_edges, &
       add_traction, node_at
-   public :: solid_material_type, joint_law_type, law_elastic, law_paper, rule_centroid, rule_gauss, rule_lobatto
+   public :: solid_material_type, joint_law_type, law_elastic, law_paper, rule_centroid, &
+      rule_gauss, rule_lobatto
    public :: mode_type
 
 contains
 
-   !> Write listing, summary, HDF5 file and pictures of all combinations. Files appear when they are complete
+   !> Write listing, summary, HDF5 file and pictures of all combinations. Files appear when they are
+   !> complete
    subroutine write_results(job, results, error)
       !> The job, solved; the directory is one of its options
       type(job_type), intent(inout), target :: job

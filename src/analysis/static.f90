@@ -38,8 +38,9 @@ module axijoint_analysis_static
    private
    public :: analyse_model, analyse_combination
 
-   !> Largest residual-force ratio of a linear job, whose residual is rounding: the default tolerance
-   !> of an increment. Of a ring with nu = 0.499999, whose large mean stresses cancel, it is 2e-8
+   !> Largest residual-force ratio of a linear job, whose residual is rounding: the default
+   !> tolerance of an increment. Of a ring with nu = 0.499999, whose large mean stresses cancel, it
+   !> is 2e-8
    real(wp), parameter :: linear_tolerance = 1.0e-6_wp
 
 contains
@@ -61,7 +62,8 @@ contains
 
       call build_structure(model, structure, timer, progress, error)
       if (allocated(error)) return
-      call analyse_combination(model, structure, model%combinations(1), results, timer, progress, error)
+      call analyse_combination(model, structure, model%combinations(1), results, timer, progress, &
+         error)
    end subroutine analyse_model
 
    !> Solve one combination of load cases: displacements and joints, recovery
@@ -93,9 +95,11 @@ contains
       results%in_situ = in_situ_balance(model, combination)
       call timer%push(phase_joints)
       if (size(structure%yielding) > 0) then
-         call solve_joints(model, structure, combination, history, mesh_error, results, progress, error)
+         call solve_joints(model, structure, combination, history, mesh_error, results, progress, &
+            error)
       else
-         call solve_linear(model, structure, combination, history, mesh_error, results, timer, error)
+         call solve_linear(model, structure, combination, history, mesh_error, results, timer, &
+            error)
       end if
       if (allocated(error)) then
          call timer%pop()
@@ -108,9 +112,11 @@ contains
       call timer%push(phase_recover)
       call recover(model, structure, history%loading, history%peak, field, results)
       call smooth_stress(model, results)
-      call estimate_discretization(model, structure, history%loading, field, history%largest_stress, mesh_error, results)
+      call estimate_discretization(model, structure, history%loading, field, &
+         history%largest_stress, mesh_error, results)
       call cut_resultants(model, structure, history%loading, field, results)
-      if (size(field%offset) > 0) call add_motions(structure%condensed%floating, field%offset, results%displacement)
+      if (size(field%offset) > 0) &
+         call add_motions(structure%condensed%floating, field%offset, results%displacement)
       results%converged = results%converged .and. max(results%residual_ratio, results%mismatch) &
          <= results%tolerance
       if (results%converged) then
@@ -126,7 +132,8 @@ contains
 
    !> Joints that yield: the increments on the condensed structure, then the
    !> displacements of the whole
-   subroutine solve_joints(model, structure, combination, history, mesh_error, results, progress, error)
+   subroutine solve_joints(model, structure, combination, history, mesh_error, results, progress, &
+      error)
       !> The job
       type(model_type), intent(in), target :: model
       !> The structure, factored and condensed
@@ -161,7 +168,8 @@ contains
       results%tolerance = model%increments(size(model%increments))%tolerance
       allocate (results%displacement, mold=history%loading%right)
       if (allocated(history%runaway)) then
-         call solve_displacements(structure, model, history%loading, results%displacement, results%solves, error, &
+         call solve_displacements(structure, model, history%loading, results%displacement, &
+            results%solves, error, &
                                   history%runaway)
          if (allocated(error)) return
          results%mechanism = mechanism_text(model, history%reached, results)
@@ -171,7 +179,8 @@ contains
          call add_motions(structure%condensed%floating, history%motion, results%displacement)
          results%mechanism = mechanism_text(model, history%reached, results)
       end if
-      call solve_displacements(structure, model, history%loading, results%displacement, results%solves, error, &
+      call solve_displacements(structure, model, history%loading, results%displacement, &
+         results%solves, error, &
                                history%field%excess)
       if (allocated(error)) return
       call correct_rounding(model, structure, history, results, error)
@@ -200,19 +209,22 @@ contains
       integer :: k, n
 
       n = 0
-      if (results%converged .and. allocated(history%verdict%mechanism%idle)) n = size(history%verdict%mechanism%idle, 2)
+      if (results%converged .and. allocated(history%verdict%mechanism%idle)) &
+         n = size(history%verdict%mechanism%idle, 2)
       allocate (results%idle(n))
       if (n == 0) return
       allocate (motion, mold=results%displacement)
       do k = 1, n
          motion = 0.0_wp
-         call add_motions(structure%condensed%floating, history%verdict%mechanism%idle(:, k), motion)
+         call add_motions(structure%condensed%floating, history%verdict%mechanism%idle(:, k), &
+            motion)
          results%idle(k) = motion_text(model%mesh, results%modes, motion)
       end do
    end subroutine name_idle_motions
 
    !> Joints that stay elastic: one solution
-   subroutine solve_linear(model, structure, combination, history, mesh_error, results, timer, error)
+   subroutine solve_linear(model, structure, combination, history, mesh_error, results, timer, &
+      error)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure, assembled
@@ -240,10 +252,12 @@ contains
       allocate (results%path(0), results%residuals(0), results%residual_part_node(0))
       results%states = loads_of_increments(model, combination)
       if (.not. model%sweep%wanted) results%states = results%states(size(results%states):)
-      call new_difference(size(results%displacement, 2), size(structure%joint_points), size(structure%modes), &
+      call new_difference(size(results%displacement, 2), size(structure%joint_points), &
+         size(structure%modes), &
                           difference)
       call timer%push(phase_joints)
-      call solve_displacements(structure, model, history%loading, results%displacement, results%solves, error, &
+      call solve_displacements(structure, model, history%loading, results%displacement, &
+         results%solves, error, &
                                difference=difference)
       call new_mesh_error(difference, mesh_error)
       call timer%pop(phase_factor, difference%factor_share)
@@ -264,7 +278,8 @@ contains
          state%increment = last%increment
          state%load_factor = last%load_factor
       end associate
-      if (allocated(history%runaway) .or. allocated(history%motion)) state%load_factor = history%reached
+      if (allocated(history%runaway) .or. allocated(history%motion)) &
+         state%load_factor = history%reached
       state%case_factor = history%loading%case_factor
    end function last_state
 
@@ -285,11 +300,14 @@ contains
 
       if (size(structure%yielding) == 0) then
          shown = new_view(results%plane_angles, structure%modes)
-         call elastic_field(model, structure, shown, history%loading%case_factor, results%displacement, field)
+         call elastic_field(model, structure, shown, history%loading%case_factor, &
+            results%displacement, field)
          return
       end if
-      call elastic_field(model, structure, structure%planes, history%loading%case_factor, results%displacement, field)
-      associate (yield => structure%yielding, planes => history%scene%planes, yielding => history%field)
+      call elastic_field(model, structure, structure%planes, history%loading%case_factor, &
+         results%displacement, field)
+      associate (yield => structure%yielding, planes => history%scene%planes, &
+         yielding => history%field)
          field%jump(:, yield, :) = on_all(planes, yielding%jump)
          field%stress(:, yield, :) = on_all(planes, yielding%stress)
          field%state(yield, :) = yielding%state(:, planes%place)

@@ -63,7 +63,8 @@ contains
                  kernel => integrands%kernels(model%mesh%element_material(element)))
          n = reference%n_nodes
          n_points = reference%n_points
-         call formulated_points(model%mesh%coordinates(:, model%mesh%element_nodes(:n, element)), reference, &
+         call formulated_points(model%mesh%coordinates(:, model%mesh%element_nodes(:n, element)), &
+            reference, &
                                 points(:n_points), dilatation)
          call solid_blocks(points(:n_points), n, kernel, blocks(:, :, :, :n_blocks(n)), dilatation)
       end associate

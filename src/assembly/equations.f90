@@ -101,7 +101,8 @@ contains
          call plan_solver(others, model, modes, orders, solvers(k), error)
          if (allocated(error)) return
          if (allocated(equations)) then
-            if (planned_seconds(equations, kept=.true.) <= planned_seconds(others, kept=.true.)) cycle
+            if (planned_seconds(equations, kept=.true.) <= planned_seconds(others, kept=.true.)) &
+               cycle
          end if
          call move_alloc(others, equations)
       end do
@@ -187,7 +188,8 @@ contains
       !> The equations, planned
       type(equations_type), intent(in) :: equations
 
-      worth_threads = sum(equations%classes(equations%systems%class)%dofs%n_equations) > least_equations
+      worth_threads = &
+         sum(equations%classes(equations%systems%class)%dofs%n_equations) > least_equations
    end function worth_threads
 
    !> Expected time of all factorizations, one after the other
@@ -208,7 +210,8 @@ contains
       if (present(rate)) speed = rate
       seconds = 0.0_wp
       do k = 1, size(equations%systems)
-         seconds = seconds + equations%solver%seconds(equations%plans(equations%systems(k)%class)%solver, &
+         seconds = seconds + &
+            equations%solver%seconds(equations%plans(equations%systems(k)%class)%solver, &
                                                       speed, kept)
       end do
    end function planned_seconds

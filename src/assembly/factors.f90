@@ -290,7 +290,8 @@ contains
                    ' is singular: node '//to_text(model%mesh%node_label(place(2)))// &
                    ' (r = '//to_text(model%mesh%coordinates(1, place(2)))// &
                    ', z = '//to_text(model%mesh%coordinates(2, place(2)))// &
-                   ') can move freely in direction '//trim(component_name(place(1)))//new_line('a')// &
+                   ') can move freely in direction '//trim(component_name(place(1)))// &
+                   new_line('a')// &
                    'mend: is a restraint missing, is a joint stiffness zero or out of all '// &
                    'proportion to the bodies, or a material far softer than the rest?'
       end associate

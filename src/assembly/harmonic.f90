@@ -79,7 +79,8 @@ contains
          value = first(1, 0)*stiffness%parts(1, start + 1:start + size(value))
       else if (stiffness%regular(row)) then
          do k = 1, size(value)
-            value(k) = first(k, w)*stiffness%parts(1, start + k) + second*stiffness%parts(2, start + k)
+            value(k) = first(k, w)*stiffness%parts(1, start + k) + &
+               second*stiffness%parts(2, start + k)
          end do
       else
          do k = 1, size(value)

@@ -6,13 +6,15 @@ module axijoint_assembly_loading
    use axijoint_base_kinds, only : wp
    use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
    use axijoint_model_joint_points, only : model_joint_point_type
-   use axijoint_model_load, only : combination_type, initial_stress_type, covers, is_stressed, scaled_stresses, &
+   use axijoint_model_load, only : combination_type, initial_stress_type, covers, is_stressed, &
+      scaled_stresses, &
       stress_before
    use axijoint_model_mesh, only : n_nodes
    use axijoint_model_model, only : model_type, on_axis
    implicit none
    private
-   public :: loading_type, new_loading, in_situ_joint_stress, add_external, new_initial_state, still_force
+   public :: loading_type, new_loading, in_situ_joint_stress, add_external, new_initial_state, &
+      still_force
 
    !> Loads
    type :: loading_type
@@ -69,14 +71,17 @@ contains
       if (.not. allocated(loading%held) .and. .not. loading%initial%present) return
       do k = 1, size(modes)
          if (allocated(loading%held)) still = loading%held(:, :, k)
-         loading%right(:, :, k) = loading%right(:, :, k) - still_force(model, joint_points, supports, loading%initial, &
-                                                                       k, modes(k), still, combination%factor)
+         loading%right(:, :, k) = loading%right(:, :, k) - &
+            still_force(model, joint_points, supports, loading%initial, &
+                                                                       k, modes(k), still, &
+                                                                       combination%factor)
       end do
    end subroutine new_loading
 
    !> Nodal forces of solids, joints and springs in one mode while the unknowns are zero: of held
    !> displacements and of initial stresses
-   function still_force(model, joint_points, supports, initial, k, mode, still, factor) result(force)
+   function still_force(model, joint_points, supports, initial, k, mode, still, &
+      factor) result(force)
       !> The job
       type(model_type), intent(in) :: model
       !> Points of all joints, and of all springs
@@ -207,7 +212,8 @@ contains
          do side = 1, 2
             associate (body => model%mesh%element_body(points(k)%elements(side)), &
                        material => model%mesh%element_material(points(k)%elements(side)))
-               if (any(covers(states, body, material) .and. is_stressed(model%initial_stresses))) n_sides = n_sides + 1
+               if (any(covers(states, body, material) .and. is_stressed(model%initial_stresses))) &
+                  n_sides = n_sides + 1
                sum_of = sum_of + stress_before(states, body, material, points(k)%position(2))
             end associate
          end do
@@ -258,7 +264,8 @@ contains
             associate (load => model%thermal_loads(k))
                if (.not. same_mode(load%mode, modes(j))) cycle
                where (load%body == 0 .or. load%body == body)
-                  state%temperature(:, j) = state%temperature(:, j) + factor(load%case)*load%temperature
+                  state%temperature(:, j) = state%temperature(:, j) + &
+                     factor(load%case)*load%temperature
                end where
             end associate
          end do

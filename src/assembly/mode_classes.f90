@@ -26,7 +26,8 @@ contains
       do k = 1, size(modes)
          class(k) = maxval([0, class(:k - 1)]) + 1
          do other = 1, k - 1
-            if (kinds(other) /= kinds(k) .or. .not. same_restraints(model, modes(other), modes(k))) cycle
+            if (kinds(other) /= kinds(k) .or. .not. same_restraints(model, modes(other), &
+               modes(k))) cycle
             class(k) = class(other)
             exit
          end do

@@ -1,12 +1,13 @@
-!> Stiffness of all harmonics in blocks of two nodes, every node with its three components: no factor
-!> will be made of it, only products, so nothing is said about which components are held
+!> Stiffness of all harmonics in blocks of two nodes, every node with its three components: no
+!> factor will be made of it, only products, so nothing is said about which components are held
 !>
-!> A block has two numbers for each pair of components, as in `element/blocks`: A and C, or S and zero,
-!> of K_m = c_m (A + m S + m^2 C).
+!> A block has two numbers for each pair of components, as in `element/blocks`: A and C, or S and
+!> zero, of K_m = c_m (A + m S + m^2 C).
 module axijoint_assembly_node_blocks
    use omp_lib, only : omp_get_max_threads
    use axijoint_assembly_support, only : support_point_type, support_stiffness
-   use axijoint_assembly_element_stiffness, only : integrands_type, new_integrands, element_blocks, &
+   use axijoint_assembly_element_stiffness, only : integrands_type, new_integrands, &
+      element_blocks, &
       max_unknowns, max_blocks
    use axijoint_assembly_stiffness, only : least_elements
    use axijoint_base_kinds, only : wp, i8

@@ -88,7 +88,8 @@ contains
       else if (mode%harmonic == 0) then
          name = ' is free to move along z (harmonic 0)'
       else
-         name = ' is free to '//trim(merge('move sideways', 'tilt         ', mod(place, max_motions) == 1))
+         name = ' is free to '//trim(merge('move sideways', 'tilt         ', &
+            mod(place, max_motions) == 1))
          if (with_family) then
             name = name//' (harmonic '//mode_name(mode)//')'
          else

@@ -61,13 +61,15 @@ contains
                     material => model%materials(model%mesh%element_material(element)))
             d = elasticity(material)
             n_points = reference%n_points
-            call formulated_points(model%mesh%coordinates(:, nodes), reference, points(:n_points), dilatation)
+            call formulated_points(model%mesh%coordinates(:, nodes), reference, points(:n_points), &
+               dilatation)
             local(:, :n) = displacement(:, nodes)
             element_force = 0.0_wp
             do i = 1, n_points
                now = solid_stress(points(i), n, d, mode%harmonic, local, dilatation)
                if (initial%present) then
-                  now = now + thermal_stress(model, initial, k, element, strain_shape(dilatation, points(i)), d)
+                  now = now + thermal_stress(model, initial, k, element, &
+                     strain_shape(dilatation, points(i)), d)
                end if
                call add_solid_force(points(i), n, mode%harmonic, now, element_force, dilatation)
                if (initial%present) then  ! equilibrium in situ knows of no means

@@ -2,7 +2,8 @@
 module axijoint_assembly_stiffness
    use omp_lib, only : omp_get_max_threads
    use axijoint_assembly_dofs, only : dofs_type, new_dofs
-   use axijoint_assembly_element_stiffness, only : integrands_type, new_integrands, element_blocks, &
+   use axijoint_assembly_element_stiffness, only : integrands_type, new_integrands, &
+      element_blocks, &
       max_unknowns, max_blocks
    use axijoint_assembly_pattern, only : new_pattern
    use axijoint_assembly_support, only : support_point_type, support_stiffness
@@ -358,7 +359,8 @@ contains
          end do
       else
          reduced = block
-         if (stiffness%harmonic /= any_harmonic) call evaluate(real(stiffness%harmonic, wp), reduced)
+         if (stiffness%harmonic /= any_harmonic) &
+            call evaluate(real(stiffness%harmonic, wp), reduced)
          call add_part_block(stiffness, row_node, column_node, offset - column, reduced)
       end if
    end subroutine add_block

@@ -7,7 +7,8 @@ module axijoint_assembly_support
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: support_point_type, new_support_points, support_matrix, support_stiffness, add_support_force
+   public :: support_point_type, new_support_points, support_matrix, support_stiffness, &
+      add_support_force
 
    !> Point of an edge that springs hold: a joint whose other side is the ground
    type, extends(joint_point_type) :: support_point_type

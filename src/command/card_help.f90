@@ -16,7 +16,8 @@ module axijoint_command_card_help
    character(len=*), parameter :: card_usage = &
       'usage: axijoint help card [NAME] [--markdown]'//new_line('a')// &
       new_line('a')// &
-      'Without NAME, an index of all cards; with it, the fields of the card NAME.'//new_line('a')// &
+      'Without NAME, an index of all cards; with it, the fields of the card NAME.'// &
+      new_line('a')// &
       new_line('a')// &
       '  --markdown  the table of doc/deck.md'
 
@@ -46,7 +47,8 @@ contains
             call unknown('option', trim(names(k)), [markdown_option], error)
             return
          else if (len(name) > 0) then
-            call fatal_error(error, exit_deck, 'help on one card at a time; use: axijoint help card NAME')
+            call fatal_error(error, exit_deck, &
+               'help on one card at a time; use: axijoint help card NAME')
             return
          else
             name = upper(trim(names(k)))

@@ -45,7 +45,8 @@ contains
          return
       end if
       do k = 1, 2
-         call read_file(compare%path(k)%text, compare%format(k)%text, dictionary, listings(k), error)
+         call read_file(compare%path(k)%text, compare%format(k)%text, dictionary, listings(k), &
+            error)
          if (allocated(error)) then
             write (error_unit, '(a)') error%message
             return
@@ -53,7 +54,8 @@ contains
       end do
       call add_totals(listings(1), listings(2))
       call add_totals(listings(2), listings(1))
-      call compare_listings(output_unit, listings(1), listings(2), dictionary, compare%tolerances, same)
+      call compare_listings(output_unit, listings(1), listings(2), dictionary, compare%tolerances, &
+         same)
       exit_code = merge(exit_ok, exit_different, same)
    end subroutine compare_files
 

@@ -62,7 +62,8 @@ contains
             k = k + 1
             call set_value(words(k - 1)%text, words(k)%text, compare, error)
          else
-            call unknown('option', words(k)%text, [character(len=15) :: value_options, plain_options], error)
+            call unknown('option', words(k)%text, &
+               [character(len=15) :: value_options, plain_options], error)
          end if
          if (allocated(error)) return
       end do
@@ -122,7 +123,8 @@ contains
             compare%format(2)%text = value
          case default
             call read_integer(value, tolerances%n_worst, fault)
-            if (fault /= token_good .or. tolerances%n_worst < 0) call fatal_error(error, exit_deck, &
+            if (fault /= token_good .or. tolerances%n_worst < 0) &
+               call fatal_error(error, exit_deck, &
                "option --worst: found '"//value//"', allowed is a number from 0")
          end select
       end associate
@@ -161,7 +163,8 @@ contains
 
       equals = index(text, '=')
       if (equals < 2) then
-         call fatal_error(error, exit_deck, "option --tolerance: found '"//text//"', allowed is "// &
+         call fatal_error(error, exit_deck, "option --tolerance: found '"//text// &
+            "', allowed is "// &
             'NAME=RELATIVE or NAME=RELATIVE,ABSOLUTE, NAME being a quantity or a column')
          return
       end if

@@ -81,7 +81,8 @@ contains
          if (k == 1) then
             write (output_unit, '(a, i0, a, f0.1, a)') deck//': ', estimate%n_harmonics, &
                ' harmonics; matrix products at ', rate/1.0e9_wp, ' GFLOP/s in one thread'
-            write (output_unit, '(a)') '  solver       equations  factor entries      operations'// &
+            write (output_unit, '(a)') '  solver       equations  factor entries      '// &
+               'operations'// &
                '  at once  memory [MB]  factoring [s]'
          end if
          write (output_unit, format_row) solvers(k)%name, estimate%n_equations, &

@@ -36,7 +36,8 @@ module axijoint_command_line
       'estimate', 'compare', 'help']
 
    !> Options of `run` that take a value; `estimate` has the last two
-   character(len=*), parameter :: value_options(4) = ['-o       ', '--solver ', '--threads', '--memory ']
+   character(len=*), parameter :: value_options(4) = &
+      ['-o       ', '--solver ', '--threads', '--memory ']
    character(len=*), parameter :: estimate_options(2) = value_options(3:)
 
    !> A word of any length
@@ -179,7 +180,8 @@ contains
                if (k == size(words)) then
                   call fatal_error(error, exit_deck, 'option '//word//' needs a '// &
                                    trim(merge('directory', 'value    ', word == '-o'))// &
-                                   ": see 'axijoint help "//trim(command_names(command%command))//"'")
+                                   ": see 'axijoint help "//trim(command_names(command%command))// &
+                                   "'")
                   return
                end if
                k = k + 1
@@ -192,7 +194,8 @@ contains
                command%command = command_help
                return
             else if (command%command == command_run) then
-               call unknown('option', word, [character(len=9) :: value_options, '--vtk', '--help'], error)
+               call unknown('option', word, [character(len=9) :: value_options, '--vtk', &
+                  '--help'], error)
                return
             else if (command%command == command_estimate) then
                call unknown('option', word, [character(len=9) :: estimate_options, '--help'], error)
@@ -226,7 +229,8 @@ contains
       case ('-o')
          command%options%directory = value
       case ('--solver')
-         call find_solver(command%solvers, upper(value), command%options%solver, command%options%solver_given)
+         call find_solver(command%solvers, upper(value), command%options%solver, &
+            command%options%solver_given)
          if (.not. command%options%solver_given) &
             call unknown('solver', value, lower_all(solver_words(command%solvers)), error)
       case ('--memory')
@@ -328,15 +332,20 @@ contains
          text = 'usage: axijoint run DECK... [-o DIR] [--solver NAME] [--threads N]'//nl// &
             '                            [--memory MIB] [--vtk]'//nl// &
             nl// &
-            'Solves each deck and writes NAME.lis (listing), NAME.json (summary) and NAME.h5'//nl// &
+            'Solves each deck and writes NAME.lis (listing), NAME.json (summary) and NAME.h5'// &
+            nl// &
             '(results), NAME being the name of the deck without its ending.'//nl// &
             nl// &
             '  -o DIR         directory for the results (default: the current one)'//nl// &
-            '  --solver NAME  '//alternatives(lower_all(solver_words(solvers)))//' (default: as the deck says)'//nl// &
-            '  --threads N    harmonics at once (default: OMP_NUM_THREADS, or all processors)'//nl// &
-            '  --memory MIB   memory that the process may take: fewer factors at once then (default:'//nl// &
+            '  --solver NAME  '//alternatives(lower_all(solver_words(solvers)))// &
+            ' (default: as the deck says)'//nl// &
+            '  --threads N    harmonics at once (default: OMP_NUM_THREADS, or all processors)'// &
+            nl// &
+            '  --memory MIB   memory that the process may take: fewer factors at once then '// &
+            '(default:'//nl// &
             '                 what the machine, its control group and limits leave)'//nl// &
-            '  --vtk          NAME.vtkhdf for ParaView, too (whole circle; SWEEP of the deck says more)'//nl// &
+            '  --vtk          NAME.vtkhdf for ParaView, too (whole circle; SWEEP of the deck '// &
+            'says more)'//nl// &
             '  --             everything that follows is a deck'//nl// &
             nl// &
             'Exit codes: 0 ok; 2 deck or usage; 3 not converged; 4 singular or mechanism;'//nl// &
@@ -349,8 +358,10 @@ contains
       case ('estimate')
          text = 'usage: axijoint estimate DECK... [--threads N] [--memory MIB]'//nl// &
             nl// &
-            'Says for each solver what a run of each deck would need: unknowns, entries of the'//nl// &
-            'factors, operations, memory and time, with the threads and in the memory that the run'//nl// &
+            'Says for each solver what a run of each deck would need: unknowns, entries of the'// &
+            nl// &
+            'factors, operations, memory and time, with the threads and in the memory that the '// &
+            'run'//nl// &
             'would have. Nothing is solved.'
       case ('compare')
          text = compare_help

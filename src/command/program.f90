@@ -7,7 +7,8 @@ module axijoint_command_program
    use axijoint_command_check, only : check_decks
    use axijoint_command_compare, only : compare_files
    use axijoint_command_estimate, only : estimate_decks
-   use axijoint_command_line, only : command_type, read_command, help_text, command_run, command_check, &
+   use axijoint_command_line, only : command_type, read_command, help_text, command_run, &
+      command_check, &
       command_estimate, command_compare, command_help, command_help_card
    use axijoint_command_run, only : run_decks, print_error
    use axijoint_solver_entry, only : solver_entry_type

@@ -47,7 +47,8 @@ contains
             if (allocated(error)) then
                call print_error(deck, error)
                if (len(job_name(deck)) > 0) then
-                  call write_error_summary(command%options%directory, job_name(deck), deck, error%code, &
+                  call write_error_summary(command%options%directory, job_name(deck), deck, &
+                     error%code, &
                                            [error%message])
                end if
                code = error%code
@@ -84,7 +85,8 @@ contains
          end do
       else
          allocate (results(1))
-         do k = 1, size(job%model%combinations)  ! the results of each are written before the next is begun
+         ! the results of each are written before the next is begun
+         do k = 1, size(job%model%combinations)
             call solve_combination(job, k, results(1), error)
             if (.not. allocated(error)) call write_combination(job, results(1), exit_code, error)
             if (allocated(error)) exit
@@ -142,7 +144,8 @@ contains
    !> Say that the program was built for debugging: fpm does so unless it is told otherwise
    subroutine warn_if_slow()
       if (index(compiler_options(), ' -O') > 0 .and. index(compiler_options(), ' -O0') == 0) return
-      write (error_unit, '(a)') 'axijoint: built without optimization, several times slower than need be; `fpm @install` '// &
+      write (error_unit, '(a)') 'axijoint: built without optimization, several times slower '// &
+         'than need be; `fpm @install` '// &
          'or `fpm @release` builds it with'
    end subroutine warn_if_slow
 

@@ -162,7 +162,8 @@ contains
          .and. (verdict%n_columns_only == 0 .or. tolerances%missing_columns) &
          .and. (verdict%n_rows_only == 0 .or. tolerances%missing_rows)
       write (unit, '(/a)') 'tolerances: relative '//to_text(tolerances%relative)//', absolute '// &
-         to_text(tolerances%absolute)//', '//to_text(tolerances%of_table)//' of the largest in the '// &
+         to_text(tolerances%absolute)//', '//to_text(tolerances%of_table)// &
+         ' of the largest in the '// &
          'table, '//to_text(tolerances%of_file)//' of the largest in the file'
       do k = 1, size(tolerances%special)
          associate (special => tolerances%special(k))
@@ -177,10 +178,12 @@ contains
       text = trim(text)//': '//count_of(verdict%n_tables, 'table')//', '// &
              count_of(verdict%n_values, 'value')//' compared; '//to_text(verdict%n_bad)//' differ'
       if (verdict%n_bad > 0) text = text//' in '//count_of(verdict%n_bad_tables, 'table')
-      if (verdict%n_unknown > 0) text = text//'; '//to_text(verdict%n_unknown)//' cannot be compared'
+      if (verdict%n_unknown > 0) &
+         text = text//'; '//to_text(verdict%n_unknown)//' cannot be compared'
       if (verdict%n_tables_only > 0) text = text//'; '//count_of(verdict%n_tables_only, 'table')// &
          ' in one file only'
-      if (verdict%n_columns_only > 0) text = text//'; '//count_of(verdict%n_columns_only, 'column')// &
+      if (verdict%n_columns_only > 0) &
+         text = text//'; '//count_of(verdict%n_columns_only, 'column')// &
          ' in one file only'
       if (verdict%n_rows_only > 0) text = text//'; '//count_of(verdict%n_rows_only, 'row')// &
          ' in one file only'

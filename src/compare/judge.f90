@@ -2,8 +2,10 @@
 module axijoint_compare_judge
    use axijoint_base_kinds, only : wp
    use axijoint_compare_match, only : match_type
-   use axijoint_compare_table_cell, only : cell_type, cell_number, cell_blank, cell_word, cell_overflow
-   use axijoint_compare_table_table, only : table_type, listing_type, find_column, kind_names, kind_word
+   use axijoint_compare_table_cell, only : cell_type, cell_number, cell_blank, cell_word, &
+      cell_overflow
+   use axijoint_compare_table_table, only : table_type, listing_type, find_column, kind_names, &
+      kind_word
    use axijoint_compare_tolerances, only : tolerances_type, allowed_difference, floor_difference, &
       is_skipped
    implicit none
@@ -256,7 +258,8 @@ contains
       do k = 1, size(table%columns)
          associate (scale => largest(table%columns(k)%kind))
             do row = 1, table%n_rows
-               if (table%cells(k, row)%state == cell_number) scale = max(scale, abs(table%cells(k, row)%value))
+               if (table%cells(k, row)%state == cell_number) &
+                  scale = max(scale, abs(table%cells(k, row)%value))
             end do
          end associate
       end do

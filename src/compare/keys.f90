@@ -48,7 +48,8 @@ contains
       integer :: k, other, best
 
       by_place = all([find_column(a, 'r', kind_coordinate), find_column(a, 'z', kind_coordinate), &
-                      find_column(b, 'r', kind_coordinate), find_column(b, 'z', kind_coordinate)] > 0)
+                      find_column(b, 'r', kind_coordinate), &
+                      find_column(b, 'z', kind_coordinate)] > 0)
       allocate (keys(0))
       do k = 1, size(a%columns)
          associate (column => a%columns(k))

@@ -4,7 +4,8 @@ module axijoint_compare_match
    use axijoint_compare_keys, only : key_type, keys_type, row_keys, chosen_keys, candidates
    use axijoint_compare_table_cell, only : cell_type, cell_number
    use axijoint_compare_table_numbering, only : numbering_type, learn, same_numbers, known_partner
-   use axijoint_compare_table_table, only : table_type, find_column, kind_label, kind_coordinate, kind_word
+   use axijoint_compare_table_table, only : table_type, find_column, kind_label, kind_coordinate, &
+      kind_word
    implicit none
    private
    public :: match_type, match_rows
@@ -268,7 +269,8 @@ contains
          if (a%columns(k)%kind /= kind_label) cycle
          other = find_column(b, a%columns(k)%name, kind_label)
          if (other == 0) cycle
-         if (a%cells(k, row_a)%state /= cell_number .or. b%cells(other, row_b)%state /= cell_number) cycle
+         if (a%cells(k, row_a)%state /= cell_number &
+            .or. b%cells(other, row_b)%state /= cell_number) cycle
          if (a%columns(k)%name == 'point') cycle
          call learn(numberings, a%columns(k)%name, nint(a%cells(k, row_a)%value), &
                     nint(b%cells(other, row_b)%value))

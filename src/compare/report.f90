@@ -6,7 +6,8 @@ module axijoint_compare_report
    use axijoint_compare_match, only : match_type
    use axijoint_compare_table_cell, only : cell_type, cell_number, cell_blank, cell_overflow, &
       cell_not_a_number, cell_infinite
-   use axijoint_compare_table_table, only : table_type, words_type, kind_names, table_title, kind_word, &
+   use axijoint_compare_table_table, only : table_type, words_type, kind_names, table_title, &
+      kind_word, &
       find_column
    implicit none
    private
@@ -36,17 +37,20 @@ contains
       integer :: k
 
       write (unit, '(/a)') table_title(a)
-      write (unit, '(2x, a)') count_of(count(match%partner > 0), 'row')//' matched by '//keys_text(match)
+      write (unit, '(2x, a)') count_of(count(match%partner > 0), 'row')//' matched by '// &
+         keys_text(match)
       if (match%n_least > 0) write (unit, '(2x, a)') count_of(match%n_least, 'row')// &
          ' with the place of others: those are together that differ least'
       call print_rows_only(unit, 'A', a, match%partner, words)
       call print_rows_only(unit, 'B', b, match%partner_of_b, words)
       if (size(result%columns) == 0) return
-      write (unit, '(4x, a)') 'column        quantity         values  different      absolute      relative'
+      write (unit, '(4x, a)') 'column        quantity         values  different      '// &
+         'absolute      relative'
       do k = 1, size(result%columns)
          associate (column => result%columns(k))
             name = a%columns(column%a)%name
-            write (unit, format_column) name, kind_names(a%columns(column%a)%kind)//'  ', column%n, &
+            write (unit, format_column) name, kind_names(a%columns(column%a)%kind)//'  ', &
+               column%n, &
                column%n_different, column%absolute, column%relative
          end associate
       end do
@@ -89,9 +93,11 @@ contains
       if (result%columns(k)%relative > 0.0_wp) call print_pair(unit, 'worst relative:', a, b, &
          result%columns(k), result%columns(k)%relative_at, words)
       if (sum(result%columns%n_unknown) > 0) write (unit, '(2x, a)') &
-         count_of(sum(result%columns%n_unknown), 'value')//' cannot be compared: NaN, infinite or asterisks'
+         count_of(sum(result%columns%n_unknown), 'value')// &
+         ' cannot be compared: NaN, infinite or asterisks'
       if (sum(result%columns%n_rounded) > 0) write (unit, '(2x, a)') &
-         count_of(sum(result%columns%n_rounded), 'value')//' agree to the digits printed, not to the tolerance'
+         count_of(sum(result%columns%n_rounded), 'value')// &
+         ' agree to the digits printed, not to the tolerance'
    end subroutine print_worst_columns
 
    !> Two values and where they stand
@@ -109,7 +115,8 @@ contains
       !> Words of both files
       type(words_type), intent(in) :: words
 
-      write (unit, '(2x, a)') what//' '//a%columns(column%a)%name//' at '//row_place(a, rows(1), words)// &
+      write (unit, '(2x, a)') what//' '//a%columns(column%a)%name//' at '// &
+         row_place(a, rows(1), words)// &
          ': A '//value_text(a%cells(column%a, rows(1)), words)//line_text(a%line(rows(1)))// &
          ', B '//value_text(b%cells(column%b, rows(2)), words)//line_text(b%line(rows(2)))
    end subroutine print_pair
@@ -131,7 +138,8 @@ contains
 
       if (all(partner > 0)) return
       first = findloc(partner == 0, .true., 1)
-      write (unit, '(2x, a)') count_of(count(partner == 0), 'row')//' only in '//file//'; the first at '// &
+      write (unit, '(2x, a)') count_of(count(partner == 0), 'row')//' only in '//file// &
+         '; the first at '// &
          row_place(table, first, words)//line_text(table%line(first))
    end subroutine print_rows_only
 
@@ -145,7 +153,8 @@ contains
       type(table_type), intent(in) :: table
 
       write (unit, '(/a)') table_title(table)
-      write (unit, '(2x, a)') 'only in '//file//': '//count_of(table%n_rows, 'row')//line_text(table%line(1))
+      write (unit, '(2x, a)') 'only in '//file//': '//count_of(table%n_rows, 'row')// &
+         line_text(table%line(1))
    end subroutine print_only
 
    !> Numbers and place of a row

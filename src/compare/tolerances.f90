@@ -70,7 +70,8 @@ contains
    end function allowed_difference
 
    !> Difference that is allowed whatever the values
-   pure real(wp) function floor_difference(tolerances, special, table_scale, file_scale) result(floor)
+   pure real(wp) function floor_difference(tolerances, special, table_scale, &
+      file_scale) result(floor)
       !> Tolerances
       type(tolerances_type), intent(in) :: tolerances
       !> Index of the special tolerance of the column; 0 if there is none

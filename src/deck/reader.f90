@@ -105,7 +105,8 @@ contains
       integer :: k
 
       do k = 1, size(sections)
-         if (sections(k)%stage == stage .and. associated(sections(k)%read)) call sections(k)%read(deck)
+         if (sections(k)%stage == stage .and. associated(sections(k)%read)) &
+            call sections(k)%read(deck)
       end do
    end subroutine read_stage
 
@@ -118,7 +119,8 @@ contains
 
       call read_stage(deck, sections, stage_elements)
       associate (draft => deck%draft, diagnostics => deck%diagnostics)
-         call draft_gmsh(cards_of(deck, keyword_groups), deck%source, deck%import, draft, diagnostics)
+         call draft_gmsh(cards_of(deck, keyword_groups), deck%source, deck%import, draft, &
+            diagnostics)
          call sort_nodes_and_elements(draft)
          call read_stage(deck, sections, stage_blocks)
          call snap_to_axis(draft, diagnostics)
@@ -155,7 +157,8 @@ contains
          call lay_faces(deck)
          call lay_chains(deck)
          call lay_group_faces(cards_of(deck, keyword_groups), deck%import, edges, draft)
-         call check_joints(cards_of(deck, keyword_joints), deck%properties%laws, group, edges, draft)
+         call check_joints(cards_of(deck, keyword_joints), deck%properties%laws, group, edges, &
+            draft)
          call lay_interfaces(deck)
          call lay_group_joints(cards_of(deck, keyword_groups), deck%import, deck%properties, &
                                group, edges, draft)

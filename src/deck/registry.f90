@@ -59,13 +59,17 @@ contains
       integer :: k
 
       sections = [title_section(), control_section(), increments_section(), output_section(), &
-                  materials_section(), orthotropic_section(), laws_section(), law_details_section(), &
+                  materials_section(), orthotropic_section(), laws_section(), &
+                  law_details_section(), &
                   gmsh_section(), groups_section(), &
-                  nodes_section(), lines_section(), elements_section(), blocks_section(), kinds_section(), &
+                  nodes_section(), lines_section(), elements_section(), blocks_section(), &
+                  kinds_section(), &
                   faces_section(), chains_section(), joints_section(), interfaces_section(), &
-                  harmonics_section(), shapes_section(), restraints_section(), fixed_faces_section(), &
+                  harmonics_section(), shapes_section(), restraints_section(), &
+                  fixed_faces_section(), &
                   case_section(), tractions_section(), pressures_section(), resultants_section(), &
-                  ring_loads_section(), point_loads_section(), gravity_section(), rotation_section(), &
+                  ring_loads_section(), point_loads_section(), gravity_section(), &
+                  rotation_section(), &
                   temperatures_section(), node_temps_section(), moved_nodes_section(), &
                   moved_faces_section(), &
                   in_situ_section(), springs_section(), combine_section(), &

@@ -1,5 +1,5 @@
-!> What elements of a formulation take for the volumetric strain: its mean over the element, with the
-!> weights r dA (B-bar, Hughes, Int. J. Numer. Meth. Eng. 15, 1980)
+!> What elements of a formulation take for the volumetric strain: its mean over the element, with
+!> the weights r dA (B-bar, Hughes, Int. J. Numer. Meth. Eng. 15, 1980)
 module axijoint_element_dilatation
    use axijoint_base_kinds, only : wp
    use axijoint_element_solid_point, only : solid_point_type, solid_points
@@ -9,8 +9,8 @@ module axijoint_element_dilatation
    private
    public :: dilatation_type, formulated_points, average_volume, mean_volume, strain_shape
 
-   !> Means over an element: what is linear in the harmonic stays so, as the mean of B0 + m B1 is the
-   !> sum of the means
+   !> Means over an element: what is linear in the harmonic stays so, as the mean of B0 + m B1 is
+   !> the sum of the means
    type :: dilatation_type
       !> Whether the element takes them
       logical :: averaged = .false.
@@ -22,7 +22,8 @@ module axijoint_element_dilatation
 
 contains
 
-   !> Integration points of an element, and what its formulation takes for the volumetric strain there
+   !> Integration points of an element, and what its formulation takes for the volumetric strain
+   !> there
    pure subroutine formulated_points(coordinates, reference, points, dilatation)
       !> r and z of the nodes, shape (2, nodes)
       real(wp), intent(in) :: coordinates(:, :)
@@ -105,7 +106,8 @@ contains
       end do
    end function mean_volume
 
-   !> Shape functions that go with the strain at a point: a mean strain goes with the mean temperature
+   !> Shape functions that go with the strain at a point: a mean strain goes with the mean
+   !> temperature
    pure function strain_shape(dilatation, point) result(shape)
       !> Means over the element
       type(dilatation_type), intent(in) :: dilatation

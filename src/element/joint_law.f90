@@ -4,8 +4,10 @@ module axijoint_element_joint_law
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: joint_law_type, memory_type, admit_stress, trial_stress, admit, renew, state_of, lost_at_opening, cuts_back
-   public :: law_elastic, law_paper, slip_components, slip_resultant, opening_reversible, opening_bond
+   public :: joint_law_type, memory_type, admit_stress, trial_stress, admit, renew, state_of, &
+      lost_at_opening, cuts_back
+   public :: law_elastic, law_paper, slip_components, slip_resultant, opening_reversible, &
+      opening_bond
    public :: law_names, slip_names, opening_names
    public :: state_stick, state_slip, state_open
    public :: xi, eta, theta
@@ -79,8 +81,9 @@ module axijoint_element_joint_law
 
 contains
 
-   !> Whether the stress admitted is the trial stress, cut back: then it may be accumulated over iterations, as in the
-   !> paper. A law whose stress follows from the whole jump in another way must be iterated on total jumps
+   !> Whether the stress admitted is the trial stress, cut back: then it may be accumulated over
+   !> iterations, as in the paper. A law whose stress follows from the whole jump in another way
+   !> must be iterated on total jumps
    elemental logical function cuts_back(law)
       !> Properties of the joint
       type(joint_law_type), intent(in) :: law
@@ -167,7 +170,8 @@ contains
       integer :: i
 
       stress = trial
-      tangent = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
+      tangent = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], &
+         [3, 3])
       if (law%kind == law_elastic) return
       if (law%slip == slip_resultant) then
          call cut_resultant(law, cohesion, friction, trial, stress, tangent)

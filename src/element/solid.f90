@@ -163,7 +163,8 @@ contains
             moment(7:9, p) = integral(3*i - 2:3*i, 3*j)
          end do
       end do
-      call dgemm('N', 'N', 9, size(moment, 2), 9, 1.0_wp, kernel%first, 9, moment, 9, 0.0_wp, first, 9)
+      call dgemm('N', 'N', 9, size(moment, 2), 9, 1.0_wp, kernel%first, 9, moment, 9, 0.0_wp, &
+         first, 9)
       do p = 1, size(moment, 2)
          blocks(1, :, p) = first(:, p)
          blocks(2, :, p) = kernel%second*moment(9, p)

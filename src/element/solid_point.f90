@@ -45,8 +45,10 @@ contains
             end do
             determinant = jacobian(1, 1)*jacobian(2, 2) - jacobian(1, 2)*jacobian(2, 1)
             do i = 1, n
-               p%gradient(1, i) = (jacobian(2, 2)*local(1, i) - jacobian(2, 1)*local(2, i))/determinant
-               p%gradient(2, i) = (jacobian(1, 1)*local(2, i) - jacobian(1, 2)*local(1, i))/determinant
+               p%gradient(1, i) = (jacobian(2, 2)*local(1, i) - &
+                  jacobian(2, 1)*local(2, i))/determinant
+               p%gradient(2, i) = (jacobian(1, 1)*local(2, i) - &
+                  jacobian(1, 2)*local(1, i))/determinant
             end do
             p%weight = reference%weight(k)*determinant*p%position(1)
          end associate

@@ -1,6 +1,7 @@
 !> How singular stress is at the tip of a wedge: displacements go like r^lambda, stresses like
-!> r^(lambda - 1) (Williams, J. Appl. Mech. 19, 1952). In a meridional plane all is as in plane strain,
-!> and in antiplane strain, close enough to the tip. A wedge may have sectors of several materials, bonded
+!> r^(lambda - 1) (Williams, J. Appl. Mech. 19, 1952). In a meridional plane all is as in plane
+!> strain, and in antiplane strain, close enough to the tip. A wedge may have sectors of several
+!> materials, bonded
 module axijoint_element_wedge
    use axijoint_base_kinds, only : wp
    implicit none
@@ -185,8 +186,8 @@ contains
 
    end function determinant
 
-   !> Displacements along r and z, and tractions along r and z on a ray, of the constants of a sector; in
-   !> antiplane strain that along theta, and its traction
+   !> Displacements along r and z, and tractions along r and z on a ray, of the constants of a
+   !> sector; in antiplane strain that along theta, and its traction
    function fields(wedge, plane, lambda, sector, angle) result(field)
       !> The wedge
       type(wedge_type), intent(in) :: wedge
@@ -215,8 +216,10 @@ contains
       end if
       kolosov = 3.0_wp - 4.0_wp*wedge%poisson(sector)
       associate (plus => lambda + 1.0_wp, minus => lambda - 1.0_wp)
-         polar(1, :) = [-plus*c(1), -plus*s(1), (kolosov - lambda)*c(2), (kolosov - lambda)*s(2)]/(2.0_wp*shear)
-         polar(2, :) = [plus*s(1), -plus*c(1), (kolosov + lambda)*s(2), -(kolosov + lambda)*c(2)]/(2.0_wp*shear)
+         polar(1, :) = [-plus*c(1), -plus*s(1), (kolosov - lambda)*c(2), &
+            (kolosov - lambda)*s(2)]/(2.0_wp*shear)
+         polar(2, :) = [plus*s(1), -plus*c(1), (kolosov + lambda)*s(2), &
+            -(kolosov + lambda)*c(2)]/(2.0_wp*shear)
          polar(3, :) = lambda*[plus*s(1), -plus*c(1), minus*s(2), -minus*c(2)]  ! shear stress
          polar(4, :) = lambda*[plus*c(1), plus*s(1), plus*c(2), plus*s(2)]  ! normal stress
       end associate

@@ -23,7 +23,8 @@ module axijoint_fe_element_kind
    integer, parameter :: formulation_plain = 1, formulation_bbar = 2
    !> All formulations; `element/solid.f90` has what each does
    type(formulation_type), parameter :: formulations(2) = [ &
-      formulation_type('PLAIN', '', [yes, yes, no, yes, no, yes, yes], [yes, yes, no, no, no, no, no]), &
+      formulation_type('PLAIN', '', [yes, yes, no, yes, no, yes, yes], &
+      [yes, yes, no, no, no, no, no]), &
       formulation_type('BBAR', 'mean volumetric strain (B-bar)', [no, yes, no, no, no, no, no])]
    !> Their names
    character(len=5), parameter :: formulation_names(size(formulations)) = formulations%name
@@ -70,7 +71,8 @@ contains
       !> Number of nodes
       integer, intent(in) :: n_nodes
 
-      kind = element_kind(n_nodes, merge(choice%order_linear, choice%order_quadratic, n_nodes <= 4), &
+      kind = element_kind(n_nodes, merge(choice%order_linear, choice%order_quadratic, &
+         n_nodes <= 4), &
                           choice%formulation)
    end function chosen_kind
 
@@ -94,7 +96,8 @@ contains
       !> The kinds
       type(element_kind_type), intent(in) :: a, b
 
-      same_kind = a%n_nodes == b%n_nodes .and. a%order == b%order .and. a%formulation == b%formulation
+      same_kind = a%n_nodes == b%n_nodes .and. a%order == b%order &
+         .and. a%formulation == b%formulation
    end function same_kind
 
    !> Whether a kind is quadratic with the reduced rule

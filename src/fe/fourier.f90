@@ -4,7 +4,8 @@ module axijoint_fe_fourier
    use axijoint_base_kinds, only : wp, pi, degree
    implicit none
    private
-   public :: circle_integral, cosine_of_fraction, sine_of_fraction, cosine_of_degrees, sine_of_degrees
+   public :: circle_integral, cosine_of_fraction, sine_of_fraction, cosine_of_degrees, &
+      sine_of_degrees
 
 contains
 

@@ -91,7 +91,8 @@ contains
       character(len=12) :: number
 
       write (number, '(i0)') mode%harmonic
-      name = trim(number)//merge(' symmetric    ', ' antisymmetric', mode%family == family_symmetric)
+      name = trim(number)//merge(' symmetric    ', ' antisymmetric', &
+         mode%family == family_symmetric)
       name = trim(name)
    end function mode_name
 

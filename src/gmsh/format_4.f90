@@ -3,7 +3,8 @@ module axijoint_gmsh_format_4
    use axijoint_base_kinds, only : wp
    use axijoint_base_number_map, only : number_map_type, find_number, insert_number
    use axijoint_base_text, only : to_text
-   use axijoint_gmsh_mesh, only : gmsh_mesh_type, dimension_of_type, nodes_of_type, group_index, set_index
+   use axijoint_gmsh_mesh, only : gmsh_mesh_type, dimension_of_type, nodes_of_type, group_index, &
+      set_index
    use axijoint_gmsh_parts, only : make_node_room, add_tag, read_position, make_element_room, &
       check_type, read_element
    use axijoint_gmsh_scanner, only : scanner_type, fault_type, read_integer, read_real, end_line, &
@@ -114,10 +115,12 @@ contains
          before = mesh%n_nodes
          call data_line(scanner, 'Nodes', 'blocks', block - 1, n_blocks, fault)
          call read_integer(scanner, 'the dimension', 0, 3, dimension, fault)
-         call read_integer(scanner, 'the number of the entity', -largest_tag, largest_tag, passed, fault)
+         call read_integer(scanner, 'the number of the entity', -largest_tag, largest_tag, passed, &
+            fault)
          call read_integer(scanner, 'the mark of parameters', 0, 1, parametric, fault)
          call read_integer(scanner, 'the number of nodes', 0, n - before, n_block, fault)
-         call end_line(scanner, 'dimension and number of the entity, 0 or 1, number of nodes', fault)
+         call end_line(scanner, 'dimension and number of the entity, 0 or 1, number of nodes', &
+            fault)
          do i = 1, n_block
             call data_line(scanner, 'Nodes', 'nodes', before, n, fault)
             call add_tag(scanner, mesh, fault)
@@ -178,12 +181,14 @@ contains
       do block = 1, n_blocks
          call data_line(scanner, 'Elements', 'blocks', block - 1, n_blocks, fault)
          call read_integer(scanner, 'the dimension', 0, 3, dimension, fault)
-         call read_integer(scanner, 'the number of the entity', -largest_tag, largest_tag, entity, fault)
+         call read_integer(scanner, 'the number of the entity', -largest_tag, largest_tag, entity, &
+            fault)
          call read_integer(scanner, 'the type', 1, largest_tag, type, fault)
          call check_type(scanner, type, fault)
          call check_dimension(scanner, dimension, type, fault)
          call read_integer(scanner, 'the number of elements', 0, n - n_read, n_block, fault)
-         call end_line(scanner, 'dimension and number of the entity, type, number of elements', fault)
+         call end_line(scanner, 'dimension and number of the entity, type, number of elements', &
+            fault)
          if (allocated(fault)) return
          set = set_of(entities, dimension, entity)
          do i = 1, n_block
@@ -209,7 +214,8 @@ contains
 
       if (allocated(fault)) return
       if (dimension_of_type(type) == dimension) return
-      fault = token_fault(scanner, 'elements of type '//to_text(type)//' do not fit an entity of dimension ' &
+      fault = token_fault(scanner, 'elements of type '//to_text(type)// &
+         ' do not fit an entity of dimension ' &
                           //to_text(dimension))
    end subroutine check_dimension
 

@@ -49,7 +49,8 @@ module axijoint_gmsh_mesh
       integer, allocatable :: element_tag(:), element_type(:), element_line(:)
       !> Set of groups of each element; 0 if it is in no group
       integer, allocatable :: element_set(:)
-      !> Nodes (indices) in the order of Gmsh: corners, middles of sides, centre; shape (9, elements)
+      !> Nodes (indices) in the order of Gmsh: corners, middles of sides, centre; shape (9,
+      !> elements)
       integer, allocatable :: element_nodes(:, :)
       !> Physical groups
       type(gmsh_group_type), allocatable :: groups(:)

@@ -125,7 +125,8 @@ contains
       !> How many
       integer, intent(in) :: n
 
-      allocate (mesh%element_tag(n), mesh%element_type(n), mesh%element_line(n), mesh%element_set(n), &
+      allocate (mesh%element_tag(n), mesh%element_type(n), mesh%element_line(n), &
+         mesh%element_set(n), &
                 source=0)
       allocate (mesh%element_nodes(most_nodes, n), source=0)
    end subroutine make_element_room
@@ -149,7 +150,8 @@ contains
       end if
       fault = token_fault(scanner, 'an element of type '//to_text(number)//' ('//type_name(number) &
                           //') cannot be used', &
-                          allowed='triangles of 3 or 6, quadrangles of 4, 8 or 9, lines of 2 or 3 nodes; ' &
+                          allowed='triangles of 3 or 6, quadrangles of 4, 8 or 9, lines of 2 '// &
+                          'or 3 nodes; ' &
                           //'points', &
                           mend=mend)
    end subroutine check_type

@@ -89,7 +89,8 @@ contains
          if (allocated(fault)) return
       end do
       if (token_text(scanner) /= '$MeshFormat') then
-         fault = line_fault(scanner, 'this is not a mesh file of Gmsh: it does not begin with $MeshFormat', &
+         fault = line_fault(scanner, 'this is not a mesh file of Gmsh: it does not begin with '// &
+            '$MeshFormat', &
                             mend=other_format)
          return
       end if
@@ -98,7 +99,8 @@ contains
       if (token_text(scanner) == '2.2') version = 2
       if (token_text(scanner) == '4.1') version = 4
       if (version == 0) then
-         fault = token_fault(scanner, 'this format cannot be read', allowed='2.2 or 4.1', mend=other_format)
+         fault = token_fault(scanner, 'this format cannot be read', allowed='2.2 or 4.1', &
+            mend=other_format)
       end if
       call read_integer(scanner, 'the mark of binary files', 0, 1, binary, fault)
       if (.not. allocated(fault) .and. binary == 1) then
@@ -125,7 +127,8 @@ contains
                             allowed='$Nodes, $Elements or another word that opens a section')
       else if (word == '$PartitionedEntities') then
          fault = token_fault(scanner, 'the mesh is partitioned', &
-                             mend='save it without partitions: Mesh.PartitionSplitMeshFiles=0, unpartition')
+                             mend='save it without partitions: Mesh.PartitionSplitMeshFiles=0, '// &
+                             'unpartition')
       else if (word == '$Elements' .and. .not. allocated(mesh%node_tag)) then
          fault = token_fault(scanner, 'the elements come before the nodes')
       else if ((word == '$Nodes' .and. allocated(mesh%node_tag)) &

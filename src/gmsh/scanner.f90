@@ -5,7 +5,8 @@ module axijoint_gmsh_scanner
    use axijoint_gmsh_decimal, only : divide_real
    implicit none
    private
-   public :: scanner_type, fault_type, new_scanner, next_line, next_token, read_integer, read_real, &
+   public :: scanner_type, fault_type, new_scanner, next_line, next_token, read_integer, &
+      read_real, &
       end_line, line_fault, token_fault, line_bounds, token_text, largest_tag
 
    !> What is wrong with a file: the first fault ends the reading
@@ -225,7 +226,8 @@ contains
          call divide_real(token, mantissa, digits, exponent, good)
          if (.not. good) then
             fault = token_fault(scanner, name//' is not a number')
-            if (any(lower(token(max(1, verify(token, '+-')):)) == ['nan     ', 'inf     ', 'infinity'])) then
+            if (any(lower(token(max(1, verify(token, '+-')):)) == ['nan     ', 'inf     ', &
+               'infinity'])) then
                fault%text = name//' is not a finite number'
             end if
          else if (mantissa == 0) then

@@ -8,7 +8,8 @@ module axijoint_gmsh_section
    public :: data_line, end_section, skip_section, read_count, count_fault
 
    !> Mend for a file that is not whole
-   character(len=*), parameter :: write_again = 'the file is damaged or was cut off: save the mesh again'
+   character(len=*), parameter :: write_again = &
+      'the file is damaged or was cut off: save the mesh again'
 
 contains
 
@@ -32,7 +33,8 @@ contains
       call next_line(scanner, found)
       text = '$'//section//' announces '//to_text(n_wanted)//' '//noun//', but '
       if (.not. found) then
-         fault = line_fault(scanner, text//'the file ends after '//to_text(n_read), mend=write_again)
+         fault = line_fault(scanner, text//'the file ends after '//to_text(n_read), &
+            mend=write_again)
       else if (begins_with_dollar(scanner)) then
          fault = line_fault(scanner, text//'has '//to_text(n_read), mend=write_again)
       end if
@@ -61,7 +63,8 @@ contains
       if (allocated(fault)) return
       call next_line(scanner, found)
       if (.not. found) then
-         fault = line_fault(scanner, 'the file ends inside the section $'//section, mend=write_again)
+         fault = line_fault(scanner, 'the file ends inside the section $'//section, &
+            mend=write_again)
          return
       end if
       call next_token(scanner)

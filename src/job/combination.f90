@@ -30,7 +30,8 @@ contains
             return
          end if
       end if
-      call analyse_combination(job%model, job%structure, job%model%combinations(k), results, job%timer, &
+      call analyse_combination(job%model, job%structure, job%model%combinations(k), results, &
+         job%timer, &
                                job%progress, error)
       results%combination = combination_label(job, k)
    end subroutine solve_combination

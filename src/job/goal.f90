@@ -75,7 +75,8 @@ contains
                if (last%error <= job%model%error_goal%target) return  ! met, or not known
                if (size(rounds) >= job%model%error_goal%most_rounds) return
                before = refinement
-               call refine_further(job%model, results(worst)%budget, last%n_unknowns, refinement, changed)
+               call refine_further(job%model, results(worst)%budget, last%n_unknowns, refinement, &
+                  changed)
                if (.not. changed) return
             end if
          end associate
@@ -104,14 +105,16 @@ contains
       type(diagnostics_type) :: diagnostics
 
       call read_job(job%deck, job, diagnostics, refinement)
-      if (diagnostics%n_errors > 0 .and. abs(refinement%mesh - anint(refinement%mesh)) > 0.0_wp) then
+      if (diagnostics%n_errors > 0 .and. abs(refinement%mesh - &
+         anint(refinement%mesh)) > 0.0_wp) then
          ! an edge that faces two others keeps facing them if all are divided by the same integer
          refinement%mesh = ceiling(refinement%mesh)
          call read_job(job%deck, job, diagnostics, refinement)
       end if
       if (diagnostics%n_errors == 0) return
       call fatal_error(error, exit_deck, 'the refined job (elements of BLOCKS times '// &
-                       to_text(refinement%mesh)//') has faults:'//new_line('a')//render(diagnostics, job%source))
+                       to_text(refinement%mesh)//') has faults:'//new_line('a')// &
+                       render(diagnostics, job%source))
    end subroutine read_refined
 
    !> Solve all combinations, and note what the round came to
@@ -154,7 +157,8 @@ contains
       round%nodes = maxval(job%model%mesh%element_size)
       round%harmonic = job%model%max_harmonic
       round%planes = job%model%n_planes
-      if (allocated(results(worst)%solves)) round%n_unknowns = sum(results(worst)%solves%n_equations)
+      if (allocated(results(worst)%solves)) &
+         round%n_unknowns = sum(results(worst)%solves%n_equations)
       round%seconds = omp_get_wtime() - start
       rounds = [rounds, round]
    end subroutine solve_round

@@ -1,6 +1,7 @@
 !> Judges what the cards alone do not tell: whether in-situ stress is in balance
 module axijoint_job_in_situ_messages
-   use axijoint_analysis_core_in_situ, only : in_situ_type, in_situ_part_type, in_situ_boundary_type, misfit_type, &
+   use axijoint_analysis_core_in_situ, only : in_situ_type, in_situ_part_type, &
+      in_situ_boundary_type, misfit_type, &
       told_share, refused_share
    use axijoint_analysis_core_in_situ_balance, only : in_situ_balance
    use axijoint_analysis_core_in_situ_boundaries, only : place_of
@@ -13,7 +14,8 @@ module axijoint_job_in_situ_messages
    public :: judge_in_situ
 
    !> How to mend what is out of balance
-   character(len=*), parameter :: or_meant = '; MEANT in columns 51-60 of INSITU says that it is meant'
+   character(len=*), parameter :: or_meant = &
+      '; MEANT in columns 51-60 of INSITU says that it is meant'
    !> Directions of tractions
    character(len=1), parameter :: direction_name(2) = ['r', 'z']
 
@@ -40,14 +42,16 @@ contains
          do i = 1, size(findings%parts)
             associate (part => findings%parts(i), known => told(:, findings%parts(i)%node))
                if (part%meant) cycle
-               if (part%pressed > 0.0_wp .and. known(pressed) == 0) call tell_pressed(model, part, diagnostics)
+               if (part%pressed > 0.0_wp .and. known(pressed) == 0) &
+                  call tell_pressed(model, part, diagnostics)
                if (part%pressed > 0.0_wp) known(pressed) = 1
                if (grade(part%weight_share, part%weight_share) > known(weight)) &
                   call tell_weight(model, k, part, diagnostics)
                if (grade(part%on_place%share, part%on_whole%share) > known(traction)) &
                   call tell_traction(model, k, part, diagnostics)
                known(weight) = max(known(weight), grade(part%weight_share, part%weight_share))
-               known(traction) = max(known(traction), grade(part%on_place%share, part%on_whole%share))
+               known(traction) = max(known(traction), &
+                  grade(part%on_place%share, part%on_whole%share))
             end associate
          end do
          do i = 1, size(findings%boundaries)
@@ -84,9 +88,11 @@ contains
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
-      call add_warning(diagnostics, 0, 0, 0, part_text(model, part)//' has no in-situ stress, but joints press '// &
+      call add_warning(diagnostics, 0, 0, 0, part_text(model, part)// &
+         ' has no in-situ stress, but joints press '// &
                        'it with that of its neighbours, up to '//to_text(part%pressed), &
-                       mend='give it an INSITU card; one with gamma = 0 and MEANT says that it has none')
+                       mend='give it an INSITU card; one with gamma = 0 and MEANT says that it '// &
+                       'has none')
    end subroutine tell_pressed
 
    !> Tell of a part whose weight is not that of its in-situ stress
@@ -128,12 +134,15 @@ contains
          worst = part%on_whole
          whole = ' of its largest'
       end if
-      call tell(diagnostics, part%card, part%on_whole%share, 'in-situ stress of '//part_text(model, part)// &
+      call tell(diagnostics, part%card, part%on_whole%share, 'in-situ stress of '// &
+         part_text(model, part)// &
                 ' leaves a traction of '//to_text(abs(worst%traction))//' along '// &
-                direction_name(worst%direction)//' at node '//to_text(model%mesh%node_label(worst%node))//', '// &
+                direction_name(worst%direction)//' at node '// &
+                to_text(model%mesh%node_label(worst%node))//', '// &
                 percent_text(worst%share)//whole//', that no support, joint or load takes'// &
                 when_text(model, k, worst%increment), &
-                'hold the face, load it in the load case of INSITU, or mend stresses and laws of joints')
+                'hold the face, load it in the load case of INSITU, or mend stresses and laws '// &
+                'of joints')
    end subroutine tell_traction
 
    !> Tell of materials whose stresses do not match
@@ -148,13 +157,17 @@ contains
       type(diagnostics_type), intent(inout) :: diagnostics
 
       associate (labels => model%materials(boundary%materials)%label)
-         call tell(diagnostics, boundary%card, boundary%share(), 'in-situ stresses of materials '// &
-                   to_text(labels(1))//' and '//to_text(labels(2))//' of body '//to_text(boundary%body)// &
-                   ' do not match: the traction on their boundary jumps by '//to_text(boundary%jump)//' at r = '// &
+         call tell(diagnostics, boundary%card, boundary%share(), &
+            'in-situ stresses of materials '// &
+                   to_text(labels(1))//' and '//to_text(labels(2))//' of body '// &
+                   to_text(boundary%body)// &
+                   ' do not match: the traction on their boundary jumps by '// &
+                   to_text(boundary%jump)//' at r = '// &
                    to_text(boundary%position(1))//', z = '//to_text(boundary%position(2))//', '// &
                    percent_text(boundary%share())//' of the largest there'// &
                    when_text(model, k, boundary%increment), &
-                   'the lower layer begins with the sigma_z that the upper one ends with (z_s, sigma_zs)')
+                   'the lower layer begins with the sigma_z that the upper one ends with (z_s, '// &
+                   'sigma_zs)')
       end associate
    end subroutine tell_boundary
 
@@ -190,7 +203,8 @@ contains
 
       text = ''
       if (size(model%increments) > 1) text = text//', after increment '//to_text(increment)
-      if (size(model%combinations) > 1) text = text//', combination '//to_text(model%combinations(k)%label)
+      if (size(model%combinations) > 1) &
+         text = text//', combination '//to_text(model%combinations(k)%label)
    end function when_text
 
    !> A part in words
@@ -202,7 +216,8 @@ contains
       !> Such as "body 2 (with node 17)"
       character(len=:), allocatable :: text
 
-      text = 'body '//to_text(part%body)//' (with node '//to_text(model%mesh%node_label(part%node))//')'
+      text = 'body '//to_text(part%body)//' (with node '// &
+         to_text(model%mesh%node_label(part%node))//')'
    end function part_text
 
 end module axijoint_job_in_situ_messages

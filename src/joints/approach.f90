@@ -1,5 +1,5 @@
-!> Bodies that stand free move under their load until joints touch, before anything deforms: contact by
-!> contact, as rigid bodies
+!> Bodies that stand free move under their load until joints touch, before anything deforms: contact
+!> by contact, as rigid bodies
 module axijoint_joints_approach
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : xi, eta, theta
@@ -7,12 +7,14 @@ module axijoint_joints_approach
    use axijoint_joints_field, only : joint_field_type, trial_of
    use axijoint_joints_mechanism, only : mechanism_type, find_mechanism
    use axijoint_joints_planes, only : synthesize, analyse
-   use axijoint_joints_scene, only : scene_type, evaluate, elastic_stress, motion_of, share_of_motions
+   use axijoint_joints_scene, only : scene_type, evaluate, elastic_stress, motion_of, &
+      share_of_motions
    implicit none
    private
    public :: approach
 
-   !> Pressure at the points that touch, as a share of the joint stress that the load would give if all joints held
+   !> Pressure at the points that touch, as a share of the joint stress that the load would give if
+   !> all joints held
    real(wp), parameter :: touch = 1.0e-3_wp
    !> Contacts that are followed: so many for each motion
    integer, parameter :: most_contacts = 4
@@ -29,7 +31,8 @@ contains
       logical, intent(in) :: sticking
       !> Jumps of the state that the load step begins with, shape (3, points, planes)
       real(wp), intent(in) :: before(:, :, :)
-      !> State of the joints, its stresses evaluated; points that touch or stand open carry no shear where they stand
+      !> State of the joints, its stresses evaluated; points that touch or stand open carry no shear
+      !> where they stand
       type(joint_field_type), intent(inout) :: field
       !> Excess stress that is not transferred
       real(wp), intent(inout) :: residual(:, :, :)
@@ -55,7 +58,8 @@ contains
       end do
    end subroutine approach
 
-   !> How far a motion goes until a point that stands open is pressed a little; the largest number if none is
+   !> How far a motion goes until a point that stands open is pressed a little; the largest number
+   !> if none is
    function way_to_contact(condensed, scene, field, jump) result(way)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
@@ -78,19 +82,21 @@ contains
             if (.not. jump(eta, k, j) < 0.0_wp) cycle
             stiffness = scene%laws(k)%stiffness(eta)
             trial = trial_of(scene%laws(k), k, j, field%jump(:, k, j), field)
-            if (trial(eta) > 0.0_wp) way = min(way, (trial(eta) + pressure)/(-stiffness*jump(eta, k, j)))
+            if (trial(eta) > 0.0_wp) &
+               way = min(way, (trial(eta) + pressure)/(-stiffness*jump(eta, k, j)))
          end do
       end do
    end function way_to_contact
 
-   !> Points that stood open start without shear where rigid motions bring them: what the bodies would deform if
-   !> all joints held has not happened when they touch
+   !> Points that stood open start without shear where rigid motions bring them: what the bodies
+   !> would deform if all joints held has not happened when they touch
    subroutine stand_free(condensed, scene, jump, before, field)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
-      !> Jumps of the motion, and of the state that the load step begins with, shape (3, points, planes)
+      !> Jumps of the motion, and of the state that the load step begins with, shape (3, points,
+      !> planes)
       real(wp), intent(in) :: jump(:, :, :), before(:, :, :)
       !> State of the joints before the motion
       type(joint_field_type), intent(inout) :: field
@@ -99,7 +105,8 @@ contains
       integer :: i, j, k
 
       place = analyse(scene%planes, field%jump - before)
-      place = before + jump + synthesize(scene%planes, motion_of(condensed, scene, share_of_motions(condensed, scene, place)))
+      place = before + jump + synthesize(scene%planes, &
+         motion_of(condensed, scene, share_of_motions(condensed, scene, place)))
       do j = 1, size(jump, 3)
          do k = 1, size(jump, 2)
             if (any(abs(field%stress(:, k, j)) > 0.0_wp)) cycle

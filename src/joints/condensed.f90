@@ -1,9 +1,11 @@
-!> The structure as its joints see it, condensed to the joint points: what it does under joint stress that is not
-!> admitted, how its parts move where nothing else holds them, how forces on them are measured. Built once;
-!> nothing changes it afterwards, so that many states, and many processes, can share it
+!> The structure as its joints see it, condensed to the joint points: what it does under joint
+!> stress that is not admitted, how its parts move where nothing else holds them, how forces on them
+!> are measured. Built once; nothing changes it afterwards, so that many states, and many processes,
+!> can share it
 module axijoint_joints_condensed
    use axijoint_assembly_equations, only : equations_type
-   use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, release_factor, &
+   use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
+      release_factor, &
                                          report_failure
    use axijoint_assembly_support, only : support_point_type
    use axijoint_base_error, only : error_type
@@ -21,8 +23,8 @@ module axijoint_joints_condensed
 
    !> Flexibility of one harmonic
    type :: flexibility_type
-      !> Jumps that unit amplitudes of excess stress give: N K_m^-1 N^T c_m w, for all components of point 1, 2, ...,
-      !> shape (components points, components points)
+      !> Jumps that unit amplitudes of excess stress give: N K_m^-1 N^T c_m w, for all components of
+      !> point 1, 2, ..., shape (components points, components points)
       real(wp), allocatable :: matrix(:, :)
    end type flexibility_type
 
@@ -66,7 +68,8 @@ contains
       condensed%modes = equations%modes
       condensed%system = equations%system
       condensed%proportion = stiffness_ratio(condensed%points)
-      call new_floating_motions(model, pack(joint_points, .not. yields), supports, condensed%modes, condensed%points, &
+      call new_floating_motions(model, pack(joint_points, .not. yields), supports, &
+         condensed%modes, condensed%points, &
                                 condensed%floating)
       call new_measure(model%mesh, equations, condensed%points, condensed%measure)
       call condense_all(equations, condensed%points, condensed%flexibilities, error)
@@ -130,7 +133,8 @@ contains
          do i = 1, 3
             column = 3*(k - 1) + i
             half(:, column) = combination(inverse, place(:, i, k), coefficient(:, i, k))
-            half(:, column) = circle_integral(equations%systems(s)%harmonic)*points(k)%weight*half(:, column)
+            half(:, column) = &
+               circle_integral(equations%systems(s)%harmonic)*points(k)%weight*half(:, column)
          end do
       end do
       half = transpose(half)

@@ -3,7 +3,8 @@ module axijoint_joints_field
    use axijoint_assembly_force, only : elastic_joint_stress, joint_jump
    use axijoint_assembly_loading, only : in_situ_joint_stress
    use axijoint_base_kinds, only : wp
-   use axijoint_element_joint_law, only : joint_law_type, memory_type, trial_stress, admit, renew, state_of, &
+   use axijoint_element_joint_law, only : joint_law_type, memory_type, trial_stress, admit, renew, &
+      state_of, &
                                           state_stick, state_slip, state_open, opening_bond, eta
    use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
    use axijoint_model_joint_points, only : model_joint_point_type
@@ -36,15 +37,15 @@ module axijoint_joints_field
       real(wp) :: share = 1.0_wp
       !> Stiffness k h/E of joints that the laws see at most at a time
       real(wp) :: view_limit = huge(1.0_wp)
-      !> Share of the elastic stress that joints keep though the laws do not admit it: weak springs that
-      !> hold, on the way, what nothing else does
+      !> Share of the elastic stress that joints keep though the laws do not admit it: weak springs
+      !> that hold, on the way, what nothing else does
       real(wp) :: leak = 0.0_wp
       !> Amplitudes of the stress k d - P that was not admitted and has been
       !> transferred to the structure, and of that which has not yet been, shape
       !> (3, points, modes)
       real(wp), allocatable :: excess(:, :, :), pending(:, :, :)
-      !> Where the parts stand from which displacements and excess stress count: shares of the floating
-      !> motions, and their jumps, shape (3, points, planes)
+      !> Where the parts stand from which displacements and excess stress count: shares of the
+      !> floating motions, and their jumps, shape (3, points, planes)
       real(wp), allocatable :: offset(:), moved(:, :, :)
       !> Stress that the laws start from, the same that they admit in the end, shape
       !> (3, points, planes)
@@ -61,9 +62,11 @@ contains
       type(joint_field_type) :: field
 
       allocate (field%jump(3, n_points, n_planes), source=0.0_wp)
-      allocate (field%stress(3, n_points, n_planes), field%carried(3, n_points, n_planes), source=0.0_wp)
+      allocate (field%stress(3, n_points, n_planes), field%carried(3, n_points, n_planes), &
+         source=0.0_wp)
       allocate (field%offset(n_floating), field%moved(3, n_points, n_planes), source=0.0_wp)
-      allocate (field%excess(3, n_points, n_modes), field%pending(3, n_points, n_modes), source=0.0_wp)
+      allocate (field%excess(3, n_points, n_modes), field%pending(3, n_points, n_modes), &
+         source=0.0_wp)
       allocate (field%initial(3, n_points), field%in_situ(3, n_points), source=0.0_wp)
       allocate (field%state(n_points, n_planes), source=state_stick)
       allocate (field%memory(n_points, n_planes))
@@ -110,7 +113,8 @@ contains
       real(wp), intent(in) :: view(:)
       !> Field that takes jumps and stresses
       type(joint_field_type), intent(inout) :: field
-      !> Stress of the elastic structure + initial stress - P on the planes, shape (3, points, planes)
+      !> Stress of the elastic structure + initial stress - P on the planes, shape (3, points,
+      !> planes)
       real(wp), intent(out) :: excess(:, :, :)
 
       real(wp) :: trial(3), tangent(3, 3)
@@ -121,7 +125,8 @@ contains
          do k = 1, size(laws)
             trial = seen_by_law(laws(k), k, j, view(k), field)
             call admit(laws(k), field%memory(k, j), trial, field%stress(:, k, j), tangent)
-            excess(:, k, j) = base(:, k)*(jump(:, k, j) - field%moved(:, k, j)) + field%initial(:, k) &
+            excess(:, k, j) = base(:, k)*(jump(:, k, j) - field%moved(:, k, j)) + &
+               field%initial(:, k) &
                - field%stress(:, k, j)
          end do
       end do
@@ -196,7 +201,8 @@ contains
       small = noise*maxval([0.0_wp, abs(field%stress)])
       do j = 1, size(field%state, 2)
          do k = 1, size(laws)
-            field%state(k, j) = state_of(laws(k), field%stress(:, k, j), field%jump(:, k, j), small, &
+            field%state(k, j) = state_of(laws(k), field%stress(:, k, j), field%jump(:, k, j), &
+               small, &
                                          field%memory(k, j))
          end do
       end do

@@ -71,7 +71,8 @@ contains
 
       do k = 1, size(motions)
          associate (motion => motions(k))
-            displacement(:, :, motion%mode) = displacement(:, :, motion%mode) + share(k)*motion%displacement
+            displacement(:, :, motion%mode) = displacement(:, :, motion%mode) + &
+               share(k)*motion%displacement
          end associate
       end do
    end subroutine add_motions

@@ -16,7 +16,8 @@ module axijoint_joints_history
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: history_type, new_history, new_state, keep_state, note_failure, forget_failure, note_residual
+   public :: history_type, new_history, new_state, keep_state, note_failure, forget_failure, &
+      note_residual
 
    !> What the increments came to
    type :: history_type
@@ -32,21 +33,24 @@ module axijoint_joints_history
       !> Loads at the end: of the step that failed, or of the last in equilibrium
       !> if joints ran away beyond it
       type(loading_type) :: loading
-      !> The largest loads on the way, by their norm (Psi_f), that norm, and that of the loads at the end
+      !> The largest loads on the way, by their norm (Psi_f), that norm, and that of the loads at
+      !> the end
       type(loading_type) :: peak
       real(wp) :: peak_norm = 0.0_wp, load_norm = 0.0_wp
-      !> Joint stress that the last loads in equilibrium would give if all joints held, amplitudes, shape
+      !> Joint stress that the last loads in equilibrium would give if all joints held, amplitudes,
+      !> shape
       !> (3, points, modes)
       real(wp), allocatable :: balanced(:, :, :)
       !> Excess stress of joints that ran away, shape (3, points, modes), and the motion that
-      !> nothing resists, in shares of the floating motions; one is allocated if the joints came to a mechanism
+      !> nothing resists, in shares of the floating motions; one is allocated if the joints came to
+      !> a mechanism
       real(wp), allocatable :: runaway(:, :, :), motion(:)
       !> Sum of the load factors of the last step in equilibrium
       real(wp) :: reached = 0.0_wp
       !> Largest displacement that the loads of a step would give if all joints held
       real(wp) :: largest_elastic = 0.0_wp
-      !> Largest joint stress at the end of a step, of each point: what errors are measured by, for joints
-      !> that were unloaded have none at the end
+      !> Largest joint stress at the end of a step, of each point: what errors are measured by, for
+      !> joints that were unloaded have none at the end
       real(wp), allocatable :: largest_stress(:)
       !> States at the ends of increments, as they were reached
       type(increment_state_type), allocatable :: states(:)
@@ -57,7 +61,8 @@ module axijoint_joints_history
       type(memory_type), allocatable :: start(:, :)
       !> Convergence path
       type(iteration_type), allocatable :: path(:)
-      !> What the iterations left out of balance, one entry a step in equilibrium, and the last if it failed
+      !> What the iterations left out of balance, one entry a step in equilibrium, and the last if
+      !> it failed
       type(residual_record_type), allocatable :: residuals(:)
       !> Whether the last of them is of a step in equilibrium
       logical :: noted = .true.

@@ -10,8 +10,10 @@ module axijoint_joints_increments
    use axijoint_base_text, only : to_text
    use axijoint_element_joint_law, only : memory_type, cuts_back
    use axijoint_joints_condensed, only : condensed_type
-   use axijoint_joints_field, only : joint_field_type, commit_field, judge_states, set_initial_stress
-   use axijoint_joints_history, only : history_type, new_history, new_state, keep_state, note_failure, forget_failure, &
+   use axijoint_joints_field, only : joint_field_type, commit_field, judge_states, &
+      set_initial_stress
+   use axijoint_joints_history, only : history_type, new_history, new_state, keep_state, &
+      note_failure, forget_failure, &
                                        note_residual
    use axijoint_joints_load_steps, only : step_type, first_step, next_step, halfway
    use axijoint_joints_loads, only : put_loads
@@ -35,7 +37,8 @@ contains
    !> Apply the increments. Each starts from the last state in equilibrium, whose
    !> slip is kept; one that finds none is halved (not if stress is accumulated, which
    !> is all the memory then).
-   subroutine run_increments(model, equations, condensed, joint_points, supports, combination, history, progress)
+   subroutine run_increments(model, equations, condensed, joint_points, supports, combination, &
+      history, progress)
       !> The job
       type(model_type), intent(in) :: model
       !> Equations of all modes, assembled
@@ -57,7 +60,8 @@ contains
 
       call new_history(model, condensed, history)
       if (history%method%accumulates .and. .not. all(cuts_back(history%scene%laws))) then
-         call fatal_error(history%failure, exit_deck, 'the loop of TRANSFER accumulates stress, which the law of a joint'// &
+         call fatal_error(history%failure, exit_deck, &
+            'the loop of TRANSFER accumulates stress, which the law of a joint'// &
                           ' does not follow from: METHOD may be NEWTON, ANDERSON or TOTAL')
          return
       end if
@@ -65,7 +69,8 @@ contains
       do i = 1, size(model%increments)
          start = goal
          goal = next_step(goal, model%increments(i), combination)
-         call show_progress(progress, 'increment '//to_text(i)//' of '//to_text(size(model%increments)))
+         call show_progress(progress, 'increment '//to_text(i)//' of '// &
+            to_text(size(model%increments)))
          call reach(i, start, goal, most_halvings)
          if (.not. history%verdict%converged) return
          call forget_failure(history)
@@ -90,7 +95,8 @@ contains
 
          before = history%field
          call put(to)
-         call balance_step(condensed, model%increments(increment), increment, to%load_factor, history%method, history)
+         call balance_step(condensed, model%increments(increment), increment, to%load_factor, &
+            history%method, history)
          if (ends(history)) return
          call note_failure(history)
          if (halvings > 0 .and. .not. history%method%accumulates) then
@@ -106,7 +112,8 @@ contains
          if (allocated(second)) then
             history%field = before
             call put(to)
-            call balance_step(condensed, model%increments(increment), increment, to%load_factor, second, history)
+            call balance_step(condensed, model%increments(increment), increment, to%load_factor, &
+               second, history)
             if (history%verdict%converged .or. allocated(history%failure)) return
          end if
          history%field = before  ! what ran away is no state to show
@@ -130,8 +137,8 @@ contains
 
    end subroutine run_increments
 
-   !> Whether there is nothing to try about the last step: it is in equilibrium, or as near as numbers go, or ended for
-   !> another reason, or was of a loop that does no more than end
+   !> Whether there is nothing to try about the last step: it is in equilibrium, or as near as
+   !> numbers go, or ended for another reason, or was of a loop that does no more than end
    pure logical function ends(history)
       !> The history
       type(history_type), intent(in) :: history
@@ -167,7 +174,8 @@ contains
          history%peak = history%loading
       end if
       stress = elastic_stress(condensed, history%scene, history%field)
-      call set_reference(condensed%measure, history%peak_norm, stress - history%balanced, increment%tolerance, &
+      call set_reference(condensed%measure, history%peak_norm, stress - history%balanced, &
+         increment%tolerance, &
                          history%scene%loads%reference)
       history%control = control_type(increment%tolerance, increment%max_iterations, &
                                      iteration_type(increment=number, load_factor=load_factor))
@@ -176,7 +184,8 @@ contains
             if (last%increment == number) history%control%now%iteration = last%iteration
          end associate
       end if
-      call method%balance(condensed, history%scene, history%control, history%field, history%path, history%verdict)
+      call method%balance(condensed, history%scene, history%control, history%field, history%path, &
+         history%verdict)
       call note_residual(condensed, number, load_factor, history)
       if (.not. history%verdict%converged) return
       call move_alloc(stress, history%balanced)
@@ -206,7 +215,8 @@ contains
       control%now = history%path(size(history%path))
       if (present(tolerance)) control%tolerance = tolerance
       history%field%memory = history%memory
-      call history%method%balance(condensed, history%scene, control, history%field, history%path, history%verdict)
+      call history%method%balance(condensed, history%scene, control, history%field, history%path, &
+         history%verdict)
       history%noted = .false.  ! in the place of the last
       call note_residual(condensed, control%now%increment, control%now%load_factor, history)
       history%memory = history%field%memory
@@ -242,10 +252,12 @@ contains
       allocate (path(0))
       allocate (other, source=new_state(condensed, history%scene))
       call set_initial_stress(model, condensed%points, history%loading%case_factor, other)
-      call method%balance(condensed, history%scene, control_type(merge(paper_tolerance, strict, method%accumulates), &
+      call method%balance(condensed, history%scene, &
+         control_type(merge(paper_tolerance, strict, method%accumulates), &
                                                                  most_sweeps), other, path, verdict)
       if (verdict%converged) then
-         difference = ratio(maxval(abs(other%stress - history%field%stress)), maxval(abs(history%field%stress)))
+         difference = ratio(maxval(abs(other%stress - history%field%stress)), &
+            maxval(abs(history%field%stress)))
       else
          deallocate (other)
       end if

@@ -1,5 +1,5 @@
-!> What iteration, planes and harmonics leave of the error of joints: the state is found again on the
-!> condensed structure, wholly balanced, on more planes, with more harmonics
+!> What iteration, planes and harmonics leave of the error of joints: the state is found again on
+!> the condensed structure, wholly balanced, on more planes, with more harmonics
 module axijoint_joints_joint_errors
    use omp_lib, only : omp_get_wtime
    use axijoint_base_kinds, only : wp
@@ -13,7 +13,8 @@ module axijoint_joints_joint_errors
    use axijoint_linalg_lapack, only : matrix_vector
    implicit none
    private
-   public :: joint_change_type, joint_changes_type, find_joint_changes, change_between, largest_change
+   public :: joint_change_type, joint_changes_type, find_joint_changes, change_between, &
+      largest_change
 
    !> Intervals between planes are divided by this
    integer, parameter :: finer = 4
@@ -28,7 +29,8 @@ module axijoint_joints_joint_errors
       logical :: known = .false.
       !> Largest change of a joint stress on the planes of the job [stress]
       real(wp) :: stress = 0.0_wp
-      !> Change of the excess stress, amplitudes, shape (3, points, modes), and of the floating motions
+      !> Change of the excess stress, amplitudes, shape (3, points, modes), and of the floating
+      !> motions
       real(wp), allocatable :: excess(:, :, :), offset(:)
       !> Largest jump in harmonics above M [length]
       real(wp) :: beyond = 0.0_wp
@@ -60,9 +62,9 @@ contains
       change%offset = after%offset - before%offset
    end function change_between
 
-   !> Largest change of a stress between two states, the second perhaps on so many times more planes. A point
-   !> that is nearer to its opening than a few times the change of its normal stress may open or close: then its
-   !> cohesion counts, too
+   !> Largest change of a stress between two states, the second perhaps on so many times more
+   !> planes. A point that is nearer to its opening than a few times the change of its normal stress
+   !> may open or close: then its cohesion counts, too
    pure real(wp) function largest_change(scene, before, after, step, judged) result(largest)
       !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
@@ -121,7 +123,8 @@ contains
       end if
       clock = omp_get_wtime()
       n = scene%planes%n - 1
-      step = max(finer, (4*maxval(scene%modes%harmonic) + n - 1)/n)  ! for products of harmonics up to 2 M
+      ! for products of harmonics up to 2 M
+      step = max(finer, (4*maxval(scene%modes%harmonic) + n - 1)/n)
       finer_scene = scene
       finer_scene%planes = new_planes(step*n + 1, scene%modes, whole=scene%planes%folds == 1)
       associate (count => size(finer_scene%planes%angle))
@@ -185,8 +188,8 @@ contains
       state%state = field%state(:, place)
    end function on_planes
 
-   !> What is remembered on so many times more planes: of slip what lies between the neighbours of a new
-   !> plane, else what the plane before it does
+   !> What is remembered on so many times more planes: of slip what lies between the neighbours of a
+   !> new plane, else what the plane before it does
    pure function on_planes_memory(memory, step, count) result(finer)
       !> Memory, shape (points, planes)
       type(memory_type), intent(in) :: memory(:, :)
@@ -204,7 +207,8 @@ contains
          fraction = real(mod(j - 1, step), wp)/step
          finer(:, j) = memory(:, place)
          do k = 1, size(memory, 1)
-            finer(k, j)%slip = (1.0_wp - fraction)*memory(k, place)%slip + fraction*memory(k, next)%slip
+            finer(k, j)%slip = (1.0_wp - fraction)*memory(k, place)%slip + &
+               fraction*memory(k, next)%slip
          end do
       end do
    end function on_planes_memory
@@ -258,14 +262,15 @@ contains
       step = minval(modes%harmonic, mask=modes%harmonic > 0)
       do m = last + step, 2*last, step
          do family = family_symmetric, family_antisymmetric
-            if (any(modes%family == family .and. modes%harmonic > 0)) above = [above, mode_type(m, family)]
+            if (any(modes%family == family .and. modes%harmonic > 0)) &
+               above = [above, mode_type(m, family)]
          end do
       end do
    end function modes_above
 
-   !> Flexibilities of harmonics that were not computed, over that of the highest. A joint of the stiffness k
-   !> before bodies of the stiffness K takes up the share k/(k + K) of a stress; K of the bodies grows
-   !> like a power of m, which the two highest harmonics tell
+   !> Flexibilities of harmonics that were not computed, over that of the highest. A joint of the
+   !> stiffness k before bodies of the stiffness K takes up the share k/(k + K) of a stress; K of
+   !> the bodies grows like a power of m, which the two highest harmonics tell
    function shares_above(condensed, scene, modes, last, field) result(scale)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
@@ -297,7 +302,8 @@ contains
       end if
       allocate (scale(size(modes)), source=1.0_wp)
       do k = size(scene%modes) + 1, size(modes)
-         scale(k) = (1.0_wp + stiffness(2))/(1.0_wp + stiffness(2)*(real(modes(k)%harmonic, wp)/m(2))**power)
+         scale(k) = (1.0_wp + stiffness(2))/(1.0_wp + &
+            stiffness(2)*(real(modes(k)%harmonic, wp)/m(2))**power)
       end do
    end function shares_above
 
@@ -321,7 +327,8 @@ contains
       work = tiny(1.0_wp)
       do k = 1, size(excess, 2)
          associate (point => condensed%points(k))
-            work = work + point%weight*[sum(excess(:, k)**2), sum(excess(:, k)*point%base*jump(:, k))]
+            work = work + point%weight*[sum(excess(:, k)**2), &
+               sum(excess(:, k)*point%base*jump(:, k))]
          end associate
       end do
       stiffness = max(epsilon(1.0_wp), work(1)/work(2) - 1.0_wp)

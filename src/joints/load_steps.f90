@@ -45,7 +45,8 @@ contains
          next%case_factor = step%case_factor + increment%factor*combination%factor
       else
          associate (case => increment%case)
-            next%case_factor(case) = step%case_factor(case) + increment%factor*combination%factor(case)
+            next%case_factor(case) = step%case_factor(case) + &
+               increment%factor*combination%factor(case)
          end associate
       end if
    end function next_step
@@ -57,7 +58,8 @@ contains
       !> The step
       type(step_type) :: middle
 
-      middle = step_type(0.5_wp*(from%load_factor + to%load_factor), 0.5_wp*(from%case_factor + to%case_factor))
+      middle = step_type(0.5_wp*(from%load_factor + to%load_factor), &
+         0.5_wp*(from%case_factor + to%case_factor))
    end function halfway
 
    !> Loads after each increment, without states of joints

@@ -1,7 +1,8 @@
 !> What loads do to the condensed structure
 module axijoint_joints_loads
    use axijoint_assembly_equations, only : equations_type, solve_mode
-   use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, release_factor
+   use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
+      release_factor
    use axijoint_assembly_force, only : joint_jump
    use axijoint_assembly_loading, only : loading_type
    use axijoint_base_kinds, only : wp
@@ -19,7 +20,8 @@ module axijoint_joints_loads
       real(wp), allocatable :: free(:, :, :)
       !> Largest displacement from the loads, joints elastic, shape (modes)
       real(wp), allocatable :: largest(:)
-      !> Work on the floating motions, and the largest so far of the sum of its terms taken as positive, shape (motions)
+      !> Work on the floating motions, and the largest so far of the sum of its terms taken as
+      !> positive, shape (motions)
       real(wp), allocatable :: work(:), size(:)
       !> Largest joint stress so far, its components taken as positive, shape (components, points)
       real(wp), allocatable :: stress(:, :)
@@ -37,7 +39,8 @@ contains
       type(joint_loads_type) :: loads
 
       associate (n => size(condensed%points), motions => size(condensed%floating))
-         allocate (loads%free(3, n, size(condensed%modes)), loads%largest(size(condensed%modes)), source=0.0_wp)
+         allocate (loads%free(3, n, size(condensed%modes)), loads%largest(size(condensed%modes)), &
+            source=0.0_wp)
          allocate (loads%work(motions), loads%size(motions), loads%stress(3, n), source=0.0_wp)
       end associate
    end function new_joint_loads

@@ -13,10 +13,11 @@ module axijoint_joints_mechanism
    private
    public :: mechanism_type, find_mechanism, settle, balance_motions
 
-   !> A motion is not resisted if the resistance to it is less than this share of that of sticking joints
+   !> A motion is not resisted if the resistance to it is less than this share of that of sticking
+   !> joints
    real(wp), parameter :: no_resistance = 1.0e-7_wp
-   !> A force on a motion is rounding below this share of the loads that add to it, and this share of what joint
-   !> stresses, of all harmonics together, may leave in it
+   !> A force on a motion is rounding below this share of the loads that add to it, and this share
+   !> of what joint stresses, of all harmonics together, may leave in it
    real(wp), parameter :: rounding = 1.0e-13_wp, leftover = 1.0e-15_wp
 
    !> Motions that nothing resists, in shares of the floating motions of a scene
@@ -25,7 +26,8 @@ module axijoint_joints_mechanism
       logical :: loaded = .false.
       !> The motion under the load, shape (floating motions)
       real(wp), allocatable :: motion(:)
-      !> Motions that no load acts on, one column each, of unit elastic work, shape (floating motions, any)
+      !> Motions that no load acts on, one column each, of unit elastic work, shape (floating
+      !> motions, any)
       real(wp), allocatable :: idle(:, :)
    end type mechanism_type
 
@@ -44,7 +46,8 @@ contains
       !> The mechanism
       type(mechanism_type), intent(out) :: mechanism
 
-      real(wp), dimension(size(condensed%floating), size(condensed%floating)) :: resistance, to_unit, rows
+      real(wp), dimension(size(condensed%floating), size(condensed%floating)) :: resistance, &
+         to_unit, rows
       real(wp), dimension(size(condensed%floating)) :: value, force, least, direction
       real(wp) :: work, mixed
       integer :: k, n
@@ -56,13 +59,15 @@ contains
       call unit_resistance(condensed, scene, field, sticking, resistance, to_unit, value, rows)
       call act(condensed, scene, field, force, least)
       ! rounding mixes motions that are resisted little into those that are not
-      mixed = rounding*norm2(matmul(force, to_unit))/max(no_resistance, minval(value, mask=value > no_resistance))
+      mixed = rounding*norm2(matmul(force, to_unit))/max(no_resistance, &
+         minval(value, mask=value > no_resistance))
       do k = n, 1, -1
          if (value(k) > no_resistance) exit
          direction = matmul(to_unit, rows(k, :))
          work = dot_product(direction, force)
          ! what iterations leave out of balance is no load
-         if (min(abs(work), abs(dot_product(direction, scene%loads%work))) > dot_product(abs(direction), least) + mixed) then
+         if (min(abs(work), abs(dot_product(direction, &
+            scene%loads%work))) > dot_product(abs(direction), least) + mixed) then
             mechanism%loaded = .true.
             mechanism%motion = mechanism%motion + work*direction
          else
@@ -71,8 +76,8 @@ contains
       end do
    end subroutine find_mechanism
 
-   !> Move the parts until the joints, as they stick, slip and stand open, balance the loads on them: what takes
-   !> the loops many sweeps where little resists a motion
+   !> Move the parts until the joints, as they stick, slip and stand open, balance the loads on
+   !> them: what takes the loops many sweeps where little resists a motion
    subroutine balance_motions(condensed, scene, field)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
@@ -81,7 +86,8 @@ contains
       !> The state; the stresses are those before
       type(joint_field_type), intent(inout) :: field
 
-      real(wp), dimension(size(condensed%floating), size(condensed%floating)) :: resistance, to_unit, rows
+      real(wp), dimension(size(condensed%floating), size(condensed%floating)) :: resistance, &
+         to_unit, rows
       real(wp), dimension(size(condensed%floating)) :: value, force, least, direction
       integer :: k
 
@@ -93,12 +99,13 @@ contains
          if (value(k) <= no_resistance) exit
          direction = rows(k, :)
          field%offset = field%offset &
-            + dot_product(matmul(resistance, direction), force)/value(k)**2*matmul(to_unit, direction)
+            + dot_product(matmul(resistance, direction), force)/value(k)**2*matmul(to_unit, &
+            direction)
       end do
    end subroutine balance_motions
 
-   !> Take motions away that no load acts on and nothing resists: where a state leaves them is of no meaning, so the
-   !> joints' mean is zero
+   !> Take motions away that no load acts on and nothing resists: where a state leaves them is of no
+   !> meaning, so the joints' mean is zero
    subroutine settle(condensed, scene, mechanism, field)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
@@ -112,7 +119,8 @@ contains
       real(wp), allocatable :: stress(:, :, :)
       integer :: i, k
 
-      stress = jumps(condensed, scene, field%excess, free=.true.) + motion_of(condensed, scene, field%offset)
+      stress = jumps(condensed, scene, field%excess, free=.true.) + &
+         motion_of(condensed, scene, field%offset)
       do k = 1, size(stress, 2)
          do i = 1, 3
             stress(i, k, :) = condensed%points(k)%base(i)*stress(i, k, :)
@@ -120,7 +128,8 @@ contains
       end do
       do k = 1, size(mechanism%idle, 2)
          associate (direction => mechanism%idle(:, k))
-            field%offset = field%offset - dot_product(direction, works(condensed, scene, stress))*direction
+            field%offset = field%offset - dot_product(direction, &
+               works(condensed, scene, stress))*direction
          end associate
       end do
    end subroutine settle
@@ -140,7 +149,8 @@ contains
       !> Singular values of the resistance, descending, and its right singular vectors, one row each
       real(wp), intent(out), contiguous :: value(:), rows(:, :)
 
-      real(wp) :: elastic(size(value), size(value)), eigenvalue(size(value)), lost(size(value), size(value))
+      real(wp) :: elastic(size(value), size(value)), eigenvalue(size(value)), &
+         lost(size(value), size(value))
       integer :: info, k
 
       call resist(condensed, scene, field, sticking, resistance, elastic)
@@ -153,8 +163,8 @@ contains
       call singular_values(lost, value, rows)
    end subroutine unit_resistance
 
-   !> Work of the joints on each motion when another grows, by the derivatives of their laws and if they
-   !> all stick; stiffnesses are those of the structure
+   !> Work of the joints on each motion when another grows, by the derivatives of their laws and if
+   !> they all stick; stiffnesses are those of the structure
    subroutine resist(condensed, scene, field, sticking, resistance, elastic)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
@@ -176,7 +186,8 @@ contains
       do z = 1, size(condensed%floating)
          amplitude = 0.0_wp
          do k = 1, size(condensed%points)
-            amplitude(:, k, condensed%floating(z)%mode) = condensed%points(k)%base*condensed%floating(z)%jump(:, k)
+            amplitude(:, k, condensed%floating(z)%mode) = &
+               condensed%points(k)%base*condensed%floating(z)%jump(:, k)
          end do
          elastic(:, z) = works(condensed, scene, amplitude)
          stress = synthesize(scene%planes, amplitude)
@@ -202,7 +213,8 @@ contains
       !> The derivatives, shape (3, 3, points, planes)
       real(wp), intent(out) :: tangent(:, :, :, :)
 
-      real(wp), parameter :: identity(9) = [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp]
+      real(wp), parameter :: identity(9) = [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, &
+         0.0_wp, 0.0_wp, 1.0_wp]
       real(wp) :: view(size(condensed%points)), admitted(3)
       integer :: j, k
 
@@ -210,7 +222,8 @@ contains
       do j = 1, size(tangent, 4)
          do k = 1, size(tangent, 3)
             associate (law => scene%laws(k), t => tangent(:, :, k, j))
-               call admit(law, field%memory(k, j), seen_by_law(scene%laws(k), k, j, view(k), field), admitted, t)
+               call admit(law, field%memory(k, j), &
+                  seen_by_law(scene%laws(k), k, j, view(k), field), admitted, t)
                if (.not. sticking .or. .not. t(eta, eta) > 0.0_wp) cycle
                if (law%friction > 0.0_wp .or. law%cohesion > 0.0_wp) t = reshape(identity, [3, 3])
             end associate
@@ -262,7 +275,8 @@ contains
             do k = 1, size(condensed%points)
                jump = motion%jump(:, k)
                if (present(sizes)) jump = abs(jump)
-               work(z) = work(z) + condensed%points(k)%weight*dot_product(jump, stress(:, k, motion%mode))
+               work(z) = work(z) + condensed%points(k)%weight*dot_product(jump, &
+                  stress(:, k, motion%mode))
             end do
             work(z) = circle_integral(scene%modes(motion%mode)%harmonic)*work(z)
          end associate

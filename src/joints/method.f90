@@ -1,4 +1,5 @@
-!> How joints are brought to equilibrium in a load step: the abstract method, what it is told, how it ends
+!> How joints are brought to equilibrium in a load step: the abstract method, what it is told, how
+!> it ends
 module axijoint_joints_method
    use axijoint_base_kinds, only : wp
    use axijoint_joints_condensed, only : condensed_type
@@ -19,7 +20,8 @@ module axijoint_joints_method
       integer :: most = 0
       !> Increment, iterations made in it so far, load factor
       type(iteration_type) :: now
-      !> Whether the state is about in equilibrium already, so that the laws see the whole stiffness at once
+      !> Whether the state is about in equilibrium already, so that the laws see the whole stiffness
+      !> at once
       logical :: warm = .false.
    end type control_type
 
@@ -43,9 +45,9 @@ module axijoint_joints_method
 
    !> A method
    type, abstract :: method_type
-      !> Whether stress is accumulated over the iterations, as in the paper, instead of following from total jumps.
-      !> Then states claim no more than the residual ratio of Eq. 17, and there is no memory to start halves of a
-      !> step from
+      !> Whether stress is accumulated over the iterations, as in the paper, instead of following
+      !> from total jumps. Then states claim no more than the residual ratio of Eq. 17, and there is
+      !> no memory to start halves of a step from
       logical :: accumulates = .false.
    contains
       !> What an iterate leaves without equilibrium
@@ -57,7 +59,8 @@ module axijoint_joints_method
    abstract interface
       !> Iterate a load step to equilibrium
       subroutine balance_procedure(self, condensed, scene, control, field, path, verdict)
-         import :: method_type, condensed_type, scene_type, control_type, joint_field_type, iteration_type, verdict_type
+         import :: method_type, condensed_type, scene_type, control_type, joint_field_type, &
+            iteration_type, verdict_type
          !> The method
          class(method_type), intent(in) :: self
          !> The condensed structure

@@ -33,8 +33,8 @@ contains
       end select
    end function new_method
 
-   !> The method of the other kind that results are compared with: the paper's loop for those on total jumps, and
-   !> Newton's for the paper's
+   !> The method of the other kind that results are compared with: the paper's loop for those on
+   !> total jumps, and Newton's for the paper's
    function other_loop(method) result(other)
       !> A method
       class(method_type), intent(in) :: method
@@ -44,8 +44,8 @@ contains
       other = new_method(merge(method_newton, method_transfer, method%accumulates))
    end function other_loop
 
-   !> The method to ask where one runs away: Newton's may where there is a state, and it is no mechanism if the mix
-   !> finds one; not allocated if there is none to ask
+   !> The method to ask where one runs away: Newton's may where there is a state, and it is no
+   !> mechanism if the mix finds one; not allocated if there is none to ask
    subroutine second_opinion(method, second)
       !> A method
       class(method_type), intent(in) :: method

@@ -20,7 +20,8 @@ module axijoint_joints_newton
    use axijoint_linalg_gmres, only : operator_type, gmres
    implicit none
    private
-   public :: newton_type, step_bounds_type, new_newton, newton_step, correction, at_points, newton_view
+   public :: newton_type, step_bounds_type, new_newton, newton_step, correction, at_points, &
+      newton_view
 
    !> Stiffness k h/E of joints that the laws see at most at a time
    real(wp), parameter :: newton_view = 10.0_wp
@@ -66,7 +67,8 @@ module axijoint_joints_newton
    !> I - A E' S F: derivative of the excess stress that is not yet transferred,
    !> with the synthesis S, the slopes E' of the laws and the analysis A
    type, extends(operator_type) :: derivative_type
-      !> What it multiplies with: flexibilities, planes, slopes on the planes, shape (3, 3, points, planes)
+      !> What it multiplies with: flexibilities, planes, slopes on the planes, shape (3, 3, points,
+      !> planes)
       type(condensed_type), pointer :: condensed => null()
       type(scene_type), pointer :: scene => null()
       real(wp), pointer :: slope(:, :, :, :) => null()
@@ -138,21 +140,25 @@ contains
       do k = 1, size(limit)
          associate (proportion => field%share*condensed%points(k)%proportion)
             if (present(far)) limit(k) = min(1.0_wp, steepest(far)/max(tiny(1.0_wp), proportion))
-            if (.not. present(far)) limit(k) = min(1.0_wp, steepest(0.0_wp)/max(tiny(1.0_wp), proportion))
+            if (.not. present(far)) &
+               limit(k) = min(1.0_wp, steepest(0.0_wp)/max(tiny(1.0_wp), proportion))
          end associate
       end do
       newton%stiff = [(any(field%share*scene%laws(k)%stiffness &
                            > condensed%points(k)%base), k=1, size(condensed%points))]
-      identity = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
+      identity = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], &
+         [3, 3])
       allocate (newton%by_jump(3, 3, size(field%jump, 2), size(field%jump, 3)))
       allocate (newton%slope, mold=newton%by_jump)
       allocate (newton%rest, excess, missing, mold=field%jump)
-      !$omp parallel do private(i, k, admitted, tangent, inverse) if (size(field%jump) >= worth_threads)
+      !$omp parallel do private(i, k, admitted, tangent, inverse) if &
+      !$omp (size(field%jump) >= worth_threads)
       do j = 1, size(field%jump, 3)
          do k = 1, size(field%jump, 2)
             associate (point => condensed%points(k), stress => field%carried(:, k, j), &
                        law => scene%laws(k))
-               call admit(law, field%memory(k, j), seen_by_law(scene%laws(k), k, j, view(k), field), &
+               call admit(law, field%memory(k, j), &
+                  seen_by_law(scene%laws(k), k, j, view(k), field), &
                           admitted, tangent)
                missing(:, k, j) = admitted - stress
                inverse = inverse_of(identity - (1.0_wp - view(k)/limit(k))*tangent)
@@ -163,7 +169,8 @@ contains
                   newton%slope(:, i, k, j) = -newton%by_jump(:, i, k, j)
                   newton%slope(i, i, k, j) = newton%slope(i, i, k, j) + point%base(i)
                end do
-               excess(:, k, j) = point%base*(field%jump(:, k, j) - field%moved(:, k, j)) + field%initial(:, k) - stress
+               excess(:, k, j) = point%base*(field%jump(:, k, j) - field%moved(:, k, j)) + &
+                  field%initial(:, k) - stress
             end associate
          end do
       end do
@@ -174,8 +181,9 @@ contains
       newton%residual = newton%residual - newton%kept*analyse(scene%planes, newton%rest)
    end function new_newton
 
-   !> Stiffness k h/E above which laws are linearized as if they had no more: far from equilibrium a stiff law
-   !> predicts stresses that the next iterate does not see; near to it, what such a linearization leaves falls slowly
+   !> Stiffness k h/E above which laws are linearized as if they had no more: far from equilibrium a
+   !> stiff law predicts stresses that the next iterate does not see; near to it, what such a
+   !> linearization leaves falls slowly
    pure real(wp) function steepest(ratio)
       !> Residual ratio
       real(wp), intent(in) :: ratio
@@ -262,7 +270,8 @@ contains
       stiff = newton%stiff
       if (any(stiff)) then
          allocate (derivative%blocks)
-         call new_point_blocks(condensed, scene, newton%slope, newton%kept, stiff, derivative%blocks)
+         call new_point_blocks(condensed, scene, newton%slope, newton%kept, stiff, &
+            derivative%blocks)
          call precondition(derivative%blocks, right)
       end if
       allocate (x(size(right)))
@@ -290,7 +299,8 @@ contains
       !> Whether a step was made
       logical, intent(out) :: made
 
-      real(wp), allocatable :: start(:, :, :), carried(:, :, :), change(:, :, :), change_carried(:, :, :), jump(:, :, :)
+      real(wp), allocatable :: start(:, :, :), carried(:, :, :), change(:, :, :), &
+         change_carried(:, :, :), jump(:, :, :)
       real(wp) :: length, before, least
 
       change = correction(condensed, scene, newton, bounds%tolerance)

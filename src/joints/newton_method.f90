@@ -1,5 +1,5 @@
-!> Newton's method for the joints of a load step, and what it tries where a plain iteration does not get there: stages
-!> of stiffness, long steps, weak springs
+!> Newton's method for the joints of a load step, and what it tries where a plain iteration does not
+!> get there: stages of stiffness, long steps, weak springs
 module axijoint_joints_newton_method
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use axijoint_base_kinds, only : wp
@@ -8,7 +8,8 @@ module axijoint_joints_newton_method
    use axijoint_joints_field, only : joint_field_type, break_bonds
    use axijoint_joints_mechanism, only : find_mechanism
    use axijoint_joints_method, only : method_type, control_type, verdict_type
-   use axijoint_joints_newton, only : newton_type, new_newton, newton_step, step_bounds_type, newton_view
+   use axijoint_joints_newton, only : newton_type, new_newton, newton_step, step_bounds_type, &
+      newton_view
    use axijoint_joints_passes, only : pass_on
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_residual, only : strictest_type, strictest, residual_norm
@@ -18,32 +19,37 @@ module axijoint_joints_newton_method
    private
    public :: newton_method_type, stiff
 
-   !> Joints much stiffer than the bodies tear like a zip, in many passes: their bonds are broken in looser
-   !> states, which comes closer to the order in which a growing load breaks them. k h/E of stiff and of
-   !> very stiff joints, and how loose the states are
-   real(wp), parameter :: stiff = 5.0_wp, loose_pass = 0.3_wp, very_stiff = 100.0_wp, loosest_pass = 1.0_wp
+   !> Joints much stiffer than the bodies tear like a zip, in many passes: their bonds are broken in
+   !> looser states, which comes closer to the order in which a growing load breaks them. k h/E of
+   !> stiff and of very stiff joints, and how loose the states are
+   real(wp), parameter :: stiff = 5.0_wp, loose_pass = 0.3_wp, very_stiff = 100.0_wp, &
+      loosest_pass = 1.0_wp
    !> Joints much stiffer than the bodies: the laws see a share of their stiffness
    !> first, this many times more whenever the residual ratio has fallen so far
    real(wp), parameter :: stage_factor = 10.0_wp, stage_tolerance = 0.1_wp
-   !> Weak springs in place of joints that do not resist a motion under load: their first share of the joints'
-   !> stiffness, what it falls by whenever the ratio has fallen to `stage_tolerance`, and the last
+   !> Weak springs in place of joints that do not resist a motion under load: their first share of
+   !> the joints' stiffness, what it falls by whenever the ratio has fallen to `stage_tolerance`,
+   !> and the last
    real(wp), parameter :: first_leak = 1.0e-2_wp, leak_factor = 1.0e-2_wp, last_leak = 1.0e-8_wp
-   !> Tolerance of the linear solution far from equilibrium, with very stiff joints, the ratio from which on it
-   !> is near, the least tolerance there, and the part of the step's tolerance that is left to it
-   real(wp), parameter :: loose = 1.0e-3_wp, closer = 1.0e-4_wp, near = 1.0e-2_wp, strict = 1.0e-9_wp, part = 0.01_wp
+   !> Tolerance of the linear solution far from equilibrium, with very stiff joints, the ratio from
+   !> which on it is near, the least tolerance there, and the part of the step's tolerance that is
+   !> left to it
+   real(wp), parameter :: loose = 1.0e-3_wp, closer = 1.0e-4_wp, near = 1.0e-2_wp, &
+      strict = 1.0e-9_wp, part = 0.01_wp
    !> Rounding of the forces of the excess stress
    real(wp), parameter :: rounding = 1.0e2_wp*epsilon(1.0_wp)
    !> A step without a better residual for so many iterations has stalled
    integer, parameter :: patience = 25
-   !> How many times as much may be missing after a step: more helps on the way, but goes round in circles
-   !> where the residual no longer falls
+   !> How many times as much may be missing after a step: more helps on the way, but goes round in
+   !> circles where the residual no longer falls
    real(wp), parameter :: bold = 2.0_wp, careful = 1.0_wp
-   !> Change of the jumps by the first steps, in displacements with elastic joints: of several states the near one is
-   !> found. It grows as steps want more
+   !> Change of the jumps by the first steps, in displacements with elastic joints: of several
+   !> states the near one is found. It grows as steps want more
    real(wp), parameter :: first_radius = 3.0_wp
 
-   !> What to try where the iterations ran away or stalled: nothing more, weaker springs than those that were taken away
-   !> too early, the whole stiffness at once, steps as long as they want, weak springs
+   !> What to try where the iterations ran away or stalled: nothing more, weaker springs than those
+   !> that were taken away too early, the whole stiffness at once, steps as long as they want, weak
+   !> springs
    enum, bind(c)
       enumerator :: give_up, weaker_springs, whole_stiffness, long_steps, weak_springs
    end enum
@@ -64,14 +70,15 @@ module axijoint_joints_newton_method
       real(wp), allocatable :: residual(:, :, :)
       !> Jumps of the state that the load step begins with, shape (3, points, planes)
       real(wp), allocatable :: begun(:, :, :)
-      !> The state at the start, the last that ran away, and that from which weak springs were taken away
+      !> The state at the start, the last that ran away, and that from which weak springs were taken
+      !> away
       type(joint_field_type), allocatable :: start, astray, held
       !> How strong these springs were
       real(wp) :: springs = 0.0_wp
       !> What bounds the steps
       type(step_bounds_type) :: bounds
-      !> Whether the laws see a part of the stiffness first, whether steps are long whatever the residual does, whether
-      !> weak springs were tried, and whether the last step was not made
+      !> Whether the laws see a part of the stiffness first, whether steps are long whatever the
+      !> residual does, whether weak springs were tried, and whether the last step was not made
       logical :: in_stages = .false., far = .false., leaked = .false., ran = .false.
       !> Steps since the task changed
       integer :: n_steps = 0
@@ -102,7 +109,8 @@ contains
 
       call begin(condensed, scene, control%warm, field, course, verdict)
       do while (course%watch%k < control%most)
-         call note(course%watch, condensed, scene, control%now, self%accumulates, course%residual, field, verdict)
+         call note(course%watch, condensed, scene, control%now, self%accumulates, course%residual, &
+            field, verdict)
          verdict%ran_away = verdict%ran_away .or. course%ran
          verdict%stalled = ieee_is_finite(verdict%residual%ratio) .and. .not. course%ran &
             .and. course%watch%k > course%watch%best_at + patience
@@ -134,8 +142,10 @@ contains
       end if
       call end_watch(course%watch, course%residual, field, path, verdict)
       if (verdict%converged .or. .not. verdict%stalled) return
-      verdict%at_rounding = course%watch%best <= rounding*(residual_norm(condensed%measure, field%excess) &
-         /residual_norm(condensed%measure, course%residual))*course%watch%steps(course%watch%k)%ratio
+      verdict%at_rounding = course%watch%best <= rounding*(residual_norm(condensed%measure, &
+         field%excess) &
+         /residual_norm(condensed%measure, &
+         course%residual))*course%watch%steps(course%watch%k)%ratio
    end subroutine balance
 
    !> From the state of the last step to the first iterate
@@ -335,12 +345,15 @@ contains
             if (again) call stiffen(condensed, scene, field, course%residual)
          else
             if (condensed%proportion > stiff &
-                .and. found%ratio <= merge(loosest_pass, loose_pass, condensed%proportion > very_stiff)) then
+                .and. found%ratio <= merge(loosest_pass, loose_pass, &
+                condensed%proportion > very_stiff)) then
                call break_bonds(scene%laws, field, n_broken)
                again = n_broken > 0
                if (again) verdict%n_passes = verdict%n_passes + 1
             end if
-            if (.not. again) call pass_on(self, condensed, scene, tolerance, field, course%residual, verdict, again)
+            if (.not. again) &
+               call pass_on(self, condensed, scene, tolerance, field, course%residual, verdict, &
+               again)
          end if
       end associate
       if (.not. again) return
@@ -369,8 +382,8 @@ contains
       end do
    end subroutine stiffen
 
-   !> Take the springs away where joints resist all motions under load by now, else weaken them. What they alone still
-   !> hold when they are weakest is a mechanism
+   !> Take the springs away where joints resist all motions under load by now, else weaken them.
+   !> What they alone still hold when they are weakest is a mechanism
    subroutine weaken(condensed, scene, field, course, verdict)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
@@ -416,7 +429,8 @@ contains
          bounds%tolerance = merge(closer, loose, condensed%proportion > very_stiff)
          ! near to equilibrium, so exactly that one step can reach the tolerance
          if (ratio < near) then
-            bounds%tolerance = min(bounds%tolerance, max(strict, part*tolerance/max(tiny(ratio), ratio)))
+            bounds%tolerance = min(bounds%tolerance, &
+               max(strict, part*tolerance/max(tiny(ratio), ratio)))
          end if
          bounds%largest = course%watch%largest
          if (field%leak > 0.0_wp) then

@@ -1,4 +1,5 @@
-!> What follows a state that is balanced: bonds that break and points that soften, in passes, then the end
+!> What follows a state that is balanced: bonds that break and points that soften, in passes, then
+!> the end
 module axijoint_joints_passes
    use axijoint_base_kinds, only : wp
    use axijoint_joints_condensed, only : condensed_type
@@ -17,7 +18,8 @@ module axijoint_joints_passes
 
 contains
 
-   !> In a state that is balanced well enough, see what is next: bonds to break and points to soften, or the end
+   !> In a state that is balanced well enough, see what is next: bonds to break and points to
+   !> soften, or the end
    subroutine pass_on(method, condensed, scene, tolerance, field, residual, verdict, again)
       !> The method
       class(method_type), intent(in) :: method
@@ -50,8 +52,8 @@ contains
       end if
    end subroutine pass_on
 
-   !> See whether a state within the tolerance is one: by what the laws say if they see the jumps, not parts of them,
-   !> and if no load acts on a motion that nothing resists
+   !> See whether a state within the tolerance is one: by what the laws say if they see the jumps,
+   !> not parts of them, and if no load acts on a motion that nothing resists
    subroutine conclude(method, condensed, scene, tolerance, field, residual, verdict)
       !> The method
       class(method_type), intent(in) :: method
@@ -73,7 +75,8 @@ contains
 
       if (any(views(condensed, scene, field) < 1.0_wp)) then
          call method%evaluate(condensed, scene, field, residual, judged=.true.)
-         found = strictest(condensed%measure, scene%loads%reference, residual, paper=method%accumulates)
+         found = strictest(condensed%measure, scene%loads%reference, residual, &
+            paper=method%accumulates)
          verdict%converged = found%ratio <= tolerance
          if (.not. verdict%converged) then
             call method%evaluate(condensed, scene, field, residual)
@@ -87,7 +90,8 @@ contains
       allocate (settled, source=field)
       call settle(condensed, scene, verdict%mechanism, settled)
       call method%evaluate(condensed, scene, settled, residual, judged=.true.)
-      found = strictest(condensed%measure, scene%loads%reference, residual, paper=method%accumulates)
+      found = strictest(condensed%measure, scene%loads%reference, residual, &
+         paper=method%accumulates)
       if (found%ratio <= tolerance) field = settled
       call method%evaluate(condensed, scene, field, residual, judged=.true.)
    end subroutine conclude

@@ -25,7 +25,8 @@ module axijoint_joints_planes
       !> For all planes, those that were left out too: the plane that is like it, and
       !> the sign of theta components there
       integer, allocatable :: place(:), sign(:)
-      !> Whether a component is odd in theta in a symmetric mode, shape (components): those of joints are xi, eta, theta
+      !> Whether a component is odd in theta in a symmetric mode, shape (components): those of
+      !> joints are xi, eta, theta
       logical, allocatable :: odd(:)
    end type planes_type
 

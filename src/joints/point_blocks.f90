@@ -1,6 +1,6 @@
-!> Newton's linear system point by point: where laws are much stiffer than the bodies, what the modes of
-!> one point do to each other by the slopes on its planes is inverted, which leaves to the Krylov
-!> method what points do to each other
+!> Newton's linear system point by point: where laws are much stiffer than the bodies, what the
+!> modes of one point do to each other by the slopes on its planes is inverted, which leaves to the
+!> Krylov method what points do to each other
 module axijoint_joints_point_blocks
    use axijoint_base_kinds, only : wp
    use axijoint_joints_condensed, only : condensed_type
@@ -12,8 +12,8 @@ module axijoint_joints_point_blocks
 
    !> Inverse of the system of one point
    type :: block_type
-      !> xi, eta, theta of the first mode, of the second ..., shape (3 modes, 3 modes); not allocated if the
-      !> point is left as it is
+      !> xi, eta, theta of the first mode, of the second ..., shape (3 modes, 3 modes); not
+      !> allocated if the point is left as it is
       real(wp), allocatable :: inverse(:, :)
    end type block_type
 
@@ -66,7 +66,8 @@ contains
       !> Shape (3 modes, 3 modes)
       real(wp), allocatable :: matrix(:, :)
 
-      real(wp), dimension(size(scene%planes%meridional, 1), size(scene%planes%meridional, 1), 3, 3) :: coupling
+      real(wp), dimension(size(scene%planes%meridional, 1), size(scene%planes%meridional, 1), 3, &
+         3) :: coupling
       real(wp) :: f(3, 3)
       integer :: i, l, m, n, n_modes
 

@@ -12,18 +12,21 @@ module axijoint_joints_residual
    use axijoint_model_mesh, only : mesh_type
    implicit none
    private
-   public :: measure_type, reference_type, strictest_type, residual_record_type, new_measure, set_reference
+   public :: measure_type, reference_type, strictest_type, residual_record_type, new_measure, &
+      set_reference
    public :: strictest, ratios_of, residual_norm, load_norm, ratio
 
-   !> A residual this small beside the forces of the increment is rounding: smaller parts and harmonics are not
-   !> resolved beyond it
+   !> A residual this small beside the forces of the increment is rounding: smaller parts and
+   !> harmonics are not resolved beyond it
    real(wp), parameter :: resolution = 1.0e-11_wp
-   !> The paper's loop is held to Eq. 17, and part by part and harmonic by harmonic to this share of it
+   !> The paper's loop is held to Eq. 17, and part by part and harmonic by harmonic to this share of
+   !> it
    real(wp), parameter :: paper_share = 0.1_wp
 
    !> How stress at the joint points acts on the unknowns of a class
    type :: rows_type
-      !> Unknown (counted among those of joints; zero for none) and factor of each jump, shape (18, 3, points)
+      !> Unknown (counted among those of joints; zero for none) and factor of each jump, shape (18,
+      !> 3, points)
       integer, allocatable :: place(:, :, :)
       real(wp), allocatable :: coefficient(:, :, :)
       !> Part of each unknown, counted among those with joints
@@ -67,7 +70,8 @@ module axijoint_joints_residual
       real(wp) :: load_factor = 0.0_wp
       !> Of the whole structure to the loads (Eq. 17)
       real(wp) :: whole = 0.0_wp
-      !> Part by part and harmonic by harmonic to what the joints would carry of the increment, shape (parts, modes)
+      !> Part by part and harmonic by harmonic to what the joints would carry of the increment,
+      !> shape (parts, modes)
       real(wp), allocatable :: ratio(:, :)
    end type residual_record_type
 
@@ -116,8 +120,9 @@ contains
       end do
    end subroutine new_measure
 
-   !> Set what the residuals of an increment are held against: the forces that its joints would carry of
-   !> its load if they held, part by part in the harmonics that this load has, and of all harmonics in the others
+   !> Set what the residuals of an increment are held against: the forces that its joints would
+   !> carry of its load if they held, part by part in the harmonics that this load has, and of all
+   !> harmonics in the others
    subroutine set_reference(measure, loads, elastic, tolerance, reference)
       !> The measure
       type(measure_type), intent(in) :: measure
@@ -192,9 +197,9 @@ contains
       if (any(reference%forces > 0.0_wp)) record%ratio = ratio(sqrt(squared), reference%forces)
    end function ratios_of
 
-   !> Norm of the residual forces r = N*^T e of joint stress: the ring forces on all equations, squared and
-   !> integrated round the circle, which is the sum over m of |r_m|^2 / c_m for generalized forces r_m (Psi^r of
-   !> Eq. 17)
+   !> Norm of the residual forces r = N*^T e of joint stress: the ring forces on all equations,
+   !> squared and integrated round the circle, which is the sum over m of |r_m|^2 / c_m for
+   !> generalized forces r_m (Psi^r of Eq. 17)
    pure real(wp) function residual_norm(measure, stress) result(norm)
       !> The measure
       type(measure_type), intent(in) :: measure

@@ -1,5 +1,5 @@
-!> What is asked of the condensed structure – laws, planes, loads – and the stress that an iterate leaves without
-!> equilibrium then
+!> What is asked of the condensed structure – laws, planes, loads – and the stress that an iterate
+!> leaves without equilibrium then
 module axijoint_joints_scene
    use axijoint_assembly_force, only : joint_jump
    use axijoint_base_kinds, only : wp
@@ -13,7 +13,8 @@ module axijoint_joints_scene
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: scene_type, new_scene, jumps, own_flexibility, evaluate, views, mismatch_of, elastic_stress
+   public :: scene_type, new_scene, jumps, own_flexibility, evaluate, views, mismatch_of, &
+      elastic_stress
    public :: motion_of, share_of_motions, stand_where_they_are
 
    !> Stiffness k h/E of joints that a state is judged by
@@ -21,12 +22,13 @@ module axijoint_joints_scene
    !> Joint points from which on products of the harmonics are worth threads
    integer, parameter :: worth_points = 64
 
-   !> What is asked of a condensed structure. It is small beside that: who asks something else makes a copy
+   !> What is asked of a condensed structure. It is small beside that: who asks something else makes
+   !> a copy
    type :: scene_type
       !> Law of each point
       type(joint_law_type), allocatable :: laws(:)
-      !> Modes, the system of equations whose flexibility each takes, and the factor on it; those of the
-      !> structure first
+      !> Modes, the system of equations whose flexibility each takes, and the factor on it; those of
+      !> the structure first
       type(mode_type), allocatable :: modes(:)
       integer, allocatable :: system(:)
       real(wp), allocatable :: scale(:)
@@ -72,7 +74,8 @@ contains
 
       !$omp parallel do schedule(static, 1) if (size(excess, 2) >= worth_points)
       do k = 1, size(excess, 3)
-         call matrix_vector(condensed%flexibilities(scene%system(k))%matrix, excess(:, :, k), jump(:, :, k))
+         call matrix_vector(condensed%flexibilities(scene%system(k))%matrix, excess(:, :, k), &
+            jump(:, :, k))
          if (k > size(condensed%modes)) jump(:, :, k) = scene%scale(k)*jump(:, :, k)
       end do
       !$omp end parallel do
@@ -118,14 +121,16 @@ contains
       end if
       excess = total  ! for its shape
       view = views(condensed, scene, field)
-      if (present(judged)) view = min(1.0_wp, judged_view/max(tiny(1.0_wp), condensed%points%proportion))
-      call admit_jump(scene%laws, reshape([(condensed%points(k)%base, k=1, size(view))], [3, size(view)]), &
+      if (present(judged)) &
+         view = min(1.0_wp, judged_view/max(tiny(1.0_wp), condensed%points%proportion))
+      call admit_jump(scene%laws, reshape([(condensed%points(k)%base, k=1, size(view))], &
+         [3, size(view)]), &
                       total, view, field, excess)
       residual = (1.0_wp - field%leak)*analyse(scene%planes, excess) - field%excess
    end subroutine evaluate
 
-   !> How much of a jump the law of each point sees: joints that are much stiffer than the bodies would
-   !> make large stresses of the jumps on the way
+   !> How much of a jump the law of each point sees: joints that are much stiffer than the bodies
+   !> would make large stresses of the jumps on the way
    pure function views(condensed, scene, field) result(view)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
@@ -140,8 +145,10 @@ contains
 
       do k = 1, size(view)
          associate (point => condensed%points(k), share => field%share)
-            view(k) = min(1.0_wp, maxval(point%base)/max(tiny(1.0_wp), share*maxval(scene%laws(k)%stiffness)))
-            if (share*point%proportion > field%view_limit) view(k) = min(view(k), field%view_limit/(share*point%proportion))
+            view(k) = min(1.0_wp, maxval(point%base)/max(tiny(1.0_wp), &
+               share*maxval(scene%laws(k)%stiffness)))
+            if (share*point%proportion > field%view_limit) &
+               view(k) = min(view(k), field%view_limit/(share*point%proportion))
          end associate
       end do
    end function views
@@ -190,8 +197,8 @@ contains
       end do
    end function motion_of
 
-   !> Let displacements count from where the parts stand: with the rigid motions taken away, small strains of
-   !> stiff bodies on soft joints are not lost to rounding. The state does not change
+   !> Let displacements count from where the parts stand: with the rigid motions taken away, small
+   !> strains of stiff bodies on soft joints are not lost to rounding. The state does not change
    subroutine stand_where_they_are(condensed, scene, field)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
@@ -200,7 +207,8 @@ contains
       !> The state
       type(joint_field_type), intent(inout) :: field
 
-      real(wp) :: motion(3, size(condensed%points), size(scene%modes)), share(size(condensed%floating))
+      real(wp) :: motion(3, size(condensed%points), size(scene%modes)), &
+         share(size(condensed%floating))
       integer :: k, z
 
       if (size(condensed%floating) == 0) return
@@ -208,13 +216,15 @@ contains
       motion = motion_of(condensed, scene, share)
       do k = 1, size(condensed%points)
          do z = 1, 3
-            field%excess(z, k, :) = field%excess(z, k, :) - condensed%points(k)%base(z)*motion(z, k, :)
+            field%excess(z, k, :) = field%excess(z, k, :) - &
+               condensed%points(k)%base(z)*motion(z, k, :)
          end do
       end do
       field%offset = field%offset + share
    end subroutine stand_where_they_are
 
-   !> Share of the floating motions in jumps: what is left of these does no work on them in elastic joints
+   !> Share of the floating motions in jumps: what is left of these does no work on them in elastic
+   !> joints
    function share_of_motions(condensed, scene, jump) result(share)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed

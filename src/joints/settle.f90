@@ -5,7 +5,8 @@ module axijoint_joints_settle
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_method, only : control_type, verdict_type
-   use axijoint_joints_newton, only : newton_type, step_bounds_type, new_newton, newton_step, newton_view
+   use axijoint_joints_newton, only : newton_type, step_bounds_type, new_newton, newton_step, &
+      newton_view
    use axijoint_joints_newton_method, only : newton_method_type
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_scene, only : scene_type, evaluate
@@ -13,8 +14,8 @@ module axijoint_joints_settle
    private
    public :: settle, settle_wholly, find_again
 
-   !> Stress that may be missing, over what is missing at first: of an error one digit is enough; over the
-   !> stress, where nothing is to be left
+   !> Stress that may be missing, over what is missing at first: of an error one digit is enough;
+   !> over the stress, where nothing is to be left
    real(wp), parameter :: part = 0.003_wp, strict = 1.0e-10_wp
    !> Tolerance of the linear solutions, and most steps
    real(wp), parameter :: linear_tolerance = 0.01_wp, strict_tolerance = 1.0e-2_wp
@@ -25,8 +26,8 @@ module axijoint_joints_settle
 
 contains
 
-   !> Find the state of a changed scene. Which bonds break and which points soften is found from the beginning
-   !> of the increment, and so is what Newton's method does not reach by itself
+   !> Find the state of a changed scene. Which bonds break and which points soften is found from the
+   !> beginning of the increment, and so is what Newton's method does not reach by itself
    subroutine find_again(condensed, scene, start, field, found)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
@@ -49,8 +50,10 @@ contains
       end if
       field%memory = start
       allocate (path(0))
-      call newton%balance(condensed, scene, control_type(pass_tolerance, most_iterations), field, path, verdict)
-      ! a law that jumps may have no state; an iterate that is so near tells by how much stresses change
+      call newton%balance(condensed, scene, control_type(pass_tolerance, most_iterations), field, &
+         path, verdict)
+      ! a law that jumps may have no state; an iterate that is so near tells by how much stresses
+      ! change
       found = verdict%converged .or. (verdict%residual%whole <= near .and. .not. verdict%ran_away)
    end subroutine find_again
 
@@ -131,7 +134,8 @@ contains
 
       rounding = 0.0_wp
       do k = 1, size(condensed%points)
-         rounding = rounding + strict**2*condensed%points(k)%weight*sum(field%stress(:, k, :)**2)/size(field%stress, 3)
+         rounding = rounding + strict**2*condensed%points(k)%weight*sum(field%stress(:, k, &
+            :)**2)/size(field%stress, 3)
       end do
    end function rounding
 

@@ -1,5 +1,6 @@
-!> The stress transfer method on total jumps: the stress follows from the jumps of the whole load, and what the laws do
-!> not admit of it is transferred; sweep by sweep as it is, or mixed with that of earlier sweeps (Anderson)
+!> The stress transfer method on total jumps: the stress follows from the jumps of the whole load,
+!> and what the laws do not admit of it is transferred; sweep by sweep as it is, or mixed with that
+!> of earlier sweeps (Anderson)
 module axijoint_joints_total
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : opening_bond
@@ -80,7 +81,8 @@ contains
             field%excess = field%excess + residual
             call self%evaluate(condensed, scene, field, residual)
             call approach(condensed, scene, .true., begun, field, residual, moved)
-            ! motions and excess stress may go on against each other without end: then the loop goes on alone
+            ! motions and excess stress may go on against each other without end: then the loop goes
+            ! on alone
             if (moves) call balance_motions(condensed, scene, field)
          end if
          call self%evaluate(condensed, scene, field, residual)
@@ -125,7 +127,8 @@ contains
       if (all(scene%laws%opening /= opening_bond)) return
       allocate (torn, source=field)
       allocate (path(0))
-      call newton%balance(condensed, scene, control_type(control%tolerance, control%most), torn, path, verdict)
+      call newton%balance(condensed, scene, control_type(control%tolerance, control%most), torn, &
+         path, verdict)
       if (verdict%converged) field%memory%broken = torn%memory%broken
    end subroutine break_as_newton
 

@@ -1,5 +1,5 @@
-!> The stress transfer method of Kobori and Chikata (1985), steps (1) to (5) of their procedure, with the initial
-!> stiffness throughout
+!> The stress transfer method of Kobori and Chikata (1985), steps (1) to (5) of their procedure,
+!> with the initial stiffness throughout
 module axijoint_joints_transfer
    use axijoint_base_kinds, only : wp
    use axijoint_joints_condensed, only : condensed_type
@@ -56,7 +56,8 @@ contains
       call self%evaluate(condensed, scene, field, residual)  ! steps 1 to 4
       watch = new_watch(scene, field)
       do
-         call note(watch, condensed, scene, control%now, self%accumulates, residual, field, verdict)  ! step 5, Eq. 17
+         ! step 5, Eq. 17
+         call note(watch, condensed, scene, control%now, self%accumulates, residual, field, verdict)
          if (verdict%ran_away) exit
          call pass_on(self, condensed, scene, control%tolerance, field, residual, verdict, again)
          if (verdict%converged .or. verdict%mechanism%loaded .or. watch%k >= control%most) exit
@@ -68,8 +69,8 @@ contains
       call end_watch(watch, residual, field, path, verdict)
    end subroutine balance
 
-   !> Steps 1 to 4: solve the harmonics, sum them on planes, add to the stress of the iteration before, and reduce
-   !> what the law does not admit
+   !> Steps 1 to 4: solve the harmonics, sum them on planes, add to the stress of the iteration
+   !> before, and reduce what the law does not admit
    subroutine solve_and_check(self, condensed, scene, field, residual, judged)
       !> The method
       class(transfer_type), intent(in) :: self
@@ -91,7 +92,8 @@ contains
       end associate
       ! (1) the harmonics, each on its own
       jump = jumps(condensed, scene, field%excess, free=.true.)
-      ! (2), (3) combined on meridional planes, stresses added to those of the iteration before (Eq. 13)
+      ! (2), (3) combined on meridional planes, stresses added to those of the iteration before (Eq.
+      ! 13)
       jump = synthesize(scene%planes, jump)
       if (any(abs(field%offset) > 0.0_wp)) then
          field%moved = synthesize(scene%planes, motion_of(condensed, scene, field%offset))

@@ -1,4 +1,5 @@
-!> What is remembered from iterate to iterate, whatever the method: the path, the best residual, who changed when
+!> What is remembered from iterate to iterate, whatever the method: the path, the best residual, who
+!> changed when
 module axijoint_joints_watch
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use axijoint_base_kinds, only : wp
@@ -44,7 +45,8 @@ contains
       type(watch_type) :: watch
 
       allocate (watch%steps(0))
-      watch%largest = runaway*maxval([tiny(1.0_wp), scene%loads%largest, abs(scene%loads%free), abs(field%jump)])
+      watch%largest = runaway*maxval([tiny(1.0_wp), scene%loads%largest, abs(scene%loads%free), &
+         abs(field%jump)])
       watch%before = field%state
       watch%changed = 0*field%state
    end function new_watch
@@ -70,7 +72,8 @@ contains
 
       watch%k = watch%k + 1
       call append(watch%steps, watch%k, now)
-      verdict%residual = strictest(condensed%measure, scene%loads%reference, residual, paper=accumulates)
+      verdict%residual = strictest(condensed%measure, scene%loads%reference, residual, &
+         paper=accumulates)
       call judge_states(scene%laws, field)
       associate (step => watch%steps(watch%k))
          step%iteration = now%iteration + watch%k

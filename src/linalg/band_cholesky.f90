@@ -1,5 +1,5 @@
-!> Cholesky factors of small band matrices, many of them: column by column, so that the inner loops run
-!> over neighbouring numbers, without the cost of a call of LAPACK
+!> Cholesky factors of small band matrices, many of them: column by column, so that the inner loops
+!> run over neighbouring numbers, without the cost of a call of LAPACK
 module axijoint_linalg_band_cholesky
    use axijoint_base_kinds, only : wp
    implicit none

@@ -5,7 +5,8 @@ module axijoint_linalg_lapack
    implicit none
    private
    public :: band_cholesky, dpbtrs, dtrsm, dgemm, dsyrk, dpotrf
-   public :: cholesky, inverse_from_cholesky, product_with_transpose, symmetric_eigen, use_one_blas_thread
+   public :: cholesky, inverse_from_cholesky, product_with_transpose, symmetric_eigen, &
+      use_one_blas_thread
    public :: product_rate
    public :: matrix_vector, least_squares, invert, singular_values
 
@@ -225,7 +226,8 @@ contains
       real(wp) :: none(1, 1), work(8*size(a, 1) + 64)
       integer :: info
 
-      call dgesvd('N', 'A', size(a, 1), size(a, 1), a, size(a, 1), values, none, 1, rows, size(a, 1), work, size(work), info)
+      call dgesvd('N', 'A', size(a, 1), size(a, 1), a, size(a, 1), values, none, 1, rows, &
+         size(a, 1), work, size(work), info)
    end subroutine singular_values
 
    !> Inverse of a matrix

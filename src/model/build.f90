@@ -13,7 +13,8 @@ module axijoint_model_build
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: add_material, add_law, add_block, add_rectangle, add_interface, hold_edges, add_traction
+   public :: add_material, add_law, add_block, add_rectangle, add_interface, hold_edges, &
+      add_traction
    public :: edges_along, node_at, place_function, traction_function
 
    !> Two nodes nearer than this, relative to the extent of the mesh, are at the same place
@@ -122,7 +123,8 @@ contains
       call add_grid(model, material, n_nodes, places, choice)
    end subroutine add_block
 
-   !> Add a grid of elements as a body of its own; two triangles fill a cell, cut by turns one way and the other
+   !> Add a grid of elements as a body of its own; two triangles fill a cell, cut by turns one way
+   !> and the other
    subroutine add_grid(model, material, n_nodes, places, choice)
       !> The job
       type(model_type), intent(inout) :: model
@@ -165,10 +167,12 @@ contains
       !> Places of the nodes of a cell, and which of them each triangle has
       integer, parameter :: di(9) = [0, 2, 2, 0, 1, 2, 1, 0, 1], dj(9) = [0, 0, 2, 2, 0, 1, 2, 1, 1]
       integer, parameter :: halves(6, 2, 0:1) = reshape([1, 2, 3, 5, 6, 9, 1, 3, 4, 9, 7, 8, &
-                                                         1, 2, 4, 5, 9, 8, 2, 3, 4, 6, 7, 9], [6, 2, 2])
+                                                         1, 2, 4, 5, 9, 8, 2, 3, 4, 6, 7, 9], &
+                                                         [6, 2, 2])
       integer :: i, j, n, k, cell(9)
 
-      allocate (elements(max_element_nodes, size(number)/merge(4, 2, n_corners(n_nodes) == 4)), source=0)
+      allocate (elements(max_element_nodes, size(number)/merge(4, 2, n_corners(n_nodes) == 4)), &
+         source=0)
       n = 0
       do j = 1, ubound(number, 2)/2
          do i = 1, ubound(number, 1)/2
@@ -255,8 +259,10 @@ contains
          other = 0
          other(:n) = [(node_at(model, model%mesh%coordinates(:, one(i)), bodies(2)), i=1, n)]
          if (any(other(:n) == 0)) then
-            call fatal_error(error, exit_deck, 'nodes of body '//to_text(bodies(1))//' have no opposite ones of body '// &
-                             to_text(bodies(2))//' between '//place_text(from)//' and '//place_text(to))
+            call fatal_error(error, exit_deck, 'nodes of body '//to_text(bodies(1))// &
+               ' have no opposite ones of body '// &
+                             to_text(bodies(2))//' between '//place_text(from)//' and '// &
+                             place_text(to))
             return
          end if
          joint = [one(1), one(2), other(2), other(1), one(3), other(3)]
@@ -286,7 +292,8 @@ contains
       edges = edges_along(model, from, to)
       if (size(edges, 2) == 0) call refuse(from, to, error)
       do k = 1, 3
-         model%fixed(k, pack(edges, edges > 0)) = model%fixed(k, pack(edges, edges > 0)) .or. held(k)
+         model%fixed(k, pack(edges, edges > 0)) = model%fixed(k, pack(edges, edges > 0)) &
+            .or. held(k)
       end do
    end subroutine hold_edges
 
@@ -346,7 +353,8 @@ contains
       end do
    end subroutine add_varying_traction
 
-   !> Edges of elements along a straight line: first, last and middle node, in the sense of their elements
+   !> Edges of elements along a straight line: first, last and middle node, in the sense of their
+   !> elements
    function edges_along(model, from, to, body) result(edges)
       !> The job
       type(model_type), intent(in) :: model
@@ -410,7 +418,8 @@ contains
          end if
          do k = 1, model%mesh%element_size(element)
             associate (node => model%mesh%element_nodes(k, element))
-               if (norm2(model%mesh%coordinates(:, node) - position) < same_place*extent) node_at = node
+               if (norm2(model%mesh%coordinates(:, node) - position) < same_place*extent) &
+                  node_at = node
             end associate
          end do
          if (node_at > 0) return
@@ -424,7 +433,8 @@ contains
       !> The error
       type(error_type), allocatable, intent(out) :: error
 
-      call fatal_error(error, exit_deck, 'no edge of an element lies between '//place_text(from)//' and '//place_text(to))
+      call fatal_error(error, exit_deck, 'no edge of an element lies between '//place_text(from)// &
+         ' and '//place_text(to))
    end subroutine refuse
 
    !> A place in words

@@ -72,7 +72,8 @@ contains
                points(count)%material = material
                points(count)%nodes = nodes
                points(count)%elements = elements
-               call set_base(model%joint_materials(material)%law, norm2(side(:, 2) - side(:, 1))/modulus, &
+               call set_base(model%joint_materials(material)%law, &
+                  norm2(side(:, 2) - side(:, 1))/modulus, &
                              points(count))
             end do
          end associate

@@ -43,7 +43,8 @@ contains
          associate (of_law => proportions(model%mesh%joint_material(joint)), &
                     law => model%joint_materials(model%mesh%joint_material(joint))%law, &
                     nodes => model%mesh%joint_nodes(:model%mesh%joint_size(joint), joint))
-            ratio = law%stiffness*norm2(model%mesh%coordinates(:, nodes(2)) - model%mesh%coordinates(:, nodes(1))) &
+            ratio = law%stiffness*norm2(model%mesh%coordinates(:, nodes(2)) - &
+               model%mesh%coordinates(:, nodes(1))) &
                /minval(modulus(nodes))
             of_law%n_joints = of_law%n_joints + 1
             of_law%least = min(of_law%least, ratio)
@@ -105,7 +106,8 @@ contains
       end if
       direction = maxloc(proportion%largest, 1, mask=counts)
       if (direction > 0) then
-         if (proportion%largest(direction) <= sensible(2)) direction = minloc(proportion%largest, 1, mask=counts)
+         if (proportion%largest(direction) <= sensible(2)) &
+            direction = minloc(proportion%largest, 1, mask=counts)
       end if
       direction = max(1, direction)
    end function decisive_direction

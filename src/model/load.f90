@@ -191,7 +191,8 @@ contains
 
       stress = 0.0_wp
       do k = 1, size(states)
-         if (covers(states(k), body, material)) stress = stress + states(k)%stress + z*states(k)%gradient
+         if (covers(states(k), body, material)) &
+            stress = stress + states(k)%stress + z*states(k)%gradient
       end do
    end function stress_before
 

@@ -16,7 +16,8 @@ module axijoint_model_material
    !> Points at the nodes of a joint
    integer, parameter :: rule_lobatto = 3
    !> Their names on cards and in the listing
-   character(len=8), parameter :: rule_names(3) = [character(len=8) :: 'CENTROID', 'GAUSS', 'LOBATTO']
+   character(len=8), parameter :: rule_names(3) = &
+      [character(len=8) :: 'CENTROID', 'GAUSS', 'LOBATTO']
 
    !> Elastic solid. Directions 1 and 2 lie in the meridional plane, 3 is theta
    type :: solid_material_type

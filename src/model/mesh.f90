@@ -84,7 +84,8 @@ contains
       mesh%kinds = [element_kind_type ::]
       mesh%element_kind = mesh%element_size
       do element = 1, n_elements(mesh)
-         call find_kind(mesh%kinds, chosen_kind(choice, mesh%element_size(element)), mesh%element_kind(element))
+         call find_kind(mesh%kinds, chosen_kind(choice, mesh%element_size(element)), &
+            mesh%element_kind(element))
       end do
    end subroutine set_kinds
 

@@ -9,7 +9,8 @@ module axijoint_model_model
       load_case_type, combination_type, increment_type, truncation_type
    use axijoint_model_material, only : solid_material_type, joint_material_type
    use axijoint_model_mesh, only : mesh_type
-   use axijoint_model_request, only : line_type, cut_type, supported_face_type, sweep_type, error_goal_type
+   use axijoint_model_request, only : line_type, cut_type, supported_face_type, sweep_type, &
+      error_goal_type
    use axijoint_model_restraint, only : restraint_type, acts_in
    use axijoint_solver_entry, only : solver_entry_type
    implicit none
@@ -20,7 +21,8 @@ module axijoint_model_model
    !> How joints are brought to equilibrium: Newton's method; the paper's loop on
    !> total jumps; the same with Anderson acceleration; the paper's loop itself,
    !> stress accumulated
-   integer, parameter :: method_newton = 1, method_total = 2, method_anderson = 3, method_transfer = 4
+   integer, parameter :: method_newton = 1, method_total = 2, method_anderson = 3, &
+      method_transfer = 4
    !> Their names
    character(len=8), parameter :: method_names(4) = [character(len=8) :: &
       'NEWTON', 'TOTAL', 'ANDERSON', 'TRANSFER']

@@ -4,7 +4,8 @@ module axijoint_model_request
    use axijoint_base_kinds, only : wp, pi
    implicit none
    private
-   public :: line_type, line_point_type, cut_type, supported_face_type, sweep_type, error_goal_type, refinement_type
+   public :: line_type, line_point_type, cut_type, supported_face_type, sweep_type, &
+      error_goal_type, refinement_type
    public :: goal_joints, goal_displacement, goal_energy, goal_names
 
    !> What the error of a job may be asked of: of joint stress, of displacements, of the

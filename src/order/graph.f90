@@ -196,7 +196,8 @@ contains
 
       place(order) = [(k, k=1, size(order))]
       do k = 1, size(order)
-         associate (neighbours => graph%neighbour(graph%start(order(k)):graph%start(order(k) + 1) - 1))
+         associate (neighbours => graph%neighbour(graph%start(order(k)):graph%start(order(k) + &
+            1) - 1))
             reach(k) = k - minval([k, place(neighbours)])
          end associate
       end do

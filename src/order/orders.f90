@@ -53,7 +53,8 @@ contains
       order = orders%cuthill_mckee
    end function least_bandwidth
 
-   !> The order for factors below a skyline: Sloan, or reverse Cuthill-McKee if its profile is smaller
+   !> The order for factors below a skyline: Sloan, or reverse Cuthill-McKee if its profile is
+   !> smaller
    pure function least_profile(orders) result(order)
       !> All orders
       type(orders_type), intent(in) :: orders
@@ -61,7 +62,8 @@ contains
       integer, allocatable :: order(:)
 
       order = orders%sloan
-      if (profile(orders%graph, orders%cuthill_mckee) < profile(orders%graph, order)) order = orders%cuthill_mckee
+      if (profile(orders%graph, orders%cuthill_mckee) < profile(orders%graph, order)) &
+         order = orders%cuthill_mckee
    end function least_profile
 
    !> The order for sparse factors: nested dissection

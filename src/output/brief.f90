@@ -55,7 +55,8 @@ contains
       end if
       if (allocated(results%budget)) then
          text = text//line("error estimates", sum_text(results))
-         if (len(remedy_text(results%budget)) > 0) text = text//line("about half with", remedy_text(results%budget))
+         if (len(remedy_text(results%budget)) > 0) &
+            text = text//line("about half with", remedy_text(results%budget))
       end if
       text = text// &
          line("time, peak memory", seconds_text(job%timer%seconds(phase_total))//" s, "// &
@@ -112,7 +113,8 @@ contains
       text = line("joint stiffness", proportions_text(model))
       if (.not. allocated(results%stiffer)) return
       do i = 1, size(results%stiffer)
-         if (results%stiffer(i)%known) text = text//line("ten times as stiff", stiffer_laws_text(model, results%stiffer(i)))
+         if (results%stiffer(i)%known) &
+            text = text//line("ten times as stiff", stiffer_laws_text(model, results%stiffer(i)))
       end do
    end function stiffness_lines
 

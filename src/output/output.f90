@@ -29,7 +29,8 @@ module axijoint_output_output
    !> Endings of the files
    character(len=14), parameter :: endings(5) = [character(len=14) :: &
       ".h5", ".lis", ".json", ".vtkhdf", ".joints.vtkhdf"]
-   integer, parameter :: file_arrays = 1, file_listing = 2, file_summary = 3, file_bodies = 4, file_joints = 5
+   integer, parameter :: file_arrays = 1, file_listing = 2, file_summary = 3, file_bodies = 4, &
+      file_joints = 5
 
 contains
 
@@ -44,7 +45,8 @@ contains
       integer :: k
 
       do k = 1, size(job%model%combinations)
-         call check_place(job%options%directory, result_name(job, combination_label(job, k)), job%source, &
+         call check_place(job%options%directory, result_name(job, combination_label(job, k)), &
+            job%source, &
                           n_files(job%model), error)
          if (allocated(error)) return
       end do
@@ -141,12 +143,15 @@ contains
       end if
       allocate (pictures(0))
       if (.not. allocated(error)) call write_pictures()
-      if (.not. allocated(error)) call listing%open(final_path(directory, name, file_listing), error)
+      if (.not. allocated(error)) &
+         call listing%open(final_path(directory, name, file_listing), error)
       if (.not. allocated(error)) then
-         call write_listing(listing, run, job%source, warnings, job%model, results, job%timer, pictures)
+         call write_listing(listing, run, job%source, warnings, job%model, results, job%timer, &
+            pictures)
          call listing%finish(error)
       end if
-      if (.not. allocated(error)) call summary%open(final_path(directory, name, file_summary), error)
+      if (.not. allocated(error)) &
+         call summary%open(final_path(directory, name, file_summary), error)
       if (.not. allocated(error)) then
          call write_summary(summary, run, messages, job%model, results, job%timer)
          call summary%finish(error)

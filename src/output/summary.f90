@@ -93,10 +93,13 @@ contains
       do i = 1, size(results%rounds)
          if (i > 1) json = json//", "
          associate (round => results%rounds(i))
-            json = json//'{"mesh": '//json_number(round%mesh)//', "element_nodes": '//json_number(round%nodes)// &
+            json = json//'{"mesh": '//json_number(round%mesh)//', "element_nodes": '// &
+               json_number(round%nodes)// &
                ', "max_harmonic": '//json_number(round%harmonic)// &
-               ', "planes": '//json_number(round%planes)//', "unknowns": '//json_number(round%n_unknowns)// &
-               ', "error": '//json_number(round%error)//', "seconds": '//json_number(round%seconds)//'}'
+               ', "planes": '//json_number(round%planes)//', "unknowns": '// &
+               json_number(round%n_unknowns)// &
+               ', "error": '//json_number(round%error)//', "seconds": '// &
+               json_number(round%seconds)//'}'
          end associate
       end do
       json = json//"]"
@@ -135,7 +138,8 @@ contains
       json = "{"
       do i = 1, size(results%budget)
          if (i > 1) json = json//", "
-         json = json//'"'//trim(source_names(results%budget(i)%source))//'": '//json_number(results%budget(i)%seconds)
+         json = json//'"'//trim(source_names(results%budget(i)%source))//'": '// &
+            json_number(results%budget(i)%seconds)
       end do
       json = json//"}"
    end function error_seconds_text
@@ -159,7 +163,8 @@ contains
          associate (place => results%singular(i))
             json = json//'{"node": '//json_number(model%mesh%node_label(place%node))//', "r": '// &
                json_number(model%mesh%coordinates(1, place%node))//', "z": '// &
-               json_number(model%mesh%coordinates(2, place%node))//', "exponent": '//json_number(place%exponent)// &
+               json_number(model%mesh%coordinates(2, place%node))//', "exponent": '// &
+               json_number(place%exponent)// &
                ', "distance": '//json_number(place%distance)//'}'
          end associate
       end do
@@ -181,7 +186,8 @@ contains
       do i = 1, size(results%budget)
          json = json//share_text(results%budget(i))
       end do
-      json = json//share_text(sum_of_shares(results%budget))//'"in_words": '//json_string(sum_text(results))//'}'
+      json = json//share_text(sum_of_shares(results%budget))//'"in_words": '// &
+         json_string(sum_text(results))//'}'
 
    contains
 

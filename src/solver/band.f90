@@ -43,7 +43,8 @@ contains
       entry%new_plan => new_plan
       entry%order => least_bandwidth
       entry%order_name = 'reverse Cuthill-McKee'
-      entry%cost = cost_type(share=0.83_wp, kept_entry=5.7e-9_wp, passing_entry=3.0e-9_wp, equation=3.0e-7_wp)
+      entry%cost = cost_type(share=0.83_wp, kept_entry=5.7e-9_wp, passing_entry=3.0e-9_wp, &
+         equation=3.0e-7_wp)
       entry%automatic = .true.
       entry%widest_band = 400
    end function band_entry
@@ -111,7 +112,8 @@ contains
       end if
       if (stat /= 0) then
          call fatal_error(error, exit_memory, &
-                          'out of memory: a band factor needs '//to_text(self%factor_bytes)//' bytes')
+                          'out of memory: a band factor needs '//to_text(self%factor_bytes)// &
+                          ' bytes')
          return
       end if
       new%band = 0.0_wp

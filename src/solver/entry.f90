@@ -82,7 +82,8 @@ contains
       logical, intent(in) :: kept
 
       seconds = plan%operations/(self%cost%share*rate) &
-         + merge(self%cost%kept_entry, self%cost%passing_entry, kept)*real(plan%factor_entries, wp) &
+         + merge(self%cost%kept_entry, self%cost%passing_entry, kept)*real(plan%factor_entries, &
+         wp) &
          + self%cost%equation*plan%n
    end function seconds
 

@@ -21,7 +21,8 @@ contains
       solvers = [band_entry(), skyline_entry(), sparse_entry()]
    end function known_solvers
 
-   !> Words for solvers on cards and the command line: that for the choice of the program, then their names
+   !> Words for solvers on cards and the command line: that for the choice of the program, then
+   !> their names
    pure function solver_words(solvers) result(words)
       !> The solvers
       type(solver_entry_type), intent(in) :: solvers(:)

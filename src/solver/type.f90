@@ -75,7 +75,8 @@ module axijoint_solver_type
 
       !> Factor a matrix
       subroutine factorize_interface(self, pattern, value, factor, pivots, error, passing)
-         import :: solver_type, symmetric_matrix_type, factor_type, pivot_report_type, error_type, wp
+         import :: solver_type, symmetric_matrix_type, factor_type, pivot_report_type, error_type, &
+            wp
          !> The plan
          class(solver_type), intent(in) :: self
          !> The pattern analysed; its own values are not read

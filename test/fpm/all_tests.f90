@@ -1,5 +1,5 @@
-!> What `fpm test` runs: fpm cannot convert pFUnit files, so a script converts them, lets fpm build them
-!> beside this program, with fpm's default options, and runs them
+!> What `fpm test` runs: fpm cannot convert pFUnit files, so a script converts them, lets fpm build
+!> them beside this program, with fpm's default options, and runs them
 program all_tests
    implicit none
 

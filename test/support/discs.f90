@@ -1,4 +1,5 @@
-!> Discs on a held one, condensed to the joints between them: what the modules of the joint iterations are tested on
+!> Discs on a held one, condensed to the joints between them: what the modules of the joint
+!> iterations are tested on
 module axijoint_test_discs
    use axijoint_analysis_core_structure, only : structure_type, build_structure
    use axijoint_assembly_loading, only : loading_type, new_loading
@@ -56,7 +57,8 @@ contains
          associate (x => model%mesh%coordinates)
             x(2, size(x, 2)/(k + 1)*k + 1:) = x(2, size(x, 2)/(k + 1)*k + 1:) + (k - 1)*height
          end associate
-         if (k > 0) call add_interface(model, k, k + 1, [0.0_wp, (k - 1)*height], [1.0_wp, (k - 1)*height])
+         if (k > 0) &
+            call add_interface(model, k, k + 1, [0.0_wp, (k - 1)*height], [1.0_wp, (k - 1)*height])
       end do
       where (spread(model%mesh%coordinates(2, :), 1, 3) < -0.99_wp*height) model%fixed = .true.
    end function discs_on_ground
@@ -150,7 +152,8 @@ contains
 
       type(loading_type) :: loading
 
-      call new_loading(structure%model, structure%joint_points, structure%support_points, structure%modes, &
+      call new_loading(structure%model, structure%joint_points, structure%support_points, &
+         structure%modes, &
                        combination_type(label=1, factor=[factor]), loading)
       call put_loads(structure%equations, structure%condensed, loading, structure%scene%loads)
    end subroutine load_by

@@ -48,7 +48,8 @@ contains
          if (k < i .and. .not. separate) node(i) = k
       end do
       call list_elements(mesh, node, turned, list)
-      text = '$MeshFormat'//lf//merge('2.2', '4.1', version == 2)//' 0 8'//lf//'$EndMeshFormat'//lf &
+      text = '$MeshFormat'//lf//merge('2.2', '4.1', version == 2)//' 0 8'//lf//'$EndMeshFormat'// &
+         lf &
              //names(list)
       if (version == 4) text = text//entities(list)
       text = text//nodes_text(mesh, node, version)//elements_text(list, version)
@@ -66,7 +67,8 @@ contains
       type(list_type), intent(out) :: list
 
       integer, parameter :: type_of(9) = [0, 0, 2, 3, 0, 9, 0, 16, 10]
-      integer, parameter :: other_way(9) = [1, 4, 3, 2, 8, 7, 6, 5, 9], triangle(6) = [1, 3, 2, 6, 5, 4]
+      integer, parameter :: other_way(9) = [1, 4, 3, 2, 8, 7, 6, 5, 9], &
+         triangle(6) = [1, 3, 2, 6, 5, 4]
       integer :: i, n, order(9)
 
       allocate (list%elements(12, 16*size(mesh%element_label)), source=0)
@@ -82,7 +84,8 @@ contains
          order = [1, 2, 3, 4, 5, 6, 7, 8, 9]
          if (turned .and. mod(i, 2) == 0) order = other_way
          if (turned .and. mod(i, 2) == 0 .and. any(n == [3, 6])) order(:6) = triangle
-         call add(type_of(n), tag_body + mesh%element_body(i), node(mesh%element_nodes(order(:n), i)))
+         call add(type_of(n), tag_body + mesh%element_body(i), &
+            node(mesh%element_nodes(order(:n), i)))
       end do
       call list_level(mesh, node, maxval(mesh%coordinates(2, :)), tag_top, list)
 
@@ -122,7 +125,8 @@ contains
             ends = mesh%element_nodes([side, mod(side, corners) + 1], i)
             if (any(abs(mesh%coordinates(2, ends) - level) > 1.0e-9_wp)) cycle
             list%n = list%n + 1
-            list%elements(:5, list%n) = [merge(8, 1, n > corners), group, merge(3, 2, n > corners), node(ends)]
+            list%elements(:5, list%n) = [merge(8, 1, n > corners), group, &
+               merge(3, 2, n > corners), node(ends)]
             if (n > corners) list%elements(6, list%n) = node(mesh%element_nodes(corners + side, i))
          end do
       end do
@@ -178,7 +182,8 @@ contains
          end do
          text = text//of_dimension
       end do
-      text = '$Entities'//lf//'0 '//to_text(n(1))//' '//to_text(n(2))//' 0'//lf//text//'$EndEntities'//lf
+      text = '$Entities'//lf//'0 '//to_text(n(1))//' '//to_text(n(2))//' 0'//lf//text// &
+         '$EndEntities'//lf
    end function entities
 
    !> The section of the nodes

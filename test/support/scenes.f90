@@ -6,7 +6,8 @@ module axijoint_test_scenes
    use axijoint_fe_element_kind, only : kind_choice_type
    use axijoint_fe_mode, only : mode_type
    use axijoint_model_blank, only : new_model
-   use axijoint_model_build, only : add_material, add_law, add_body => add_block, join_bodies => add_interface, &
+   use axijoint_model_build, only : add_material, add_law, add_body => add_block, &
+      join_bodies => add_interface, &
       add_traction, node_at, place_function, traction_function
    use axijoint_model_load, only : increment_type
    use axijoint_model_material, only : solid_material_type, joint_material_type
@@ -34,7 +35,8 @@ contains
       model%increments = [increment_type()]
    end function new_scene
 
-   !> Add a grid of elements of the first material whose corners are the image of a grid on the unit square
+   !> Add a grid of elements of the first material whose corners are the image of a grid on the unit
+   !> square
    subroutine add_block(model, n_nodes, n1, n2, place, choice)
       !> The model
       type(model_type), intent(inout) :: model
@@ -59,7 +61,8 @@ contains
       !> Integration rule
       integer, intent(in) :: rule
 
-      model%joint_materials(1) = joint_material_type(1, rule, joint_law_type(law_elastic, stiffness))
+      model%joint_materials(1) = joint_material_type(1, rule, &
+         joint_law_type(law_elastic, stiffness))
    end subroutine set_elastic
 
    !> Join the edges of two bodies along a straight line: side 1-2 on the lower

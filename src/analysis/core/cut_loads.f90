@@ -3,7 +3,8 @@
 module axijoint_analysis_core_cut_loads
    use axijoint_analysis_core_results, only : n_resultants
    use axijoint_analysis_core_rigid, only : rigid_resultants
-   use axijoint_analysis_core_split, only : line_split_type, split_line, area_split_type, split_element
+   use axijoint_analysis_core_split, only : line_split_type, split_line, area_split_type, &
+      split_element
    use axijoint_assembly_support, only : support_point_type, support_stiffness
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint, only : joint_point_type, new_joint_point, jump_matrix, lower_node, &
@@ -135,7 +136,8 @@ contains
                do i = 1, split%n
                   associate (side => split%side(i))
                      part(:, :n, side) = part(:, :n, side) + spring_force(support, &
-                        plane%position(:, nodes), split%x(i), split%w(i), mode, displacement(:, nodes))
+                        plane%position(:, nodes), split%x(i), split%w(i), mode, &
+                        displacement(:, nodes))
                   end associate
                end do
                excess = excess &
@@ -191,7 +193,8 @@ contains
       last = 0
       do joint = 1, n_joints(model%mesh)
          n = model%mesh%joint_size(joint)/2
-         call joint_rule(model%joint_materials(model%mesh%joint_material(joint))%rule, n, n_points, x, w)
+         call joint_rule(model%joint_materials(model%mesh%joint_material(joint))%rule, n, &
+            n_points, x, w)
          last = last + n_points
          associate (all_nodes => model%mesh%joint_nodes(:, joint), &
                     at_points => stress(:, last - n_points + 1:last))
@@ -299,7 +302,8 @@ contains
                           density => model%materials(model%mesh%element_material(element))%density)
                   if (.not. is_cut(plane, nodes)) cycle
                   excess = excess + case_factor(load%case)*density &
-                     *element_mass_excess(plane, mode, load, references(model%mesh%element_kind(element)), nodes)
+                     *element_mass_excess(plane, mode, load, &
+                     references(model%mesh%element_kind(element)), nodes)
                end associate
             end do
          end associate

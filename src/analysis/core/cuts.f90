@@ -1,6 +1,7 @@
 !> Resultants of the stresses on cuts z = const
 module axijoint_analysis_core_cuts
-   use axijoint_analysis_core_cut_loads, only : plane_type, edge_load_excess, spring_excess, joint_excess, &
+   use axijoint_analysis_core_cut_loads, only : plane_type, edge_load_excess, spring_excess, &
+      joint_excess, &
                                            mass_excess
    use axijoint_analysis_core_results, only : results_type, n_resultants
    use axijoint_analysis_core_rigid, only : rigid_resultants

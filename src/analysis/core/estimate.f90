@@ -73,12 +73,14 @@ contains
       estimate%seconds = planned_seconds(equations, reuses_factors(model), rate)
       others = data_footprint(model, size(equations%modes), size(equations%systems), &
                               new_joint_points(model))
-      call plan_factors(equations, reuses_factors(model), others%coming(), model%memory_limit, error)
+      call plan_factors(equations, reuses_factors(model), others%coming(), model%memory_limit, &
+         error)
       if (allocated(error)) deallocate (error)  ! it is told all the same
       associate (n => size(equations%systems))
          estimate%n_factors = equations%n_kept + min(equations%n_workers, n - equations%n_kept)
       end associate
-      estimate%bytes = program_bytes + solver%library_bytes + others%mesh + standing_bytes(equations) + parts_bytes(equations) &
+      estimate%bytes = program_bytes + solver%library_bytes + others%mesh + &
+         standing_bytes(equations) + parts_bytes(equations) &
          + kept_bytes(equations) + others%joints + others%fine &
          + max(passing_bytes(equations) + others%loads + others%fine_work*equations%n_workers, &
                others%joint_work*equations%n_workers, &

@@ -20,7 +20,8 @@ module axijoint_analysis_core_footprint
    integer(i8), parameter :: newton_vectors = 100
    !> Bytes of a node in the mesh, its elements, graph, orders and equations, as measured
    integer(i8), parameter :: mesh_bytes = 520
-   !> Bytes of a node of the fine mesh besides its stiffness, and what its vectors and blocks take, as measured
+   !> Bytes of a node of the fine mesh besides its stiffness, and what its vectors and blocks take,
+   !> as measured
    integer(i8), parameter :: fine_mesh_bytes = 250
    real(wp), parameter :: fine_work_bytes = 900.0_wp
 
@@ -36,7 +37,8 @@ module axijoint_analysis_core_footprint
       integer(i8) :: joints = 0
       !> What a thread takes to form a flexibility
       integer(i8) :: joint_work = 0
-      !> The mesh of elements half as large, for estimates of errors, and what a thread takes for one
+      !> The mesh of elements half as large, for estimates of errors, and what a thread takes for
+      !> one
       integer(i8) :: fine = 0, fine_work = 0
    contains
       !> All that comes after planning
@@ -62,7 +64,8 @@ contains
       references = element_references(model%mesh)
       nodes = n_nodes(model%mesh)
       footprint%mesh = mesh_bytes*nodes
-      footprint%loads = 21*nodes*n_modes*real_bytes  ! displacements, two kinds of loads twice, errors of nodes
+      ! displacements, two kinds of loads twice, errors of nodes
+      footprint%loads = 21*nodes*n_modes*real_bytes
       footprint%fine = sum(fine_bytes(model%mesh%element_size))
       footprint%fine_work = nint(sum(fine_nodes(model%mesh%element_size))*fine_work_bytes, i8)
       footprint%stresses = 3*nodes + 6*sum(int(references(model%mesh%element_kind)%n_points, i8)) &
@@ -87,8 +90,8 @@ contains
       if (jumps == 0) footprint%joint_work = 0
    end function data_footprint
 
-   !> Memory of the fine level for an element: the nodes that it has there, with the blocks of stiffness that
-   !> these have on and below the diagonal
+   !> Memory of the fine level for an element: the nodes that it has there, with the blocks of
+   !> stiffness that these have on and below the diagonal
    elemental integer(i8) function fine_bytes(n_nodes) result(bytes)
       !> Nodes of the element
       integer, intent(in) :: n_nodes
@@ -105,7 +108,8 @@ contains
       integer, intent(in) :: n_nodes
 
       !> Of elements of 3 to 9 nodes: four times those of a coarse one
-      real(wp), parameter :: number(3:9) = [2.0_wp, 4.0_wp, 0.0_wp, 8.0_wp, 0.0_wp, 12.0_wp, 16.0_wp]
+      real(wp), parameter :: number(3:9) = [2.0_wp, 4.0_wp, 0.0_wp, 8.0_wp, 0.0_wp, 12.0_wp, &
+         16.0_wp]
 
       fine_nodes = number(n_nodes)
    end function fine_nodes
@@ -125,7 +129,8 @@ contains
       !> The bytes
       class(footprint_type), intent(in) :: self
 
-      coming = self%loads + self%joints + self%fine + max(self%stresses, self%joint_work, self%fine_work)
+      coming = self%loads + self%joints + self%fine + &
+         max(self%stresses, self%joint_work, self%fine_work)
    end function coming
 
 end module axijoint_analysis_core_footprint

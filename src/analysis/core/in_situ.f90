@@ -36,9 +36,11 @@ module axijoint_analysis_core_in_situ
       integer :: card = 0
       !> Largest in-situ stress, of sigma_r and sigma_z [stress]
       real(wp) :: largest = 0.0_wp
-      !> Difference of gamma and weight, over the larger of both; of the material where it is largest
+      !> Difference of gamma and weight, over the larger of both; of the material where it is
+      !> largest
       real(wp) :: weight_share = 0.0_wp
-      !> That material (index), its growth of sigma_z with z and its weight [stress/length], increment
+      !> That material (index), its growth of sigma_z with z and its weight [stress/length],
+      !> increment
       integer :: material = 0
       real(wp) :: gamma = 0.0_wp, weight = 0.0_wp
       integer :: weight_increment = 0

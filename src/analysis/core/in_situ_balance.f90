@@ -3,7 +3,8 @@
 !> tractions do not jump where materials meet; on the outside every traction is taken by a support,
 !> a joint as its law allows, or a load
 module axijoint_analysis_core_in_situ_balance
-   use axijoint_analysis_core_in_situ, only : in_situ_type, in_situ_part_type, misfit_type, larger_misfit
+   use axijoint_analysis_core_in_situ, only : in_situ_type, in_situ_part_type, misfit_type, &
+      larger_misfit
    use axijoint_analysis_core_in_situ_boundaries, only : add_boundaries
    use axijoint_assembly_force, only : add_edge_load, joint_force
    use axijoint_assembly_loading, only : in_situ_joint_stress
@@ -29,8 +30,8 @@ module axijoint_analysis_core_in_situ_balance
 
    !> The mode of in-situ stress: symmetric of harmonic 0
    type(mode_type), parameter :: mode = mode_type()
-   !> A stress below this part of the largest of its direction, or along a direction below this part of
-   !> the largest of the part, is not what others are measured by: at the surface it is zero
+   !> A stress below this part of the largest of its direction, or along a direction below this part
+   !> of the largest of the part, is not what others are measured by: at the surface it is zero
    real(wp), parameter :: small = 0.1_wp
 
    !> What the states of a combination have in common
@@ -60,9 +61,9 @@ module axijoint_analysis_core_in_situ_balance
 
 contains
 
-   !> Look at the states in which the in-situ stress of a combination comes to act. Jobs whose joints
-   !> can yield depend on the order, so that weight and in-situ stress must come together; of others
-   !> the sum at the end counts
+   !> Look at the states in which the in-situ stress of a combination comes to act. Jobs whose
+   !> joints can yield depend on the order, so that weight and in-situ stress must come together; of
+   !> others the sum at the end counts
    function in_situ_balance(model, combination) result(findings)
       !> The job
       type(model_type), intent(in) :: model
@@ -85,9 +86,11 @@ contains
          stresses = scaled_stresses(model%initial_stresses, states(i)%case_factor)
          call compare_weights(model, ground, stresses, states(i), findings%parts)
          call compare_outside(model, ground, stresses, states(i), findings%parts)
-         call add_boundaries(model, ground%neighbours, stresses, states(i)%increment, findings%boundaries)
+         call add_boundaries(model, ground%neighbours, stresses, states(i)%increment, &
+            findings%boundaries)
       end do
-      findings%parts = pack(findings%parts, findings%parts%has_stress .or. findings%parts%pressed > 0.0_wp)
+      findings%parts = pack(findings%parts, findings%parts%has_stress &
+         .or. findings%parts%pressed > 0.0_wp)
    end function in_situ_balance
 
    !> Ends of the increments up to the last one that changes the in-situ stress; the end alone if no
@@ -159,12 +162,14 @@ contains
       allocate (parts(size(ground%has, 1)))
       parts%node = [(findloc(ground%part, p, 1), p=1, size(parts))]
       do element = 1, n_elements(model%mesh)
-         parts(ground%part(model%mesh%element_nodes(1, element)))%body = model%mesh%element_body(element)
+         parts(ground%part(model%mesh%element_nodes(1, element)))%body = &
+            model%mesh%element_body(element)
       end do
       do p = 1, size(parts)
          do k = 1, size(model%initial_stresses)
             associate (stress => model%initial_stresses(k))
-               if (.not. any(ground%has(p, :) .and. covers(stress, parts(p)%body, [(m, m=1, size(model%materials))]))) cycle
+               if (.not. any(ground%has(p, :) &
+                  .and. covers(stress, parts(p)%body, [(m, m=1, size(model%materials))]))) cycle
                if (stress%meant) parts(p)%meant = .true.
                if (parts(p)%card == 0) parts(p)%card = stress%card
                acts = any([(abs(states(i)%case_factor(stress%case)) > 0.0_wp, i=1, size(states))])
@@ -193,7 +198,8 @@ contains
       gravity = 0.0_wp
       do m = 1, size(model%body_loads)
          associate (load => model%body_loads(m))
-            if (same_mode(load%mode, mode)) gravity = gravity + state%case_factor(load%case)*load%acceleration(2)
+            if (same_mode(load%mode, mode)) &
+               gravity = gravity + state%case_factor(load%case)*load%acceleration(2)
          end associate
       end do
       do p = 1, size(parts)
@@ -203,7 +209,8 @@ contains
             gamma = sum(stresses%gradient(2), covers(stresses, parts(p)%body, m))
             weight = -gravity*model%materials(m)%density
             share = 0.0_wp
-            if (max(abs(gamma), abs(weight)) > 0.0_wp) share = abs(gamma - weight)/max(abs(gamma), abs(weight))
+            if (max(abs(gamma), abs(weight)) > 0.0_wp) &
+               share = abs(gamma - weight)/max(abs(gamma), abs(weight))
             if (.not. share > parts(p)%weight_share) cycle
             parts(p)%weight_share = share
             parts(p)%material = m
@@ -235,7 +242,8 @@ contains
 
       call integrate_edges(model, ground, stresses, outside)
       traction = taken_by_joints(model, ground%joint_points, state%case_factor)
-      associate (force => joint_force(ground%joint_points, mode%harmonic, traction, n_nodes(model%mesh)))
+      associate (force => joint_force(ground%joint_points, mode%harmonic, traction, &
+         n_nodes(model%mesh)))
          outside%force = outside%force - force(:2, :)
       end associate
       load = surface_loads(model, state%case_factor)
@@ -248,11 +256,14 @@ contains
             if (.not. part%has_stress) cycle
             do i = 1, 2
                if (.not. (ground%free(i, node) .and. outside%area(i, node) > 0.0_wp)) cycle
-               misfit = misfit_type(0.0_wp, outside%force(i, node)/outside%area(i, node), node, i, state%increment)
+               misfit = misfit_type(0.0_wp, outside%force(i, node)/outside%area(i, node), node, i, &
+                  state%increment)
                misfit%share = share_of(misfit%traction, max(largest(i), small*maxval(largest)))
                part%on_whole = larger_misfit(part%on_whole, misfit)
-               misfit%share = share_of(misfit%traction, max(outside%stress(i, node)/outside%area(i, node), &
-                                                            small*max(largest(i), small*maxval(largest))))
+               misfit%share = share_of(misfit%traction, &
+                  max(outside%stress(i, node)/outside%area(i, node), &
+                                                            small*max(largest(i), &
+                                                            small*maxval(largest))))
                part%on_place = larger_misfit(part%on_place, misfit)
             end do
          end associate
@@ -279,7 +290,8 @@ contains
       !> Forces, areas, stresses
       type(outside_type), intent(out) :: outside
 
-      real(wp) :: x(3), w(3), shape(3), derivative(3), position(2), along(2), normal(2), stress(4), weight
+      real(wp) :: x(3), w(3), shape(3), derivative(3), position(2), along(2), normal(2), &
+         stress(4), weight
       integer, allocatable :: nodes(:)
       integer :: element, side, k, i, n
 
@@ -289,21 +301,24 @@ contains
       do element = 1, n_elements(model%mesh)
          do side = 1, n_corners(model%mesh%element_size(element))
             nodes = edge_nodes(model%mesh, element, side)
-            if (element_at_edge(model%mesh, ground%neighbours, nodes(1), nodes(2), element) > 0) cycle
+            if (element_at_edge(model%mesh, ground%neighbours, nodes(1), nodes(2), element) > 0) &
+               cycle
             n = size(nodes)
             call gauss_rule(n, x, w)
             do k = 1, n
                call shape_line(n, x(k), shape(:n), derivative(:n))
                position = matmul(model%mesh%coordinates(:, nodes), shape(:n))
                along = matmul(model%mesh%coordinates(:, nodes), derivative(:n))
-               normal = [along(2), -along(1)]  ! outwards, times the length: corners run counterclockwise
+               ! outwards, times the length: corners run counterclockwise
+               normal = [along(2), -along(1)]
                stress = stress_before(stresses, model%mesh%element_body(element), &
                                       model%mesh%element_material(element), position(2))
                do i = 1, n
                   weight = circle_integral(mode%harmonic)*w(k)*position(1)
                   associate (node => nodes(i))
                      outside%force(:, node) = outside%force(:, node) - weight*shape(i) &
-                        *[stress(1)*normal(1) + stress(4)*normal(2), stress(4)*normal(1) + stress(2)*normal(2)]
+                        *[stress(1)*normal(1) + stress(4)*normal(2), stress(4)*normal(1) + &
+                        stress(2)*normal(2)]
                      outside%area(:, node) = outside%area(:, node) + weight*abs(shape(i)*normal)
                      outside%stress(:, node) = outside%stress(:, node) &
                         + weight*abs(shape(i)*normal)*abs(stress(1:2))
@@ -332,7 +347,8 @@ contains
       traction = in_situ_joint_stress(model, points, factor)
       do k = 1, size(points)
          associate (law => model%joint_materials(points(k)%material)%law)
-            traction(:, k) = admit_stress(law, traction(:, k) + trial_stress(law, memory_type(), still))
+            traction(:, k) = admit_stress(law, &
+               traction(:, k) + trial_stress(law, memory_type(), still))
             traction(eta, k) = traction(eta, k) - law%initial_stress
          end associate
       end do
@@ -353,11 +369,13 @@ contains
       allocate (force(3, size(load, 2)), source=0.0_wp)
       do k = 1, size(model%edge_loads)
          if (.not. same_mode(model%edge_loads(k)%mode, mode)) cycle
-         call add_edge_load(model%edge_loads(k), factor(model%edge_loads(k)%case), model%mesh%coordinates, force)
+         call add_edge_load(model%edge_loads(k), factor(model%edge_loads(k)%case), &
+            model%mesh%coordinates, force)
       end do
       do k = 1, size(model%ring_loads)
          associate (ring => model%ring_loads(k))
-            if (same_mode(ring%mode, mode)) force(:, ring%node) = force(:, ring%node) + factor(ring%case)*ring%force
+            if (same_mode(ring%mode, mode)) &
+               force(:, ring%node) = force(:, ring%node) + factor(ring%case)*ring%force
          end associate
       end do
       load = force(:2, :)
@@ -384,7 +402,8 @@ contains
          do k = 1, n_corners(model%mesh%element_size(element))
             associate (node => model%mesh%element_nodes(k, element))
                stress = stress_before(stresses, model%mesh%element_body(element), &
-                                      model%mesh%element_material(element), model%mesh%coordinates(2, node))
+                                      model%mesh%element_material(element), &
+                                      model%mesh%coordinates(2, node))
                associate (of_part => largest(:, ground%part(node)))
                   of_part = max(of_part, abs(stress(1:2)))
                end associate
@@ -407,7 +426,8 @@ contains
       do k = 1, size(ground%joint_points)
          do side = 1, 3, 2  ! nodes 1 and 3 lie on opposite sides
             associate (part => parts(ground%part(ground%joint_points(k)%nodes(side))))
-               if (.not. part%has_stress) part%pressed = max(part%pressed, maxval(abs(traction(:, k))))
+               if (.not. part%has_stress) &
+                  part%pressed = max(part%pressed, maxval(abs(traction(:, k))))
             end associate
          end do
       end do

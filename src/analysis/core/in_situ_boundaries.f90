@@ -33,7 +33,8 @@ contains
 
       associate (mesh => model%mesh)
          do element = 1, n_elements(mesh)
-            if (.not. any(covers(stresses, mesh%element_body(element), mesh%element_material(element)))) cycle
+            if (.not. any(covers(stresses, mesh%element_body(element), &
+               mesh%element_material(element)))) cycle
             do side = 1, n_corners(mesh%element_size(element))
                nodes = edge_nodes(mesh, element, side)
                other = element_at_edge(mesh, neighbours, nodes(1), nodes(2), element)
@@ -70,10 +71,12 @@ contains
                  materials => model%mesh%element_material([element, other]))
          boundary%body = body
          boundary%materials = [minval(materials), maxval(materials)]
-         first = findloc(covers(stresses, body, materials(1)) .or. covers(stresses, body, materials(2)), .true., 1)
+         first = findloc(covers(stresses, body, materials(1)) &
+            .or. covers(stresses, body, materials(2)), .true., 1)
          boundary%card = stresses(first)%card
          boundary%meant = any(stresses%meant .and. &
-                              (covers(stresses, body, materials(1)) .or. covers(stresses, body, materials(2))))
+                              (covers(stresses, body, materials(1)) &
+                              .or. covers(stresses, body, materials(2))))
          normal = mesh%coordinates(:, nodes(2)) - mesh%coordinates(:, nodes(1))
          normal = [normal(2), -normal(1)]/norm2(normal)
          do k = 1, 2
@@ -99,7 +102,8 @@ contains
       !> The traction
       real(wp) :: traction(2)
 
-      traction = [stress(1)*normal(1) + stress(4)*normal(2), stress(4)*normal(1) + stress(2)*normal(2)]
+      traction = [stress(1)*normal(1) + stress(4)*normal(2), stress(4)*normal(1) + &
+         stress(2)*normal(2)]
    end function traction
 
    !> Place of a boundary of the same body and materials; 0 if there is none

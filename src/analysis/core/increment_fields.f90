@@ -50,7 +50,8 @@ contains
          end do
          field%jump = synthesize(planes, jump)
          do j = 1, size(planes%angle)
-            field%stress(:, :, j) = elastic_joint_stress(points, field%jump(:, :, j)) + field%initial
+            field%stress(:, :, j) = elastic_joint_stress(points, field%jump(:, :, j)) + &
+               field%initial
          end do
       end associate
    end subroutine elastic_field
@@ -82,7 +83,8 @@ contains
       call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
                        combination_type(0, state%case_factor), loading)
       ! where no joint yields there is no excess stress
-      call solve_displacements(structure, model, loading, results%displacement, solves, error, state%excess)
+      call solve_displacements(structure, model, loading, results%displacement, solves, error, &
+         state%excess)
       if (allocated(error)) return
       !$omp parallel do schedule(dynamic) private(force) if (worth_threads(structure%equations))
       do k = 1, size(results%modes)
@@ -93,7 +95,8 @@ contains
       end do
       !$omp end parallel do
       call smooth_stress(model, results)
-      if (allocated(state%offset)) call add_motions(structure%condensed%floating, state%offset, results%displacement)
+      if (allocated(state%offset)) &
+         call add_motions(structure%condensed%floating, state%offset, results%displacement)
    end subroutine solve_increment
 
    !> Relative displacements, stresses and states of all joints on planes: those of

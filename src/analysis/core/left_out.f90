@@ -31,13 +31,16 @@ contains
       associate (modes => structure%modes)
          n_harmonics = count_unused(model%harmonics, modes)
          if (n_harmonics > 0 .and. .not. yields) then
-            call add(sentences, to_text(n_harmonics)//' harmonics of '//to_text(size(model%harmonics))// &
+            call add(sentences, to_text(n_harmonics)//' harmonics of '// &
+               to_text(size(model%harmonics))// &
                      ': they are not loaded, and no joint that opens or slips couples them')
          else if (n_harmonics > 0 .and. all(modes%harmonic == 0)) then
-            call add(sentences, to_text(n_harmonics)//' harmonics of '//to_text(size(model%harmonics))// &
+            call add(sentences, to_text(n_harmonics)//' harmonics of '// &
+               to_text(size(model%harmonics))// &
                      ': all is the same round the circle')
          else if (n_harmonics > 0) then
-            call add(sentences, to_text(n_harmonics)//' harmonics of '//to_text(size(model%harmonics))// &
+            call add(sentences, to_text(n_harmonics)//' harmonics of '// &
+               to_text(size(model%harmonics))// &
                      ': all repeats '//to_text(minval(modes%harmonic, modes%harmonic > 0))// &
                      ' times round the circle')
          end if
@@ -55,13 +58,15 @@ contains
          if (yields) then
             planes = new_planes(model%n_planes, modes)
             if (size(planes%angle) < size(planes%place)) then
-               call add(sentences, to_text(size(planes%place) - size(planes%angle))//' planes of '// &
+               call add(sentences, to_text(size(planes%place) - size(planes%angle))// &
+                  ' planes of '// &
                         to_text(size(planes%place))//': they are like others')
             end if
             n_elastic = count(.not. can_yield_at(model, structure%joint_points%material))
             if (n_elastic > 0) then
                call add(sentences, to_text(n_elastic)//' joint points of '// &
-                        to_text(size(structure%joint_points))//' in the iterations: they are elastic')
+                        to_text(size(structure%joint_points))// &
+                        ' in the iterations: they are elastic')
             end if
          end if
       end associate

@@ -42,7 +42,8 @@ contains
       do p = 1, maxval(part)
          nodes = pack([(k, k=1, size(part))], part == p)
          do k = 1, size(modes)
-            call compare(p, k, mesh%coordinates(:, nodes), modes(k), displacement(:, nodes, k), largest)
+            call compare(p, k, mesh%coordinates(:, nodes), modes(k), displacement(:, nodes, k), &
+               largest)
          end do
       end do
       place = maxloc(abs(displacement))
@@ -73,14 +74,16 @@ contains
       real(wp) :: z(size(x, 2))
 
       z = x(2, :) - sum(x(2, :))/size(x, 2)
-      associate (r => x(1, :), u => displacement(1, :), v => displacement(2, :), w => displacement(3, :))
+      associate (r => x(1, :), u => displacement(1, :), v => displacement(2, :), &
+         w => displacement(3, :))
          if (is_torsion(mode)) then
             call keep('turns about z', maxval(r)*ratio_of(sum(r*w), sum(r**2)))
          else if (mode%harmonic == 0) then
             call keep('moves along z', sum(v)/size(r))
          else if (mode%harmonic == 1) then
             call keep('slides sideways', sum(u - w)/(2*size(r)))
-            call keep('tilts', maxval(hypot(r, z))*ratio_of(sum(r*v - z*(u - w)), sum(r**2 + 2.0_wp*z**2)))
+            call keep('tilts', maxval(hypot(r, z))*ratio_of(sum(r*v - z*(u - w)), &
+               sum(r**2 + 2.0_wp*z**2)))
          end if
       end associate
 

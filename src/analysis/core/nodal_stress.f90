@@ -6,7 +6,8 @@ module axijoint_analysis_core_nodal_stress
    use axijoint_fe_quadrature, only : max_element_points
    use axijoint_fe_reference, only : reference_type
    use axijoint_fe_shape, only : n_corners
-   use axijoint_model_mesh, only : mesh_type, max_element_nodes, n_elements, n_nodes, element_references
+   use axijoint_model_mesh, only : mesh_type, max_element_nodes, n_elements, n_nodes, &
+      element_references
    use axijoint_model_model, only : model_type, on_axis
    implicit none
    private

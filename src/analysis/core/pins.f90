@@ -48,16 +48,19 @@ contains
       pins = pins_of(model)
       if (.not. any(pins)) return
       do k = 1, size(results%modes)
-         scale(k) = max(maxval(abs(loading%right(:, :, k))), maxval(abs(results%reaction(:, :, k))), &
+         scale(k) = max(maxval(abs(loading%right(:, :, k))), &
+            maxval(abs(results%reaction(:, :, k))), &
                         maxval(abs(joint_forces(k))))
          reaction(k) = maxval(abs(results%reaction(:, :, k)), mask=pins)
       end do
-      where (results%modes%harmonic < 2 .or. scale <= rounding*maxval(scale) .or. reaction <= carries*scale) reaction = 0.0_wp
+      where (results%modes%harmonic < 2 .or. scale <= rounding*maxval(scale) &
+         .or. reaction <= carries*scale) reaction = 0.0_wp
       if (.not. any(reaction > 0.0_wp)) return
       k = maxloc(reaction, 1)
       place = maxloc(abs(results%reaction(:, :, k)), mask=pins)
       text = 'node restraints carry load in harmonics above 1: at node '// &
-             to_text(model%mesh%node_label(place(2)))//' ('//component_name(place(1))(1:1)//', m = '// &
+             to_text(model%mesh%node_label(place(2)))//' ('//component_name(place(1))(1:1)// &
+             ', m = '// &
              to_text(results%modes(k)%harmonic)//') '// &
              percent_text(reaction(k)/maxval(abs(results%reaction)))// &
              ' of the largest reaction; pins take harmonics 0 to 1'
@@ -73,7 +76,8 @@ contains
 
          force = joint_force(structure%joint_points, results%modes(k)%harmonic, &
                              stress_amplitude(structure%joint_points, results%modes(k), &
-                                              results%displacement(:, :, k), field, k), n_nodes(model%mesh))
+                                              results%displacement(:, :, k), field, k), &
+                                              n_nodes(model%mesh))
       end function joint_forces
 
    end function pin_text

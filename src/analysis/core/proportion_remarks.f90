@@ -3,7 +3,8 @@ module axijoint_analysis_core_proportion_remarks
    use axijoint_analysis_core_results, only : results_type, remark_type, stiffer_type
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
-   use axijoint_model_joint_proportion, only : proportion_type, joint_proportions, side_of, decisive_direction, &
+   use axijoint_model_joint_proportion, only : proportion_type, joint_proportions, side_of, &
+      decisive_direction, &
       side_stiff
    use axijoint_model_material, only : joint_material_type
    use axijoint_model_model, only : model_type
@@ -31,7 +32,8 @@ contains
       do i = 1, size(results%stiffer)
          associate (stiffer => results%stiffer(i))
             do k = 1, size(stiffer%laws)
-               text = proportion_text(model%joint_materials(stiffer%laws(k)), proportions(stiffer%laws(k)))
+               text = proportion_text(model%joint_materials(stiffer%laws(k)), &
+                  proportions(stiffer%laws(k)))
                remarks = [remarks, remark_type(text)]
             end do
             if (.not. stiffer%known) cycle
@@ -74,7 +76,8 @@ contains
       character(len=:), allocatable :: text
 
       text = 'largest displacement '//signed_percent(stiffer%displacement)//' (anywhere up to '// &
-         percent(stiffer%displacement_anywhere)//'), largest joint stress '//signed_percent(stiffer%joint_stress)// &
+         percent(stiffer%displacement_anywhere)//'), largest joint stress '// &
+         signed_percent(stiffer%joint_stress)// &
          ' (up to '//percent(stiffer%joint_stress_anywhere)//')'
    end function stiffer_text
 

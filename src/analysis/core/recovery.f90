@@ -135,7 +135,8 @@ contains
          last = 0
          do element = 1, n_elements(mesh)
             associate (reference => references(mesh%element_kind(element)))
-               call solid_points(mesh%coordinates(:, mesh%element_nodes(:reference%n_nodes, element)), &
+               call solid_points(mesh%coordinates(:, &
+                  mesh%element_nodes(:reference%n_nodes, element)), &
                                  reference, points(:reference%n_points))
             end associate
             do n = 1, references(mesh%element_kind(element))%n_points

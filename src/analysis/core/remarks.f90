@@ -87,25 +87,32 @@ contains
          end do
       end if
       if (history%verdict%at_rounding) then
-         call add(remarks, 'rounding allows no smaller residual ratio: the stress of open joints so '// &
-                  'stiff is large; a tolerance of '//to_text(10.0_wp*results%residual_ratio)//' can be reached')
+         call add(remarks, 'rounding allows no smaller residual ratio: the stress of open '// &
+            'joints so '// &
+                  'stiff is large; a tolerance of '//to_text(10.0_wp*results%residual_ratio)// &
+                  ' can be reached')
          return
       end if
       if (results%converged .or. allocated(results%mechanism)) return
       if (results%unsettled > 0.0_wp) then
-         call add(remarks, 'forces are balanced to the tolerance, but the iterations leave displacements or joint '// &
-                  'stresses uncertain by '//to_text(results%unsettled)//' of the largest, more than 10 times it')
+         call add(remarks, 'forces are balanced to the tolerance, but the iterations leave '// &
+            'displacements or joint '// &
+                  'stresses uncertain by '//to_text(results%unsettled)// &
+                  ' of the largest, more than 10 times it')
          return
       end if
       if (allocated(results%budget)) then
-         call add(remarks, 'forces are balanced to the tolerance, but rounding in the solver leaves displacements '// &
+         call add(remarks, 'forces are balanced to the tolerance, but rounding in the solver '// &
+            'leaves displacements '// &
                   'uncertain by '//to_text(results%budget(size(results%budget))%displacement)// &
                   ' of the largest, more than 10 times it')
          return
       end if
       if (history%verdict%converged) then
-         call add(remarks, 'the joints are balanced to the tolerance, the whole structure is not: rounding; '// &
-                  'a tolerance of '//to_text(10.0_wp*max(results%residual_ratio, results%mismatch))//' can be reached')
+         call add(remarks, 'the joints are balanced to the tolerance, the whole structure is '// &
+            'not: rounding; '// &
+                  'a tolerance of '//to_text(10.0_wp*max(results%residual_ratio, &
+                  results%mismatch))//' can be reached')
          return
       end if
       if (.not. history%verdict%stalled) then
@@ -113,7 +120,8 @@ contains
          return
       end if
       if (.not. any(history%verdict%restless)) then
-         call add(remarks, 'the residual ratio does not fall any more, though no joint point changes its state'// &
+         call add(remarks, 'the residual ratio does not fall any more, though no joint point '// &
+            'changes its state'// &
                   advice(model, structure))
          return
       end if
@@ -180,7 +188,8 @@ contains
       text = ''
       place = findloc(history%verdict%restless, .true.)
       if (any(place == 0)) return
-      text = ' (joint '//to_text(model%mesh%joint_label(structure%condensed%points(place(1))%joint))// &
+      text = ' (joint '// &
+         to_text(model%mesh%joint_label(structure%condensed%points(place(1))%joint))// &
          ' at theta = '//to_text(results%plane_angles(place(2))/degree)//', ...)'
    end function restless_text
 
@@ -208,7 +217,8 @@ contains
             ' joint points on planes (widest '//to_text(widest)// &
             '): stress accumulated, as in the paper')
          if (any(model%joint_materials%law%gap > 0.0_wp)) then
-            call add(remarks, 'the loop of TRANSFER knows no gap before loading: those of LAWDETAILS are left out')
+            call add(remarks, 'the loop of TRANSFER knows no gap before loading: those of '// &
+               'LAWDETAILS are left out')
          end if
       end if
       if (results%tolerance > coarse_tolerance) then
@@ -244,11 +254,13 @@ contains
       associate (last => results%rounds(size(results%rounds)), goal => model%error_goal)
          if (last%error >= 0.0_wp .and. last%error <= goal%target) return
          if (allocated(last%failure)) then
-            why = 'round '//to_text(size(results%rounds))//' '//last%failure//'; these are the results of round '// &
+            why = 'round '//to_text(size(results%rounds))//' '//last%failure// &
+               '; these are the results of round '// &
                   to_text(size(results%rounds) - 1)
          else if (last%error < 0.0_wp) then
             why = 'the error of '//trim(goal_names(goal%quantity))//' is not known'
-            if (any(model%truncations%left_out >= 1.0_wp)) why = why//', as some load is concentrated in points'
+            if (any(model%truncations%left_out >= 1.0_wp)) &
+               why = why//', as some load is concentrated in points'
          else if (size(results%rounds) >= goal%most_rounds) then
             why = 'so many rounds are allowed'
          else if (goal%mesh_too) then
@@ -256,7 +268,8 @@ contains
          else
             why = 'its mesh is not of BLOCKS alone, or cards call nodes by number'
          end if
-         call add(results%remarks, 'the error target of '//to_text(100.0_wp*goal%target)//' % was not met in '// &
+         call add(results%remarks, 'the error target of '//to_text(100.0_wp*goal%target)// &
+            ' % was not met in '// &
                   to_text(size(results%rounds))//' rounds: '//why)
       end associate
    end subroutine remark_on_goal

@@ -13,7 +13,8 @@ module axijoint_analysis_core_results
    private
    public :: results_type, mode_solve_type, ordering_type, remark_type, nodal_stress_type, &
              error_share_type, round_type, stiffer_type
-   public :: source_discretization, source_harmonics, source_planes, source_iteration, source_solver, source_sum, &
+   public :: source_discretization, source_harmonics, source_planes, source_iteration, &
+      source_solver, source_sum, &
              source_names
    public :: axial, lateral, moment, torque, lateral_90, moment_90, n_resultants
 
@@ -70,7 +71,8 @@ module axijoint_analysis_core_results
    end type remark_type
 
    !> Sources of errors, in the order of the budget, and their sum
-   integer, parameter :: source_discretization = 1, source_harmonics = 2, source_planes = 3, source_iteration = 4, &
+   integer, parameter :: source_discretization = 1, source_harmonics = 2, source_planes = 3, &
+      source_iteration = 4, &
       source_solver = 5, source_sum = 6
    !> Their names
    character(len=14), parameter :: source_names(6) = [character(len=14) :: &
@@ -109,8 +111,8 @@ module axijoint_analysis_core_results
       real(wp) :: seconds = 0.0_wp
    end type round_type
 
-   !> What would change if the joints of some laws, soft or stiff out of proportion to the bodies, were ten
-   !> times as stiff
+   !> What would change if the joints of some laws, soft or stiff out of proportion to the bodies,
+   !> were ten times as stiff
    type :: stiffer_type
       !> The laws (indices), all on one side of what is sensible
       integer, allocatable :: laws(:)
@@ -191,12 +193,12 @@ module axijoint_analysis_core_results
       type(iteration_type), allocatable :: path(:)
       !> Motions that nothing resists and no load acts on, in words
       character(len=80), allocatable :: idle(:)
-      !> What the iterations left out of balance step by step, and a node of each part of the structure that
-      !> it is measured on; empty for a linear job
+      !> What the iterations left out of balance step by step, and a node of each part of the
+      !> structure that it is measured on; empty for a linear job
       type(residual_record_type), allocatable :: residuals(:)
       integer, allocatable :: residual_part_node(:)
-      !> Error of displacements or joint stresses that the iterations leave, where it is more than the tolerance
-      !> claims; zero if it is not
+      !> Error of displacements or joint stresses that the iterations leave, where it is more than
+      !> the tolerance claims; zero if it is not
       real(wp) :: unsettled = 0.0_wp
       !> Residual-force ratio at the end (Eq. 17), from the whole structure
       real(wp) :: residual_ratio = 0.0_wp

@@ -22,7 +22,8 @@ contains
 
    !> Displacements under loads and excess joint stress, a step of refinement in them. A factor
    !> that is not kept is made, used for all that needs it, and given up.
-   subroutine solve_displacements(structure, model, loading, displacement, solves, error, excess, difference)
+   subroutine solve_displacements(structure, model, loading, displacement, solves, error, excess, &
+      difference)
       !> The structure, assembled
       type(structure_type), intent(inout) :: structure
       !> The job, for the words of an error
@@ -57,7 +58,8 @@ contains
       call new_workspaces(structure%equations, spaces)
       times = 0.0_wp
       associate (equations => structure%equations, points => structure%condensed%points(:n))
-         !$omp parallel do schedule(dynamic) private(i, k, force, before_errors) num_threads(size(spaces))
+         !$omp parallel do schedule(dynamic) private(i, k, force, before_errors) &
+         !$omp num_threads(size(spaces))
          do s = 1, size(equations%systems)
             times(1, s) = omp_get_wtime()
             call hold_factor(equations, s, spaces(own()))
@@ -67,10 +69,13 @@ contains
                   solves(modes)%condition = condition_estimate(equations, s)
                   do i = 1, size(modes)
                      k = modes(i)
-                     force = loading%right(:, :, k) + joint_force(points, equations%modes(k)%harmonic, &
-                                                                  acting(:, :, k), size(displacement, 2))
+                     force = loading%right(:, :, k) + &
+                        joint_force(points, equations%modes(k)%harmonic, &
+                                                                  acting(:, :, k), &
+                                                                  size(displacement, 2))
                      call solve_mode(equations, k, force, displacement(:, :, k))
-                     call refine_mode(equations, k, force, displacement(:, :, k), solves(k)%correction)
+                     call refine_mode(equations, k, force, displacement(:, :, k), &
+                        solves(k)%correction)
                      call report_solve(equations, k, force, displacement(:, :, k), solves(k))
                      if (allocated(loading%held)) then
                         displacement(:, :, k) = displacement(:, :, k) + loading%held(:, :, k)
@@ -78,7 +83,8 @@ contains
                   end do
                   before_errors = omp_get_wtime()
                   if (present(difference)) then
-                     call find_difference(structure%fine, equations, s, load, displacement, points, acting, difference)
+                     call find_difference(structure%fine, equations, s, load, displacement, &
+                        points, acting, difference)
                   end if
                   times(3, s) = omp_get_wtime() - before_errors
                end associate
@@ -89,7 +95,8 @@ contains
          !$omp end parallel do
          if (present(difference)) then
             difference%seconds = sum(times(3, :))/size(spaces)
-            difference%factor_share = sum(times(2, :) - times(1, :))/max(tiny(1.0_wp), sum(times(4, :) - times(1, :)))
+            difference%factor_share = sum(times(2, :) - times(1, :))/max(tiny(1.0_wp), &
+               sum(times(4, :) - times(1, :)))
          end if
          call report_failure(equations, model, error)
       end associate

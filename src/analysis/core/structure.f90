@@ -3,7 +3,8 @@ module axijoint_analysis_core_structure
    use axijoint_analysis_core_footprint, only : footprint_type, data_footprint
    use axijoint_analysis_core_results, only : ordering_type
    use axijoint_analysis_fine_level, only : fine_level_type, new_fine_level
-   use axijoint_analysis_fine_singular_places, only : singular_place_type, find_singular_places, judged_points
+   use axijoint_analysis_fine_singular_places, only : singular_place_type, find_singular_places, &
+      judged_points
    use axijoint_assembly_equations, only : equations_type, plan_equations, assemble_equations
    use axijoint_assembly_factors, only : plan_factors, factorize_equations, report_failure
    use axijoint_assembly_mechanism, only : check_mechanism
@@ -45,7 +46,8 @@ module axijoint_analysis_core_structure
       type(planes_type) :: planes
       !> The same on a mesh of elements half as large, for estimates of errors
       type(fine_level_type) :: fine
-      !> Where stresses are infinite, and whether the stress of a joint point, far enough from there, is judged
+      !> Where stresses are infinite, and whether the stress of a joint point, far enough from
+      !> there, is judged
       type(singular_place_type), allocatable :: singular(:)
       logical, allocatable :: judged(:)
       !> Orders of the nodes side by side
@@ -75,7 +77,8 @@ contains
       if (allocated(error)) return
       call timer%push(phase_factor)
       if (structure%equations%n_kept > 0) then
-         call show_progress(progress, 'factoring '//to_text(structure%equations%n_kept)//' harmonics')
+         call show_progress(progress, 'factoring '//to_text(structure%equations%n_kept)// &
+            ' harmonics')
       end if
       call factorize_equations(structure%equations, model, error)
       call timer%pop()
@@ -85,16 +88,19 @@ contains
       structure%singular = find_singular_places(model, structure%fine%mesh)
       associate (points => structure%joint_points)
          structure%judged = judged_points(model%mesh, structure%singular, &
-                                          reshape([(points(k)%position, k=1, size(points))], [2, size(points)]))
+                                          reshape([(points(k)%position, k=1, size(points))], &
+                                          [2, size(points)]))
       end associate
       call timer%pop()
       call timer%push(phase_joints)
       structure%yielding = pack([(k, k=1, size(structure%joint_points))], &
                                 can_yield_at(model, structure%joint_points%material))
       if (size(structure%yielding) > 0) then
-         call show_progress(progress, 'condensing to '//to_text(size(structure%yielding))//' joint points')
+         call show_progress(progress, 'condensing to '//to_text(size(structure%yielding))// &
+            ' joint points')
          structure%planes = new_planes(model%n_planes, structure%modes, whole=.true.)
-         call new_condensed(model, structure%joint_points, structure%support_points, structure%equations, &
+         call new_condensed(model, structure%joint_points, structure%support_points, &
+            structure%equations, &
                             structure%condensed, error)
       else
          allocate (structure%condensed%points(0), structure%condensed%floating(0))

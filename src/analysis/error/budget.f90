@@ -1,7 +1,8 @@
 !> What each approximation leaves of the error of a run, side by side and in all, and what
 !> would halve it
 module axijoint_analysis_error_budget
-   use axijoint_analysis_core_results, only : results_type, error_share_type, source_discretization, source_harmonics, &
+   use axijoint_analysis_core_results, only : results_type, error_share_type, &
+      source_discretization, source_harmonics, &
       source_planes, source_iteration, source_solver, source_sum
    use axijoint_analysis_error_response_tail, only : response_tail
    use axijoint_base_kinds, only : wp
@@ -33,15 +34,18 @@ contains
       budget(source_harmonics) = harmonics_share(model, case_factor, results, yields)
       budget(source_planes) = error_share_type(source=source_planes, remedy='planes: '// &
                                    to_text(nint(1.4142*(model%n_planes - 1)) + 1)//' in CONTROL')
-      budget(source_iteration) = error_share_type(source=source_iteration, remedy='half the tolerance in INCREMENTS')
+      budget(source_iteration) = error_share_type(source=source_iteration, &
+         remedy='half the tolerance in INCREMENTS')
       if (yields) then
          call take(results%joint_errors(2), budget(source_planes))
          call take(results%joint_errors(1), budget(source_iteration))
       else
          budget(source_planes:source_iteration)%displacement = 0.0_wp
-         if (size(results%joint_stress) > 0) budget(source_harmonics:source_iteration)%joint_stress = 0.0_wp
+         if (size(results%joint_stress) > 0) &
+            budget(source_harmonics:source_iteration)%joint_stress = 0.0_wp
       end if
-      budget(source_solver) = error_share_type(source=source_solver, remedy='less contrast of the stiffnesses')
+      budget(source_solver) = error_share_type(source=source_solver, &
+         remedy='less contrast of the stiffnesses')
       budget(source_solver)%displacement = solver_error(results)
    end function new_budget
 
@@ -50,14 +54,16 @@ contains
       !> Results
       type(results_type), intent(in) :: results
 
-      !> A further step of refinement would correct by about as much as the last did; what the matrix itself lost to
-      !> rounding is as much again
+      !> A further step of refinement would correct by about as much as the last did; what the
+      !> matrix itself lost to rounding is as much again
       real(wp), parameter :: safety = 2.0_wp
       real(wp) :: by_condition
 
-      ! a backward error is a relative change of the data, which the condition number passes on at most
+      ! a backward error is a relative change of the data, which the condition number passes on at
+      ! most
       by_condition = maxval(results%solves%backward_error*results%solves%condition)
-      error = ratio(safety*sum(results%solves%correction), results%discretization%largest_displacement)
+      error = ratio(safety*sum(results%solves%correction), &
+         results%discretization%largest_displacement)
       error = min(error, by_condition)
    end function solver_error
 
@@ -100,7 +106,8 @@ contains
       integer :: k
 
       share%source = source_harmonics
-      share%remedy = 'harmonics: M = '//to_text(max(1, nint(1.4142*model%max_harmonic)))//' in CONTROL'
+      share%remedy = 'harmonics: M = '//to_text(max(1, nint(1.4142*model%max_harmonic)))// &
+         ' in CONTROL'
       share%displacement = 0.0_wp
       if (yields) call take(results%joint_errors(3), share)
       share%load = 0.0_wp
@@ -111,7 +118,8 @@ contains
       end do
       if (.not. share%load > 0.0_wp) return
       harmonic = results%modes%harmonic
-      amplitude = [(sqrt(maxval(sum(results%displacement(:, :, k)**2, 1))), k=1, size(results%modes))]
+      amplitude = [(sqrt(maxval(sum(results%displacement(:, :, k)**2, 1))), k=1, &
+         size(results%modes))]
       share%displacement = share%displacement &
                            + ratio(response_tail(harmonic, amplitude), &
                                    results%discretization%largest_displacement)

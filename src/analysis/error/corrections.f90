@@ -1,5 +1,6 @@
-!> What becomes of a state that the iterations found, before it counts: rounding of stiff joints is corrected, and
-!> the iterations go on until the errors that they leave are what the tolerance claims
+!> What becomes of a state that the iterations found, before it counts: rounding of stiff joints is
+!> corrected, and the iterations go on until the errors that they leave are what the tolerance
+!> claims
 module axijoint_analysis_error_corrections
    use axijoint_analysis_core_results, only : results_type, error_share_type
    use axijoint_analysis_core_solution, only : solve_displacements
@@ -19,11 +20,12 @@ module axijoint_analysis_error_corrections
    private
    public :: correct_rounding, keep_claim, solver_keeps_claim
 
-   !> A tolerance claims that displacements and joint stresses are as near to equilibrium as so many times it, over
-   !> the largest
+   !> A tolerance claims that displacements and joint stresses are as near to equilibrium as so many
+   !> times it, over the largest
    real(wp), parameter :: claimed = 10.0_wp
-   !> k h/E above which it claims balanced forces: how they are distributed over the points of an element is not
-   !> determined by them, and displacements are by so much less certain as joints are stiffer
+   !> k h/E above which it claims balanced forces: how they are distributed over the points of an
+   !> element is not determined by them, and displacements are by so much less certain as joints are
+   !> stiffer
    real(wp), parameter :: stiff = 1.0e2_wp
 
 contains
@@ -61,7 +63,8 @@ contains
             call balance_again(condensed, history)
             results%converged = history%verdict%converged
             results%path = history%path
-            call solve_displacements(structure, model, history%loading, results%displacement, results%solves, &
+            call solve_displacements(structure, model, history%loading, results%displacement, &
+               results%solves, &
                                      error, history%field%excess)
             if (allocated(error)) return
          end do
@@ -85,8 +88,8 @@ contains
 
    end subroutine correct_rounding
 
-   !> Iterate on until the errors that iterations leave are what the tolerance claims. What does not come
-   !> there has not converged. (The paper's loop claims no more than its residual ratio.)
+   !> Iterate on until the errors that iterations leave are what the tolerance claims. What does not
+   !> come there has not converged. (The paper's loop claims no more than its residual ratio.)
    subroutine keep_claim(model, structure, history, results, error)
       !> The job
       type(model_type), intent(in) :: model
@@ -121,7 +124,8 @@ contains
             call balance_again(condensed, history, tolerance)
             results%path = history%path
             if (.not. history%verdict%converged) exit
-            call solve_displacements(structure, model, history%loading, results%displacement, results%solves, &
+            call solve_displacements(structure, model, history%loading, results%displacement, &
+               results%solves, &
                                      error, history%field%excess)
             if (allocated(error)) return
          end do

@@ -22,7 +22,8 @@ module axijoint_analysis_error_discretization
 contains
 
    !> Estimate the discretization error
-   subroutine estimate_discretization(model, structure, loading, field, largest_stress, mesh_error, results)
+   subroutine estimate_discretization(model, structure, loading, field, largest_stress, &
+      mesh_error, results)
       !> The job
       type(model_type), intent(in) :: model
       !> Joints and springs
@@ -43,18 +44,22 @@ contains
       integer :: k
 
       start = omp_get_wtime()
-      call solid_errors(model, loading%initial, results%modes, results%displacement, results%stress, &
+      call solid_errors(model, loading%initial, results%modes, results%displacement, &
+         results%stress, &
                         error, energy)
       associate (estimate => results%discretization)
          estimate%error_energy = sum(error, 2)
-         estimate%energy = sum(energy, 2) + [(joint_energy(k) + spring_energy(structure%support_points, results%modes(k), &
-                                                                          results%displacement(:, :, k)), &
+         estimate%energy = sum(energy, 2) + [(joint_energy(k) + &
+            spring_energy(structure%support_points, results%modes(k), &
+                                                                          results%displacement(:, &
+                                                                          :, k)), &
                                               k=1, size(results%modes))]
          estimate%mode_relative = sqrt(ratio(estimate%error_energy, estimate%energy))
          estimate%relative = sqrt(ratio(sum(estimate%error_energy), sum(estimate%energy)))
          estimate%element = ratio(sum(error, 1), sum(estimate%energy))
          total = results%displacement
-         if (size(field%offset) > 0) call add_motions(structure%condensed%floating, field%offset, total)
+         if (size(field%offset) > 0) &
+            call add_motions(structure%condensed%floating, field%offset, total)
          estimate%largest_displacement = largest_vector(results%modes, total)
          estimate%displacement = -1.0_wp
          estimate%joint_stress = -1.0_wp
@@ -78,7 +83,8 @@ contains
          largest = mesh_error%joint_stress
          if (size(structure%yielding) > 0 .and. largest < 0.0_wp) return
          elastic = pack([(k, k=1, size(structure%joint_points))], &
-                        structure%judged .and. .not. can_yield_at(model, structure%joint_points%material))
+                        structure%judged .and. .not. can_yield_at(model, &
+                        structure%joint_points%material))
          largest = max(0.0_wp, largest, largest_elastic_stress( &
             structure%joint_points(elastic), new_view(results%plane_angles, results%modes), &
             mesh_error%jump(:, elastic, :)))

@@ -1,7 +1,8 @@
 !> What a change of the excess stress of joints does to the displacements
 module axijoint_analysis_error_excess_effect
    use axijoint_assembly_equations, only : equations_type, solve_mode
-   use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, release_factor
+   use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
+      release_factor
    use axijoint_assembly_force, only : joint_force
    use axijoint_base_kinds, only : wp
    use axijoint_model_joint_points, only : model_joint_point_type
@@ -39,7 +40,8 @@ contains
          if (equations%systems(s)%failed) cycle
          do i = 1, size(equations%systems(s)%modes)
             k = equations%systems(s)%modes(i)
-            force = joint_force(points, equations%modes(k)%harmonic, excess(:, :, k), size(displacement, 2))
+            force = joint_force(points, equations%modes(k)%harmonic, excess(:, :, k), &
+               size(displacement, 2))
             part = force  ! for its shape
             call solve_mode(equations, k, force, part)
             displacement(:, :, k) = displacement(:, :, k) + part

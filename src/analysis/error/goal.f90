@@ -1,43 +1,47 @@
 !> Refinement of a job until its error budget is below a target
 module axijoint_analysis_error_goal
-   use axijoint_analysis_core_results, only : error_share_type, results_type, source_discretization, source_harmonics, &
+   use axijoint_analysis_core_results, only : error_share_type, results_type, &
+      source_discretization, source_harmonics, &
       source_planes, source_iteration
    use axijoint_base_kinds, only : wp
    use axijoint_fe_element_kind, only : formulation_plain
    use axijoint_model_mesh, only : n_nodes
    use axijoint_model_model, only : model_type
    use axijoint_model_modes, only : used_modes, greatest_divisor
-   use axijoint_model_request, only : error_goal_type, refinement_type, goal_joints, goal_displacement, goal_energy
+   use axijoint_model_request, only : error_goal_type, refinement_type, goal_joints, &
+      goal_displacement, goal_energy
    implicit none
    private
    public :: goal_error, refine_further, too_large
 
    !> How one source of error is brought down
    type :: rule_type
-      !> Its estimates are multiplied by this before they count: about the most that true errors were, of nine in
-      !> ten scenes
+      !> Its estimates are multiplied by this before they count: about the most that true errors
+      !> were, of nine in ten scenes
       real(wp) :: safety = 1.0_wp
       !> Part of the target that is left to it
       real(wp) :: part = 0.0_wp
-      !> The error falls at least with this power of the number of elements along a side, of harmonics, of
-      !> intervals between planes, of the inverse of the tolerance
+      !> The error falls at least with this power of the number of elements along a side, of
+      !> harmonics, of intervals between planes, of the inverse of the tolerance
       real(wp) :: order = 1.0_wp
    end type rule_type
 
    !> Least and most that the numbers of a source are multiplied by in a round
    real(wp), parameter :: least = 1.3_wp, most_mesh = 2.5_wp, most_numbers = 5.0_wp
-   !> A source that is brought down is to fall to this part of what is left to it: a round more costs more
+   !> A source that is brought down is to fall to this part of what is left to it: a round more
+   !> costs more
    real(wp), parameter :: aim = 0.8_wp
-   !> What 8-node elements in the place of 4-node ones divide the error of displacements by, about, and how
-   !> many times the unknowns they have
+   !> What 8-node elements in the place of 4-node ones divide the error of displacements by, about,
+   !> and how many times the unknowns they have
    real(wp), parameter :: quadratic_gain = 4.0_wp, quadratic_growth = 3.0_wp
    !> Elements are made larger again by so much at most where they become quadratic
    real(wp), parameter :: coarsest = 0.5_wp
 
 contains
 
-   !> The error that a target is compared with, on the safe side: the sum of the shares of the quantity that
-   !> the goal is about, each times its factor; negative if a share that there must be is not known
+   !> The error that a target is compared with, on the safe side: the sum of the shares of the
+   !> quantity that the goal is about, each times its factor; negative if a share that there must be
+   !> is not known
    pure real(wp) function goal_error(model, results) result(error)
       !> The job, and its goal
       type(model_type), intent(in) :: model
@@ -49,10 +53,12 @@ contains
       error = -1.0_wp
       associate (budget => results%budget, goal => model%error_goal)
          do i = 1, size(budget)
-            if (budget(i)%source == source_discretization .and. share_of(budget(i), goal) < 0.0_wp) return
+            if (budget(i)%source == source_discretization &
+               .and. share_of(budget(i), goal) < 0.0_wp) return
             if (budget(i)%load >= 1.0_wp) return  ! what a concentrated load does has no limit
          end do
-         error = sum([(safety_of(budget(i), goal)*max(0.0_wp, share_of(budget(i), goal)), i=1, size(budget))])
+         error = sum([(safety_of(budget(i), goal)*max(0.0_wp, share_of(budget(i), goal)), i=1, &
+            size(budget))])
       end associate
    end function goal_error
 
@@ -95,7 +101,8 @@ contains
       !> What is asked for, one of the `goal_` parameters
       integer, intent(in) :: quantity
 
-      ! orders of meshes at corners that make stresses infinite, for displacements, joint stresses, energy norm
+      ! orders of meshes at corners that make stresses infinite, for displacements, joint stresses,
+      ! energy norm
       real(wp), parameter :: order(3) = [1.0_wp, 1.5_wp, 0.75_wp]  ! JOINTS, DISPL, ENERGY
 
       select case (source)
@@ -133,7 +140,8 @@ contains
       need = 0.0_wp
       do i = 1, size(budget)
          rule = rule_of(budget(i)%source, model%error_goal%quantity)
-         excess = rule%safety*share_of(budget(i), model%error_goal)/(max(rule%part, tiny(1.0_wp))*model%error_goal%target)
+         excess = rule%safety*share_of(budget(i), &
+            model%error_goal)/(max(rule%part, tiny(1.0_wp))*model%error_goal%target)
          if (.not. excess > aim) cycle
          excess = excess/aim
          select case (budget(i)%source)
@@ -142,7 +150,8 @@ contains
          case (source_harmonics)
             call raise_harmonics(model, excess**(1.0_wp/rule%order), refinement, changed)
          case (source_planes)
-            refinement%planes = 1 + ceiling((model%n_planes - 1)*min(most_numbers, excess**(1.0_wp/rule%order)))
+            refinement%planes = 1 + ceiling((model%n_planes - 1)*min(most_numbers, &
+               excess**(1.0_wp/rule%order)))
             changed = .true.
          case (source_iteration)
             refinement%newton = .true.
@@ -150,10 +159,12 @@ contains
             changed = .true.
          end select
       end do
-      if (refinement%harmonic > 0) refinement%planes = max(refinement%planes, model%n_planes, 2*refinement%harmonic + 1)
+      if (refinement%harmonic > 0) &
+         refinement%planes = max(refinement%planes, model%n_planes, 2*refinement%harmonic + 1)
       room = real(model%error_goal%most_unknowns, wp)/n_unknowns
       if (refinement%harmonic > 0) room = room*(model%max_harmonic + 1)/(refinement%harmonic + 1)
-      if (need > 0.0_wp .and. model%error_goal%mesh_too) call refine_mesh(model, need, room, refinement, changed)
+      if (need > 0.0_wp .and. model%error_goal%mesh_too) &
+         call refine_mesh(model, need, room, refinement, changed)
       changed = changed .and. room >= 1.0_wp
    end subroutine refine_further
 
@@ -162,7 +173,8 @@ contains
       !> The job
       type(model_type), intent(in) :: model
 
-      too_large = 3.0_wp*n_nodes(model%mesh)*size(used_modes(model)) > model%error_goal%most_unknowns
+      too_large = &
+         3.0_wp*n_nodes(model%mesh)*size(used_modes(model)) > model%error_goal%most_unknowns
    end function too_large
 
    !> Raise M, by waves that the loads let through
@@ -187,11 +199,13 @@ contains
       end associate
       step = max(1, step)
       refinement%harmonic = step*max(model%max_harmonic/step + 1, &
-                                     ceiling(real(model%max_harmonic, wp)/step*min(most_numbers, factor)))
+                                     ceiling(real(model%max_harmonic, wp)/step*min(most_numbers, &
+                                     factor)))
       changed = .true.
    end subroutine raise_harmonics
 
-   !> Refine the mesh, as far as there is room for unknowns; 4-node elements become 8-node ones first
+   !> Refine the mesh, as far as there is room for unknowns; 4-node elements become 8-node ones
+   !> first
    pure subroutine refine_mesh(model, excess, room, refinement, changed)
       !> The job as it was solved
       type(model_type), intent(in) :: model
@@ -212,7 +226,8 @@ contains
       ! 4-node elements of another formulation than the plain one are chosen against locking
       associate (kinds => model%mesh%kinds)
          convert = any(kinds%n_nodes == 4) .and. .not. &
-                   (refinement%quadratic .or. any(kinds%n_nodes == 4 .and. kinds%formulation /= formulation_plain))
+                   (refinement%quadratic .or. any(kinds%n_nodes == 4 &
+                   .and. kinds%formulation /= formulation_plain))
       end associate
       finer = max(least, excess**(1.0_wp/rule%order))
       left = room

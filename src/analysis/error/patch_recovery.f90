@@ -2,7 +2,8 @@
 !> (Zienkiewicz and Zhu, Int. J. Numer. Meth. Eng. 33, 1992), a patch for each element
 !> (Wiberg and Li, Comm. Numer. Meth. Eng. 10, 1994)
 module axijoint_analysis_error_patch_recovery
-   use axijoint_analysis_error_polynomial_fit, only : n_complete, max_functions, polynomials, fit_polynomial
+   use axijoint_analysis_error_polynomial_fit, only : n_complete, max_functions, polynomials, &
+      fit_polynomial
    use axijoint_base_kinds, only : wp
    use axijoint_fe_extrapolation, only : projection_matrix
    use axijoint_fe_quadrature, only : square_rule, triangle_rule, max_element_points
@@ -123,7 +124,8 @@ contains
       allocate (patches%before(n_elements(mesh) + 1))
       patches%before(1) = 0
       do element = 1, n_elements(mesh)
-         patches%before(element + 1) = patches%before(element) + samplings(mesh%element_kind(element))%n
+         patches%before(element + 1) = patches%before(element) + &
+            samplings(mesh%element_kind(element))%n
       end do
       allocate (patches%position(2, patches%before(n_elements(mesh) + 1)))
       do element = 1, n_elements(mesh)
@@ -205,7 +207,8 @@ contains
          start = last + 1
       end do
       work%n_samples = 0
-      associate (n => patches%before(work%elements(:work%n) + 1) - patches%before(work%elements(:work%n)))
+      associate (n => patches%before(work%elements(:work%n) + 1) - &
+         patches%before(work%elements(:work%n)))
          call reserve(sum(n), work)
       end associate
       do k = 1, work%n
@@ -378,7 +381,8 @@ contains
       n = mesh%element_size(element)
       middle = merge(1.0_wp/3.0_wp, 0.0_wp, n_corners(n) == 3)
       call shape_element(n, middle, middle, shape, derivative)
-      jacobian = matmul(mesh%coordinates(:, mesh%element_nodes(:n, element)), transpose(derivative(:, :n)))
+      jacobian = matmul(mesh%coordinates(:, mesh%element_nodes(:n, element)), &
+         transpose(derivative(:, :n)))
       turn = reshape([jacobian(2, 2), -jacobian(2, 1), -jacobian(1, 2), jacobian(1, 1)], [2, 2]) &
          /(jacobian(1, 1)*jacobian(2, 2) - jacobian(1, 2)*jacobian(2, 1))
    end function to_natural

@@ -10,7 +10,8 @@ module axijoint_analysis_error_polynomial_fit
    !> Powers of x and y in the functions, ascending by degree
    integer, parameter :: powers(2, max_functions) = reshape([0, 0, 1, 0, 0, 1, 2, 0, 1, 1, 0, 2, &
                                                              3, 0, 2, 1, 1, 2, 0, 3, &
-                                                             4, 0, 3, 1, 2, 2, 1, 3, 0, 4], [2, max_functions])
+                                                             4, 0, 3, 1, 2, 2, 1, 3, 0, 4], &
+                                                             [2, max_functions])
    !> A function whose part that is new to the points is a smaller projection of it is left out:
    !> a patch two points wide knows nothing of curvature across
    real(wp), parameter :: least_share = 0.1_wp
@@ -97,7 +98,8 @@ contains
          basis(:, j) = basis(:, j)/sqrt(rest)
          combination(:, j) = combination(:, j)/sqrt(rest)
          do i = 1, size(x, 2)
-            coefficient(:j, i) = coefficient(:j, i) + combination(:j, j)*(basis(i, j)*sqrt(weight(i)))
+            coefficient(:j, i) = coefficient(:j, i) + &
+               combination(:j, j)*(basis(i, j)*sqrt(weight(i)))
          end do
       end do
    end subroutine fit_polynomial

@@ -6,8 +6,8 @@ module axijoint_analysis_error_response_tail
    private
    public :: response_tail
 
-   !> The sums over the octaves of harmonics fall at least by this factor, about 1/sqrt(2): that of amplitudes
-   !> that fall with m^(-3/2), between a load that jumps and the response to it
+   !> The sums over the octaves of harmonics fall at least by this factor, about 1/sqrt(2): that of
+   !> amplitudes that fall with m^(-3/2), between a load that jumps and the response to it
    real(wp), parameter :: slowest = 0.7_wp
 
 contains

@@ -57,15 +57,18 @@ contains
       integer :: element
 
       call new_fields(model, initial, modes, displacement, stress, fields)
-      allocate (error(size(modes), n_elements(model%mesh)), energy(size(modes), n_elements(model%mesh)))
+      allocate (error(size(modes), n_elements(model%mesh)), &
+         energy(size(modes), n_elements(model%mesh)))
       !$omp parallel private(work)
       allocate (work)
       !$omp do schedule(dynamic, 16)
       do element = 1, n_elements(model%mesh)
          if (allocated(fields%stress)) then
-            call element_error(model, fields, fields%stress, element, work, error(:, element), energy(:, element))
+            call element_error(model, fields, fields%stress, element, work, error(:, element), &
+               energy(:, element))
          else
-            call element_error(model, fields, stress, element, work, error(:, element), energy(:, element))
+            call element_error(model, fields, stress, element, work, error(:, element), &
+               energy(:, element))
          end if
          error(:, element) = mode_integral(modes)*error(:, element)
          energy(:, element) = mode_integral(modes)*energy(:, element)
@@ -146,7 +149,8 @@ contains
       !$omp parallel do schedule(dynamic) private(force)
       do k = 1, size(modes)
          allocate (force, mold=displacement(:, :, k))
-         call solid_force(full, initial, k, modes(k), displacement(:, :, k), force, fields%stress(:, :, k))
+         call solid_force(full, initial, k, modes(k), displacement(:, :, k), force, &
+            fields%stress(:, :, k))
          deallocate (force)
       end do
       !$omp end parallel do
@@ -219,7 +223,8 @@ contains
             end do
             associate (point => fields%before(element) + i, weight => 0.5_wp*points(i)%weight)
                do k = 1, size(error)
-                  error(k) = error(k) + weight*square(compliance, recovered(:, k) - stress(:, point, k))
+                  error(k) = error(k) + weight*square(compliance, &
+                     recovered(:, k) - stress(:, point, k))
                   energy(k) = energy(k) + weight*square(compliance, stress(:, point, k))
                end do
             end associate

@@ -3,7 +3,8 @@
 module axijoint_analysis_error_stiffer_joints
    use axijoint_analysis_core_results, only : results_type, stiffer_type
    use axijoint_analysis_core_structure, only : structure_type
-   use axijoint_analysis_error_stiffer_state, only : stiffer_state_type, state_of_stiffer, state_anew
+   use axijoint_analysis_error_stiffer_state, only : stiffer_state_type, state_of_stiffer, &
+      state_anew
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_progress, only : progress_type
    use axijoint_joints_field, only : joint_field_type
@@ -47,7 +48,9 @@ contains
       do side = side_soft, side_stiff, side_stiff - side_soft
          stiffer = stiffer_type(laws_on(model, side))
          if (size(stiffer%laws) == 0) cycle
-         if (results%converged) call find_change(model, structure, combination, history, field, results, stiffer, progress)
+         if (results%converged) &
+            call find_change(model, structure, combination, history, field, results, stiffer, &
+            progress)
          results%stiffer = [results%stiffer, stiffer]
       end do
    end subroutine compare_stiffer
@@ -65,7 +68,8 @@ contains
 
       associate (proportions => joint_proportions(model))
          laws = pack([(i, i=1, size(proportions))], &
-                     [(side_of(model%joint_materials(i)%law, proportions(i)) == side, i=1, size(proportions))])
+                     [(side_of(model%joint_materials(i)%law, proportions(i)) == side, i=1, &
+                     size(proportions))])
       end associate
    end function laws_on
 
@@ -93,7 +97,8 @@ contains
       type(planes_type) :: planes
       integer :: i
 
-      if (same_set(stiffer%laws, model%mesh%joint_material(structure%joint_points(structure%yielding)%joint))) then
+      if (same_set(stiffer%laws, &
+         model%mesh%joint_material(structure%joint_points(structure%yielding)%joint))) then
          call state_of_stiffer(model, structure, history, field, results, times, state)
       else
          call state_anew(model, combination, stiffer%laws, times, results, state, progress)
@@ -119,7 +124,8 @@ contains
 
       integer :: i
 
-      same_set = size(b) > 0 .and. all([(any(a == b(i)), i=1, size(b))]) .and. all([(any(b == a(i)), i=1, size(a))])
+      same_set = size(b) > 0 .and. all([(any(a == b(i)), i=1, size(b))]) &
+         .and. all([(any(b == a(i)), i=1, size(a))])
    end function same_set
 
    !> Largest length of the displacement vectors on some planes
@@ -137,7 +143,8 @@ contains
       largest = 0.0_wp
       do first = 1, size(displacement, 2), block
          associate (last => min(size(displacement, 2), first + block - 1))
-            largest = max(largest, maxval(sum(synthesize(planes, displacement(:, first:last, :))**2, 1)))
+            largest = max(largest, maxval(sum(synthesize(planes, &
+               displacement(:, first:last, :))**2, 1)))
          end associate
       end do
       largest = sqrt(largest)

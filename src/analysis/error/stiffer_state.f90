@@ -45,10 +45,10 @@ module axijoint_analysis_error_stiffer_state
 
 contains
 
-   !> Let the laws see a multiple of the joints' stiffness. The excess stress is what the stiffness that
-   !> the structure was condensed with gives, less what the laws admit, so
-   !> the structure stays as it is and Newton's method goes on from the state that was found:
-   !> within the last increment, with the slip of those before it
+   !> Let the laws see a multiple of the joints' stiffness. The excess stress is what the stiffness
+   !> that the structure was condensed with gives, less what the laws admit, so the structure stays
+   !> as it is and Newton's method goes on from the state that was found: within the last increment,
+   !> with the slip of those before it
    subroutine state_of_stiffer(model, structure, history, field, results, times, state)
       !> The job
       type(model_type), intent(in) :: model
@@ -68,7 +68,8 @@ contains
       type(joint_field_type) :: now, stiffer
       real(wp), allocatable :: residual(:, :, :)
 
-      associate (condensed => structure%condensed, scene => history%scene, yielding => structure%yielding)
+      associate (condensed => structure%condensed, scene => history%scene, &
+         yielding => structure%yielding)
          now = new_state(condensed, scene)
          call set_initial_stress(model, condensed%points, history%loading%case_factor, now)
          now%excess = field%excess(:, yielding, :)
@@ -78,13 +79,15 @@ contains
          allocate (residual, mold=now%excess)
          call evaluate(condensed, scene, now, residual)
          now%carried = now%stress
-         call balance(condensed, scene, now, state%found)  ! no more than a look, but after the paper's loop
+         ! no more than a look, but after the paper's loop
+         call balance(condensed, scene, now, state%found)
          stiffer = now
          stiffer%share = times
          if (state%found) call balance(condensed, scene, stiffer, state%found)
          if (.not. state%found) return
          state%displacement = results%displacement
-         call add_excess_effect(structure%equations, condensed%points, stiffer%excess - now%excess, state%displacement, &
+         call add_excess_effect(structure%equations, condensed%points, &
+            stiffer%excess - now%excess, state%displacement, &
                                 state%found)
          call add_motions(condensed%floating, stiffer%offset - now%offset, state%displacement)
          call take_stress(model, structure, history, state%displacement, stiffer, state%stress)
@@ -107,7 +110,8 @@ contains
       type(verdict_type) :: verdict
 
       allocate (path(0))
-      call newton%balance(condensed, scene, control_type(tolerance, most, warm=.true.), field, path, verdict)
+      call newton%balance(condensed, scene, control_type(tolerance, most, warm=.true.), field, &
+         path, verdict)
       found = verdict%converged
    end subroutine balance
 
@@ -145,22 +149,27 @@ contains
       call build_structure(stiffer, structure, timer, progress, error)
       if (allocated(error)) return
       if (size(structure%yielding) > 0) then
-         call run_increments(stiffer, structure%equations, structure%condensed, structure%joint_points, &
+         call run_increments(stiffer, structure%equations, structure%condensed, &
+            structure%joint_points, &
                              structure%support_points, combination, history, progress)
          if (allocated(history%failure) .or. .not. history%verdict%converged) return
       else
-         call new_loading(stiffer, structure%joint_points, structure%support_points, structure%modes, &
-                          combination_type(combination%label, final_factors(stiffer, combination)), history%loading)
+         call new_loading(stiffer, structure%joint_points, structure%support_points, &
+            structure%modes, &
+                          combination_type(combination%label, &
+                          final_factors(stiffer, combination)), history%loading)
          allocate (history%field%excess(3, 0, size(structure%modes)))
       end if
       allocate (state%displacement, mold=results%displacement)
-      call solve_displacements(structure, stiffer, history%loading, state%displacement, solves, error, history%field%excess)
+      call solve_displacements(structure, stiffer, history%loading, state%displacement, solves, &
+         error, history%field%excess)
       state%found = .not. allocated(error)
       if (.not. state%found) return
       if (size(structure%yielding) > 0) then
          call add_motions(structure%condensed%floating, history%field%offset, state%displacement)
       end if
-      call take_stress(stiffer, structure, history, state%displacement, history%field, state%stress, &
+      call take_stress(stiffer, structure, history, state%displacement, history%field, &
+         state%stress, &
                        results%plane_angles)
    end subroutine state_anew
 

@@ -10,13 +10,15 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_analysis_fine_joints, only : fine_excess
    use axijoint_analysis_fine_level, only : fine_level_type, fine_load_type, new_fine_load
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type, new_mesh_error
-   use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, release_factor
+   use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
+      release_factor
    use axijoint_assembly_force, only : joint_jump
    use axijoint_base_kinds, only : wp
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_history, only : history_type
-   use axijoint_joints_joint_errors, only : joint_change_type, joint_changes_type, find_joint_changes, change_between, &
+   use axijoint_joints_joint_errors, only : joint_change_type, joint_changes_type, &
+      find_joint_changes, change_between, &
                                            largest_change
    use axijoint_joints_residual, only : ratio
    use axijoint_joints_scene, only : scene_type
@@ -28,8 +30,8 @@ module axijoint_analysis_error_yielding_errors
 
 contains
 
-   !> Estimate all errors. The paper's loop is another approximation: its errors are the difference to
-   !> equilibrium on total jumps, if that was found, and the errors of that
+   !> Estimate all errors. The paper's loop is another approximation: its errors are the difference
+   !> to equilibrium on total jumps, if that was found, and the errors of that
    subroutine estimate_yielding_errors(structure, history, other, results, mesh_error)
       !> The structure, condensed
       type(structure_type), intent(inout) :: structure
@@ -66,15 +68,20 @@ contains
          call add_motions(condensed%floating, field%offset, displacement)
          largest = largest_vector(results%modes, displacement)
          displacement = results%displacement
-         changes%iteration = change_between(scene, field, balanced, structure%judged(structure%yielding))
+         changes%iteration = change_between(scene, field, balanced, &
+            structure%judged(structure%yielding))
          changes%iteration%seconds = omp_get_wtime() - start
-         call add_excess_effect(structure%equations, condensed%points, changes%iteration%excess, displacement, &
+         call add_excess_effect(structure%equations, condensed%points, changes%iteration%excess, &
+            displacement, &
                                 changes%iteration%known)
          call find_joint_changes(condensed, scene, balanced, history%start, &
                                  structure%judged(structure%yielding), changes)
-         call take_share(structure, history, results, largest, changes%iteration, results%joint_errors(1))
-         call take_share(structure, history, results, largest, changes%planes, results%joint_errors(2))
-         call take_share(structure, history, results, largest, changes%harmonics, results%joint_errors(3))
+         call take_share(structure, history, results, largest, changes%iteration, &
+            results%joint_errors(1))
+         call take_share(structure, history, results, largest, changes%planes, &
+            results%joint_errors(2))
+         call take_share(structure, history, results, largest, changes%harmonics, &
+            results%joint_errors(3))
          call mesh_error_of_balanced(structure, history, balanced, displacement, mesh_error)
       end associate
    end subroutine estimate_yielding_errors
@@ -102,7 +109,8 @@ contains
          change = change_between(scene, field, balanced, structure%judged(structure%yielding))
          displacement = results%displacement
          call add_motions(condensed%floating, field%offset, displacement)
-         call take_share(structure, history, results, largest_vector(results%modes, displacement), change, share)
+         call take_share(structure, history, results, largest_vector(results%modes, displacement), &
+            change, share)
       end associate
    end subroutine iteration_error
 
@@ -121,7 +129,8 @@ contains
       !> Takes stress, displacement and time
       type(error_share_type), intent(inout) :: share
 
-      !> Displacements below this part of those with elastic joints are rounding: all loads were taken away
+      !> Displacements below this part of those with elastic joints are rounding: all loads were
+      !> taken away
       real(wp), parameter :: none = 1.0e-9_wp
       real(wp), allocatable :: displacement(:, :, :)
       real(wp) :: start
@@ -132,7 +141,8 @@ contains
       if (.not. change%known) return
       allocate (displacement, mold=results%displacement)
       displacement = 0.0_wp
-      call add_excess_effect(structure%equations, structure%condensed%points, change%excess, displacement, found)
+      call add_excess_effect(structure%equations, structure%condensed%points, change%excess, &
+         displacement, found)
       if (.not. found) return
       call add_motions(structure%condensed%floating, change%offset, displacement)
       share%joint_stress = ratio(max(change%stress, elastic_change(structure, displacement)), &
@@ -178,7 +188,8 @@ contains
       places = pack([(k, k=1, size(elastic))], elastic)
    end function elastic_points
 
-   !> Largest joint stress that is judged: of joints that yield in all increments, of others at the end
+   !> Largest joint stress that is judged: of joints that yield in all increments, of others at the
+   !> end
    function stress_scale(structure, history, displacement) result(scale)
       !> The structure
       type(structure_type), intent(in) :: structure
@@ -209,13 +220,14 @@ contains
       real(wp) :: start
 
       start = omp_get_wtime()
-      call all_differences(structure, history, structure%fine%coarse_points(structure%yielding), field%excess, &
+      call all_differences(structure, history, structure%fine%coarse_points(structure%yielding), &
+         field%excess, &
                            displacement, error)
       error%seconds = omp_get_wtime() - start
    end subroutine mesh_error_of_held
 
-   !> Errors of the mesh: while the stress of the joints is held, as the law gives it along the fine joints,
-   !> then the answer of the joints
+   !> Errors of the mesh: while the stress of the joints is held, as the law gives it along the fine
+   !> joints, then the answer of the joints
    subroutine mesh_error_of_balanced(structure, history, balanced, displacement, error)
       !> The structure
       type(structure_type), intent(inout) :: structure
@@ -238,22 +250,26 @@ contains
 
       start = omp_get_wtime()
       associate (condensed => structure%condensed, scene => history%scene)
-         call fine_excess(condensed, scene, structure%fine, balanced, displacement, history%loading%case_factor, points, excess)
+         call fine_excess(condensed, scene, structure%fine, balanced, displacement, &
+            history%loading%case_factor, points, excess)
          call all_differences(structure, history, points, excess, displacement, error)
          allocate (after, source=balanced)
          corrected = scene
          corrected%loads%free = scene%loads%free + error%jump(:, structure%yielding, :)
          call find_again(condensed, corrected, history%start, after, found)
          if (found) then
-            error%joint_stress = largest_change(scene, balanced, after, 1, structure%judged(structure%yielding))
+            error%joint_stress = largest_change(scene, balanced, after, 1, &
+               structure%judged(structure%yielding))
             before = error%displacement
-            call add_excess_effect(structure%equations, condensed%points, after%excess - balanced%excess, &
+            call add_excess_effect(structure%equations, condensed%points, &
+               after%excess - balanced%excess, &
                                    error%displacement, found)
             error%known = error%known .and. found
             call add_motions(condensed%floating, after%offset - balanced%offset, error%displacement)
             do k = 1, size(before, 3)
                error%jump(:, :, k) = error%jump(:, :, k) &
-                  + joint_jump(structure%joint_points, error%displacement(:, :, k) - before(:, :, k))
+                  + joint_jump(structure%joint_points, error%displacement(:, :, k) - &
+                  before(:, :, k))
             end do
          end if
       end associate
@@ -280,7 +296,8 @@ contains
       logical :: weak(size(structure%modes))
       integer :: s
 
-      call new_difference(size(displacement, 2), size(structure%joint_points), size(displacement, 3), difference)
+      call new_difference(size(displacement, 2), size(structure%joint_points), &
+         size(displacement, 3), difference)
       load = new_fine_load(structure%fine, structure%modes, history%loading)
       weak = is_weak(history, excess)
       associate (equations => structure%equations)
@@ -290,7 +307,8 @@ contains
             if (all(weak(equations%systems(s)%modes))) cycle
             call hold_factor(equations, s, spaces(own()))
             if (.not. equations%systems(s)%failed) then
-               call find_difference(structure%fine, equations, s, load, displacement, points, excess, difference)
+               call find_difference(structure%fine, equations, s, load, displacement, points, &
+                  excess, difference)
             end if
             call release_factor(equations, s, spaces(own()))
          end do
@@ -300,8 +318,8 @@ contains
       error%known = .not. any(structure%equations%systems%failed)
    end subroutine all_differences
 
-   !> Whether nothing acts in a mode but little excess stress. Its part in the error is as small: all such
-   !> harmonics together had 5 % of the jumps' errors in a pile of M = 8
+   !> Whether nothing acts in a mode but little excess stress. Its part in the error is as small:
+   !> all such harmonics together had 5 % of the jumps' errors in a pile of M = 8
    pure function is_weak(history, excess)
       !> What the increments came to
       type(history_type), intent(in) :: history

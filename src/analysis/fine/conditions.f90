@@ -18,8 +18,8 @@ module axijoint_analysis_fine_conditions
 
 contains
 
-   !> Conditions of a class. A new node of an edge is held if all nodes of the edge are; not by the two ends of
-   !> an edge inside a body, as in a body that is one element thick between two faces
+   !> Conditions of a class. A new node of an edge is held if all nodes of the edge are; not by the
+   !> two ends of an edge inside a body, as in a body that is one element thick between two faces
    subroutine new_conditions(fine, dofs, mode, place, conditions)
       !> The fine mesh
       type(fine_mesh_type), intent(in) :: fine
@@ -35,7 +35,8 @@ contains
       logical :: present(3), at_face(size(dofs%equation, 2)), tied(size(dofs%equation, 2))
       integer :: k, i
 
-      present = [.not. is_torsion(mode), .not. is_torsion(mode), is_torsion(mode) .or. mode%harmonic > 0]
+      present = [.not. is_torsion(mode), .not. is_torsion(mode), is_torsion(mode) &
+         .or. mode%harmonic > 0]
       tied = dofs%equation(3, :) > 0 .and. dofs%equation(3, :) == dofs%equation(1, :)
       at_face = .false.
       do k = 1, size(fine%edges)
@@ -44,11 +45,13 @@ contains
       conditions%free = spread(present, 2, size(place))
       allocate (conditions%tied(size(place)), source=.false.)
       do k = 1, size(tied)
-         conditions%free(:, place(k)) = dofs%equation(:, k) > 0 .and. .not. [.false., .false., tied(k)]
+         conditions%free(:, place(k)) = dofs%equation(:, k) > 0 &
+            .and. .not. [.false., .false., tied(k)]
          conditions%tied(place(k)) = tied(k)
       end do
       do k = 1, size(fine%edges)
-         associate (edge => fine%edges(k), nodes => fine%edges(k)%nodes(:n_on(fine%edges(k))), new => fine%edges(k)%new)
+         associate (edge => fine%edges(k), nodes => fine%edges(k)%nodes(:n_on(fine%edges(k))), &
+            new => fine%edges(k)%new)
             do i = 1, n_on(edge) - 1
                conditions%tied(place(new(i))) = all(tied(nodes))
                if (n_on(edge) == 2 .and. edge%elements(2) > 0 .and. all(at_face(nodes))) cycle

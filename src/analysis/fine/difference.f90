@@ -1,7 +1,7 @@
 !> The difference between the solution on the fine mesh and that on the coarse one, found without a
-!> factor of the fine matrix: what blocks of the fine mesh see of the forces that the coarse solution
-!> leaves, and what follows from that on the coarse mesh, whose factor is at hand, in steps that each
-!> go as far as the energy falls
+!> factor of the fine matrix: what blocks of the fine mesh see of the forces that the coarse
+!> solution leaves, and what follows from that on the coarse mesh, whose factor is at hand, in steps
+!> that each go as far as the energy falls
 module axijoint_analysis_fine_difference
    use axijoint_analysis_fine_conditions, only : hold, take_reactions
    use axijoint_analysis_fine_level, only : fine_level_type, fine_load_type
@@ -18,10 +18,10 @@ module axijoint_analysis_fine_difference
    private
    public :: difference_type, new_difference, find_difference
 
-   !> Steps: of 38 meshes of elements of all kinds, uniform, graded, distorted and slender, the second came
-   !> to 0.80 to 1.03 of the largest difference of a node, the first to 0.6 to 0.95. Where nodes are much better
-   !> than what is between them, as in smooth fields, it takes more: until a step changes nodes and jumps
-   !> of joints by less than this part
+   !> Steps: of 38 meshes of elements of all kinds, uniform, graded, distorted and slender, the
+   !> second came to 0.80 to 1.03 of the largest difference of a node, the first to 0.6 to 0.95.
+   !> Where nodes are much better than what is between them, as in smooth fields, it takes more:
+   !> until a step changes nodes and jumps of joints by less than this part
    integer, parameter :: least_steps = 2, most_steps = 8
    real(wp), parameter :: settled = 0.4_wp
 
@@ -31,7 +31,8 @@ module axijoint_analysis_fine_difference
       real(wp), allocatable :: displacement(:, :, :)
       !> Of the jumps at its joint points, amplitudes, shape (3, points, modes)
       real(wp), allocatable :: jump(:, :, :)
-      !> Time of all threads [second], and share of the time of the solution that went into factorizations
+      !> Time of all threads [second], and share of the time of the solution that went into
+      !> factorizations
       real(wp) :: seconds = 0.0_wp, factor_share = 0.0_wp
    end type difference_type
 
@@ -71,12 +72,14 @@ contains
       integer :: i, k
 
       associate (system => equations%systems(s))
-         call factor_blocks(level%smoother, level%stiffness, system%harmonic, level%conditions(system%class), factor, &
+         call factor_blocks(level%smoother, level%stiffness, system%harmonic, &
+            level%conditions(system%class), factor, &
                             failed)
          if (failed) return
          do i = 1, size(system%modes)
             k = system%modes(i)
-            call left_force(level, equations, k, load, displacement(:, :, k), points, excess(:, :, k), force)
+            call left_force(level, equations, k, load, displacement(:, :, k), points, &
+               excess(:, :, k), force)
             call descend(level, equations, k, factor, force, difference)
          end do
       end associate
@@ -107,7 +110,8 @@ contains
       call add_external(level%model, equations%modes(k), load%case_factor, external)
       if (load%initial%present) then
          u = 0.0_wp
-         external = external - still_force(level%model, level%joint_points, level%support_points, load%initial, k, &
+         external = external - still_force(level%model, level%joint_points, level%support_points, &
+            load%initial, k, &
                                            equations%modes(k), u, load%case_factor)
       end if
       allocate (force, internal, mold=u)
@@ -140,7 +144,8 @@ contains
       allocate (way(3, size(force, 2), most_steps), pull(3, size(force, 2), most_steps))
       associate (harmonic => equations%modes(k)%harmonic, place => level%stiffness%place, &
                  conditions => level%conditions(equations%systems(equations%system(k))%class), &
-                 displacement => difference%displacement(:, :, k), jumps => difference%jump(:, :, k))
+                 displacement => difference%displacement(:, :, k), &
+                 jumps => difference%jump(:, :, k))
          do step = 1, most_steps
             associate (d => way(:, :, step), kd => pull(:, :, step))
                call look_down(level, equations, k, factor, force, d)
@@ -159,7 +164,8 @@ contains
                jumps = jumps + jump
                force = force - length*kd
                call take_reactions(conditions, force)
-               if (step >= least_steps .and. is_small(change(:, :size(displacement, 2)), displacement) &
+               if (step >= least_steps .and. is_small(change(:, :size(displacement, 2)), &
+                  displacement) &
                    .and. is_small(jump, jumps)) exit
             end associate
          end do

@@ -61,7 +61,8 @@ contains
             do j = 1, size(missed, 3)
                call take_stresses(model, points, field, j, course)
                if (.not. is_smooth(model, points, field, j, course)) then
-                  missed(:, first:first + course%n - 1, j) = missed_by_rule(model, points, field, j, course)
+                  missed(:, first:first + course%n - 1, j) = &
+                     missed_by_rule(model, points, field, j, course)
                end if
             end do
          end if
@@ -84,8 +85,10 @@ contains
 
       associate (point => points(first))
          course%first = first
-         call joint_rule(model%joint_materials(point%material)%rule, point%n_pairs, course%n, course%x, w)
-         course%side(:, :point%n_pairs) = model%mesh%coordinates(:, point%nodes(lower_node(:point%n_pairs)))
+         call joint_rule(model%joint_materials(point%material)%rule, point%n_pairs, course%n, &
+            course%x, w)
+         course%side(:, :point%n_pairs) = model%mesh%coordinates(:, &
+            point%nodes(lower_node(:point%n_pairs)))
          course%points(:course%n) = points(first:first + course%n - 1)%joint_point_type
       end associate
    end subroutine place_course
@@ -106,7 +109,8 @@ contains
 
       do i = 1, course%n
          k = course%first + i - 1
-         course%trial(:, i) = trial_of(model%joint_materials(points(k)%material)%law, k, plane, field%jump(:, k, plane), field)
+         course%trial(:, i) = trial_of(model%joint_materials(points(k)%material)%law, k, plane, &
+            field%jump(:, k, plane), field)
          course%stress(:, i) = law_stress(model, points, field, plane, course, course%x(i))
       end do
    end subroutine take_stresses
@@ -132,7 +136,8 @@ contains
 
       k = course%first - 1 + minloc(abs(course%x(:course%n) - x), 1)
       call admit(model%joint_materials(points(k)%material)%law, field%memory(k, plane), &
-                 matmul(course%trial(:, :course%n), lagrange(course%x(:course%n), x)), stress, tangent)
+                 matmul(course%trial(:, :course%n), lagrange(course%x(:course%n), x)), stress, &
+                 tangent)
    end function law_stress
 
    !> Whether the stresses at the ends and in the middle lie on the course of those at the points
@@ -154,7 +159,8 @@ contains
       do i = -1, 1
          stress = law_stress(model, points, field, plane, course, real(i, wp)) &
             - matmul(course%stress(:, :course%n), lagrange(course%x(:course%n), real(i, wp)))
-         is_smooth = is_smooth .and. maxval(abs(stress)) <= smooth*maxval(abs(course%trial(:, :course%n)))
+         is_smooth = is_smooth .and. maxval(abs(stress)) <= smooth*maxval(abs(course%trial(:, &
+            :course%n)))
       end do
    end function is_smooth
 
@@ -183,7 +189,8 @@ contains
          do i = 1, n_gauss
             x = -1.0_wp + (2.0_wp*piece - 1.0_wp + t(i))/n_pieces
             point = new_joint_point(course%side(:, :course%n), x, w(i)/n_pieces)
-            work = work + point%weight*spread(law_stress(model, points, field, plane, course, x), 2, course%n) &
+            work = work + point%weight*spread(law_stress(model, points, field, plane, course, x), &
+               2, course%n) &
                    *spread(point%shape(:course%n), 1, 3)
          end do
       end do
@@ -191,7 +198,8 @@ contains
          associate (at => course%points(i))
             shape = at%shape
             matrix(:, i) = at%weight*shape(:course%n)
-            work = work - at%weight*spread(course%stress(:, i), 2, course%n)*spread(shape(:course%n), 1, 3)
+            work = work - at%weight*spread(course%stress(:, i), 2, &
+               course%n)*spread(shape(:course%n), 1, 3)
          end associate
       end do
       missed = solved(matrix, work)

@@ -8,7 +8,8 @@ module axijoint_analysis_fine_joints
    use axijoint_element_joint_law, only : joint_law_type, memory_type
    use axijoint_fe_shape, only : lagrange
    use axijoint_joints_condensed, only : condensed_type
-   use axijoint_joints_field, only : joint_field_type, new_joint_field, set_initial_stress, admit_jump
+   use axijoint_joints_field, only : joint_field_type, new_joint_field, set_initial_stress, &
+      admit_jump
    use axijoint_joints_planes, only : synthesize, analyse
    use axijoint_joints_scene, only : scene_type
    use axijoint_model_joint_points, only : model_joint_point_type, joint_rule, stiffness_ratio
@@ -17,8 +18,8 @@ module axijoint_analysis_fine_joints
    private
    public :: fine_excess
 
-   !> Joints so much stiffer than the bodies (k h/E) follow the bodies too closely for their jumps to tell the stress
-   !> between their points: there the stress is interpolated instead
+   !> Joints so much stiffer than the bodies (k h/E) follow the bodies too closely for their jumps
+   !> to tell the stress between their points: there the stress is interpolated instead
    real(wp), parameter :: stiff = 30.0_wp
 
 contains
@@ -49,14 +50,16 @@ contains
       integer, allocatable :: yielding(:)
       integer :: k
 
-      yielding = pack([(k, k=1, size(level%joint_points))], can_yield_at(level%model, level%joint_points%material))
+      yielding = pack([(k, k=1, size(level%joint_points))], &
+         can_yield_at(level%model, level%joint_points%material))
       points = level%joint_points(yielding)
       allocate (jump(3, size(points), size(displacement, 3)))
       do k = 1, size(displacement, 3)
          jump(:, :, k) = joint_jump(level%on_coarse(yielding), displacement(:, :, k))
       end do
       jump = synthesize(scene%planes, jump)
-      fine_field = new_joint_field(size(points), size(jump, 3), size(displacement, 3), size(condensed%floating))
+      fine_field = new_joint_field(size(points), size(jump, 3), size(displacement, 3), &
+         size(condensed%floating))
       moved = moved_by(condensed, scene, level%on_coarse(yielding), field%offset)
       fine_field%moved = moved
       call set_initial_stress(level%model, points, case_factor, fine_field)
@@ -68,12 +71,14 @@ contains
       if (stiffness_ratio(condensed%points) > stiff) then
          call spread_stress(level%model, condensed%points, field%stress, fine_field%stress)
          do k = 1, size(points)
-            left(:, k, :) = spread(points(k)%base, 2, size(jump, 3))*jump(:, k, :) - fine_field%stress(:, k, :) &
+            left(:, k, :) = spread(points(k)%base, 2, size(jump, 3))*jump(:, k, :) - &
+               fine_field%stress(:, k, :) &
                + spread(fine_field%initial(:, k), 2, size(jump, 3))
          end do
          excess = analyse(scene%planes, left)
       else
-         excess = analyse(scene%planes, left) - missed_stress(level%model, points, scene%planes, fine_field)
+         excess = analyse(scene%planes, left) - &
+            missed_stress(level%model, points, scene%planes, fine_field)
       end if
    end subroutine fine_excess
 
@@ -95,7 +100,8 @@ contains
 
       amplitude = 0.0_wp
       do z = 1, size(condensed%floating)
-         associate (motion => condensed%floating(z), of_mode => amplitude(:, :, condensed%floating(z)%mode))
+         associate (motion => condensed%floating(z), &
+            of_mode => amplitude(:, :, condensed%floating(z)%mode))
             of_mode = of_mode + offset(z)*joint_jump(points, motion%displacement)
          end associate
       end do
@@ -153,7 +159,8 @@ contains
 
       first = 1
       do while (first <= size(points))
-         call joint_rule(model%joint_materials(points(first)%material)%rule, points(first)%n_pairs, n, x, w)
+         call joint_rule(model%joint_materials(points(first)%material)%rule, &
+            points(first)%n_pairs, n, x, w)
          do half = 1, 2
             do i = 1, n
                to = 2*(first - 1) + n*(half - 1) + i
@@ -163,7 +170,8 @@ contains
                do j = 1, size(memory, 2)
                   fine_memory(to, j)%slip = 0.0_wp
                   do k = 1, n
-                     fine_memory(to, j)%slip = fine_memory(to, j)%slip + value(k)*memory(first - 1 + k, j)%slip
+                     fine_memory(to, j)%slip = fine_memory(to, j)%slip + &
+                        value(k)*memory(first - 1 + k, j)%slip
                   end do
                end do
             end do

@@ -4,7 +4,8 @@ module axijoint_analysis_fine_level
    use axijoint_analysis_fine_conditions, only : conditions_type, new_conditions
    use axijoint_analysis_fine_mesh, only : fine_mesh_type, parents_type, new_fine_mesh, ordered
    use axijoint_analysis_fine_model, only : new_fine_model
-   use axijoint_analysis_fine_smoother, only : smoother_type, new_blocks, order_by_blocks, new_smoother
+   use axijoint_analysis_fine_smoother, only : smoother_type, new_blocks, order_by_blocks, &
+      new_smoother
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_loading, only : loading_type, new_initial_state
    use axijoint_assembly_node_blocks, only : node_blocks_type, new_node_blocks, assemble_blocks
@@ -84,7 +85,8 @@ contains
       allocate (level%conditions(size(equations%classes)))
       do k = 1, size(level%conditions)
          associate (first => equations%systems(findloc(equations%systems%class, k, 1))%modes(1))
-            call new_conditions(level%mesh, equations%classes(k)%dofs, equations%modes(first), level%stiffness%place, &
+            call new_conditions(level%mesh, equations%classes(k)%dofs, equations%modes(first), &
+               level%stiffness%place, &
                                 level%conditions(k))
          end associate
       end do
@@ -124,14 +126,16 @@ contains
       n_fine = 0
       n_coarse = 0
       do joint = 1, size(model%mesh%joint_label)
-         call joint_rule(model%joint_materials(model%mesh%joint_material(joint))%rule, model%mesh%joint_size(joint)/2, &
+         call joint_rule(model%joint_materials(model%mesh%joint_material(joint))%rule, &
+            model%mesh%joint_size(joint)/2, &
                          n, x, w)
          do k = 1, n
             n_coarse = n_coarse + 1
             half = merge(1, 2, x(k) <= 0.0_wp)
             associate (point => level%coarse_points(n_coarse))
                before = point
-               point = in_joint(level%model%mesh, 2*joint - 2 + half, 2.0_wp*x(k) + 3.0_wp - 2.0_wp*half)
+               point = in_joint(level%model%mesh, 2*joint - 2 + half, 2.0_wp*x(k) + 3.0_wp - &
+                  2.0_wp*half)
                point%weight = before%weight
                point%base = before%base
             end associate
@@ -140,7 +144,8 @@ contains
             do k = 1, n
                n_fine = n_fine + 1
                level%on_coarse(n_fine) = in_joint(model%mesh, joint, 0.5_wp*x(k) + half - 1.5_wp)
-               level%joint_points(n_fine)%base = before%base  ! that of the joint's points, whatever their length
+               ! that of the joint's points, whatever their length
+               level%joint_points(n_fine)%base = before%base
                level%joint_points(n_fine)%proportion = before%proportion
             end do
          end do
@@ -159,7 +164,8 @@ contains
       type(model_joint_point_type) :: point
 
       associate (nodes => mesh%joint_nodes(:, joint), n => mesh%joint_size(joint)/2)
-         point%joint_point_type = new_joint_point(mesh%coordinates(:, nodes(lower_node(:n))), x, 0.0_wp)
+         point%joint_point_type = new_joint_point(mesh%coordinates(:, nodes(lower_node(:n))), x, &
+            0.0_wp)
          point%joint = joint
          point%material = mesh%joint_material(joint)
          point%nodes = nodes

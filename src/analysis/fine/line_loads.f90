@@ -1,5 +1,5 @@
-!> Forces on nodal circles that follow each other along a face: tractions that some other program, or the
-!> user, has put on the nodes. On a finer mesh they are tractions again
+!> Forces on nodal circles that follow each other along a face: tractions that some other program,
+!> or the user, has put on the nodes. On a finer mesh they are tractions again
 module axijoint_analysis_fine_line_loads
    use axijoint_analysis_fine_mesh, only : fine_mesh_type, n_on
    use axijoint_base_kinds, only : wp
@@ -14,10 +14,11 @@ module axijoint_analysis_fine_line_loads
    private
    public :: spread_line_loads
 
-   !> Edges that meet at a smaller cosine of the angle between them have a corner, where tractions jump
+   !> Edges that meet at a smaller cosine of the angle between them have a corner, where tractions
+   !> jump
    real(wp), parameter :: straight = 0.9_wp
-   !> Tolerance of the tractions, most steps to them, and rounds over the values at corners, each of which
-   !> halves their error at least
+   !> Tolerance of the tractions, most steps to them, and rounds over the values at corners, each of
+   !> which halves their error at least
    real(wp), parameter :: tolerance = 1.0e-12_wp
    integer, parameter :: most_steps = 200, n_rounds = 30
 
@@ -33,7 +34,8 @@ module axijoint_analysis_fine_line_loads
 
 contains
 
-   !> Divide the forces on nodal circles into tractions on outer edges and what is left to single nodes
+   !> Divide the forces on nodal circles into tractions on outer edges and what is left to single
+   !> nodes
    subroutine spread_line_loads(model, fine, edge_loads, ring_loads)
       !> The job
       type(model_type), intent(in) :: model
@@ -101,12 +103,13 @@ contains
          end associate
       end do
       do k = 1, size(loaded)
-         if (loaded(k)) ring_loads = [ring_loads, ring_load_type(like%mode, like%case, k, force(:, k))]
+         if (loaded(k)) &
+            ring_loads = [ring_loads, ring_load_type(like%mode, like%case, k, force(:, k))]
       end do
    end subroutine spread
 
-   !> Outer edges all of whose nodes are loaded, and those that go on from them to a node that is held and
-   !> so needs no force
+   !> Outer edges all of whose nodes are loaded, and those that go on from them to a node that is
+   !> held and so needs no force
    function loaded_edges(model, fine, loaded) result(edges)
       !> The job
       type(model_type), intent(in) :: model
@@ -165,8 +168,8 @@ contains
       end associate
    end function new_loaded_edge
 
-   !> Number the tractions: edges share that of a node, but at a corner, at a node that is held and on the axis,
-   !> where the components of a force are one, each has its own
+   !> Number the tractions: edges share that of a node, but at a corner, at a node that is held and
+   !> on the axis, where the components of a force are one, each has its own
    subroutine number_values(model, loaded, edges, at_corner)
       !> The job
       type(model_type), intent(in) :: model
@@ -177,7 +180,8 @@ contains
       !> Whether a traction is that of one side of a corner
       logical, allocatable, intent(out) :: at_corner(:)
 
-      integer :: touch(2, n_nodes(model%mesh)), count(n_nodes(model%mesh)), number(n_nodes(model%mesh))
+      integer :: touch(2, n_nodes(model%mesh)), count(n_nodes(model%mesh)), &
+         number(n_nodes(model%mesh))
       integer :: k, i, n
       logical :: corner
 
@@ -197,7 +201,8 @@ contains
       do k = 1, size(edges)
          do i = 1, edges(k)%n
             associate (node => edges(k)%nodes(i))
-               corner = count(node) > 2 .or. .not. (loaded(node) .and. model%mesh%coordinates(1, node) > 0.0_wp)
+               corner = count(node) > 2 .or. .not. (loaded(node) &
+                  .and. model%mesh%coordinates(1, node) > 0.0_wp)
                if (count(node) == 2) corner = abs(cosine(touch(1, node), touch(2, node))) < straight
                if (number(node) == 0 .or. corner) then
                   n = n + 1
@@ -227,8 +232,8 @@ contains
 
    end subroutine number_values
 
-   !> The tractions whose nodal forces are given. On the sides of a corner, whose force has one number, the
-   !> tractions are those that follow from their course along the edge
+   !> The tractions whose nodal forces are given. On the sides of a corner, whose force has one
+   !> number, the tractions are those that follow from their course along the edge
    subroutine find_traction(edges, at_corner, force, traction)
       !> The edges
       type(loaded_edge_type), intent(in) :: edges(:)
@@ -254,7 +259,8 @@ contains
          do k = 1, size(edges)
             do i = 1, 2
                associate (value => edges(k)%value(i))  ! half the way: whole ones would swing
-                  if (at_corner(value)) traction(:, value) = 0.5_wp*(traction(:, value) + from_course(k, i))
+                  if (at_corner(value)) &
+                     traction(:, value) = 0.5_wp*(traction(:, value) + from_course(k, i))
                end associate
             end do
          end do
@@ -262,8 +268,8 @@ contains
 
    contains
 
-      !> Traction at an end of an edge from those that follow, a straight line or a parabola, as far as
-      !> the next edge goes on from this one
+      !> Traction at an end of an edge from those that follow, a straight line or a parabola, as far
+      !> as the next edge goes on from this one
       function from_course(edge, end) result(value)
          !> The edge, and its end
          integer, intent(in) :: edge, end

@@ -7,7 +7,8 @@ module axijoint_analysis_fine_mesh
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, n_joints, max_element_nodes
    implicit none
    private
-   public :: fine_mesh_type, parents_type, new_fine_mesh, ordered, find_edge, n_on, half_edges, edge_shape
+   public :: fine_mesh_type, parents_type, new_fine_mesh, ordered, find_edge, n_on, half_edges, &
+      edge_shape
    public :: prolong, restrict
 
    !> An edge of the coarse mesh, as the first element that has it runs along it
@@ -93,7 +94,8 @@ contains
       allocate (fine%element_edges(4, n_elements(coarse)), source=0)
       n = 0
       do element = 1, n_elements(coarse)
-         associate (nodes => coarse%element_nodes(:, element), corners => n_corners(coarse%element_size(element)))
+         associate (nodes => coarse%element_nodes(:, element), &
+            corners => n_corners(coarse%element_size(element)))
             do side = 1, corners
                a = nodes(side)
                b = nodes(mod(side, corners) + 1)
@@ -174,7 +176,8 @@ contains
       integer :: node, k, i, last
 
       associate (parents => fine%parents)
-         allocate (parents%start(n + 1), parents%node(max_element_nodes*n), parents%weight(max_element_nodes*n))
+         allocate (parents%start(n + 1), parents%node(max_element_nodes*n), &
+            parents%weight(max_element_nodes*n))
       end associate
       last = 0
       do node = 1, n_nodes(coarse)
@@ -188,7 +191,8 @@ contains
          end associate
       end do
       do k = 1, n_elements(coarse)
-         associate (size_of => coarse%element_size(k), first => cuts(coarse%element_size(k))%first_inside)
+         associate (size_of => coarse%element_size(k), &
+            first => cuts(coarse%element_size(k))%first_inside)
             do node = fine%inside(k), fine%inside(k + 1) - 1
                call follow(node, coarse%element_nodes(:size_of, k), &
                            cuts(size_of)%shape(:size_of, first + node - fine%inside(k)))
@@ -261,7 +265,8 @@ contains
                m = n
                do side = 1, n_corners(n)
                   associate (edge => fine%edges(fine%element_edges(side, k)))
-                     at(m + 1:m + cut%n_on_side) = in_sense(edge%new(:cut%n_on_side), edge%nodes(1) /= nodes(side))
+                     at(m + 1:m + cut%n_on_side) = &
+                        in_sense(edge%new(:cut%n_on_side), edge%nodes(1) /= nodes(side))
                   end associate
                   m = m + cut%n_on_side
                end do
@@ -340,7 +345,8 @@ contains
       integer :: lower(3, 2), upper(3, 2), k, c
 
       associate (mesh => fine%mesh, n => n_joints(coarse))
-         allocate (mesh%joint_label(2*n), mesh%joint_material(2*n), mesh%joint_size(2*n), mesh%joint_nodes(6, 2*n))
+         allocate (mesh%joint_label(2*n), mesh%joint_material(2*n), mesh%joint_size(2*n), &
+            mesh%joint_nodes(6, 2*n))
          do k = 1, n
             associate (nodes => coarse%joint_nodes(:, k))
                lower = half_edges(fine, nodes(1), nodes(2))
@@ -350,7 +356,8 @@ contains
                mesh%joint_label(2*k - 2 + c) = coarse%joint_label(k)
                mesh%joint_material(2*k - 2 + c) = coarse%joint_material(k)
                mesh%joint_size(2*k - 2 + c) = coarse%joint_size(k)
-               mesh%joint_nodes(:, 2*k - 2 + c) = [lower(1, c), lower(2, c), upper(2, c), upper(1, c), &
+               mesh%joint_nodes(:, 2*k - 2 + c) = &
+                  [lower(1, c), lower(2, c), upper(2, c), upper(1, c), &
                                                    lower(3, c), upper(3, c)]
             end do
          end do
@@ -418,7 +425,8 @@ contains
       do node = 1, size(forces, 2)
          do k = parents%start(node), parents%start(node + 1) - 1
             associate (parent => parents%node(k))
-               coarse_forces(:, parent) = coarse_forces(:, parent) + parents%weight(k)*forces(:, node)
+               coarse_forces(:, parent) = coarse_forces(:, parent) + &
+                  parents%weight(k)*forces(:, node)
             end associate
          end do
       end do

@@ -7,19 +7,21 @@ module axijoint_analysis_fine_mesh_error
    private
    public :: mesh_error_type, new_mesh_error
 
-   !> The error over the difference to a mesh of elements half as large: 4/3 where the error falls with
-   !> the square of their size, 16/15 with the fourth power, 1.9 with the power 1.1 of displacements by a
-   !> re-entrant corner. And the difference is found to 5 to 20 %
+   !> The error over the difference to a mesh of elements half as large: 4/3 where the error falls
+   !> with the square of their size, 16/15 with the fourth power, 1.9 with the power 1.1 of
+   !> displacements by a re-entrant corner. And the difference is found to 5 to 20 %
    real(wp), parameter, public :: error_over_difference = 1.6_wp
 
-   !> Factor on that of joint stress judged away from where it is infinite: there it converges faster
+   !> Factor on that of joint stress judged away from where it is infinite: there it converges
+   !> faster
    real(wp), parameter, public :: away_from_infinite = 0.75_wp
 
    !> Errors left by the mesh
    type :: mesh_error_type
       !> Whether it was found: a factor that is not kept may lack the memory to be formed again
       logical :: known = .true.
-      !> Of displacements of the nodes, amplitudes, shape (3, nodes, modes); zero where it is not known
+      !> Of displacements of the nodes, amplitudes, shape (3, nodes, modes); zero where it is not
+      !> known
       real(wp), allocatable :: displacement(:, :, :)
       !> Of the jumps at all joint points, their stress fixed, amplitudes, shape (3, points, modes)
       real(wp), allocatable :: jump(:, :, :)

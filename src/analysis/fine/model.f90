@@ -12,8 +12,8 @@ module axijoint_analysis_fine_model
 
 contains
 
-   !> Put a job on a fine mesh. Restraints and given displacements are those of the coarse mesh: the fine
-   !> model has none
+   !> Put a job on a fine mesh. Restraints and given displacements are those of the coarse mesh: the
+   !> fine model has none
    subroutine new_fine_model(model, fine, finer)
       !> The job
       type(model_type), intent(in) :: model
@@ -31,12 +31,14 @@ contains
       call spread_line_loads(model, fine, tractions, finer%ring_loads)
       tractions = [model%edge_loads, tractions]
       finer%edge_loads = [(halves_of_load(tractions(k), fine), k=1, size(tractions))]
-      finer%edge_supports = [(halves_of_support(model%edge_supports(k), fine), k=1, size(model%edge_supports))]
+      finer%edge_supports = [(halves_of_support(model%edge_supports(k), fine), k=1, &
+         size(model%edge_supports))]
       finer%body_loads = model%body_loads
       finer%initial_stresses = model%initial_stresses
       finer%thermal_loads = model%thermal_loads
       do k = 1, size(finer%thermal_loads)
-         finer%thermal_loads(k)%temperature = at_fine_nodes(fine, model%thermal_loads(k)%temperature)
+         finer%thermal_loads(k)%temperature = at_fine_nodes(fine, &
+            model%thermal_loads(k)%temperature)
       end do
    end subroutine new_fine_model
 

@@ -1,5 +1,5 @@
-!> Where stresses are infinite: corners, ends of supports and of materials, edges of stiff joints. There an error
-!> in per cent means nothing; what can be said is the exponent
+!> Where stresses are infinite: corners, ends of supports and of materials, edges of stiff joints.
+!> There an error in per cent means nothing; what can be said is the exponent
 module axijoint_analysis_fine_singular_places
    use axijoint_analysis_fine_mesh, only : fine_mesh_type, find_edge, n_on
    use axijoint_base_kinds, only : wp, pi
@@ -18,8 +18,8 @@ module axijoint_analysis_fine_singular_places
    real(wp), parameter :: same = 10.0_wp*pi/180.0_wp
    !> Joint stresses are judged farther from such a place than this part of the joints' length
    real(wp), parameter :: part = 0.1_wp
-   !> Joints at least as stiff beside the bodies, k/E times that distance, hold them together as seen from
-   !> there: their stress grows as if they were bonded, until as near as E/k
+   !> Joints at least as stiff beside the bodies, k/E times that distance, hold them together as
+   !> seen from there: their stress grows as if they were bonded, until as near as E/k
    real(wp), parameter :: bonding = 1.0_wp
 
    !> A place
@@ -52,11 +52,13 @@ module axijoint_analysis_fine_singular_places
 
    !> Joints at the nodes
    type :: joint_places_type
-      !> The first of the nodes that joints hold together at one place; the node itself without joints
+      !> The first of the nodes that joints hold together at one place; the node itself without
+      !> joints
       integer, allocatable :: together(:)
       !> Whether a joint that cannot open holds the node
       logical, allocatable :: holds(:)
-      !> Largest stiffness k/E of the joints there, and length of the line of joints; zero without joints
+      !> Largest stiffness k/E of the joints there, and length of the line of joints; zero without
+      !> joints
       real(wp), allocatable :: stiffness(:), length(:)
    end type joint_places_type
 
@@ -85,10 +87,12 @@ contains
          associate (bonded => joints%stiffness(node)*part*joints%length(node) >= bonding, &
                     distance => part*joints%length(node))
             if (.not. bonded) then
-               exponent = exponent_of(model, fine, corners%sectors(corners%start(node):corners%start(node + 1) - 1), &
+               exponent = exponent_of(model, fine, &
+                  corners%sectors(corners%start(node):corners%start(node + 1) - 1), &
                                       open=.true.)
                if (exponent < slow) places = [places, singular_place_type(node, exponent)]
-            else if (joints%together(node) == node) then  ! others are told with the first node of the place
+            ! others are told with the first node of the place
+            else if (joints%together(node) == node) then
                sectors = sectors_at(corners, joints%together, node)
                exponent = exponent_of(model, fine, sectors, open=.false.)
                ! where other joints hold, they have an edge where one opens
@@ -116,7 +120,8 @@ contains
 
       allocate (sectors(0))
       do k = node, size(together)
-         if (together(k) == node) sectors = [sectors, corners%sectors(corners%start(k):corners%start(k + 1) - 1)]
+         if (together(k) == node) &
+            sectors = [sectors, corners%sectors(corners%start(k):corners%start(k + 1) - 1)]
       end do
    end function sectors_at
 
@@ -137,7 +142,8 @@ contains
       do k = 1, n_joints(model%mesh)
          associate (nodes => model%mesh%joint_nodes(:, k))
             if (.not. can_yield_at(model, model%mesh%joint_material(k))) cycle
-            opens([find_edge(fine, nodes(1), nodes(2)), find_edge(fine, nodes(4), nodes(3))]) = .true.
+            opens([find_edge(fine, nodes(1), nodes(2)), find_edge(fine, nodes(4), nodes(3))]) = &
+               .true.
          end associate
       end do
       associate (mesh => model%mesh)
@@ -159,7 +165,8 @@ contains
          do i = 1, n
             node = mesh%element_nodes(i, element)
             corners%sectors(next(node)) = new_sector(mesh, element, i, n)
-            corners%sectors(next(node))%opens = opens(fine%element_edges([i, mod(i + n - 2, n) + 1], element))
+            corners%sectors(next(node))%opens = &
+               opens(fine%element_edges([i, mod(i + n - 2, n) + 1], element))
             next(node) = next(node) + 1
          end do
       end do
@@ -186,7 +193,8 @@ contains
       do k = 1, 2
          way = mesh%coordinates(:, sector%ends(k)) - mesh%coordinates(:, node)
          if (mesh%element_size(element) > 4) then  ! tangent of the parabola through the middle
-            way = 4.0_wp*(mesh%coordinates(:, mesh%element_nodes(n + side(k), element)) - mesh%coordinates(:, node)) - way
+            way = 4.0_wp*(mesh%coordinates(:, mesh%element_nodes(n + side(k), element)) - &
+               mesh%coordinates(:, node)) - way
          end if
          angle(k) = atan2(way(2), way(1))
       end do
@@ -212,13 +220,15 @@ contains
          call unite(reshape(mesh%joint_nodes(:4, :), [4, n]), line)
          call unite(reshape(mesh%joint_nodes([1, 4, 2, 3], :), [2, 2*n]), joints%together)
          do k = 1, n
-            associate (nodes => mesh%joint_nodes(:4, k), law => model%joint_materials(mesh%joint_material(k))%law)
+            associate (nodes => mesh%joint_nodes(:4, k), &
+               law => model%joint_materials(mesh%joint_material(k))%law)
                if (.not. can_yield_at(model, mesh%joint_material(k))) joints%holds(nodes) = .true.
                h = norm2(mesh%coordinates(:, nodes(2)) - mesh%coordinates(:, nodes(1)))
                joints%length(line(nodes(1))) = joints%length(line(nodes(1))) + h
                do i = 1, 2
                   associate (stiffness => joints%stiffness(joints%together(nodes(i))))
-                     stiffness = max(stiffness, maxval(law%stiffness)/minval(modulus(nodes([i, 5 - i]))))
+                     stiffness = max(stiffness, &
+                        maxval(law%stiffness)/minval(modulus(nodes([i, 5 - i]))))
                   end associate
                end do
             end associate
@@ -261,7 +271,8 @@ contains
       do k = 1, n_elements(model%mesh)
          associate (nodes => model%mesh%element_nodes(:model%mesh%element_size(k), k), &
                     material => model%materials(model%mesh%element_material(k)))
-            modulus(nodes) = min(modulus(nodes), merge(minval(material%moduli), material%young, material%orthotropic))
+            modulus(nodes) = min(modulus(nodes), &
+               merge(minval(material%moduli), material%young, material%orthotropic))
          end associate
       end do
    end function least_modulus
@@ -396,15 +407,18 @@ contains
             is_smooth = n == 1
             if (n == 2) is_smooth = abs(wedge%ray(2) - wedge%ray(1) - pi) < same
          else
-            is_smooth = n == 1 .and. angle < pi + same .and. all(wedge%held(:, 1) .eqv. wedge%held(:, 2))
-            ! square corners between a face that is held along one direction and a free one mirror half of a body
-            if (n == 1 .and. angle < 0.5_wp*pi + same .and. .not. any(all(wedge%held(:2, :), 1))) is_smooth = .true.
+            is_smooth = n == 1 .and. angle < pi + same &
+               .and. all(wedge%held(:, 1) .eqv. wedge%held(:, 2))
+            ! square corners between a face that is held along one direction and a free one mirror
+            ! half of a body
+            if (n == 1 .and. angle < 0.5_wp*pi + same .and. .not. any(all(wedge%held(:2, :), 1))) &
+               is_smooth = .true.
          end if
       end associate
    end function is_smooth
 
-   !> Whether joint stresses at points are judged: those that are far enough from singular places; all, if
-   !> none is
+   !> Whether joint stresses at points are judged: those that are far enough from singular places;
+   !> all, if none is
    function judged_points(mesh, places, positions) result(judged)
       !> The mesh
       type(mesh_type), intent(in) :: mesh
@@ -420,7 +434,8 @@ contains
       judged = .true.
       do k = 1, size(places)
          do i = 1, size(judged)
-            judged(i) = judged(i) .and. norm2(positions(:, i) - mesh%coordinates(:, places(k)%node)) >= places(k)%distance
+            judged(i) = judged(i) .and. norm2(positions(:, i) - &
+               mesh%coordinates(:, places(k)%node)) >= places(k)%distance
          end do
       end do
       if (.not. any(judged)) judged = .true.

@@ -29,9 +29,9 @@ module axijoint_analysis_fine_smoother
 
 contains
 
-   !> Block of each fine node. Blocks are the new nodes inside an element, those on an edge, a coarse
-   !> node at a corner; united are an outer edge and its element, the two sides of a joint, and the long
-   !> sides of a slender element and its inside: lines across slender elements
+   !> Block of each fine node. Blocks are the new nodes inside an element, those on an edge, a
+   !> coarse node at a corner; united are an outer edge and its element, the two sides of a joint,
+   !> and the long sides of a slender element and its inside: lines across slender elements
    function new_blocks(coarse, fine) result(block)
       !> The coarse mesh
       type(mesh_type), intent(in) :: coarse
@@ -61,7 +61,8 @@ contains
       do k = 1, n_elements(coarse)
          associate (long => long_sides(coarse, k))
             do side = 1, n_corners(coarse%element_size(k))
-               if (long(side)) call unite(root, before_elements + k, before_edges + fine%element_edges(side, k))
+               if (long(side)) &
+                  call unite(root, before_elements + k, before_edges + fine%element_edges(side, k))
             end do
          end associate
       end do
@@ -130,8 +131,8 @@ contains
       end if
    end function long_sides
 
-   !> Order of the fine nodes, block by block and neighbours close in each; blocks of one coarse element are
-   !> close, too
+   !> Order of the fine nodes, block by block and neighbours close in each; blocks of one coarse
+   !> element are close, too
    subroutine order_by_blocks(coarse, fine, graph, block, order)
       !> The coarse mesh
       type(mesh_type), intent(in) :: coarse
@@ -256,7 +257,8 @@ contains
       do b = 1, size(smoother%width)
          associate (from => smoother%start(b), nodes => smoother%first(b + 1) - smoother%first(b), &
                     width => 3*smoother%width(b) + 2)
-            call fill_block(stiffness, harmonic, conditions, smoother%first(b), nodes, width, factor(from))
+            call fill_block(stiffness, harmonic, conditions, smoother%first(b), nodes, width, &
+               factor(from))
             call factor_band(3*nodes, width, factor(from), info)
          end associate
          failed = failed .or. info > 0

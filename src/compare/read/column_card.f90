@@ -116,7 +116,8 @@ contains
       column%place = place_fixed
       if (good) return
       call add_error(diagnostics, card, first, last, 'this is neither a place nor an option', &
-         found=content(first:last), allowed='columns such as 11-22 (the first not beyond the last), '// &
+         found=content(first:last), allowed='columns such as 11-22 (the first not beyond the '// &
+         'last), '// &
          'heading, =VALUE, or an option: factor= factor_m0= blank= word=')
    end subroutine read_place
 
@@ -164,7 +165,8 @@ contains
                option_names, diagnostics)
          end select
          if (.not. good) call add_error(diagnostics, card, first + equals, last, &
-            'this is no factor', found=value, allowed='numbers other than 0 and pi with * and /, '// &
+            'this is no factor', found=value, &
+            allowed='numbers other than 0 and pi with * and /, '// &
             'such as -1, 1E-3, 1/pi, 1/(2*pi)', mend='write it without blanks')
       end associate
    end subroutine read_option

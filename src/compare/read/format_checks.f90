@@ -1,6 +1,7 @@
 !> What a format description must have as a whole
 module axijoint_compare_read_format_checks
-   use axijoint_compare_read_format, only : format_type, table_format_type, place_free, place_fixed, &
+   use axijoint_compare_read_format, only : format_type, table_format_type, place_free, &
+      place_fixed, &
       end_heading, place_heading
    use axijoint_compare_table_table, only : kind_coordinate
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
@@ -26,7 +27,8 @@ contains
 
       if (diagnostics%n_errors > 0) return
       if (size(format%tables) == 0) then
-         call add_error(diagnostics, min(1, source%n_cards), 0, 0, 'the format describes no table', &
+         call add_error(diagnostics, min(1, source%n_cards), 0, 0, &
+            'the format describes no table', &
             mend='a table is described by the cards TABLE, HEADING, COLUMN; see doc/compare.md')
       end if
       do k = 1, size(format%tables)
@@ -46,7 +48,8 @@ contains
       integer :: k
 
       if (len(table%heading) == 0) call add_error(diagnostics, card, 0, 0, &
-         'the table has no HEADING card', mend='add HEADING and the words that its heading begins with')
+         'the table has no HEADING card', &
+         mend='add HEADING and the words that its heading begins with')
       if (size(table%columns) == 0) then
          call add_error(diagnostics, card, 0, 0, 'the table has no COLUMN card', &
             mend='add a COLUMN card for each column')
@@ -62,7 +65,8 @@ contains
       end if
       do k = 1, size(table%columns)
          associate (column => table%columns(k))
-            if (column%kind == kind_coordinate .and. column%name /= 'r' .and. column%name /= 'z') then
+            if (column%kind == kind_coordinate .and. column%name /= 'r' &
+               .and. column%name /= 'z') then
                call add_error(diagnostics, card, 0, 0, 'a coordinate has the name '//column%name, &
                   allowed='r z')
             end if

@@ -21,7 +21,8 @@ module axijoint_compare_read_format_reader
    character(len=*), parameter :: table_cards(4) = [character(len=8) :: 'HEADING', 'SKIP', 'ENDS', &
       'COLUMN']
    !> What an ENDS card may say
-   character(len=*), parameter :: endings(4) = [character(len=8) :: 'BLANK', 'NEXT', 'HEADING', 'AT']
+   character(len=*), parameter :: endings(4) = &
+      [character(len=8) :: 'BLANK', 'NEXT', 'HEADING', 'AT']
 
 contains
 

@@ -2,9 +2,11 @@
 module axijoint_compare_read_hdf5_arrays
    use, intrinsic :: iso_c_binding, only : c_loc, c_int, c_ptr
    use axijoint_base_kinds, only : wp
-   use hdf5, only : hid_t, hsize_t, size_t, h5open_f, h5close_f, h5eset_auto_f, h5fopen_f, h5fclose_f, &
+   use hdf5, only : hid_t, hsize_t, size_t, h5open_f, h5close_f, h5eset_auto_f, h5fopen_f, &
+      h5fclose_f, &
       h5f_acc_rdonly_f, h5lexists_f, h5dopen_f, h5dclose_f, h5dread_f, h5dget_space_f, h5sclose_f, &
-      h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5t_native_double, h5aopen_by_name_f, &
+      h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5t_native_double, &
+      h5aopen_by_name_f, &
       h5aread_f, h5aclose_f, h5aget_type_f, h5tget_size_f, h5tclose_f
    implicit none
    private

@@ -3,10 +3,12 @@ module axijoint_compare_read_hdf5_lines
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text
    use axijoint_compare_read_hdf5_arrays, only : result_file_type
-   use axijoint_compare_read_hdf5_cells, only : array_type, array, at, number, word_cell, new_column, &
+   use axijoint_compare_read_hdf5_cells, only : array_type, array, at, number, word_cell, &
+      new_column, &
       columns_of, coordinates
    use axijoint_compare_table_cell, only : cell_type
-   use axijoint_compare_table_table, only : listing_type, words_type, column_type, open_table, add_row, kind_label, &
+   use axijoint_compare_table_table, only : listing_type, words_type, column_type, open_table, &
+      add_row, kind_label, &
       kind_key, kind_coordinate, kind_angle, kind_displacement, kind_stress, kind_force, kind_moment
    implicit none
    private
@@ -18,7 +20,8 @@ module axijoint_compare_read_hdf5_lines
                          'tau_rtheta', 'tau_ztheta'], &
       resultant_names(6) = [character(len=10) :: 'axial', 'lateral', 'moment', 'torque', &
                             'lateral_90', 'moment_90'], &
-      cut_names(6) = [character(len=9) :: 'axial', 'shear', 'moment', 'torque', 'shear_90', 'moment_90'], &
+      cut_names(6) = [character(len=9) :: 'axial', 'shear', 'moment', 'torque', 'shear_90', &
+      'moment_90'], &
       resultant_texts(6) = [character(len=32) :: 'axial force (along z)', &
                             'lateral force (along theta = 0)', 'moment (lifts theta = 0)', &
                             'torque (about z)', 'lateral force (along theta = 90)', &
@@ -56,7 +59,8 @@ contains
          group = '/sections/'//to_text(section)
          if (.not. file%has(group)) cycle
          call add_section(file, listing, 'displacements on sections', to_text(section), &
-                          group, '/displacement', columns_of(displacement_names, kind_displacement), owners)
+                          group, '/displacement', &
+                          columns_of(displacement_names, kind_displacement), owners)
          call add_section(file, listing, 'stresses on sections', to_text(section), &
                           group, '/stress', columns_of(stress_names, kind_stress), owners)
       end do
@@ -85,12 +89,15 @@ contains
       values = array(file, group//name)
       if (len(file%failure) > 0) return
       call open_table(listing, title, 'section = '//section, [new_column('theta', kind_angle), &
-                      new_column('point', kind_label), coordinates(), new_column('body', kind_key), &
+                      new_column('point', kind_label), coordinates(), &
+                      new_column('body', kind_key), &
                       new_column('material', kind_key), components], table)
       do j = 1, size(angle%value)
          do i = 1, size(point%value)
-            call add_row(listing%tables(table), [number(at(angle, j)/degree), number(at(point, i)), &
-                         number([(at(position, k, i), k=1, 2)]), number(owners(:, nint(at(element, i)))), &
+            call add_row(listing%tables(table), &
+               [number(at(angle, j)/degree), number(at(point, i)), &
+                         number([(at(position, k, i), k=1, 2)]), &
+                         number(owners(:, nint(at(element, i)))), &
                          number([(at(values, k, i, j), k=1, size(components))])], 0)
          end do
       end do

@@ -4,13 +4,16 @@ module axijoint_compare_read_hdf5_reader
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text
    use axijoint_compare_read_hdf5_arrays, only : result_file_type
-   use axijoint_compare_read_hdf5_cells, only : array_type, array, at, number, word_cell, new_column, &
+   use axijoint_compare_read_hdf5_cells, only : array_type, array, at, number, word_cell, &
+      new_column, &
       columns_of, coordinates
    use axijoint_compare_read_hdf5_lines, only : read_sections, read_cuts, read_resultants, &
       displacement_names, stress_names
    use axijoint_compare_table_cell, only : cell_type, cell_blank
-   use axijoint_compare_table_table, only : listing_type, words_type, column_type, open_table, drop_empty_tables, add_row, &
-      kind_label, kind_key, kind_angle, kind_word, kind_displacement, kind_jump, kind_stress, kind_force
+   use axijoint_compare_table_table, only : listing_type, words_type, column_type, open_table, &
+      drop_empty_tables, add_row, &
+      kind_label, kind_key, kind_angle, kind_word, kind_displacement, kind_jump, kind_stress, &
+      kind_force
    implicit none
    private
    public :: read_result_file, hdf5_signature
@@ -21,7 +24,8 @@ module axijoint_compare_read_hdf5_reader
 
    !> Names of columns
    character(len=*), parameter :: reaction_names(3) = ['R_u', 'R_v', 'R_w'], &
-      joint_names(6) = [character(len=9) :: 'tau_xi', 'sigma', 'tau_theta', 'd_xi', 'd_eta', 'd_theta'], &
+      joint_names(6) = [character(len=9) :: 'tau_xi', 'sigma', 'tau_theta', 'd_xi', 'd_eta', &
+      'd_theta'], &
       family_names(2) = [character(len=13) :: 'symmetric', 'antisymmetric'], &
       state_names(0:2) = [character(len=5) :: 'stick', 'slip', 'open']
 
@@ -128,14 +132,17 @@ contains
       name = array(file, '/materials/label')
       if (len(file%failure) > 0) return
       call add_modes(file, listing, 'displacement amplitudes', '/displacement', &
-                     columns_of(displacement_names, kind_displacement), [new_column('node', kind_label)], label%value, place%value)
-      call add_modes(file, listing, 'reactions', '/reaction', columns_of(reaction_names, kind_force), &
+                     columns_of(displacement_names, kind_displacement), &
+                     [new_column('node', kind_label)], label%value, place%value)
+      call add_modes(file, listing, 'reactions', '/reaction', &
+         columns_of(reaction_names, kind_force), &
                      [new_column('node', kind_label)], label%value, place%value)
       call add_modes(file, listing, 'stress amplitudes at Gauss points', '/stress/amplitude', &
                      columns_of(stress_names, kind_stress), [new_column('element', kind_label)], &
                      element%value(nint(owner%value)), position%value)
       call add_modes(file, listing, 'stress amplitudes at nodes', '/stress/nodal', &
-                     columns_of(stress_names, kind_stress), [new_column('node', kind_label), new_column('material', kind_key)], &
+                     columns_of(stress_names, kind_stress), &
+                     [new_column('node', kind_label), new_column('material', kind_key)], &
                      [(label%value(nint(node%value(i))), name%value(nint(material%value(i))), &
                        i=1, size(node%value))], &
                      [(at(place, 1, nint(node%value(i))), at(place, 2, nint(node%value(i))), &
@@ -169,7 +176,8 @@ contains
       n = size(label_columns)
       do mode = 1, values%extent(3)
          call open_table(listing, title, 'm = '//to_text(at(harmonic, mode))//', family = '// &
-                         trim(family_names(nint(at(family, mode)))), [label_columns, coordinates(), components], table)
+                         trim(family_names(nint(at(family, mode)))), &
+                         [label_columns, coordinates(), components], table)
          do row = 1, values%extent(2)
             if (name == '/reaction') then
                if (.not. any([(at(fixed, k, row) > 0.5_wp .or. &
@@ -204,7 +212,8 @@ contains
       if (len(file%failure) > 0 .or. size(joint%value) == 0) return
       call open_table(listing, 'joints', '', [new_column('joint', kind_label), coordinates(), &
                       new_column('theta', kind_angle), &
-                      (new_column(trim(joint_names(k)), merge(kind_stress, kind_jump, k < 4)), k=1, 6), &
+                      (new_column(trim(joint_names(k)), merge(kind_stress, kind_jump, k < 4)), &
+                      k=1, 6), &
                       new_column('state', kind_word)], table)
       do i = 1, size(joint%value)
          do j = 1, size(plane%value)

@@ -2,12 +2,14 @@
 module axijoint_compare_read_listing_reader
    use axijoint_base_error, only : error_type, fatal_error, exit_deck
    use axijoint_base_text, only : to_text
-   use axijoint_compare_read_format, only : format_type, table_format_type, pattern_type, end_blank, &
+   use axijoint_compare_read_format, only : format_type, table_format_type, pattern_type, &
+      end_blank, &
       end_heading, end_text
    use axijoint_compare_read_pattern, only : captures_type, match_pattern
    use axijoint_compare_read_row_reader, only : row_fault_type, read_row, parameters_of
    use axijoint_compare_table_cell, only : cell_type
-   use axijoint_compare_table_table, only : listing_type, words_type, column_type, open_table, add_row, &
+   use axijoint_compare_table_table, only : listing_type, words_type, column_type, open_table, &
+      add_row, &
       kind_parameter, kind_skip
    use axijoint_deck_text_file_bytes, only : line_end, next_line
    use axijoint_deck_text_source, only : printable
@@ -225,7 +227,8 @@ contains
          call parameters_of(description, words, cells, parameters)
          kept = pack([(k, k=1, size(cells))], description%columns%kind /= kind_parameter &
                      .and. description%columns%kind /= kind_skip)
-         call open_table(listing, description%name, parameters, columns_of(description, kept), table)
+         call open_table(listing, description%name, parameters, columns_of(description, kept), &
+            table)
          call add_row(listing%tables(table), cells(kept), line)
       end associate
    end subroutine read_table_row
@@ -268,14 +271,16 @@ contains
       character(len=:), allocatable :: margin
 
       margin = repeat(' ', max(0, 5 - len(to_text(line))))//to_text(line)
-      call fatal_error(error, exit_deck, path//':'//to_text(line)//':'//to_text(fault%first)//'-'// &
+      call fatal_error(error, exit_deck, path//':'//to_text(line)//':'//to_text(fault%first)// &
+         '-'// &
          to_text(max(fault%first, fault%last))//': error: '//fault%text//nl// &
          margin//' | '//printable(text)//nl// &
          repeat(' ', len(margin))//' |'//repeat(' ', max(1, fault%first))// &
          repeat('^', max(1, fault%last - fault%first + 1))//nl// &
          '  allowed: a row of the table '//description%name//' (heading in line '// &
          to_text(heading_line)//'): column '//description%columns(fault%column)%name//nl// &
-         '  mend:    the file is damaged, or its format needs an IGNORE card, ENDS, or other columns')
+         '  mend:    the file is damaged, or its format needs an IGNORE card, ENDS, or other '// &
+         'columns')
    end subroutine row_error
 
    !> Error for a file that is of another format, or cut off
@@ -294,14 +299,17 @@ contains
       character, parameter :: nl = new_line('a')
 
       if (.not. state%first_seen) then
-         call fatal_error(error, exit_deck, path//': error: this is no '//format%name//': no line '// &
+         call fatal_error(error, exit_deck, path//': error: this is no '//format%name// &
+            ': no line '// &
             "begins with '"//format%first//"'"//nl//'  mend:    give the format of the listing '// &
             'by --format-a or --format-b')
       else if (listing%n_tables == 0) then
-         call fatal_error(error, exit_deck, path//': error: none of the tables of the format is in '// &
+         call fatal_error(error, exit_deck, path// &
+            ': error: none of the tables of the format is in '// &
             'the file: '//format%name//nl//'  mend:    look at the HEADING cards of the format')
       else if (len(format%last) > 0 .and. .not. state%last_seen) then
-         call fatal_error(error, exit_deck, path//': error: the file is cut off: no line begins '// &
+         call fatal_error(error, exit_deck, path// &
+            ': error: the file is cut off: no line begins '// &
             "with '"//format%last//"'"//nl//'  mend:    run the job again, or copy the file again')
       end if
    end subroutine check_whole

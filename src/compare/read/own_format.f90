@@ -134,7 +134,8 @@ contains
          //lines(angle)//lines(section)//lines(displacements) &
          //title('stresses on sections', 'STRESSES ON SECTION {section}, theta = {theta}') &
          //lines(angle)//lines(section)//lines(stresses)//lines(cuts) &
-         //title('reactions', 'REACTIONS, harmonic {m} {family}')//lines(mode)//node()//lines(place) &
+         //title('reactions', 'REACTIONS, harmonic {m} {family}')//lines(mode)//node()// &
+         lines(place) &
          //'   COLUMN R_u force'//new_line('a')//'   COLUMN R_v force'//new_line('a') &
          //'   COLUMN R_w force'//new_line('a')//lines(faces)//lines(equilibrium)
    end function own_format_text

@@ -76,7 +76,8 @@ contains
          if (first == 0) return
          call next_word(line, j, first_word, last_word)
          found = first_word > 0
-         if (found) call match_word(line(first_word:last_word), pattern(first:last), captures, found)
+         if (found) &
+            call match_word(line(first_word:last_word), pattern(first:last), captures, found)
          if (.not. found) return
          i = last + 1
          j = last_word + 1

@@ -40,7 +40,8 @@ contains
          call fatal_error(error, exit_deck, path//': error: '//failure)
       else if (index(bytes, hdf5_signature) == 1) then
          if (len(format_path) > 0) then
-            call fatal_error(error, exit_deck, path//': error: this is an HDF5 file, which needs no '// &
+            call fatal_error(error, exit_deck, path// &
+               ': error: this is an HDF5 file, which needs no '// &
                'format'//new_line('a')//'  mend:    leave out the format '//format_path)
          else
             deallocate (bytes)

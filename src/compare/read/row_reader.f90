@@ -5,7 +5,8 @@ module axijoint_compare_read_row_reader
    use axijoint_compare_read_format, only : table_format_type, column_format_type, place_free, &
       place_fixed, place_heading, blank_missing, blank_zero, blank_above
    use axijoint_compare_read_pattern, only : captures_type, find_capture, next_word
-   use axijoint_compare_table_cell, only : cell_type, read_cell, number_length, cell_number, cell_blank, &
+   use axijoint_compare_table_cell, only : cell_type, read_cell, number_length, cell_number, &
+      cell_blank, &
       cell_word, cell_strange
    use axijoint_compare_table_table, only : words_type, word_index, kind_label, kind_key, &
       kind_parameter, kind_word, kind_skip

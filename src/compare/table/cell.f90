@@ -119,7 +119,8 @@ contains
       if (point > 0) decimals = last - point
       exponent = 0
       if (last < len(token)) then
-         read (token(last + merge(2, 1, token(last + 1:last + 1) == 'E'):), *, iostat=status) exponent
+         read (token(last + merge(2, 1, token(last + 1:last + 1) == 'E'):), *, &
+            iostat=status) exponent
          if (status /= 0) return
       end if
       exponent = exponent - decimals

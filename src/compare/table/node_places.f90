@@ -24,10 +24,12 @@ contains
       if (nodes > listing%n_tables) return
       associate (table => listing%tables(nodes))
          label = find_column(table, 'node', kind_label)
-         place = [find_column(table, 'r', kind_coordinate), find_column(table, 'z', kind_coordinate)]
+         place = [find_column(table, 'r', kind_coordinate), &
+            find_column(table, 'z', kind_coordinate)]
          if (label == 0 .or. any(place == 0)) return
          do row = 1, table%n_rows
-            if (table%cells(label, row)%state == cell_number .and. table%cells(label, row)%value > 0.5) &
+            if (table%cells(label, row)%state == cell_number &
+               .and. table%cells(label, row)%value > 0.5) &
                call insert_number(rows, nint(table%cells(label, row)%value), row)
          end do
       end associate

@@ -6,7 +6,8 @@ module axijoint_compare_table_table
    implicit none
    private
    public :: column_type, table_type, listing_type, words_type
-   public :: open_table, drop_empty_tables, add_row, find_column, word_index, table_title, append_columns
+   public :: open_table, drop_empty_tables, add_row, find_column, word_index, table_title, &
+      append_columns
    public :: kind_names, kind_label, kind_key, kind_coordinate, kind_angle, kind_parameter, &
       kind_skip, kind_word, kind_displacement, kind_jump, kind_stress, kind_force, kind_moment
 

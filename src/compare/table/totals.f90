@@ -2,7 +2,8 @@
 module axijoint_compare_table_totals
    use axijoint_base_kinds, only : wp, degree
    use axijoint_compare_table_cell, only : cell_type, cell_number
-   use axijoint_compare_table_table, only : listing_type, table_type, column_type, open_table, add_row, &
+   use axijoint_compare_table_table, only : listing_type, table_type, column_type, open_table, &
+      add_row, &
       find_column, kind_angle, kind_displacement, kind_stress
    implicit none
    private
@@ -10,7 +11,8 @@ module axijoint_compare_table_totals
 
    !> Tables of amplitudes, and those of totals
    character(len=*), parameter :: amplitude_names(3) = [character(len=33) :: &
-      'displacement amplitudes', 'stress amplitudes at Gauss points', 'stress amplitudes at nodes'], &
+      'displacement amplitudes', 'stress amplitudes at Gauss points', &
+      'stress amplitudes at nodes'], &
       total_names(3) = [character(len=24) :: 'total displacements', 'stresses at Gauss points', &
       'stresses at nodes']
    !> Components that go with w
@@ -21,8 +23,9 @@ module axijoint_compare_table_totals
 
 contains
 
-   !> Add to an HDF5 file tables of totals at the angles at which another file has them, where this file has none.
-   !> Amplitudes of stresses that the other file lacks are then left out: its totals stand for them
+   !> Add to an HDF5 file tables of totals at the angles at which another file has them, where this
+   !> file has none. Amplitudes of stresses that the other file lacks are then left out: its totals
+   !> stand for them
    subroutine add_totals(listing, other)
       !> The file
       type(listing_type), intent(inout) :: listing
@@ -145,7 +148,8 @@ contains
          do row = 1, size(cells, 2)
             cells(k, row)%value = cells(k, row)%value + table%cells(k, row)%value &
                *merge(lateral, meridional, any(circumferential == table%columns(k)%name))
-            if (table%cells(k, row)%state /= cell_number) cells(k, row)%state = table%cells(k, row)%state
+            if (table%cells(k, row)%state /= cell_number) &
+               cells(k, row)%state = table%cells(k, row)%state
          end do
       end do
    end subroutine add_mode

@@ -35,7 +35,8 @@ contains
       do element = 1, draft%n_elements
          if (.not. draft%element_good(element)) cycle
          associate (nodes => draft%element_nodes(:draft%element_size(element), element))
-            if (any(draft%position(1, nodes) > 0.0_wp) .and. any(.not. draft%position(1, nodes) > 0.0_wp)) then
+            if (any(draft%position(1, nodes) > 0.0_wp) &
+               .and. any(.not. draft%position(1, nodes) > 0.0_wp)) then
                beside = maxval(reach(nodes)) - width(draft, element)
                if (beside > largest_jump*width(draft, element)) then
                   n = n + 1
@@ -46,10 +47,12 @@ contains
       end do
       if (n == 0) return
       call add_warning(diagnostics, draft%element_card(first), 0, 0, &
-                       count_of(n, 'element')//' at the axis: far narrower than those beside them', &
+                       count_of(n, 'element')// &
+                       ' at the axis: far narrower than those beside them', &
                        found='element '//to_text(draft%element_label(first))//' ends at r = '// &
                        to_text(width(draft, first)), &
-                       mend='do not use their stresses in harmonics above 0, or let the elements grow gradually')
+                       mend='do not use their stresses in harmonics above 0, or let the '// &
+                       'elements grow gradually')
    end subroutine check_slivers
 
    !> Report nodes that are almost on the axis, and warn of holes in coarse elements. Elements far
@@ -72,17 +75,21 @@ contains
       node = findloc(ratio < coarse_hole, .true., 1)
       if (any(ratio < no_hole)) node = findloc(ratio < no_hole, .true., 1)
       if (node == 0) return
-      found = 'node '//to_text(draft%node_label(node))//' at r = '//to_text(draft%position(1, node))// &
+      found = 'node '//to_text(draft%node_label(node))//' at r = '// &
+         to_text(draft%position(1, node))// &
               ', elements there '//to_text(width_at(node))//' wide'
       if (ratio(node) < no_hole) then
          call add_error(diagnostics, draft%node_card(node), 0, 0, &
-                        count_of(count(ratio < no_hole), 'node')//' almost on the axis', found=found, &
+                        count_of(count(ratio < no_hole), 'node')//' almost on the axis', &
+                        found=found, &
                         allowed='r = 0, or a hole with narrow elements at it', mend='write r = 0')
       else
          call add_warning(diagnostics, draft%node_card(node), 0, 0, &
-                          count_of(count(ratio < coarse_hole), 'node')//' at a hole that the elements there '// &
+                          count_of(count(ratio < coarse_hole), 'node')// &
+                          ' at a hole that the elements there '// &
                           'hardly see', found=found, &
-                          mend='write r = 0, or let the elements be about as wide as the hole and grow gradually')
+                          mend='write r = 0, or let the elements be about as wide as the hole '// &
+                          'and grow gradually')
       end if
    end subroutine check_holes
 

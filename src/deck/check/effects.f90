@@ -25,7 +25,8 @@ contains
       do k = 1, size(deck%sections%tables)
          associate (needs => deck%source%sections(k)%needs, table => deck%sections%tables(k))
             if (table%n == 0 .or. needs == needs_nothing) cycle
-            if (needs == needs_density .and. heavy .or. needs == needs_expansion .and. expands) cycle
+            if (needs == needs_density .and. heavy .or. needs == needs_expansion .and. expands) &
+               cycle
             call add_warning(deck%diagnostics, table%cards(1, 1), 0, 0, &
                              'the load has no effect: no element has a '//trim(needs), &
                              mend='give it on the MATERIALS card')

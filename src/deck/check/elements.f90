@@ -80,7 +80,8 @@ contains
       if (n > 4) call check_middles(draft, element, n_corners(n), diagnostics)
       if (diagnostics%n_errors > errors_before) return
       if (n == 9) then
-         if (only_centre_is_off(sample, centreless, draft%position(:, draft%element_nodes(:9, element)))) then
+         if (only_centre_is_off(sample, centreless, &
+            draft%position(:, draft%element_nodes(:9, element)))) then
             call report_centre(draft, element, diagnostics)
             return
          end if
@@ -186,13 +187,16 @@ contains
       real(wp) :: centre(2)
 
       associate (nodes => draft%element_nodes(:, element))
-         centre = 0.5_wp*sum(draft%position(:, nodes(5:8)), 2) - 0.25_wp*sum(draft%position(:, nodes(:4)), 2)
+         centre = 0.5_wp*sum(draft%position(:, nodes(5:8)), 2) - &
+            0.25_wp*sum(draft%position(:, nodes(:4)), 2)
          call add_error(diagnostics, draft%element_card(element), 0, 0, &
                         'centre node '//to_text(draft%node_label(nodes(9)))//' of element '// &
-                        to_text(draft%element_label(element))//' is too far from the centre: the '// &
+                        to_text(draft%element_label(element))// &
+                        ' is too far from the centre: the '// &
                         'Jacobian is not positive at a Gauss point', &
                         found=place_text(draft%position(:, nodes(9))), &
-                        mend='move it to '//place_text(centre)//', or remove its card: it is then made there')
+                        mend='move it to '//place_text(centre)// &
+                        ', or remove its card: it is then made there')
       end associate
    end subroutine report_centre
 
@@ -237,7 +241,8 @@ contains
       call add_error(diagnostics, draft%element_card(element), 0, 0, &
                      'element '//to_text(draft%element_label(element))// &
                      ' is given by its corners, then its mid-side nodes', &
-                     allowed='corner, mid-side node, corner, ... counterclockwise round the perimeter', &
+                     allowed='corner, mid-side node, corner, ... counterclockwise round the '// &
+                     'perimeter', &
                      mend='write '//numbers_text(on_card))
    end subroutine report_corners_first
 
@@ -287,7 +292,8 @@ contains
                         ' at corner '//to_text(worst)//', node '// &
                         to_text(draft%node_label(draft%element_nodes(worst, element))), &
                         found=place_text(place), &
-                        allowed='angles between 0 and 180 degrees at all corners, sides that do not cross', &
+                        allowed='angles between 0 and 180 degrees at all corners, sides that '// &
+                        'do not cross', &
                         mend='move the node, or check the order of the nodes')
       else
          call add_error(diagnostics, draft%element_card(element), 0, 0, &
@@ -350,7 +356,8 @@ contains
             if (fraction >= middle_from .and. fraction <= middle_to) cycle
             call add_error(diagnostics, draft%element_card(element), 0, 0, &
                            'node '//to_text(draft%node_label(nodes(c + i)))//' of element '// &
-                           to_text(draft%element_label(element))//' is not near the middle of its side '// &
+                           to_text(draft%element_label(element))// &
+                           ' is not near the middle of its side '// &
                            to_text(draft%node_label(nodes(i)))//'-'// &
                            to_text(draft%node_label(nodes(mod(i, c) + 1))), &
                            found='at '//to_text(fraction)//' of the side, '// &

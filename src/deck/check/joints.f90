@@ -38,7 +38,8 @@ contains
             if (law > 0 .and. n == 6) then
                if (laws(law)%rule == rule_centroid) then
                   call field_fault(card, field_named(card, 'the law'), &
-                                   'the rule CENTROID is for joints of four nodes; this one has six', &
+                                   'the rule CENTROID is for joints of four nodes; this one '// &
+                                   'has six', &
                                    mend='choose the rule GAUSS or LOBATTO in LAWS')
                end if
             end if
@@ -82,7 +83,8 @@ contains
                              ' do not coincide', &
                              found=place_text(draft%position(:, a))//'; '// &
                              place_text(draft%position(:, b)), &
-                             allowed='4 at the place of 1, 3 at the place of 2, 6 at the place of 5', mend=mend)
+                             allowed='4 at the place of 1, 3 at the place of 2, 6 at the place '// &
+                             'of 5', mend=mend)
             if (len(mend) > 0) return
          end associate
       end do
@@ -147,7 +149,8 @@ contains
       end if
       call card_fault(card, 'side '//to_text(draft%node_label(nodes(1)))//'-'// &
                        to_text(draft%node_label(nodes(2)))//' of the joint '//fault, &
-                       allowed='outer edges of elements with the same nodes as the joint', mend=mend)
+                       allowed='outer edges of elements with the same nodes as the joint', &
+                       mend=mend)
    end subroutine check_side
 
    !> Check that the body of side 4-3 lies on the left of the direction from 1 to 2,
@@ -180,7 +183,8 @@ contains
          turned = turned//' '//to_text(draft%node_label(nodes(order(i))))
       end do
       call card_fault(card, 'the joint is reversed: its opening would count as contact', &
-                       allowed='the element of side 4-3 on the left of the direction from node 1 to node 2', &
+                       allowed='the element of side 4-3 on the left of the direction from node '// &
+                       '1 to node 2', &
                        mend='write the nodes as'//turned)
    end subroutine check_orientation
 

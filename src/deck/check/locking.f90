@@ -37,10 +37,12 @@ contains
       do k = 1, size(model%materials)
          if (.not. any(used(k, :)) .or. effective_ratio(model%materials(k)) <= largest_ratio) cycle
          if (used(k, 4)) call warn(k, 'plain 4-node', &
-                                   'write BBAR in columns 31-40 of CONTROL, or use 8-node elements '// &
+                                   'write BBAR in columns 31-40 of CONTROL, or use 8-node '// &
+                                   'elements '// &
                                    'with 2 in columns 16-20')
          if (used(k, 3)) call warn(k, '3-node', &
-                                   'use 4-node elements with BBAR in columns 31-40 of CONTROL, or '// &
+                                   'use 4-node elements with BBAR in columns 31-40 of CONTROL, '// &
+                                   'or '// &
                                    '6-node triangles')
       end do
 
@@ -55,8 +57,10 @@ contains
 
          call add_warning(diagnostics, properties%material_card(material), 0, 0, &
                           'material '//to_text(model%materials(material)%label)// &
-                          ' is nearly incompressible: '//kind//' elements of it are much too stiff', &
-                          found='nu = '//to_text(effective_ratio(model%materials(material))), mend=mend)
+                          ' is nearly incompressible: '//kind// &
+                          ' elements of it are much too stiff', &
+                          found='nu = '//to_text(effective_ratio(model%materials(material))), &
+                          mend=mend)
       end subroutine warn
 
    end subroutine warn_of_locking

@@ -63,7 +63,8 @@ contains
          if (used(node) .or. .not. draft%node_good(node)) cycle
          call add_error(diagnostics, draft%node_card(node), 0, 0, &
                         'node '//to_text(draft%node_label(node))//' is used by no element', &
-                        found=place_text(draft%position(:, node)), mend='remove it, or correct the elements')
+                        found=place_text(draft%position(:, node)), &
+                        mend='remove it, or correct the elements')
       end do
    end subroutine check_used
 
@@ -88,7 +89,8 @@ contains
             else if (draft%node_body(a) > 0 .and. all(draft%node_good([a, b]))) then
                call add_error(diagnostics, draft%node_card(b), 0, 0, &
                               'nodes '//to_text(draft%node_label(a))//' and '// &
-                              to_text(draft%node_label(b))//' of body '//to_text(draft%node_body(a))// &
+                              to_text(draft%node_label(b))//' of body '// &
+                              to_text(draft%node_body(a))// &
                               ' are at the same place', found=place_text(draft%position(:, b)), &
                               allowed='nodes at one place in different bodies only', &
                               mend='use one node, or give the elements on one side another body')
@@ -132,19 +134,23 @@ contains
       call shortest_edges(draft, edges, shortest)
       do node = 1, draft%n_nodes
          if (.not. draft%node_good(node) .or. shortest(node) >= huge(1.0_wp)) cycle
-         call points_near(tree, draft%position(:, node), least_distance*shortest(node), found, n_found)
+         call points_near(tree, draft%position(:, node), least_distance*shortest(node), found, &
+            n_found)
          do i = 1, n_found
             other = found(i)
-            if (other >= node .or. group(other) == group(node) .or. .not. draft%node_good(other)) cycle
+            if (other >= node .or. group(other) == group(node) .or. .not. draft%node_good(other)) &
+               cycle
             if (draft%node_body(other) /= draft%node_body(node)) cycle
             call add_error(diagnostics, draft%node_card(node), 0, 0, &
                            'nodes '//to_text(draft%node_label(other))//' and '// &
-                           to_text(draft%node_label(node))//' of body '//to_text(draft%node_body(node))// &
+                           to_text(draft%node_label(node))//' of body '// &
+                           to_text(draft%node_body(node))// &
                            ' nearly coincide', &
                            found='a distance of '// &
                            to_text(norm2(draft%position(:, node) - draft%position(:, other)))// &
                            ', '//place_text(draft%position(:, node)), &
-                           allowed='at least 0.001 of the shortest edge there, '//to_text(shortest(node)))
+                           allowed='at least 0.001 of the shortest edge there, '// &
+                           to_text(shortest(node)))
          end do
       end do
    end subroutine check_near
@@ -206,11 +212,13 @@ contains
             if (.not. length > 0.0_wp) cycle
             call points_near(tree, a + 0.5_wp*side, 0.499_wp*length, found, n_found)
             do k = 1, n_found
-               if (any(draft%element_nodes(:, edges%element(i)) == found(k))) cycle  ! its own, misplaced
+               ! its own, misplaced
+               if (any(draft%element_nodes(:, edges%element(i)) == found(k))) cycle
                if (.not. draft%node_good(found(k))) cycle
                if (draft%node_body(found(k)) /= draft%node_body(nodes(1))) cycle
                offset = (draft%position(:, found(k)) - a)/length
-               if (abs(offset(1)*side(2) - offset(2)*side(1)) > hanging_distance*shortest(nodes(1))) cycle
+               if (abs(offset(1)*side(2) - &
+                  offset(2)*side(1)) > hanging_distance*shortest(nodes(1))) cycle
                if (nodes(3) > 0) then
                   if (group(nodes(3)) == group(found(k))) cycle  ! reported as coincident
                end if
@@ -218,9 +226,11 @@ contains
                               'node '//to_text(draft%node_label(found(k)))//' lies on the edge '// &
                               to_text(draft%node_label(nodes(1)))//'-'// &
                               to_text(draft%node_label(nodes(2)))//' of element '// &
-                              to_text(draft%element_label(edges%element(i)))//' but is no node of it', &
+                              to_text(draft%element_label(edges%element(i)))// &
+                              ' but is no node of it', &
                               found=place_text(draft%position(:, found(k))), &
-                              allowed='neighbours in one body with the same nodes along their common side', &
+                              allowed='neighbours in one body with the same nodes along their '// &
+                              'common side', &
                               mend='divide both sides alike, or make them two bodies')
                exit
             end do
@@ -264,8 +274,10 @@ contains
       end do
       do k = 1, size(pairs, 2)
          call add_warning(diagnostics, 0, 0, 0, &
-                          'bodies '//to_text(pairs(1, k))//' and '//to_text(pairs(2, k))//' touch at '// &
-                          count_of(pairs(3, k), 'node')//' without a joint: they are not connected there', &
+                          'bodies '//to_text(pairs(1, k))//' and '//to_text(pairs(2, k))// &
+                          ' touch at '// &
+                          count_of(pairs(3, k), 'node')// &
+                          ' without a joint: they are not connected there', &
                           mend='lay joints there by INTERFACES, or make them one body')
       end do
    end subroutine check_touching

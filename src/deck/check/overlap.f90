@@ -132,7 +132,8 @@ contains
       do axis = 1, 2
          mean = 0.0_wp
          do element = 1, draft%n_elements
-            associate (x => draft%position(axis, draft%element_nodes(:n_corners(draft%element_size(element)), element)))
+            associate (x => draft%position(axis, &
+               draft%element_nodes(:n_corners(draft%element_size(element)), element)))
                mean = mean + (maxval(x) - minval(x))/draft%n_elements
             end associate
          end do
@@ -157,7 +158,8 @@ contains
       !> From 1 to n; a point outside is given to the nearest cell
       integer :: place(2)
 
-      place = 1 + int(min(real(cells%n - 1, wp), max(0.0_wp, (position - cells%corner)/cells%width)))
+      place = 1 + int(min(real(cells%n - 1, wp), &
+         max(0.0_wp, (position - cells%corner)/cells%width)))
    end function place_of
 
    !> Corners of the polygon that stands for an element
@@ -286,7 +288,8 @@ contains
       character(len=:), allocatable :: found
       integer :: bodies(2)
 
-      bodies = [minval(draft%element_body([outer, inner])), maxval(draft%element_body([outer, inner]))]
+      bodies = [minval(draft%element_body([outer, inner])), &
+         maxval(draft%element_body([outer, inner]))]
       if (any(told(1, :) == bodies(1) .and. told(2, :) == bodies(2))) return
       told = reshape([told, bodies], [2, size(told, 2) + 1])
       found = 'a side of element '//to_text(draft%element_label(outer))//' inside element '// &
@@ -294,7 +297,8 @@ contains
       if (bodies(1) == bodies(2)) then
          call add_error(diagnostics, draft%element_card(max(outer, inner)), 0, 0, &
                         'elements of body '//to_text(bodies(1))//' overlap', found=found, &
-                        allowed='elements whose area is the area that the outline of the body encloses', &
+                        allowed='elements whose area is the area that the outline of the body '// &
+                        'encloses', &
                         mend='correct the nodes, or remove what is there twice')
       else if (diagnostics%n_errors == 0) then  ! else the interface between them may be at fault
          call add_warning(diagnostics, draft%element_card(max(outer, inner)), 0, 0, &

@@ -29,7 +29,8 @@ contains
                    occur(mesh%element_material, size(properties%materials)), &
                    'used by no element', diagnostics)
          call tell('law', (properties%laws%label), properties%law_card, &
-                   occur(mesh%joint_material, size(properties%laws)), 'used by no joint', diagnostics)
+                   occur(mesh%joint_material, size(properties%laws)), 'used by no joint', &
+                   diagnostics)
          call tell('face', (draft%faces%label), (draft%faces%card), &
                    are_in((draft%faces%label), numbers_that_refer_to(sections, 'face')), &
                    'used by no card', diagnostics)
@@ -40,7 +41,8 @@ contains
             associate (keyword => deck%source%cards(sections%empty(k))%keyword)
                call add_warning(diagnostics, sections%empty(k), 0, 0, &
                                 trim(sections%names(keyword))//' has no cards', &
-                                mend='remove the keyword, or write 0 behind it from column 11 on if that is meant')
+                                mend='remove the keyword, or write 0 behind it from column 11 '// &
+                                'on if that is meant')
             end associate
          end do
       end associate
@@ -76,7 +78,8 @@ contains
       if (n == 1) list = noun//' '//list(3:)//' is '//what
       if (n > 1) list = to_text(n)//' '//noun//'s are '//what//': '//list(3:)
       call add_warning(diagnostics, cards(findloc(used, .false., 1)), 0, 0, list, &
-                       mend='remove what is not needed, or correct the number on the cards that should use it')
+                       mend='remove what is not needed, or correct the number on the cards '// &
+                       'that should use it')
    end subroutine tell
 
    !> Whether indices occur in a list

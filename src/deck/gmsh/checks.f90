@@ -12,8 +12,8 @@ module axijoint_deck_gmsh_checks
    private
    public :: check_positions, check_numbers
 
-   !> Largest distance from the plane z = 0 of the file, and from the axis, in extents of the mesh that
-   !> counts as rounding
+   !> Largest distance from the plane z = 0 of the file, and from the axis, in extents of the mesh
+   !> that counts as rounding
    real(wp), parameter :: rounding = 1.0e-12_wp
 
 contains
@@ -50,16 +50,19 @@ contains
          end do
          if (n_off > 0) then
             call mesh_line_error(source, mesh%node_line(off_plane), 0, 0, 'node '// &
-                                 to_text(mesh%node_tag(off_plane))//' is not in the plane z = 0: z = '// &
+                                 to_text(mesh%node_tag(off_plane))// &
+                                 ' is not in the plane z = 0: z = '// &
                                  to_text(mesh%position(3, off_plane))//others(n_off), &
                                  'x = r, y = the axis, z = 0', &
                                  'draw the section in the (x, y) plane', diagnostics)
          end if
          if (n_behind > 0) then
             call mesh_line_error(source, mesh%node_line(behind), 0, 0, 'node '// &
-                                 to_text(mesh%node_tag(behind))//' lies behind the axis: r = x is negative'// &
+                                 to_text(mesh%node_tag(behind))// &
+                                 ' lies behind the axis: r = x is negative'// &
                                  others(n_behind), 'x >= 0', &
-                                 'draw one half of the section, x being the distance from the axis', &
+                                 'draw one half of the section, x being the distance from the '// &
+                                 'axis', &
                                  diagnostics)
          end if
       end associate
@@ -105,7 +108,8 @@ contains
          do i = 1, mesh%n_elements
             known = find_number(element_of, mesh%element_tag(i))
             if (known == 0 .or. use_of(i) == 0) cycle
-            call report(draft%element_card(known), 'element', mesh%element_tag(i), mesh%element_line(i))
+            call report(draft%element_card(known), 'element', mesh%element_tag(i), &
+               mesh%element_line(i))
          end do
       end associate
 
@@ -120,7 +124,8 @@ contains
          !> The number, and its line in the mesh file
          integer, intent(in) :: label, line
 
-         call add_error(diagnostics, card, 0, 0, noun//' '//to_text(label)//' is given twice: here and on '// &
+         call add_error(diagnostics, card, 0, 0, noun//' '//to_text(label)// &
+            ' is given twice: here and on '// &
                         mesh_line_text(source, line), mend='choose another number on the card')
       end subroutine report
    end subroutine check_numbers

@@ -167,7 +167,8 @@ contains
       integer :: copy
 
       allocate (nodes(0))
-      if (import%first_body(node) > 0) nodes = [find_number(draft%node_of, import%mesh%node_tag(node))]
+      if (import%first_body(node) > 0) &
+         nodes = [find_number(draft%node_of, import%mesh%node_tag(node))]
       copy = import%first_copy(node)
       do while (copy > 0)
          nodes = [nodes, find_number(draft%node_of, import%copy_number(copy))]
@@ -196,7 +197,8 @@ contains
          text = 'the curve runs inside body '//to_text(draft%node_body(found(1, 1)))//' at '//place
       case default
          text = 'bodies '//to_text(draft%node_body(found(1, 1)))//' and '// &
-                to_text(draft%node_body(found(1, 2)))//' both have an edge along the curve at '//place
+                to_text(draft%node_body(found(1, 2)))//' both have an edge along the curve at '// &
+                place
          mend = 'give the face on a FACES or CHAINS card, which names its body'
       end select
       call field_fault(card, field_named(card, name_group), text, &

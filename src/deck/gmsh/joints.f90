@@ -51,9 +51,11 @@ contains
             if (use%kind /= use_joint .or. use%number == 0) cycle
             card%entry = use%entry
             errors_before = card%diagnostics%n_errors
-            call find_sides(card, import, lines_of_group(import, use%group), places, edges, draft, a, b)
+            call find_sides(card, import, lines_of_group(import, use%group), places, edges, draft, &
+               a, b)
             if (card%diagnostics%n_errors > errors_before) cycle
-            call check_layer(card, [field_named(card, name_number), field_named(card, name_group)], &
+            call check_layer(card, [field_named(card, name_number), &
+               field_named(card, name_group)], &
                              properties%laws(use%number)%rule, draft, a, b)
             if (card%diagnostics%n_errors > errors_before) cycle
             call lay_joints(first_card(card), use%number, a, b, draft)
@@ -91,7 +93,8 @@ contains
          allocate (sides(0))
          if (all(ends > 0)) sides = edges_between(ends, places, edges, draft)
          if (.not. good_sides(draft, places%group, sides)) then
-            call report_sides(card, place_text(import%mesh%position(:2, lines(1, line))), sides, draft)
+            call report_sides(card, place_text(import%mesh%position(:2, lines(1, line))), sides, &
+               draft)
             return
          end if
          first = find_edge(edges, sides(1)%nodes(1), sides(1)%nodes(2))
@@ -150,7 +153,8 @@ contains
          end do
       end do
       if (size(sides) /= 2) return
-      if (draft%element_body(sides(1)%element) > draft%element_body(sides(2)%element)) sides = sides([2, 1])
+      if (draft%element_body(sides(1)%element) > draft%element_body(sides(2)%element)) &
+         sides = sides([2, 1])
 
    contains
 
@@ -218,7 +222,8 @@ contains
                 to_text(draft%element_body(sides(1)%element))
          mend = 'give the groups on both sides bodies of their own'
          if (draft%element_body(sides(1)%element) /= draft%element_body(sides(2)%element)) then
-            text = 'the elements on both sides of the curve at '//place//' have different middle nodes'
+            text = 'the elements on both sides of the curve at '//place// &
+               ' have different middle nodes'
             mend = 'mesh both bodies alike: elements of the same order, the same nodes'
          end if
       case default

@@ -56,7 +56,8 @@ contains
          associate (a => import%uses(pairs(1, k)), b => import%uses(pairs(2, k)))
             call entry_error(diagnostics, table, b%entry, &
                              'bodies '//to_text(min(a%number, b%number))//' and '// &
-                             to_text(max(a%number, b%number))//' share '//count_of(pairs(3, k), 'edge')// &
+                             to_text(max(a%number, b%number))//' share '// &
+                             count_of(pairs(3, k), 'edge')// &
                              ' of the mesh file where no joint lies', &
                              found='one at '//place_text(import%mesh%position(:2, pairs(4, k))), &
                              allowed='bodies that share nodes only along the curves of a JOINT', &
@@ -83,7 +84,8 @@ contains
          do use = 1, size(import%uses)
             if (import%uses(use)%kind /= use_joint) cycle
             do set = 1, size(mesh%sets)
-               if (any(abs(mesh%sets(set)%groups) == import%uses(use)%group)) joint_set(set) = .true.
+               if (any(abs(mesh%sets(set)%groups) == import%uses(use)%group)) &
+                  joint_set(set) = .true.
             end do
          end do
          do element = 1, mesh%n_elements

@@ -176,13 +176,15 @@ contains
       associate (mesh => import%mesh)
          do node = 1, mesh%n_nodes
             if (import%first_body(node) == 0) cycle
-            call add_node(draft, mesh%node_tag(node), source%mesh_card, mesh%position(:2, node), .true.)
+            call add_node(draft, mesh%node_tag(node), source%mesh_card, mesh%position(:2, node), &
+               .true.)
             draft%node_body(draft%n_nodes) = import%first_body(node)
          end do
          do node = 1, mesh%n_nodes
             copy = import%first_copy(node)
             do while (copy > 0)
-               call add_node(draft, import%copy_number(copy), source%mesh_card, mesh%position(:2, node), .true.)
+               call add_node(draft, import%copy_number(copy), source%mesh_card, &
+                  mesh%position(:2, node), .true.)
                draft%node_body(draft%n_nodes) = import%copy_body(copy)
                copy = import%next_copy(copy)
             end do
@@ -247,7 +249,8 @@ contains
       !> The order: corners, middles of sides, centre
       integer :: order(n)
 
-      integer, parameter :: triangle(6) = [1, 3, 2, 6, 5, 4], quadrilateral(9) = [1, 4, 3, 2, 8, 7, 6, 5, 9]
+      integer, parameter :: triangle(6) = [1, 3, 2, 6, 5, 4], &
+         quadrilateral(9) = [1, 4, 3, 2, 8, 7, 6, 5, 9]
 
       if (n_corners(n) == 3) then
          order = triangle(:n)

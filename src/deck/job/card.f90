@@ -51,7 +51,8 @@ contains
       type(card_type), intent(inout) :: card
 
       there_is_one = next_entry(card)
-      if (there_is_one .and. allocated(card%deck%cases%cards)) card%case = case_of_card(card%deck%cases, first_card(card))
+      if (there_is_one .and. allocated(card%deck%cases%cards)) &
+         card%case = case_of_card(card%deck%cases, first_card(card))
    end function next_card
 
    !> Find the face that a field names, or report it

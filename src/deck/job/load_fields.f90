@@ -39,7 +39,8 @@ contains
       integer, intent(in) :: first
       !> The field
       type(field_type) :: field
-      field = described(harmonic(first), 'harmonic m', blank='must be given', limits='of those in use')
+      field = described(harmonic(first), 'harmonic m', blank='must be given', &
+         limits='of those in use')
    end function sole_harmonic
 
    !> Field of a family where no shape can be given
@@ -67,8 +68,10 @@ contains
       integer, intent(in) :: first
       !> The fields
       type(field_type) :: fields(3)
-      fields = [described(integer_field(name_first, first, first + 4, 0, largest_harmonic, default=0), &
-                          'first harmonic that it holds in', blank='every harmonic', limits='0 … M'), &
+      fields = [described(integer_field(name_first, first, first + 4, 0, largest_harmonic, &
+         default=0), &
+                          'first harmonic that it holds in', blank='every harmonic', &
+                          limits='0 … M'), &
                 described(integer_field('the last harmonic', first + 5, first + 9, 0, &
                 largest_harmonic, default=0), &
                           'last harmonic; it may be above M', blank='the first', &

@@ -43,7 +43,8 @@ contains
       if (is_given(card, harmonic)) call field_fault(card, harmonic, &
          'harmonic and shape are both given', &
          allowed='one of them; the program decomposes the shape')
-      if (is_given(card, family)) call field_fault(card, family, 'family and shape are both given', &
+      if (is_given(card, family)) &
+         call field_fault(card, family, 'family and shape are both given', &
          allowed='blank: the program decomposes the shape into both families')
       call find_shape(card, shape, k)
       if (k == 0 .or. .not. is_sound(card)) return
@@ -126,7 +127,8 @@ contains
       if (shape > 0) then
          if (.not. card%deck%shapes%good(shape)) shape = 0
       else if (card%deck%shapes%complete) then
-         call field_fault(card, field, 'shape '//to_text(integer_of(card, field))//' is not defined', &
+         call field_fault(card, field, 'shape '//to_text(integer_of(card, field))// &
+            ' is not defined', &
                           allowed='a shape of a SHAPES card')
       end if
    end subroutine find_shape
@@ -180,7 +182,8 @@ contains
                              allowed='blank or 0 in the symmetric family', &
                              mend='torsion is antisymmetric: write A as the family')
          else
-            call field_fault(card, field, 'torsion has no '//noun//' along '//trim(along(component)), &
+            call field_fault(card, field, 'torsion has no '//noun//' along '// &
+               trim(along(component)), &
                              allowed='blank or 0 in the antisymmetric family of harmonic 0', &
                              mend='leave the family blank')
          end if

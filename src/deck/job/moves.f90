@@ -214,7 +214,8 @@ contains
                            'node '//to_text(draft%node_label(move%node))//' is moved along '// &
                            component_name(move%component)//' and fixed there', &
                            found=component_name(move%component)//' = '//to_text(move%value), &
-                           allowed='0, or a component that no RESTRAINTS or FIXEDFACES card fixes', &
+                           allowed='0, or a component that no RESTRAINTS or FIXEDFACES card '// &
+                           'fixes', &
                            mend='a component that is moved is held in all other harmonics anyway')
          end associate
       end do

@@ -272,7 +272,8 @@ contains
       call move_alloc(lists%initial_stresses, model%initial_stresses)
       call move_alloc(lists%edge_supports, model%edge_supports)
       allocate (model%truncations(lists%truncations%n))
-      if (lists%truncations%n > 0) model%truncations = lists%truncations%entries(:lists%truncations%n)
+      if (lists%truncations%n > 0) &
+         model%truncations = lists%truncations%entries(:lists%truncations%n)
    end subroutine take_loads
 
 end module axijoint_deck_load_lists

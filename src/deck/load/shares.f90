@@ -93,8 +93,10 @@ contains
       !> What each family takes
       type(share_type) :: shares(2)
 
-      shares = [share_type(mode_type(1, family_symmetric), spread(cosine_of_degrees(angle), 1, 3)), &
-                share_type(mode_type(1, family_antisymmetric), spread(sine_of_degrees(angle), 1, 3))]
+      shares = [share_type(mode_type(1, family_symmetric), &
+         spread(cosine_of_degrees(angle), 1, 3)), &
+                share_type(mode_type(1, family_antisymmetric), &
+                spread(sine_of_degrees(angle), 1, 3))]
    end function directed_shares
 
 end module axijoint_deck_load_shares

@@ -63,7 +63,8 @@ module axijoint_deck_mesh_draft
       !> Nodes of each element in the model's order, shape (9, elements); 0
       !> where the node is not known
       integer, allocatable :: element_nodes(:, :)
-      !> Kinds of elements, and place of each element's kind among them; chosen when all elements are there
+      !> Kinds of elements, and place of each element's kind among them; chosen when all elements
+      !> are there
       type(element_kind_type), allocatable :: kinds(:)
       integer, allocatable :: element_kind(:)
       !> Whether its shape is sound

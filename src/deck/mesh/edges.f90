@@ -172,13 +172,15 @@ contains
          else if (table%nodes(3, i) /= table%nodes(3, twin)) then
             fault = 'has another middle node in element '// &
                     to_text(draft%element_label(table%element(twin)))
-            if (any(table%nodes(3, [i, twin]) == 0)) fault = 'has a middle node in only one of elements '// &
+            if (any(table%nodes(3, [i, twin]) == 0)) &
+               fault = 'has a middle node in only one of elements '// &
                to_text(draft%element_label(table%element(twin)))//' and '// &
                to_text(draft%element_label(table%element(i)))
          else if (table%nodes(1, i) == table%nodes(1, twin) .and. &
                   all(draft%element_good(table%element([i, twin])))) then
             fault = 'has elements '//to_text(draft%element_label(table%element(twin)))//' and '// &
-                    to_text(draft%element_label(table%element(i)))//' on the same side: they overlap'
+                    to_text(draft%element_label(table%element(i)))// &
+                    ' on the same side: they overlap'
          end if
          if (len(fault) == 0) cycle
          call add_error(diagnostics, draft%element_card(table%element(i)), 0, 0, &

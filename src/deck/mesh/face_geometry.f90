@@ -58,7 +58,8 @@ contains
       call gauss_rule(3, x, w)
       length = 0.0_wp
       do k = 1, 3
-         call shape_line(n, 0.5_wp*(1.0_wp + to)*(1.0_wp + x(k)) - 1.0_wp, shape(:n), derivative(:n))
+         call shape_line(n, 0.5_wp*(1.0_wp + to)*(1.0_wp + x(k)) - 1.0_wp, shape(:n), &
+            derivative(:n))
          length = length + 0.5_wp*(1.0_wp + to)*w(k) &
                   *norm2(matmul(draft%position(:, edge%nodes(:n)), derivative(:n)))
       end do

@@ -231,7 +231,8 @@ contains
             node(i + 1) = node(first(i) + 1)
          else
             label = label + 1
-            call add_node(draft, label, candidates%card(i - n), candidates%position(:, i - n), .true.)
+            call add_node(draft, label, candidates%card(i - n), candidates%position(:, i - n), &
+               .true.)
             node(i + 1) = draft%n_nodes
             draft%node_body(draft%n_nodes) = body(i)
          end if

@@ -39,7 +39,8 @@ contains
          return
       end if
       step = sign(step, last - first)
-      if (abs(last - first)/abs(step) >= draft%n_nodes) last = first + draft%n_nodes*step  ! one lacks
+      ! one lacks
+      if (abs(last - first)/abs(step) >= draft%n_nodes) last = first + draft%n_nodes*step
       nodes = [(find_number(draft%node_of, first + i*step), i=0, (last - first)/step)]
       i = findloc(nodes, 0, 1)
       if (i == 0) return

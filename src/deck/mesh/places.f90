@@ -206,10 +206,12 @@ contains
          found(n_found) = order(middle)
       end if
       if (offset(axis(middle)) <= distance) then
-         call collect(position, order(:middle - 1), axis(:middle - 1), place, distance, found, n_found)
+         call collect(position, order(:middle - 1), axis(:middle - 1), place, distance, found, &
+            n_found)
       end if
       if (offset(axis(middle)) >= -distance) then
-         call collect(position, order(middle + 1:), axis(middle + 1:), place, distance, found, n_found)
+         call collect(position, order(middle + 1:), axis(middle + 1:), place, distance, found, &
+            n_found)
       end if
    end subroutine collect
 

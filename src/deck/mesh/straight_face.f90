@@ -179,7 +179,8 @@ contains
       call edges_on_line(line, 0, edges, outer, draft, found)
       if (size(found) > 0) then
          call card_fault(card, 'body '//to_text(body)//' has no outer edge on this line', &
-                          mend='body '//to_text(draft%element_body(edges%element(found(1))))//' has')
+                          mend='body '//to_text(draft%element_body(edges%element(found(1))))// &
+                          ' has')
       else
          call card_fault(card, 'body '//to_text(body)//' has no outer edge on this line', &
                           allowed='a line from node to node along the outside of the body')
@@ -209,7 +210,8 @@ contains
             call card_fault(card, 'face '//to_text(face%label)// &
                              ' is not covered by outer edges of body '//to_text(face%body), &
                              found='no edge from '//place_text(reached)//' to '//place_text(next), &
-                             mend='end the face at nodes; use several faces where the outline bends')
+                             mend='end the face at nodes; use several faces where the outline '// &
+                             'bends')
             return
          end if
          if (i <= n) reached = draft%position(:, face%edges(i)%nodes(2))

@@ -45,14 +45,17 @@ contains
           described(integer_field('the number of nodes per element', 11, 15, 3, 9), &
                     'nodes per element', &
                     limits='3, 4, 6, 8, 9'), &
-          described(integer_field('the number of elements along 1-2', 16, 20, 1, largest_division), &
+          described(integer_field('the number of elements along 1-2', 16, 20, 1, &
+          largest_division), &
                     'n1: elements along side 1-2'), &
-          described(integer_field('the number of elements along 2-3', 21, 25, 1, largest_division), &
+          described(integer_field('the number of elements along 2-3', 21, 25, 1, &
+          largest_division), &
                     'n2: elements along side 2-3'), &
           described(ratio('the ratio along 1-2', 26), &
                     'ratio of the last to the first element along 1-2'), &
           described(ratio('the ratio along 2-3', 36), 'the same along 2-3'), &
-          described(corner_fields(), 'r1 z1 r2 z2 r3 z3 r4 z4: corners, counterclockwise; or r1 z1 r3 z3 '// &
+          described(corner_fields(), 'r1 z1 r2 z2 r3 z3 r4 z4: corners, counterclockwise; or '// &
+          'r1 z1 r3 z3 '// &
                     'alone: opposite corners of a rectangle', limits='r ≥ 0')]
    end function blocks_section
 
@@ -149,7 +152,8 @@ contains
          call check_corners(card, corners)
       else
          call field_fault(card, field_corner + 4, &
-                          'a block has two opposite corners (4 values) or four corners (8 values)', &
+                          'a block has two opposite corners (4 values) or four corners (8 '// &
+                          'values)', &
                           allowed='r and z of corners 1 and 3, or of corners 1, 2, 3 and 4')
       end if
    end subroutine check_block
@@ -206,7 +210,8 @@ contains
          i = minloc(sine, 1)
          call field_fault(card, field_corner + 2*i - 2, &
                           'the block is not convex at corner '//to_text(i), &
-                          allowed='angles between 0 and 180 degrees at all corners, counterclockwise')
+                          allowed='angles between 0 and 180 degrees at all corners, '// &
+                          'counterclockwise')
       end if
    end subroutine check_corners
 

@@ -30,7 +30,8 @@ contains
       section%purpose = 'begins a load case: the loads below it, up to the next CASE, belong to it'
       section%stage = stage_loads
       section%read => read_cases
-      section%fields = [described(number('the load case', 1), 'load case', limits='each number once'), &
+      section%fields = [described(number('the load case', 1), 'load case', &
+         limits='each number once'), &
                         described(text_field('the name of the load case', 6, 80), &
                                   'name, without commas', &
                                   limits='blanks inside are allowed')]
@@ -111,7 +112,8 @@ contains
          end associate
       end do
       if (.not. any(loaded)) then
-         call add_warning(deck%diagnostics, 0, 0, 0, 'the deck has no loads: all results will be zero')
+         call add_warning(deck%diagnostics, 0, 0, 0, &
+            'the deck has no loads: all results will be zero')
          return
       end if
       card = cards_of(deck, keyword_case)
@@ -119,7 +121,8 @@ contains
          if (loaded(deck%cases%case_of(card%entry)) .or. .not. is_good(card)) cycle
          call add_warning(deck%diagnostics, first_card(card), 0, 0, &
                           'load case '//to_text(integer_of(card, field_label))//' has no loads', &
-                          mend='loads belong to the CASE card above them; their keyword is repeated below it')
+                          mend='loads belong to the CASE card above them; their keyword is '// &
+                          'repeated below it')
       end do
    end subroutine warn_of_lacking_loads
 

@@ -92,10 +92,12 @@ contains
          if (.not. is_given(card, field)) then
             call field_fault(card, field, 'a node is lacking inside the chain')
          else if (node == 0) then
-            call field_fault(card, field, 'node '//to_text(integer_of(card, field))//' is not defined')
+            call field_fault(card, field, 'node '//to_text(integer_of(card, field))// &
+               ' is not defined')
          else if (field == field_node) then
             if (all(last_node /= [0, node])) then
-               call field_fault(card, field, 'the chain of face '//to_text(face%label)//' breaks off', &
+               call field_fault(card, field, 'the chain of face '//to_text(face%label)// &
+                  ' breaks off', &
                                 allowed='the node where the card before ends, ' &
                                 //to_text(draft%node_label(last_node)))
             end if
@@ -133,10 +135,12 @@ contains
       if (edge == 0) then
          call field_fault(card, field, 'no element has the edge '//name, &
                           allowed='corner nodes, one after another along outer edges of one body', &
-                          mend='from '//place_text(draft%position(:, ends(1)))//' the card goes to ' &
+                          mend='from '//place_text(draft%position(:, ends(1)))// &
+                          ' the card goes to ' &
                           //place_text(draft%position(:, ends(2))))
       else if (edges%twin(edge) /= 0) then
-         call field_fault(card, field, 'the edge '//name//' is inside a body', allowed='outer edges')
+         call field_fault(card, field, 'the edge '//name//' is inside a body', &
+            allowed='outer edges')
          edge = 0
       end if
    end subroutine find_link

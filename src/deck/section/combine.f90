@@ -8,7 +8,8 @@ module axijoint_deck_section_combine
    use axijoint_deck_load_cases, only : cases_type
    use axijoint_deck_text_common_fields, only : number, last_number
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_warning
-   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, is_good, field_fault, card_fault
+   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, is_good, field_fault, &
+      card_fault
    use axijoint_deck_text_field, only : real_field, described
    use axijoint_model_load, only : combination_type
    implicit none
@@ -40,7 +41,8 @@ contains
                            real_field('factor '//to_text(i), 15*i - 4, default=0.0_wp)]
       end do
       section%fields(field_pair:) = described(section%fields(field_pair:), &
-         'five pairs, one at least: load case I5, factor F10', blank='none', limits='each case once')
+         'five pairs, one at least: load case I5, factor F10', blank='none', &
+         limits='each case once')
    end function combine_section
 
    !> Make the combinations. Without cards every load case is one of its own
@@ -64,7 +66,8 @@ contains
             do i = 1, n
                factor = 0.0_wp
                factor(i) = 1.0_wp
-               model%combinations = [model%combinations, combination_type(cases%cases(i)%label, factor)]
+               model%combinations = [model%combinations, &
+                  combination_type(cases%cases(i)%label, factor)]
             end do
             return
          end if
@@ -80,7 +83,8 @@ contains
             end if
             call read_pairs(card, cases, taken(:, i), model%combinations(i)%factor)
          end do
-         if (deck%diagnostics%n_errors > errors_before .or. .not. all(card%table%good(:card%table%n))) return
+         if (deck%diagnostics%n_errors > errors_before &
+            .or. .not. all(card%table%good(:card%table%n))) return
          call warn_of_unused_cases(cases, any(taken, 2), deck%diagnostics)
       end associate
    end subroutine read_combinations
@@ -125,7 +129,8 @@ contains
                           allowed='up to five pairs: load case, factor')
       end if
       do field = field_pair, size(card%table%fields), 2
-         if (.not. is_good(card) .or. .not. any(card%table%given(field:field + 1, card%entry))) cycle
+         if (.not. is_good(card) .or. .not. any(card%table%given(field:field + 1, card%entry))) &
+            cycle
          if (.not. all(card%table%given(field:field + 1, card%entry))) then
             call field_fault(card, &
                              merge(field + 1, field, is_given(card, field)), &

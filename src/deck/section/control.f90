@@ -18,7 +18,8 @@ module axijoint_deck_section_control
    !> The keyword
    character(len=*), parameter :: keyword_control = 'CONTROL'
    !> Fields
-   integer, parameter :: field_harmonic = 1, field_planes = 2, field_linear = 3, field_quadratic = 4, &
+   integer, parameter :: field_harmonic = 1, field_planes = 2, field_linear = 3, &
+      field_quadratic = 4, &
       field_solver = 5, field_formulation = 6, field_method = 7
 
 contains
@@ -41,12 +42,15 @@ contains
                     blank='4M+1, at least 2', &
                     limits='2 … 100000; at least M+1 if a joint can open or slip'), &
           described(integer_field('the number of Gauss points (linear)', 11, 15, 2, 3, default=2), &
-                    'Gauss points per direction of 4-node elements; 3-node triangles: 2 for three points, '// &
+                    'Gauss points per direction of 4-node elements; 3-node triangles: 2 for '// &
+                    'three points, '// &
                     '3 for seven'), &
-          described(integer_field('the number of Gauss points (quadratic)', 16, 20, 2, 3, default=3), &
+          described(integer_field('the number of Gauss points (quadratic)', 16, 20, 2, 3, &
+          default=3), &
                     'the same of 8- and 9-node elements and 6-node triangles'), &
           word_field('the solver', 21, 30, solver_words(known_solvers()), 1), &
-          described(word_field('the formulation of 4-node elements', 31, 40, formulation_names, 1), &
+          described(word_field('the formulation of 4-node elements', 31, 40, formulation_names, &
+          1), &
                     '4-node elements'), &
           described(word_field('the method', 41, 50, method_names, 1), &
                     'method for joints that open or slip')]
@@ -67,7 +71,8 @@ contains
          if (card%table%n > 0) then
             model%max_harmonic = integer_of(card, field_harmonic)
             model%n_planes = integer_of(card, field_planes)
-            deck%choice = kind_choice_type(integer_of(card, field_linear), integer_of(card, field_quadratic), &
+            deck%choice = kind_choice_type(integer_of(card, field_linear), &
+               integer_of(card, field_quadratic), &
                                            integer_of(card, field_formulation))
             solvers = known_solvers()
             word = integer_of(card, field_solver)  ! the first one leaves the choice to the program

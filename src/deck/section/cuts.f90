@@ -47,7 +47,8 @@ contains
       card = cards_of(deck, keyword_cuts)
       allocate (deck%model%cuts(card%table%n))
       do while (next_card(card))
-         call check_label(card, field_label, 'cut', seen, allowed='a number of its own for each cut')
+         call check_label(card, field_label, 'cut', seen, &
+            allowed='a number of its own for each cut')
          associate (cut => deck%model%cuts(card%entry))
             cut%label = integer_of(card, field_label)
             cut%z = real_of(card, field_z)

@@ -59,7 +59,8 @@ contains
          n = count_nodes(card)
          if (is_good(card) .and. n == 0) then
             call card_fault(card, 'the number of nodes is not 3, 4, 6, 8 or 9', &
-                            found=to_text(count(card%table%given(field_node:, card%entry)))//' nodes', &
+                            found=to_text(count(card%table%given(field_node:, card%entry)))// &
+                            ' nodes', &
                             allowed='3, 4, 6, 8 or 9 nodes without blanks between them')
          end if
          errors_before = deck%diagnostics%n_errors
@@ -179,7 +180,8 @@ contains
          draft%elements_complete = .false.
          call field_fault(card, field, &
                           'node '//to_text(label)//' is the middle of two different sides', &
-                          mend='number the middles differently, or give the node on a NODES card; ' &
+                          mend='number the middles differently, or give the node on a NODES '// &
+                          'card; ' &
                              //'it was made first by '// &
                           card_position(card%source, draft%node_card(nodes(i)), first_card(card)))
       end if

@@ -4,7 +4,8 @@ module axijoint_deck_section_error
    use axijoint_deck_job_card, only : card_type, cards_of
    use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_requests
    use axijoint_deck_section_blocks, only : keyword_blocks, field_size, field_n1, field_n2
-   use axijoint_deck_section_control, only : keyword_control, field_harmonic, field_planes, field_method
+   use axijoint_deck_section_control, only : keyword_control, field_harmonic, field_planes, &
+      field_method
    use axijoint_deck_section_groups, only : keyword_groups
    use axijoint_deck_section_increments, only : keyword_increments, field_tolerance
    use axijoint_deck_text_entry, only : integer_of, real_of, card_fault
@@ -38,7 +39,8 @@ contains
          [described(real_field('the target', 1, above=0.0_wp, to=100.0_wp), 'target [%]', &
                     limits='0 < … ≤ 100'), &
           described(word_field('the quantity', 11, 20, goal_names, goal_displacement), &
-                    'of what: JOINTS (joint stress), DISPL (displacements), ENERGY (stresses in the energy norm)'), &
+                    'of what: JOINTS (joint stress), DISPL (displacements), ENERGY (stresses '// &
+                    'in the energy norm)'), &
           integer_field('the most rounds', 21, 25, 1, 99, default=8), &
           described(integer_field('the most unknowns', 26, 35, 1, 1000000000, default=1000000), &
                     'most unknowns in all: no round is begun that could have more')]

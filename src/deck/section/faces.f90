@@ -8,7 +8,8 @@ module axijoint_deck_section_faces
    use axijoint_deck_mesh_draft, only : draft_type, face_type
    use axijoint_deck_mesh_edges, only : edge_table_type
    use axijoint_deck_mesh_faces, only : number_face
-   use axijoint_deck_mesh_straight_face, only : line_type, line_between, outer_edges, lay_straight_face
+   use axijoint_deck_mesh_straight_face, only : line_type, line_between, outer_edges, &
+      lay_straight_face
    use axijoint_deck_text_common_fields, only : number, body, length
    use axijoint_deck_text_entry, only : integer_of, reals_of, is_good, field_fault, first_card
    use axijoint_deck_text_field, only : described
@@ -92,10 +93,12 @@ contains
 
       type(line_type) :: line
 
-      line = line_between(reals_of(card, field_first, 2), reals_of(card, field_last, 2), draft%extent)
+      line = line_between(reals_of(card, field_first, 2), reals_of(card, field_last, 2), &
+         draft%extent)
       if (.not. line%length > 0.0_wp) then
          face%good = .false.
-         call field_fault(card, field_last, 'the face has no length', allowed='two different points')
+         call field_fault(card, field_last, 'the face has no length', &
+            allowed='two different points')
       else if (.not. any(draft%element_body(:draft%n_elements) == face%body)) then
          face%good = .false.
          call field_fault(card, field_body, 'there is no body '//to_text(face%body), &

@@ -67,12 +67,14 @@ contains
       along_z = abs(real_of(card, field_z)) > 0.0_wp
       lateral = abs(real_of(card, field_lateral)) > 0.0_wp
       if (.not. (along_z .or. lateral) .and. is_good(card)) then
-         call field_fault(card, field_z, 'the card gives no load', allowed='g_z, lateral g, or both')
+         call field_fault(card, field_z, 'the card gives no load', &
+            allowed='g_z, lateral g, or both')
       end if
       if (along_z) call needs_harmonic(card, 0, 'gravity along z')
       if (lateral) call needs_harmonic(card, 1, 'lateral gravity')
       if (.not. is_sound(card)) return
-      if (along_z) call add_body_load(card%deck%loads, body_load_type(mode_type(0, family_symmetric), &
+      if (along_z) &
+         call add_body_load(card%deck%loads, body_load_type(mode_type(0, family_symmetric), &
          card%case, [0.0_wp, real_of(card, field_z), 0.0_wp]))
       shares = directed_shares(real_of(card, field_direction))
       do k = 1, 2

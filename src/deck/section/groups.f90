@@ -8,7 +8,8 @@ module axijoint_deck_section_groups
    use axijoint_deck_property_properties, only : properties_type, find_material, find_law
    use axijoint_deck_text_common_fields, only : number, largest_body
    use axijoint_deck_text_diagnostics, only : add_error
-   use axijoint_deck_text_entry, only : is_given, integer_of, text_of, is_good, field_fault, card_fault
+   use axijoint_deck_text_entry, only : is_given, integer_of, text_of, is_good, field_fault, &
+      card_fault
    use axijoint_deck_text_field, only : word_field, text_field, described
    use axijoint_gmsh_mesh, only : gmsh_mesh_type, find_group, group_text
    implicit none
@@ -70,7 +71,8 @@ contains
             call read_use(card, deck%properties, import)
          end do
          if (.not. import%given) return
-         if (import%sound .and. .not. any(nint(table%values(field_kind, :table%n)) == use_body)) then
+         if (import%sound .and. .not. any(nint(table%values(field_kind, &
+            :table%n)) == use_body)) then
             call add_error(diagnostics, deck%source%mesh_card, 0, 0, &
                            'no BODY of GROUPS takes elements from the mesh file', &
                            found=group_list(import%mesh, 2), &
@@ -147,7 +149,8 @@ contains
       end do
       if (n_same > 1) then
          call field_fault(card, field_name, 'the mesh file has '// &
-                          count_of(n_same, 'physical '//trim(noun_of(dimension)))//' of this name', &
+                          count_of(n_same, 'physical '//trim(noun_of(dimension)))// &
+                          ' of this name', &
                           mend='write the number of the group instead')
          group = 0
       else if (n_same == 0) then
@@ -161,7 +164,8 @@ contains
       if (count_elements(mesh, group) > 0) return
       call field_fault(card, field_name, 'the '// &
                        group_text(mesh%groups(group))//' has no elements in the mesh file', &
-                       mend='mesh it and save the mesh again; with Mesh.SaveAll=1, format 2.2 has no groups')
+                       mend='mesh it and save the mesh again; with Mesh.SaveAll=1, format 2.2 '// &
+                       'has no groups')
    end subroutine seek_group
 
    !> Report a group that the mesh does not have

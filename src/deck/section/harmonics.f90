@@ -27,7 +27,8 @@ contains
       section%stage = stage_loads
       section%read => read_harmonics
       section%fields = &
-         [described(integer_field('the first harmonic', 1, 5, 0, largest_harmonic), 'first harmonic', &
+         [described(integer_field('the first harmonic', 1, 5, 0, largest_harmonic), &
+         'first harmonic', &
                     limits='0 … M'), &
           described(integer_field('the last harmonic', 6, 10, 0, largest_harmonic, default=0), &
                     'last harmonic', &
@@ -53,7 +54,8 @@ contains
          call read_range(card, deck%highest, first, last, step)
          used(first:last:step) = .true.
       end do
-      if (deck%diagnostics%n_errors > errors_before .or. .not. all(card%table%good(:card%table%n))) used = .true.
+      if (deck%diagnostics%n_errors > errors_before &
+         .or. .not. all(card%table%good(:card%table%n))) used = .true.
       deck%harmonics = pack([(m, m=0, max(0, deck%highest))], used)
       deck%model%harmonics = deck%harmonics
    end subroutine read_harmonics
@@ -84,7 +86,8 @@ contains
                           allowed=to_text(first)//' or more')
       else if (mod(last - first, step) /= 0) then
          call field_fault(card, merge(field_step, field_last, is_given(card, field_step)), &
-                          'the step does not lead from harmonic '//to_text(first)//' to harmonic '// &
+                          'the step does not lead from harmonic '//to_text(first)// &
+                          ' to harmonic '// &
                           to_text(last), allowed='a divisor of '//to_text(last - first))
       end if
       if (is_sound(card)) return

@@ -48,7 +48,8 @@ contains
           described(real_field('z_s', 6), 'z_s [length]', limits='any'), &
           described(real_field('gamma', 16), 'γ [stress/length]', limits='any'), &
           real_field('K0', 26, from=0.0_wp, symbol='K0'), &
-          described(real_field('sigma_z at z_s', 36, default=0.0_wp), 'σ_zs [stress]', limits='any'), &
+          described(real_field('sigma_z at z_s', 36, default=0.0_wp), 'σ_zs [stress]', &
+          limits='any'), &
           described(last_number('the material', 46), &
                     'material: of the body''s elements of this material alone', &
                     blank='all', limits='of MATERIALS or ORTHOTROPIC'), &
@@ -97,7 +98,8 @@ contains
       call field_doubt(card, field_ratio, 'K0 = '//to_text(ratio(1))// &
                        ' is not that of ground: about '// &
                        to_text(least_ratio)//' to '//to_text(largest_ratio), &
-                       mend='correct K0, or write MEANT in columns 51-60: then nothing of the card is doubted')
+                       mend='correct K0, or write MEANT in columns 51-60: then nothing of the '// &
+                       'card is doubted')
    end subroutine read_stress
 
    !> Find the material of an in-situ stress, or report it
@@ -141,7 +143,8 @@ contains
                   .and. covers(known, body, material))) cycle
             end associate
             call field_fault(card, field_body, 'the body has an in-situ stress already', &
-                             allowed='one INSITU card for an element in a load case; blank means all bodies, all materials')
+                             allowed='one INSITU card for an element in a load case; blank '// &
+                             'means all bodies, all materials')
             return
          end do
       end associate

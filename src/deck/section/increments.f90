@@ -37,7 +37,8 @@ contains
                     'factor on all loads, added to those of earlier increments', limits='any'), &
           described(real_field('the tolerance', 11, above=0.0_wp, below=1.0_wp, default=1.0e-6_wp, &
                                symbol='tolerance'), &
-                    'tolerance ε on residual forces: of the whole over the applied, and of each part in each '// &
+                    'tolerance ε on residual forces: of the whole over the applied, and of '// &
+                    'each part in each '// &
                     'harmonic over what its joints would carry; the largest counts', &
                     limits='0 < ε < 1'), &
           described(integer_field('the most iterations', 21, 25, 1, largest_number, &
@@ -79,7 +80,8 @@ contains
          end associate
          call field_fault(card, field_case, &
                           'load case '//to_text(integer_of(card, field_case))//' is not defined', &
-                          allowed='a case of a CASE card; 1 for loads above the first CASE; blank for all')
+                          allowed='a case of a CASE card; 1 for loads above the first CASE; '// &
+                          'blank for all')
       end do
    end subroutine refer_increments
 
@@ -101,7 +103,8 @@ contains
          if (.not. combined) then
             call add_warning(deck%diagnostics, cards(1, findloc(increments%case > 0, .true., 1)), &
                              0, 0, &
-                             'INCREMENTS names load cases, and no COMBINE puts them together: each is a job '// &
+                             'INCREMENTS names load cases, and no COMBINE puts them together: '// &
+                             'each is a job '// &
                              'without the others', &
                              mend='add COMBINE with all load cases of the history')
             return
@@ -113,7 +116,8 @@ contains
             call add_warning(deck%diagnostics, cards(1, 1), 0, 0, &
                              'load case '//to_text(cases(case)%label)// &
                              ' is in no increment: its loads never act', &
-                             mend='give it an increment, or leave its number blank on a card: then the factor '// &
+                             mend='give it an increment, or leave its number blank on a card: '// &
+                             'then the factor '// &
                                 'is of all')
          end do
       end associate

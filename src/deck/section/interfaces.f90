@@ -72,7 +72,8 @@ contains
             errors_before = deck%diagnostics%n_errors
             call match_faces(card, faces, deck%group, draft, a, b)
             if (deck%diagnostics%n_errors > errors_before) cycle
-            call check_layer(card, [field_law, field_b], deck%properties%laws(law)%rule, draft, a, b)
+            call check_layer(card, [field_law, field_b], deck%properties%laws(law)%rule, draft, a, &
+               b)
             if (deck%diagnostics%n_errors > errors_before) cycle
             call lay_joints(first_card(card), law, a, b, draft)
          end associate
@@ -124,7 +125,8 @@ contains
          end if
          call card_fault(card, names//' do not have the same middle nodes', &
                           found='an edge from '//span_text(draft, a(i:i)), &
-                          allowed='4-node elements on both sides, or 8- and 9-node elements with the ' &
+                          allowed='4-node elements on both sides, or 8- and 9-node elements '// &
+                          'with the ' &
                           //'same middle nodes')
          return
       end do

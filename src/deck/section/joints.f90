@@ -52,7 +52,8 @@ contains
          associate (given => card%table%given(field_node:, card%entry))
             n = count(given)
             if (all(n /= [4, 6]) .or. .not. all(given(:n))) then
-               call card_fault(card, 'the number of nodes is not 4 or 6', found=to_text(n)//' nodes', &
+               call card_fault(card, 'the number of nodes is not 4 or 6', found=to_text(n)// &
+                  ' nodes', &
                                allowed='1 2 3 4; with middle nodes also 5 (of 1-2) and 6 (of 4-3)')
                cycle
             end if

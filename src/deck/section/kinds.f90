@@ -6,10 +6,12 @@ module axijoint_deck_section_kinds
    use axijoint_deck_job_load_fields, only : any_body
    use axijoint_deck_property_properties, only : find_material
    use axijoint_deck_text_common_fields, only : last_number
-   use axijoint_deck_text_entry, only : is_given, integer_of, is_sound, field_fault, card_fault, first_card
+   use axijoint_deck_text_entry, only : is_given, integer_of, is_sound, field_fault, card_fault, &
+      first_card
    use axijoint_deck_text_field, only : integer_field, word_field, described
    use axijoint_deck_text_source, only : card_position
-   use axijoint_fe_element_kind, only : element_kind_type, kind_choice_type, chosen_kind, find_kind, &
+   use axijoint_fe_element_kind, only : element_kind_type, kind_choice_type, chosen_kind, &
+      find_kind, &
       formulations, formulation_names
    implicit none
    private
@@ -33,7 +35,8 @@ contains
       section%read => choose_kinds
       section%fields = &
          [described(any_body(1), 'body', blank='all', limits='1 … 9999; one card an element'), &
-          described(last_number('the material', 6), 'material: of the body''s elements of this material alone', &
+          described(last_number('the material', 6), &
+          'material: of the body''s elements of this material alone', &
                     blank='all', limits='of MATERIALS or ORTHOTROPIC'), &
           described(integer_field('the number of Gauss points', 11, 15, 2, 3, default=0), &
                     'Gauss points per direction, as in CONTROL', blank='CONTROL''s'), &
@@ -61,7 +64,8 @@ contains
          draft%kinds = [element_kind_type ::]
          draft%element_kind = of
          do element = 1, size(of)
-            call find_kind(draft%kinds, chosen_kind(choice(of(element)), draft%element_size(element)), &
+            call find_kind(draft%kinds, chosen_kind(choice(of(element)), &
+               draft%element_size(element)), &
                            draft%element_kind(element))
          end do
       end associate
@@ -82,7 +86,8 @@ contains
 
       material = 0
       call check_body(card, field_body)
-      if (is_given(card, field_material)) call find_material(card, field_material, card%deck%properties, material)
+      if (is_given(card, field_material)) &
+         call find_material(card, field_material, card%deck%properties, material)
       new = choice(1)
       if (is_given(card, field_points)) new%order_linear = integer_of(card, field_points)
       if (is_given(card, field_points)) new%order_quadratic = integer_of(card, field_points)
@@ -91,19 +96,22 @@ contains
       if (.not. is_sound(card)) return
       if (.not. (is_given(card, field_points) .or. is_given(card, field_formulation))) then
          call card_fault(card, 'the card names neither Gauss points nor a formulation', &
-                         mend='write one of them, or delete the card: CONTROL says what elements are')
+                         mend='write one of them, or delete the card: CONTROL says what '// &
+                         'elements are')
          return
       end if
       associate (draft => card%deck%draft, n => size(of))
          covered = .true.
-         if (is_given(card, field_body)) covered = draft%element_body(:n) == integer_of(card, field_body)
+         if (is_given(card, field_body)) &
+            covered = draft%element_body(:n) == integer_of(card, field_body)
          if (material > 0) covered = covered .and. draft%element_material(:n) == material
          if (draft%elements_complete) call check_covered(card, covered, of)
       end associate
       where (covered) of = size(choice)
    end subroutine read_choice
 
-   !> Check that a card is for some elements, that these have no other, and that its formulation is theirs
+   !> Check that a card is for some elements, that these have no other, and that its formulation is
+   !> theirs
    subroutine check_covered(card, covered, of)
       !> A card of KINDS
       type(card_type), intent(in) :: card
@@ -121,7 +129,8 @@ contains
       end if
       element = findloc(covered .and. of > 1, .true., 1)
       if (element > 0) then
-         call card_fault(card, 'element '//to_text(card%deck%draft%element_label(element))//' has a kind already', &
+         call card_fault(card, 'element '//to_text(card%deck%draft%element_label(element))// &
+            ' has a kind already', &
                          found='card '//to_text(of(element) - 1)//' of KINDS is for it, too', &
                          allowed='one card an element')
       end if
@@ -129,7 +138,8 @@ contains
       associate (formulation => formulations(integer_of(card, field_formulation)), &
                  sizes => card%deck%draft%element_size(:size(of)))
          if (any(covered .and. formulation%offered(sizes))) return
-         call field_fault(card, field_formulation, trim(formulation%name)//' is not for elements of '// &
+         call field_fault(card, field_formulation, trim(formulation%name)// &
+            ' is not for elements of '// &
                           to_text(sizes(findloc(covered, .true., 1)))//' nodes', &
                           mend='make the elements others, or leave the field blank')
       end associate

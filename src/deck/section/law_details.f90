@@ -10,7 +10,8 @@ module axijoint_deck_section_law_details
       card_fault, first_card
    use axijoint_deck_text_field, only : field_type, real_field, word_field, described
    use axijoint_deck_text_source, only : card_position
-   use axijoint_element_joint_law, only : joint_law_type, law_elastic, slip_components, slip_names, opening_names
+   use axijoint_element_joint_law, only : joint_law_type, law_elastic, slip_components, &
+      slip_names, opening_names
    implicit none
    private
    public :: law_details_section
@@ -29,7 +30,8 @@ contains
       type(read_section_type) :: section
 
       section%name = keyword_law_details
-      section%purpose = 'slip by resultant, bonds, residual strength, dilation, gap, initial stress of a law'
+      section%purpose = 'slip by resultant, bonds, residual strength, dilation, gap, initial '// &
+         'stress of a law'
       section%stage = stage_properties
       section%read => read_law_details
       section%fields = [number('the law', 1), kind_fields(), strength_fields()]
@@ -42,10 +44,12 @@ contains
       type(field_type), allocatable :: fields(:)
 
       fields = [described(word_field('the kind of slip', 6, 15, slip_names, 1), &
-                          'slip: COMPONENTS (τ_ξ and τ_θ are each cut to C − σ tan φ, as in the paper), '// &
+                          'slip: COMPONENTS (τ_ξ and τ_θ are each cut to C − σ tan φ, as in '// &
+                          'the paper), '// &
                           'RESULTANT (their resultant is)'), &
                 described(word_field('the kind of opening', 16, 25, opening_names, 1), &
-                          'opening: REVERSIBLE (a point that closes has its cohesion as before, as in the '// &
+                          'opening: REVERSIBLE (a point that closes has its cohesion as '// &
+                          'before, as in the '// &
                           'paper), BOND (holds tension until it breaks for good; then C = 0)')]
    end function kind_fields
 
@@ -58,20 +62,23 @@ contains
          symbol='C'), &
                           'residual cohesion, once a point has slipped [stress]', blank='C', &
                           limits='0 … C'), &
-                described(real_field('the residual friction angle', 36, from=0.0_wp, below=90.0_wp, &
+                described(real_field('the residual friction angle', 36, from=0.0_wp, &
+                below=90.0_wp, &
                                      default=0.0_wp, symbol='phi'), &
                           'residual friction angle [degree]', blank='φ', limits='0 … φ'), &
                 described(real_field('the angle of dilation', 46, from=0.0_wp, below=90.0_wp, &
                 default=0.0_wp, &
                                      symbol='psi'), &
-                          'angle of dilation ψ [degree]: slip s opens the joint by s tan ψ, either way; a '// &
+                          'angle of dilation ψ [degree]: slip s opens the joint by s tan ψ, '// &
+                          'either way; a '// &
                           'joint that stands open by less presses', &
                           limits='0 … φ; only with RESULTANT'), &
                 described(real_field('the gap', 56, from=0.0_wp, default=0.0_wp, symbol='gap'), &
                           'gap before loading [length]'), &
                 described(real_field('the initial normal stress', 66, to=0.0_wp, default=0.0_wp, &
                 symbol='sigma'), &
-                          'initial normal stress, in equilibrium with what is not modelled [stress]', &
+                          'initial normal stress, in equilibrium with what is not modelled '// &
+                          '[stress]', &
                           limits='≤ 0; not with a gap')]
    end function strength_fields
 
@@ -90,7 +97,8 @@ contains
          if (law == 0) cycle
          if (first(law) > 0) then
             call field_fault(card, field_law, 'the details of law '// &
-                             to_text(deck%properties%laws(law)%label)//' are given twice, first on '// &
+                             to_text(deck%properties%laws(law)%label)// &
+                             ' are given twice, first on '// &
                              card_position(deck%source, first(law), first_card(card)))
             cycle
          end if
@@ -114,7 +122,8 @@ contains
       law%residual_cohesion = law%cohesion
       law%residual_friction = law%friction
       if (is_given(card, field_cohesion)) law%residual_cohesion = real_of(card, field_cohesion)
-      if (is_given(card, field_angle)) law%residual_friction = tan(degree*real_of(card, field_angle))
+      if (is_given(card, field_angle)) &
+         law%residual_friction = tan(degree*real_of(card, field_angle))
       law%dilation = tan(degree*real_of(card, field_dilation))
       law%gap = real_of(card, field_gap)
       law%initial_stress = real_of(card, field_stress)

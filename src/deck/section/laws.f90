@@ -5,10 +5,12 @@ module axijoint_deck_section_laws
    use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_properties
    use axijoint_deck_property_properties, only : add_law
    use axijoint_deck_text_common_fields, only : number
-   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, reals_of, is_good, field_fault
+   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, reals_of, is_good, &
+      field_fault
    use axijoint_deck_text_field, only : real_field, word_field, described
    use axijoint_element_joint_law, only : law_elastic, law_paper, law_names
-   use axijoint_model_material, only : joint_material_type, rule_names, rule_centroid, rule_gauss, rule_lobatto
+   use axijoint_model_material, only : joint_material_type, rule_names, rule_centroid, rule_gauss, &
+      rule_lobatto
    implicit none
    private
    public :: laws_section
@@ -16,7 +18,8 @@ module axijoint_deck_section_laws
    !> The keyword
    character(len=*), parameter :: keyword_laws = 'LAWS'
    !> Fields
-   integer, parameter :: field_label = 1, field_stiffness = 2, field_cohesion = 5, field_angle = 6, &
+   integer, parameter :: field_label = 1, field_stiffness = 2, field_cohesion = 5, &
+      field_angle = 6, &
       field_kind = 7, field_rule = 8
    !> What the words for kinds and rules mean
    integer, parameter :: kind_of_word(2) = [law_paper, law_elastic]
@@ -37,7 +40,8 @@ contains
          [number('the law', 1), &
           described(real_field('k_xi', 6, from=0.0_wp, symbol='k_xi'), 'k_ξ [stress/length]'), &
           described(real_field('k_eta', 16, above=0.0_wp, symbol='k_eta'), 'k_η [stress/length]'), &
-          described(real_field('k_theta', 26, from=0.0_wp, symbol='k_theta'), 'k_θ [stress/length]'), &
+          described(real_field('k_theta', 26, from=0.0_wp, symbol='k_theta'), &
+          'k_θ [stress/length]'), &
           described(real_field('the cohesion', 36, from=0.0_wp, default=0.0_wp, symbol='C'), &
                     'cohesion C [stress]', limits='≥ 0; blank if ELASTIC'), &
           described(real_field('the friction angle', 46, from=0.0_wp, below=90.0_wp, &
@@ -46,7 +50,8 @@ contains
           described(word_field('the kind of law', 56, 65, law_names(kind_of_word), 1), &
                     'PAPER: opens in tension, slips at C − σ tan φ; ELASTIC: neither'), &
           described(word_field('the rule', 66, 75, rule_names, word_gauss), &
-                    'rule: GAUSS, LOBATTO (points at the nodes), CENTROID (one point; 4-node joints only)')]
+                    'rule: GAUSS, LOBATTO (points at the nodes), CENTROID (one point; 4-node '// &
+                    'joints only)')]
    end function laws_section
 
    !> Add the laws
@@ -81,7 +86,8 @@ contains
          if (.not. is_given(card, field)) cycle
          call field_fault(card, field, 'an elastic joint has no '// &
                           trim(card%table%fields(field)%name(5:)), &
-                          allowed='blank', mend='leave the field blank, or write PAPER instead of ELASTIC')
+                          allowed='blank', &
+                          mend='leave the field blank, or write PAPER instead of ELASTIC')
       end do
    end subroutine check_elastic
 

@@ -28,7 +28,8 @@ contains
       type(read_section_type) :: section
 
       section%name = keyword_lines
-      section%purpose = 'nodes first + step, first + 2 step, … on the straight line between two nodes'
+      section%purpose = 'nodes first + step, first + 2 step, … on the straight line between '// &
+         'two nodes'
       section%stage = stage_elements
       section%read => read_lines
       section%fields = &

@@ -34,7 +34,8 @@ contains
           described(real_field('Young''s modulus', 6, above=0.0_wp, symbol='E'), &
                     'Young''s modulus E [stress]'), &
           described(real_field('Poisson''s ratio', 16, from=0.0_wp, below=0.5_wp, symbol='nu'), &
-                    'Poisson''s ratio ν', limits='0 ≤ ν < 0.5 (negative ratios are not accepted)'), &
+                    'Poisson''s ratio ν', &
+                    limits='0 ≤ ν < 0.5 (negative ratios are not accepted)'), &
           described(real_field('the density', 26, from=0.0_wp, default=0.0_wp, symbol='density'), &
                     'density [mass/volume]'), &
           described(real_field('the expansion', 36, default=0.0_wp), &

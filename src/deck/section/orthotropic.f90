@@ -18,7 +18,8 @@ module axijoint_deck_section_orthotropic
    character(len=*), parameter :: keyword_orthotropic = 'ORTHOTROPIC'
    !> Fields: three moduli from E_1 on, two expansions; three ratios from nu_12 on, three shear
    !> moduli from G_12 on
-   integer, parameter :: field_label = 1, field_moduli = 2, field_direction = 5, field_density = 6, &
+   integer, parameter :: field_label = 1, field_moduli = 2, field_direction = 5, &
+      field_density = 6, &
       field_expansions = 7, field_ratios = 9, field_shears = 12, field_expansion_3 = 15
 
 contains
@@ -54,7 +55,8 @@ contains
                 described(real_field('the density', 46, from=0.0_wp, default=0.0_wp, &
                 symbol='density'), &
                           'density [mass/volume]'), &
-                described([(real_field('expansion '//to_text(i), 10*i + 46, default=0.0_wp), i=1, 2)], &
+                described([(real_field('expansion '//to_text(i), 10*i + 46, default=0.0_wp), i=1, &
+                2)], &
                           'thermal expansion along 1 and 2 [1/temperature]')]
    end function first_card_fields
 
@@ -68,7 +70,8 @@ contains
 
       fields = [described([(real_field('nu_'//pairs(i), 10*i - 9), i=1, 3)], 'ν_12 ν_23 ν_13', &
                           limits='the elasticity must be positive definite'), &
-                described([(real_field('G_'//pairs(i), 10*i + 21, above=0.0_wp, symbol='G'), i=1, 3)], &
+                described([(real_field('G_'//pairs(i), 10*i + 21, above=0.0_wp, symbol='G'), i=1, &
+                3)], &
                           'G_12 G_23 G_13 [stress]'), &
                 described(real_field('expansion 3', 61, default=0.0_wp), &
                           'thermal expansion along 3 [1/temperature]')]
@@ -93,7 +96,8 @@ contains
          material%density = real_of(card, field_density)
          material%ratios = reals_of(card, field_ratios, 3)
          material%shears = reals_of(card, field_shears, 3)
-         material%expansion = [reals_of(card, field_expansions, 2), real_of(card, field_expansion_3)]
+         material%expansion = [reals_of(card, field_expansions, 2), &
+            real_of(card, field_expansion_3)]
          call add_material(card, field_label, material, deck%properties)
          if (is_good(card)) call check_elasticity(card, material)
       end do
@@ -116,11 +120,13 @@ contains
          call field_fault(card, field_ratios + i - 1, &
                           'the elasticity is not positive definite: this ratio is too large', &
                           allowed='magnitudes of nu_ij below sqrt(E_i/E_j) = '//to_text(bound(i)), &
-                          mend='nu_ij is the contraction along j under stress along i: nu_ij/E_i = ' &
+                          mend='nu_ij is the contraction along j under stress along i: '// &
+                          'nu_ij/E_i = ' &
                              //'nu_ji/E_j')
       else
          call field_fault(card, field_ratios, &
-                          'the elasticity is not positive definite: the ratios do not go together', &
+                          'the elasticity is not positive definite: the ratios do not go '// &
+                          'together', &
                           allowed='1 - a^2 - b^2 - c^2 - 2 a b c > 0 with nu_12 sqrt(E_2/E_1), ' &
                              //'nu_23 sqrt(E_3/E_2), nu_13 sqrt(E_3/E_1)', &
                           mend='lessen the ratios; equal ones and moduli need nu < 0.5')

@@ -64,7 +64,8 @@ contains
       !> A card of RESULTANTS
       type(card_type), intent(in) :: card
 
-      character(len=15), parameter :: name(4) = [character(len=15) :: 'a lateral force', 'a moment', &
+      character(len=15), parameter :: name(4) = &
+         [character(len=15) :: 'a lateral force', 'a moment', &
                                                                       'an axial force', 'a torque']
       type(share_type), allocatable :: shares(:)
       real(wp), allocatable :: traction(:, :, :)

@@ -38,7 +38,8 @@ contains
       section%read => read_ring_loads
       section%fields = &
          [node_field(name_node, 1), harmonic_field(6), &
-          described(components('q', '', 11), 'q_r q_z q_θ: amplitudes of the force per length of the nodal '// &
+          described(components('q', '', 11), &
+          'q_r q_z q_θ: amplitudes of the force per length of the nodal '// &
                     'circle [force/length]', limits='one at least must be given'), &
           family(41), described(shape_number(46), 'shape', limits='of SHAPES; not on the axis')]
    end function ring_loads_section
@@ -114,7 +115,8 @@ contains
          if (harmonic == 0 .and. component == 3 .and. .not. is_sound(card)) cycle  ! said already
          call field_fault(card, field_first - 1 + component, &
                           'a node on the axis has no such load in harmonic '//to_text(harmonic), &
-                          allowed='harmonic 0: q_z, the axial force; harmonic 1: q_r, the lateral force')
+                          allowed='harmonic 0: q_z, the axial force; harmonic 1: q_r, the '// &
+                          'lateral force')
       end do
    end subroutine check_axis
 

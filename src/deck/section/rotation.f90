@@ -64,8 +64,10 @@ contains
                           mend='centrifugal forces go with its square: they do not add up')
       end if
       if (.not. is_sound(card)) return
-      call add_body_load(card%deck%loads, body_load_type(mode_type(0, family_symmetric), card%case, &
-                                                         spin_squared=real_of(card, field_velocity)**2))
+      call add_body_load(card%deck%loads, body_load_type(mode_type(0, family_symmetric), &
+         card%case, &
+                                                         spin_squared=real_of(card, &
+                                                         field_velocity)**2))
    end subroutine read_spin
 
 end module axijoint_deck_section_rotation

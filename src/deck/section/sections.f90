@@ -39,11 +39,14 @@ contains
       section%read => read_lines
       section%fields = &
          [described(number('the section', 1), 'section', limits='each number once'), &
-          described([length('r of the first point', 6, 0.0_wp), length('z of the first point', 16)], &
+          described([length('r of the first point', 6, 0.0_wp), &
+          length('z of the first point', 16)], &
                     'r1 z1: first point', limits='r ≥ 0'), &
-          described([length('r of the last point', 26, 0.0_wp), length('z of the last point', 36)], &
+          described([length('r of the last point', 26, 0.0_wp), &
+          length('z of the last point', 36)], &
                     'r2 z2: last point', limits='r ≥ 0; not the first point'), &
-          described(integer_field('the number of points', 46, 50, 2, largest_division, default=11), &
+          described(integer_field('the number of points', 46, 50, 2, largest_division, &
+          default=11), &
                     'number of points, at equal distances'), &
           described([(angle('angle '//to_text(i), 41 + 10*i), i=1, 3)], 'angles θ [degree]', &
                     blank='those of OUTPUT')]
@@ -71,7 +74,8 @@ contains
                table%given(field_angles:, card%entry))
             if (size(line%angles) == 0) line%angles = deck%model%output_angles
             if (.not. is_good(card)) cycle
-            if (norm2(line%last - line%first) <= same_place*maxval(abs([line%first, line%last]))) then
+            if (norm2(line%last - line%first) <= same_place*maxval(abs([line%first, &
+               line%last]))) then
                call card_fault(card, 'the section has no length', found=place_text(line%first)// &
                                ' at both ends', &
                                mend='give two different points')
@@ -102,13 +106,15 @@ contains
             outside = count(.not. lies)
             missing = findloc(lies, .false., 1)
             if (outside == line%n_points) then
-               call card_fault(card, 'no point of section '//to_text(line%label)//' lies in the mesh', &
+               call card_fault(card, 'no point of section '//to_text(line%label)// &
+                  ' lies in the mesh', &
                                allowed='points in elements: r from '//range_text(mesh, 1)// &
                                   ', z from '//range_text(mesh, 2))
             else if (outside > 0) then
                call add_warning(deck%diagnostics, first_card(card), 0, 0, to_text(outside)// &
                                 ' of the '// &
-                                to_text(line%n_points)//' points of section '//to_text(line%label)// &
+                                to_text(line%n_points)//' points of section '// &
+                                to_text(line%label)// &
                                 trim(merge(' lies', ' lie ', outside == 1))// &
                                 ' outside the mesh: no results there', &
                                 found='the first at '//place_text(line_position(line, missing)))

@@ -37,10 +37,12 @@ contains
       section%stage = stage_loads
       section%read => read_shapes
       section%fields = &
-         [number('the shape', 1), described(word_field('the kind of shape', 6, 15, kinds), 'kind'), &
+         [number('the shape', 1), described(word_field('the kind of shape', 6, 15, kinds), &
+         'kind'), &
           described([(real_field('number '//to_text(i)//' of the shape', 6 + 10*i, &
                                  default=0.0_wp), i=1, 6)], &
-                    'PATCH: θ1 θ2 [degree], f = 1 between them; COSINE: m θ0, f = cos m(θ − θ0); '// &
+                    'PATCH: θ1 θ2 [degree], f = 1 between them; COSINE: m θ0, f = cos m(θ − '// &
+                    'θ0); '// &
                     'TABLE: θ f θ f θ f, linear between', blank='θ0 of COSINE: 0', &
                     limits='θ: −360 … 360; m: 0, 1, …, 9999')]
       section%fields(field_number)%required = .true.
@@ -149,7 +151,8 @@ contains
       if (width < 0.0_wp) width = modulo(width, 360.0_wp)
       if (.not. width > 0.0_wp) then
          call field_fault(card, field_number + 1, 'the patch has no width', &
-                          allowed='two different angles; the patch goes from the first counterclockwise ' &
+                          allowed='two different angles; the patch goes from the first '// &
+                          'counterclockwise ' &
                           //'to the second', mend='the whole circle is 0 to 360')
          return
       end if
@@ -204,7 +207,8 @@ contains
       end do
       if (card%diagnostics%n_errors > errors_before) return
       if (size(angles) < 2) then
-         call card_fault(card, 'the table has one point only', allowed='two points theta, f at least', &
+         call card_fault(card, 'the table has one point only', &
+            allowed='two points theta, f at least', &
                          mend='a load that does not depend on theta has harmonic 0 and no shape')
          return
       end if

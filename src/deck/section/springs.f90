@@ -32,7 +32,8 @@ contains
       section%fields = &
          [face_field(1), &
           described([spring('k_n', 6), spring('k_s', 16), spring('k_theta', 26)], &
-                    'k_n k_s k_θ [stress/length]: normal to the face, along it in the r-z plane, along θ', &
+                    'k_n k_s k_θ [stress/length]: normal to the face, along it in the r-z '// &
+                    'plane, along θ', &
                     limits='≥ 0, one above 0')]
    end function springs_section
 
@@ -76,7 +77,8 @@ contains
       associate (edges => card%deck%draft%faces(face)%edges)
          do i = 1, size(edges)
             call add_edge_support(card%deck%loads, &
-                                  edge_support_type(edges(i)%nodes, reals_of(card, field_stiffness, 3)))
+                                  edge_support_type(edges(i)%nodes, &
+                                  reals_of(card, field_stiffness, 3)))
          end do
       end associate
    end subroutine put_on_springs

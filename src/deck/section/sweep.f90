@@ -5,7 +5,8 @@ module axijoint_deck_section_sweep
    use axijoint_deck_job_card, only : card_type, cards_of
    use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_requests
    use axijoint_deck_text_common_fields, only : largest_division
-   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, is_good, card_fault, field_fault
+   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, is_good, card_fault, &
+      field_fault
    use axijoint_deck_text_field, only : integer_field, real_field, described
    use axijoint_deck_text_section, only : section_named
    implicit none
@@ -27,7 +28,8 @@ contains
       type(read_section_type) :: section
 
       section%name = keyword_sweep
-      section%purpose = 'files for ParaView: bodies and joints swept through θ; alone, the whole circle'
+      section%purpose = 'files for ParaView: bodies and joints swept through θ; alone, the '// &
+         'whole circle'
       section%once = .true.
       section%alone = .true.
       section%stage = stage_requests
@@ -35,12 +37,15 @@ contains
       section%fields = &
          [described(real_field('the first angle', 1, from=-360.0_wp, to=360.0_wp, default=0.0_wp, &
                                symbol='theta'), 'first angle θ [degree]'), &
-          described(real_field('the last angle', 11, from=-360.0_wp, to=360.0_wp, default=360.0_wp, &
+          described(real_field('the last angle', 11, from=-360.0_wp, to=360.0_wp, &
+          default=360.0_wp, &
                                symbol='theta'), 'last angle', &
                                limits='above the first by 360 at most'), &
-          described(integer_field('the number of sectors', 21, 25, 1, largest_division, default=0), &
+          described(integer_field('the number of sectors', 21, 25, 1, largest_division, &
+          default=0), &
                     'number of sectors', &
-                    blank='16 for each wave of the highest harmonic solved, at least 36 for the circle', &
+                    blank='16 for each wave of the highest harmonic solved, at least 36 for '// &
+                    'the circle', &
                     limits='at least one for 120 degrees')]
    end function sweep_section
 
@@ -55,7 +60,9 @@ contains
 
       card = cards_of(deck, keyword_sweep)
       associate (sweep => deck%model%sweep, source => deck%source)
-         sweep%wanted = any(source%cards(:source%n_cards)%keyword == section_named(source%sections, keyword_sweep))
+         sweep%wanted = &
+            any(source%cards(:source%n_cards)%keyword == section_named(source%sections, &
+            keyword_sweep))
          if (card%table%n == 0) return
          if (card%table%n > 1) then
             card%entry = 2
@@ -76,7 +83,8 @@ contains
          least = ceiling(width/widest)
          if (.not. is_given(card, field_sectors) .or. sweep%n_sectors >= least) return
          call field_fault(card, field_sectors, 'there are too few sectors', &
-                          allowed='at least '//to_text(least)//' for '//to_text(width)//' degrees', &
+                          allowed='at least '//to_text(least)//' for '//to_text(width)// &
+                          ' degrees', &
                           mend='leave the field blank: then the highest harmonic tells')
       end associate
    end subroutine read_sweep

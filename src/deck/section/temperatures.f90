@@ -7,7 +7,8 @@ module axijoint_deck_section_temperatures
    use axijoint_deck_job_modes, only : read_shares, check_torsion
    use axijoint_deck_load_lists, only : add_temperatures
    use axijoint_deck_load_shares, only : share_type
-   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, is_good, is_sound, field_fault
+   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, is_good, is_sound, &
+      field_fault
    use axijoint_deck_text_field, only : real_field, described
    use axijoint_deck_text_section, only : needs_expansion
    implicit none
@@ -34,7 +35,8 @@ contains
       section%read => read_temperatures
       section%fields = &
          [any_body(1), harmonic(6), &
-          described([real_field('T0', 11, default=0.0_wp), real_field('dT/dr', 21, default=0.0_wp), &
+          described([real_field('T0', 11, default=0.0_wp), &
+          real_field('dT/dr', 21, default=0.0_wp), &
                      real_field('dT/dz', 31, default=0.0_wp)], &
                     'T0, dT/dr, dT/dz: T = T0 + r dT/dr + z dT/dz', &
                     limits='one at least must be given'), &

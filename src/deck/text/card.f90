@@ -48,7 +48,8 @@ contains
       end if
       if (len(content) > card_width) then
          call add_error(diagnostics, card, card_width + 1, len(content), &
-                        'there is text beyond column 80', found=trim(adjustl(content(card_width + 1:))), &
+                        'there is text beyond column 80', &
+                        found=trim(adjustl(content(card_width + 1:))), &
                         mend='shorten the card; a comment begins with !')
          content = content(:len_trim(content(:card_width)))
       end if
@@ -163,7 +164,8 @@ contains
          end associate
       end if
       if (first <= len(content)) then
-         call add_error(diagnostics, card, first, len(content), 'there is text behind the keyword', &
+         call add_error(diagnostics, card, first, len(content), &
+            'there is text behind the keyword', &
                         found=content(first:), mend=mend)
       end if
    end subroutine divide_keyword
@@ -192,7 +194,8 @@ contains
          first = first - 1 + verify(content(first:)//'.', ' ')
          if (first > len(content)) exit
          if (first > fields(size(fields))%last) then
-            call add_error(diagnostics, card, first, len(content), 'there is text behind the last field', &
+            call add_error(diagnostics, card, first, len(content), &
+               'there is text behind the last field', &
                            found=content(first:), &
                            mend='a comment begins with !; see the columns of this section')
             exit

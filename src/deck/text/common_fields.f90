@@ -2,7 +2,8 @@
 module axijoint_deck_text_common_fields
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
-   use axijoint_deck_text_field, only : field_type, integer_field, real_field, described, largest_number
+   use axijoint_deck_text_field, only : field_type, integer_field, real_field, described, &
+      largest_number
    implicit none
    private
    public :: number, node, nodes, face, last_number, last_node, body, step, length, ratio, &

@@ -68,7 +68,8 @@ contains
       call add_error(diagnostics, card, first, last, &
                      'a comma separates two values, but this one looks like a decimal comma', &
                      found=content(first:last), &
-                     mend='write a decimal point: '//content(first:comma - 1)//'.'//content(comma + 1:last))
+                     mend='write a decimal point: '//content(first:comma - 1)//'.'// &
+                     content(comma + 1:last))
    end subroutine report_decimal_comma
 
    !> Next value of a card if blanks separate the values; a comma at its end is no part of it

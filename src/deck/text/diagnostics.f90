@@ -157,7 +157,8 @@ contains
       end do
       if (diagnostics%n_errors > max_shown_errors) then
          lines = lines//'... and '//count_of(diagnostics%n_errors - max_shown_errors, 'error')// &
-                 ' more that '//trim(merge('is ', 'are', diagnostics%n_errors == max_shown_errors + 1)) &
+                 ' more that '//trim(merge('is ', 'are', &
+                 diagnostics%n_errors == max_shown_errors + 1)) &
                  //' not shown'//new_line('a')
       end if
       if (size(order) > 0) lines = lines//count_of(diagnostics%n_errors, 'error')//', '// &
@@ -258,7 +259,8 @@ contains
       if (message%card > 0) then
          number = to_text(card_line(source, message%card))
          number = repeat(' ', max(0, line_width - len(number)))//number
-         lines = lines//number//' | '//trim(printable(card_text(source, message%card)))//new_line('a')
+         lines = lines//number//' | '//trim(printable(card_text(source, message%card)))// &
+            new_line('a')
          if (message%first > 0) then
             lines = lines//repeat(' ', len(number))//' |'//repeat(' ', message%first)// &
                     repeat('^', message%last - message%first + 1)//new_line('a')

@@ -37,7 +37,8 @@ module axijoint_deck_text_field
    type :: field_type
       !> Name in messages
       character(len=40) :: name = ''
-      !> What it means, with its unit, for those who write cards; the name without its article if blank
+      !> What it means, with its unit, for those who write cards; the name without its article if
+      !> blank
       character(len=200) :: meaning = ''
       !> What a blank field means, and what is allowed, for them, too; told by the values if blank
       character(len=80) :: blank = ''

@@ -83,7 +83,8 @@ contains
       end do
       if (len(fault) > 0) return
       if (depth >= max_depth) fault = 'files include files more than '//to_text(max_depth)//' deep'
-      if (source%n_files >= max_files) fault = 'more than '//to_text(max_files)//' files are included'
+      if (source%n_files >= max_files) &
+         fault = 'more than '//to_text(max_files)//' files are included'
    end function nesting_fault
 
    !> Folder part of a path with its slash; empty if it has none

@@ -49,7 +49,8 @@ contains
 
       call field_fault(card, field, noun//' '//to_text(integer_of(card, field))// &
                        ' is given twice, first on '// &
-                       card_position(card%source, first, first_card(card)), allowed=allowed, mend=mend)
+                       card_position(card%source, first, first_card(card)), allowed=allowed, &
+                       mend=mend)
    end subroutine repeated_label
 
 end module axijoint_deck_text_labels

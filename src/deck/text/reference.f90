@@ -75,7 +75,8 @@ contains
       character(len=:), allocatable :: notes
       integer :: i, last, indent
 
-      text = wrapped(trim(section%name)//': '//trim(section%purpose)//' ('//how_often(section)//')', 2)
+      text = wrapped(trim(section%name)//': '//trim(section%purpose)//' ('//how_often(section)// &
+         ')', 2)
       if (section%form == form_entries) text = text//nl
       indent = 0
       do i = 1, size(section%fields)

@@ -1,10 +1,12 @@
 !> What a section of a deck is: its keyword, its cards and their fields. The sections
 !> themselves stand in `deck/section`, a file each; this folder reads any list of them
 module axijoint_deck_text_section
-   use axijoint_deck_text_field, only : field_type, integer_field, text_field, largest_number, kind_word
+   use axijoint_deck_text_field, only : field_type, integer_field, text_field, largest_number, &
+      kind_word
    implicit none
    private
-   public :: section_type, cards_per_entry, keyword_fields, first_words, section_named, names_of, ordinal, &
+   public :: section_type, cards_per_entry, keyword_fields, first_words, section_named, names_of, &
+      ordinal, &
       cardinal
    public :: form_entries, form_title, form_end, form_include, form_file
    public :: needs_nothing, needs_density, needs_expansion

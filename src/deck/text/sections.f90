@@ -59,14 +59,16 @@ contains
       end do
       do section = 1, size(source%sections)
          associate (kind => source%sections(section))
-            sections%tables(section) = new_table(kind%fields, n_cards(section)/cards_per_entry(kind))
+            sections%tables(section) = new_table(kind%fields, &
+               n_cards(section)/cards_per_entry(kind))
          end associate
       end do
       allocate (entries(source%n_cards), source=0)
       call read_entries(source, owner, sections, entries, diagnostics)
       call read_keywords(source, entries, sections, diagnostics)
       do section = 1, size(source%sections)
-         if (source%sections(section)%required) call check_there(source, section, sections, diagnostics)
+         if (source%sections(section)%required) &
+            call check_there(source, section, sections, diagnostics)
       end do
    end subroutine read_sections
 
@@ -92,7 +94,8 @@ contains
       reported = unset
       do card = 1, source%n_cards
          file = source%cards(card)%file
-         if (open_section(file) == unset) open_section(file) = open_section(source%files(file)%parent)
+         if (open_section(file) == unset) &
+            open_section(file) = open_section(source%files(file)%parent)
          if (source%cards(card)%kind == card_keyword) then
             if (all(form_of(source, card) /= [form_include, form_file])) open_section(file) = card
          else if (source%cards(card)%kind == card_data) then
@@ -139,7 +142,8 @@ contains
          text = 'this data card follows the title, which is one card only'
       end if
       call add_error(diagnostics, card, 1, len(card_content(source, card)), text, &
-                     mend='a keyword, written from column 1, opens a section; comments begin with !')
+                     mend='a keyword, written from column 1, opens a section; comments begin '// &
+                     'with !')
    end subroutine report_homeless
 
    !> Report the second keyword of a section that is there once
@@ -161,7 +165,8 @@ contains
             if (.not. source%sections(section)%once) cycle
             if (seen(section) > 0) then
                name = trim(source%sections(section)%name)
-               call add_error(diagnostics, card, 1, len(name), name//' is there twice, first on '// &
+               call add_error(diagnostics, card, 1, len(name), name// &
+                  ' is there twice, first on '// &
                               card_position(source, seen(section), card))
             else
                seen(section) = card

@@ -4,7 +4,8 @@ module axijoint_deck_text_source_reader
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
    use axijoint_deck_text_file_bytes, only : read_bytes, line_end, next_line, control_byte
    use axijoint_deck_text_include_path, only : locate_path, path_fault, nesting_fault, folder
-   use axijoint_deck_text_section, only : section_type, section_named, names_of, first_words, form_title, &
+   use axijoint_deck_text_section, only : section_type, section_named, names_of, first_words, &
+      form_title, &
       form_include, form_file, form_end, keyword_last, keyword_length
    use axijoint_deck_text_source, only : source_type, add_file, add_card, card_content, card_text, &
       card_title, card_data, card_keyword, form_of, tab
@@ -383,7 +384,8 @@ contains
       content = card_content(source, card)
       call locate_path(content, first, last, fault)
       path = content(first:last)
-      if (len(fault) == 0) fault = path_fault(trim(source%sections(source%cards(card)%keyword)%name), path)
+      if (len(fault) == 0) &
+         fault = path_fault(trim(source%sections(source%cards(card)%keyword)%name), path)
       if (len(fault) > 0) return
       if (index(path, './') == 1) path = path(3:)
       path = folder(source%files(source%cards(card)%file)%path)//path

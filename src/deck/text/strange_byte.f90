@@ -62,7 +62,8 @@ contains
       call add_error(diagnostics, card, first, last, 'this character is not ASCII', &
                      found='a character that begins with the byte '//code//' (hexadecimal)', &
                      allowed='ASCII; any text in the title and in comments', &
-                     mend='retype it; a blank that is not ASCII, or a byte order mark, looks like nothing')
+                     mend='retype it; a blank that is not ASCII, or a byte order mark, looks '// &
+                     'like nothing')
    end subroutine report_strange_byte
 
 end module axijoint_deck_text_strange_byte

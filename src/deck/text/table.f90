@@ -4,7 +4,8 @@ module axijoint_deck_text_table
    use axijoint_base_text, only : to_text, upper
    use axijoint_deck_text_card, only : slot_type, divide_card
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, add_warning
-   use axijoint_deck_text_field, only : field_type, allowed_text, in_range, kind_integer, kind_real, &
+   use axijoint_deck_text_field, only : field_type, allowed_text, in_range, kind_integer, &
+      kind_real, &
       kind_word, kind_code, kind_text, smallest_real, largest_real
    use axijoint_deck_text_source, only : source_type, card_content
    use axijoint_deck_text_token, only : read_integer, read_real, token_good, token_is_real, &

@@ -71,7 +71,8 @@ contains
 
       value = 0
       do i = 1, len(number)
-         value = 10*value + (iachar(number(i:i)) - iachar('0'))  ! in this order 2147483647 is in range
+         ! in this order 2147483647 is in range
+         value = 10*value + (iachar(number(i:i)) - iachar('0'))
       end do
    end function digits_value
 

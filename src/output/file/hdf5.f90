@@ -8,7 +8,8 @@ module axijoint_output_file_hdf5
    use axijoint_base_system, only : ignore_file_size_signal, set_last_error, sync_path
    use axijoint_output_file_hdf5_data, only : hdf5_failure_type, no_handle, write_array, &
       write_string, write_attribute, write_string_attribute
-   use axijoint_output_file_hdf5_series, only : hdf5_series_type, open_series, append_piece, close_series
+   use axijoint_output_file_hdf5_series, only : hdf5_series_type, open_series, append_piece, &
+      close_series
    use axijoint_output_file_pending, only : temporary_path, publish, discard, io_error
    use hdf5, only : hid_t, hsize_t, h5open_f, h5close_f, h5eset_auto_f, h5fcreate_f, &
       h5fopen_f, h5fflush_f, h5fclose_f, h5f_acc_excl_f, h5f_acc_rdonly_f, &

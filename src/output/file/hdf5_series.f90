@@ -3,7 +3,8 @@
 module axijoint_output_file_hdf5_series
    use, intrinsic :: iso_c_binding, only : c_ptr
    use axijoint_base_system, only : set_last_error
-   use axijoint_output_file_hdf5_data, only : hdf5_failure_type, no_handle, make_space, make_properties, &
+   use axijoint_output_file_hdf5_data, only : hdf5_failure_type, no_handle, make_space, &
+      make_properties, &
       close_handles
    use hdf5, only : hid_t, hsize_t, h5dcreate_f, h5dwrite_f, h5dget_space_f, h5s_select_set_f, &
       h5sselect_hyperslab_f

@@ -22,7 +22,8 @@ contains
       type(results_type), intent(in) :: results
 
       call file%group("/loads")
-      call file%write("/loads/case_label", (model%load_cases%label), "Number of the load case; (case)")
+      call file%write("/loads/case_label", (model%load_cases%label), &
+         "Number of the load case; (case)")
       call file%write("/loads/case_factor", case_factor(model, results%combination), &
          "Its factor in this combination; (case)")
       call write_edge_loads(file, model)
@@ -173,7 +174,8 @@ contains
          end do
          call file%write("/restraints/first", (restraints%first), "First harmonic; (restraint)")
          call file%write("/restraints/last", (restraints%last), "Last harmonic; (restraint)")
-         call file%write("/restraints/family", (restraints%family), "1 symmetric, 2 antisymmetric, 0 both; (restraint)")
+         call file%write("/restraints/family", (restraints%family), &
+            "1 symmetric, 2 antisymmetric, 0 both; (restraint)")
          call file%write("/restraints/held", held, "1 where u, v, w is held; (3, node, restraint)")
       end associate
    end subroutine write_restraint_group

@@ -133,7 +133,8 @@ contains
 
       call file%group("/materials")
       call file%write("/materials/label", (model%materials%label), "Number; (material)")
-      call file%write("/materials/young", (model%materials%young), "E, 0 if orthotropic; (material) [stress]")
+      call file%write("/materials/young", (model%materials%young), &
+         "E, 0 if orthotropic; (material) [stress]")
       call file%write("/materials/poisson", (model%materials%poisson), &
          "nu, 0 if orthotropic; (material)")
       call file%write("/materials/density", (model%materials%density), "(material) [mass/volume]")
@@ -163,8 +164,10 @@ contains
             "k_xi, k_eta, k_theta; (3, law) [stress/length]")
          call file%write("/joint_materials/cohesion", (materials%law%cohesion), "C; (law) [stress]")
          call file%write("/joint_materials/friction", (materials%law%friction), "tan(phi); (law)")
-         call file%write("/joint_materials/slip", (materials%law%slip), "1 components, 2 resultant; (law)")
-         call file%write("/joint_materials/opening", (materials%law%opening), "1 reversible, 2 bond; (law)")
+         call file%write("/joint_materials/slip", (materials%law%slip), &
+            "1 components, 2 resultant; (law)")
+         call file%write("/joint_materials/opening", (materials%law%opening), &
+            "1 reversible, 2 bond; (law)")
          call file%write("/joint_materials/residual_cohesion", &
             merge(materials%law%residual_cohesion, materials%law%cohesion, materials%law%softens), &
             "C once a point has slipped; (law) [stress]")
@@ -172,7 +175,8 @@ contains
             merge(materials%law%residual_friction, materials%law%friction, materials%law%softens), &
             "tan(phi) once a point has slipped; (law)")
          call file%write("/joint_materials/dilation", (materials%law%dilation), "tan(psi); (law)")
-         call file%write("/joint_materials/gap", (materials%law%gap), "Before loading; (law) [length]")
+         call file%write("/joint_materials/gap", (materials%law%gap), &
+            "Before loading; (law) [length]")
          call file%write("/joint_materials/initial_stress", (materials%law%initial_stress), &
             "Normal, before loading; (law) [stress]")
       end associate
@@ -187,7 +191,8 @@ contains
 
       call file%group("/modes")
       call file%write("/modes/harmonic", (results%modes%harmonic), "Harmonic m; (mode)")
-      call file%write("/modes/family", (results%modes%family), "1 symmetric, 2 antisymmetric; (mode)")
+      call file%write("/modes/family", (results%modes%family), &
+         "1 symmetric, 2 antisymmetric; (mode)")
       call file%write("/displacement", results%displacement, &
          "Amplitudes u, v, w; (3, node, mode) [length]")
       call file%write("/reaction", results%reaction, "Work of the reactions over the circle "// &
@@ -230,7 +235,8 @@ contains
          end do
          call file%group("/errors")
          call file%attribute("/errors", "sources", sources)
-         call file%write("/errors/energy", (budget%energy), "Of the stresses in the energy norm; "// &
+         call file%write("/errors/energy", (budget%energy), &
+            "Of the stresses in the energy norm; "// &
             "(source), relative, negative if not known")
          call file%write("/errors/displacement", (budget%displacement), &
             "Of displacements; (source), relative, negative if not known")

@@ -85,8 +85,10 @@ contains
       call file%write("/cuts/label", (model%cuts%label), "Number in the deck; (cut)")
       call file%write("/cuts/z", (model%cuts%z), "z; (cut) [length]")
       call file%write("/cuts/body", (model%cuts%body), "Body, 0 for all; (cut)")
-      call file%write("/cuts/resultants", results%cut_resultants, "Axial force, shear along theta "// &
-         "= 0, moment that lifts theta = 0, torque, shear and moment at 90 degrees: of the part "// &
+      call file%write("/cuts/resultants", results%cut_resultants, &
+         "Axial force, shear along theta "// &
+         "= 0, moment that lifts theta = 0, torque, shear and moment at 90 degrees: of the "// &
+         "part "// &
          "above on the part below, moments about r = 0 at the cut; (6, cut)")
    end subroutine write_cut_group
 

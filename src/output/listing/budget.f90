@@ -11,7 +11,8 @@ module axijoint_output_listing_budget
    use axijoint_output_file_text, only : text_file_type
    implicit none
    private
-   public :: write_left_out, write_budget, write_singular, singular_text, write_rounds, sum_text, remedy_text
+   public :: write_left_out, write_budget, write_singular, singular_text, write_rounds, sum_text, &
+      remedy_text
 
    !> Columns of a value
    integer, parameter :: wide = 15
@@ -45,14 +46,16 @@ contains
       integer :: i
 
       if (.not. allocated(results%budget)) return
-      call write_result_heading(file, "ERROR BUDGET (estimates; relative, - not known)", results%converged)
+      call write_result_heading(file, "ERROR BUDGET (estimates; relative, - not known)", &
+         results%converged)
       call file%put("  left by           energy norm   displacement   joint stress           load")
       do i = 1, size(results%budget)
          call file%put(share_line(results%budget(i)))
       end do
       call file%put(share_line(sum_of_shares(results%budget)))
       call file%put("  "//sum_text(results))
-      if (len(remedy_text(results%budget)) > 0) call file%put("  about half with "//remedy_text(results%budget))
+      if (len(remedy_text(results%budget)) > 0) &
+         call file%put("  about half with "//remedy_text(results%budget))
    end subroutine write_budget
 
    !> A share as a line of the table
@@ -62,7 +65,8 @@ contains
       !> The line
       character(len=:), allocatable :: line
 
-      line = "  "//source_names(share%source)//value_text(share%energy)//value_text(share%displacement)// &
+      line = "  "//source_names(share%source)//value_text(share%energy)// &
+         value_text(share%displacement)// &
              value_text(share%joint_stress)//value_text(share%load)
    end function share_line
 
@@ -79,10 +83,12 @@ contains
 
       if (.not. allocated(results%rounds)) return
       call write_heading(file, "ROUNDS OF REFINEMENT")
-      call file%put("     round   elements x   nodes           M    planes      unknowns          error")
+      call file%put("     round   elements x   nodes           M    planes      "// &
+         "unknowns          error")
       do i = 1, size(results%rounds)
          associate (round => results%rounds(i))
-            write (line, format_round) i, round%mesh, round%nodes, round%harmonic, round%planes, round%n_unknowns
+            write (line, format_round) i, round%mesh, round%nodes, round%harmonic, round%planes, &
+               round%n_unknowns
             call file%put(line//value_text(round%error))
          end associate
       end do
@@ -117,7 +123,8 @@ contains
       call file%put("      node              r              z        power   not judged within")
       do i = 1, size(results%singular)
          associate (place => results%singular(i))
-            write (line, format_place) model%mesh%node_label(place%node), model%mesh%coordinates(:, place%node), place%exponent
+            write (line, format_place) model%mesh%node_label(place%node), &
+               model%mesh%coordinates(:, place%node), place%exponent
             if (place%distance > 0.0_wp) then
                call file%put(line//"   "//to_text(place%distance))
             else
@@ -151,7 +158,8 @@ contains
       if (.not. has_singular(results)) return
       associate (place => results%singular(minloc(results%singular%exponent, 1)))
          write (power, "(f6.2)") place%exponent
-         text = "at "//to_text(size(results%singular))//" nodes; like distance^"//trim(adjustl(power))// &
+         text = "at "//to_text(size(results%singular))//" nodes; like distance^"// &
+            trim(adjustl(power))// &
                 " at node "//to_text(model%mesh%node_label(place%node))//" (r = "// &
                 to_text(model%mesh%coordinates(1, place%node))//", z = "// &
                 to_text(model%mesh%coordinates(2, place%node))//")"
@@ -173,7 +181,8 @@ contains
       associate (budget => results%budget)
          text = "displacement "//quantity_text(budget, (budget%displacement), total%displacement)
          if (total%joint_stress < 0.0_wp) return
-         text = text//"; joint stress "//quantity_text(budget, (budget%joint_stress), total%joint_stress)
+         text = text//"; joint stress "//quantity_text(budget, (budget%joint_stress), &
+            total%joint_stress)
       end associate
       if (.not. has_singular(results)) return
       if (any(results%singular%distance > 0.0_wp)) text = text//", away from infinite ones"
@@ -192,12 +201,14 @@ contains
       if (.not. is_known(budget, shares)) text = "at least "//text
       if (total > 0.0_wp) then
          associate (most => maxloc(shares, 1))
-            text = text//", most by "//trim(source_names(budget(most)%source))//" ("//percent(shares(most))//")"
+            text = text//", most by "//trim(source_names(budget(most)%source))//" ("// &
+               percent(shares(most))//")"
          end associate
       end if
    end function quantity_text
 
-   !> What would halve the largest shares of displacement and of joint stress; empty if there are none
+   !> What would halve the largest shares of displacement and of joint stress; empty if there are
+   !> none
    pure function remedy_text(budget) result(text)
       !> The budget
       type(error_share_type), intent(in) :: budget(:)

@@ -10,10 +10,12 @@ module axijoint_output_listing_contents
    use axijoint_output_file_headings, only : write_lines, rule, mark_not_converged
    use axijoint_output_file_run, only : run_type
    use axijoint_output_file_text, only : text_file_type
-   use axijoint_output_listing_budget, only : write_left_out, write_budget, write_singular, write_rounds
+   use axijoint_output_listing_budget, only : write_left_out, write_budget, write_singular, &
+      write_rounds
    use axijoint_output_listing_loads, only : write_loads, write_truncations, write_supports, &
       write_combinations
-   use axijoint_output_listing_mesh, only : write_nodes, write_restraints, write_elements, write_joints
+   use axijoint_output_listing_mesh, only : write_nodes, write_restraints, write_elements, &
+      write_joints
    use axijoint_output_listing_model, only : write_warnings, write_model, write_materials, &
       write_joint_materials, write_increments
    use axijoint_output_listing_sections, only : write_sections, write_cuts
@@ -109,7 +111,8 @@ contains
          "   Fourier finite element analysis of axisymmetric bodies with joints")
       call write_lines(file, "title   ", model%title)
       call write_lines(file, "deck    ", run%deck)
-      if (results%combination > 0) call file%put("loads   combination "//to_text(results%combination))
+      if (results%combination > 0) &
+         call file%put("loads   combination "//to_text(results%combination))
       call file%put("date    "//run%date)
       call file%put("run     "//run%stamp)
       call write_lines(file, "status  ", convergence_text(results))

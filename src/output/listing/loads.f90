@@ -33,7 +33,8 @@ contains
 
       call write_heading(file, "LOADS (amplitudes for load factor 1; S symmetric, A antisymmetric)")
       if (size(model%edge_loads) + size(model%ring_loads) + size(model%body_loads) &
-          + size(model%thermal_loads) + size(model%prescribed) + size(model%initial_stresses) == 0) then
+          + size(model%thermal_loads) + size(model%prescribed) + &
+          size(model%initial_stresses) == 0) then
          call file%put("  none")
       end if
       if (size(model%edge_loads) > 0) call write_edge_loads(file, model)
@@ -69,12 +70,14 @@ contains
       integer :: i, k
 
       call file%put("  tractions on edges: first, last and middle node of each edge")
-      call file%put(label_heading//"      node             r             z            t_r            t_z"// &
+      call file%put(label_heading//"      node             r             z            "// &
+         "t_r            t_z"// &
          "        t_theta")
       do i = 1, size(model%edge_loads)
          associate (load => model%edge_loads(i))
             do k = 1, count(load%nodes > 0)
-               call file%put(label(load%mode, model%load_cases(load%case)%label, model%mesh%node_label(load%nodes(k)))// &
+               call file%put(label(load%mode, model%load_cases(load%case)%label, &
+                  model%mesh%node_label(load%nodes(k)))// &
                   columns(model%mesh%coordinates(:, load%nodes(k)), narrow)// &
                   columns(load%traction(:, k), wide))
             end do
@@ -91,13 +94,16 @@ contains
 
       integer :: i
 
-      call file%put("  loads on nodal circles: generalized forces (work over the circle on unit "// &
+      call file%put("  loads on nodal circles: generalized forces (work over the circle on "// &
+         "unit "// &
          "amplitudes)")
-      call file%put(label_heading//"      node             r             z            F_u            F_v"// &
+      call file%put(label_heading//"      node             r             z            "// &
+         "F_u            F_v"// &
          "            F_w")
       do i = 1, size(model%ring_loads)
          associate (load => model%ring_loads(i))
-            call file%put(label(load%mode, model%load_cases(load%case)%label, model%mesh%node_label(load%node))// &
+            call file%put(label(load%mode, model%load_cases(load%case)%label, &
+               model%mesh%node_label(load%node))// &
                columns(model%mesh%coordinates(:, load%node), narrow)//columns(load%force, wide))
          end associate
       end do
@@ -119,7 +125,8 @@ contains
       do i = 1, size(model%body_loads)
          associate (load => model%body_loads(i))
             start = label(load%mode, model%load_cases(load%case)%label, 0)
-            call file%put(start(:22)//repeat(" ", 10)//columns([load%acceleration, load%spin_squared], wide))
+            call file%put(start(:22)//repeat(" ", 10)// &
+               columns([load%acceleration, load%spin_squared], wide))
          end associate
       end do
    end subroutine write_body_loads
@@ -133,7 +140,8 @@ contains
 
       integer :: i
 
-      call file%put("  temperatures: smallest and largest amplitude at the nodes (body 0: all bodies)")
+      call file%put("  temperatures: smallest and largest amplitude at the nodes (body 0: all "// &
+         "bodies)")
       call file%put(label_heading//"      body       smallest        largest")
       do i = 1, size(model%thermal_loads)
          associate (load => model%thermal_loads(i))
@@ -153,11 +161,14 @@ contains
       character(len=1), parameter :: component(3) = ["u", "v", "w"]
       integer :: i
 
-      call file%put("  prescribed displacements (the component is zero in all other modes and cases)")
-      call file%put(label_heading//"      node             r             z   component      amplitude")
+      call file%put("  prescribed displacements (the component is zero in all other modes and "// &
+         "cases)")
+      call file%put(label_heading//"      node             r             z   component      "// &
+         "amplitude")
       do i = 1, size(model%prescribed)
          associate (load => model%prescribed(i))
-            call file%put(label(load%mode, model%load_cases(load%case)%label, model%mesh%node_label(load%node))// &
+            call file%put(label(load%mode, model%load_cases(load%case)%label, &
+               model%mesh%node_label(load%node))// &
                columns(model%mesh%coordinates(:, load%node), narrow)//repeat(" ", 11)// &
                component(load%component)//columns([load%value], wide))
          end associate
@@ -174,10 +185,12 @@ contains
       integer :: i
 
       call file%put("  in-situ stresses: at z = 0, and below each their growth with z")
-      call file%put(label_heading//"      body        sigma_r        sigma_z    sigma_theta         tau_rz")
+      call file%put(label_heading//"      body        sigma_r        sigma_z    "// &
+         "sigma_theta         tau_rz")
       do i = 1, size(model%initial_stresses)
          associate (load => model%initial_stresses(i))
-            call file%put(label(mode_type(), model%load_cases(load%case)%label, load%body)//columns(load%stress, wide))
+            call file%put(label(mode_type(), model%load_cases(load%case)%label, load%body)// &
+               columns(load%stress, wide))
             call file%put(share_text(model, load)//columns(load%gradient, wide))
          end associate
       end do
@@ -193,7 +206,8 @@ contains
       character(len=32) :: text
 
       text = ""
-      if (stress%material /= any_material) text = "    material "//to_text(model%materials(stress%material)%label)
+      if (stress%material /= any_material) &
+         text = "    material "//to_text(model%materials(stress%material)%label)
       if (stress%meant) text = trim(text)//"    meant"
    end function share_text
 
@@ -229,11 +243,13 @@ contains
 
       if (size(model%truncations) == 0) return
       call write_heading(file, "WHAT THE HARMONICS LEAVE OF EACH LOAD")
-      call file%put("  root mean square round the circle of what is left out, over that of the load; "// &
+      call file%put("  root mean square round the circle of what is left out, over that of the "// &
+         "load; "// &
          "1 for a load")
       call file%put("  that is concentrated in points: its work is exact in every harmonic in use")
       do i = 1, size(model%truncations)
-         call file%put(columns([model%truncations(i)%left_out], wide)//"  "//model%truncations(i)%name)
+         call file%put(columns([model%truncations(i)%left_out], wide)//"  "// &
+            model%truncations(i)%name)
       end do
    end subroutine write_truncations
 

@@ -64,7 +64,8 @@ contains
          associate (restraint => model%restraints(k))
             do i = 1, n_nodes(model%mesh)
                if (.not. any(restraint%held(:, i))) cycle
-               write (row, '(i10, 3x, 3i1)') model%mesh%node_label(i), merge(1, 0, restraint%held(:, i))
+               write (row, '(i10, 3x, 3i1)') model%mesh%node_label(i), &
+                  merge(1, 0, restraint%held(:, i))
                call file%put(row//"   "//range_text(restraint))
             end do
          end associate
@@ -84,7 +85,8 @@ contains
          if (restraint%last > restraint%first) text = text//" to "//to_text(restraint%last)
       end if
       if (restraint%family /= any_family) then
-         text = text//trim(merge(" symmetric    ", " antisymmetric", restraint%family == family_symmetric))
+         text = text//trim(merge(" symmetric    ", " antisymmetric", &
+            restraint%family == family_symmetric))
       end if
    end function range_text
 

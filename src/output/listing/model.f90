@@ -107,8 +107,10 @@ contains
       associate (references => element_references(mesh))
          do k = 1, size(mesh%kinds)
             associate (title => formulations(mesh%kinds(k)%formulation)%title)
-               call write_fact(file, trim(merge("kinds of elements", "                 ", k == 1)), &
-                               to_text(count(mesh%element_kind == k))//" of "//to_text(mesh%kinds(k)%n_nodes)// &
+               call write_fact(file, trim(merge("kinds of elements", "                 ", &
+                  k == 1)), &
+                               to_text(count(mesh%element_kind == k))//" of "// &
+                               to_text(mesh%kinds(k)%n_nodes)// &
                                " nodes, "//to_text(references(k)%n_points)//" points"// &
                                trim(merge(", ", "  ", title /= ""))//trim(" "//title))
             end associate
@@ -194,7 +196,8 @@ contains
       end do
       if (all(model%joint_materials%law%kind == law_elastic)) return
       call file%put("")
-      call file%put("       law   slip        opening     residual C residual [deg]      psi [deg]            gap"// &
+      call file%put("       law   slip        opening     residual C residual [deg]      psi "// &
+         "[deg]            gap"// &
          "  initial sigma")
       do i = 1, size(model%joint_materials)
          associate (material => model%joint_materials(i), law => model%joint_materials(i)%law)

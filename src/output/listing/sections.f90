@@ -38,7 +38,8 @@ contains
          associate (line => model%lines(k))
             do i = 1, size(line%angles)
                values = line_displacement(model, results, line, line%angles(i))
-               call write_result_heading(file, "DISPLACEMENTS ON "//title(line, i), results%converged)
+               call write_result_heading(file, "DISPLACEMENTS ON "//title(line, i), &
+                  results%converged)
                call file%put("   point           r           z  body  mat.              u"// &
                   "              v              w")
                call write_points(file, model, line, values, wide)
@@ -63,7 +64,8 @@ contains
       !> The name
       character(len=:), allocatable :: text
 
-      text = "SECTION "//to_text(line%label)//", theta = "//to_text(line%angles(i)/degree)//" degrees"
+      text = "SECTION "//to_text(line%label)//", theta = "//to_text(line%angles(i)/degree)// &
+         " degrees"
    end function title
 
    !> One row for each point and each solid that it is in
@@ -126,7 +128,8 @@ contains
       integer :: k
 
       if (size(model%cuts) == 0) return
-      call write_result_heading(file, "RESULTANTS ON CUTS z = const (of the part above on the part "// &
+      call write_result_heading(file, "RESULTANTS ON CUTS z = const (of the part above on the "// &
+         "part "// &
          "below; moments about r = 0 at the cut)", results%converged)
       call file%put("     cut           z  body    axial force     shear at 0    shear at 90"// &
          "    moment at 0   moment at 90         torque")

@@ -32,7 +32,8 @@ module axijoint_output_listing_solution
    !> Phase, its wall clock and processor time, its share
    character(len=*), parameter :: format_time = '(2x, a, t14, 2f14.3, f12.1)'
    !> Time of the error estimates, part of the phases above
-   character(len=*), parameter :: format_estimates = '(2x, "estimates", t14, f14.3, "  (part of joints and recover)")'
+   character(len=*), parameter :: format_estimates = &
+      '(2x, "estimates", t14, f14.3, "  (part of joints and recover)")'
    !> Memory
    character(len=*), parameter :: format_memory = '(2x, a, t14, f14.1, a)'
    !> Columns of coordinates and of results
@@ -64,14 +65,17 @@ contains
       call file%put("  order of the nodes       bandwidth         profile            fill")
       do i = 1, size(results%orderings)
          associate (ordering => results%orderings(i))
-            write (order, format_order) ordering%name, ordering%bandwidth, ordering%profile, ordering%fill
+            write (order, format_order) ordering%name, ordering%bandwidth, ordering%profile, &
+               ordering%fill
             call file%put(order)
          end associate
       end do
-      call file%put("  harmonic       equations  factor entries smallest pivot backward error      condition")
+      call file%put("  harmonic       equations  factor entries smallest pivot backward "// &
+         "error      condition")
       do i = 1, size(results%solves)
          associate (solve => results%solves(i))
-            write (numbers, format_equations) solve%mode%harmonic, family_letter(solve%mode), solve%n_equations, &
+            write (numbers, format_equations) solve%mode%harmonic, family_letter(solve%mode), &
+               solve%n_equations, &
                solve%factor_entries
             call file%put(numbers//columns([solve%smallest_pivot, solve%backward_error, &
                solve%condition], wide))
@@ -109,7 +113,8 @@ contains
          call file%put("  joint stresses differ by up to "//to_text(100.0_wp*results%other_loop)// &
             " % of the largest from equilibrium on total relative displacements (NEWTON)")
       else
-         call file%put("  the paper's loop to its tolerance of 3 % would leave joint stresses up to "// &
+         call file%put("  the paper's loop to its tolerance of 3 % would leave joint stresses "// &
+            "up to "// &
             to_text(100.0_wp*results%other_loop)//" % of the largest wrong")
       end if
    end subroutine write_convergence
@@ -130,7 +135,8 @@ contains
             ": its equations are ill-conditioned"
       else if (allocated(results%mechanism)) then
          text = mark_not_converged//" after "//to_text(size(results%path))// &
-            " iterations: a mechanism; results are those of the last equilibrium, residual ratio "//ratio
+            " iterations: a mechanism; results are those of the last equilibrium, residual "// &
+            "ratio "//ratio
       else if (.not. results%converged) then
          text = mark_not_converged//" residual ratio "//ratio//", tolerance "//tolerance// &
             ", after "//to_text(size(results%path))//" iterations: these results are no equilibrium"
@@ -155,7 +161,8 @@ contains
 
       do i = 1, size(results%modes)
          call write_result_heading(file, "DISPLACEMENT AMPLITUDES, harmonic "// &
-            mode_name(results%modes(i))//" ("//factors_text(results%modes(i))//")", results%converged)
+            mode_name(results%modes(i))//" ("//factors_text(results%modes(i))//")", &
+            results%converged)
          call file%put("      node            r            z              u              v"// &
             "              w")
          do node = 1, size(results%displacement, 2)
@@ -206,7 +213,8 @@ contains
          call file%put("      node            r            z            R_u            R_v"// &
             "            R_w")
          do node = 1, size(results%reaction, 2)
-            if (.not. any(model%fixed(:, node) .or. abs(results%reaction(:, node, i)) > 0.0_wp)) cycle
+            if (.not. any(model%fixed(:, node) .or. abs(results%reaction(:, node, i)) > 0.0_wp)) &
+               cycle
             call write_node(file, model, node, results%reaction(:, node, i))
          end do
       end do
@@ -225,7 +233,8 @@ contains
       integer :: i
 
       call write_result_heading(file, "EQUILIBRIUM", results%converged)
-      call file%put("                                            applied        reacted            sum")
+      call file%put("                                            applied        "// &
+         "reacted            sum")
       do i = 1, n_shown(results)
          call file%put("  "//resultant_names(i)//columns([results%applied(i), results%reacted(i), &
             results%applied(i) + results%reacted(i)], wide))
@@ -234,11 +243,14 @@ contains
          columns([results%equilibrium_error], wide))
       if (size(results%part_node) < 2) return
       call file%put("")
-      call file%put("  forces on each part that nothing balances: the joints' share of the residual")
+      call file%put("  forces on each part that nothing balances: the joints' share of the "// &
+         "residual")
       if (n_shown(results) == torque) then
-         call file%put("  part with node      axial force  lateral force         moment         torque")
+         call file%put("  part with node      axial force  lateral force         "// &
+            "moment         torque")
       else
-         call file%put("  part with node      axial force  lateral force         moment         torque"// &
+         call file%put("  part with node      axial force  lateral force         "// &
+            "moment         torque"// &
             "  lateral at 90   moment at 90")
       end if
       do i = 1, size(results%part_node)

@@ -59,7 +59,8 @@ contains
 
       if (size(pictures) == 0) return
       call write_heading(file, "SWEPT BODIES ("//count_of(n_steps, "time step")//")")
-      call file%put("file                                         sectors       points        cells"// &
+      call file%put("file                                         sectors       points        "// &
+         "cells"// &
                     "    size [MiB]")
       do k = 1, size(pictures)
          associate (picture => pictures(k))

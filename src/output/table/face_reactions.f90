@@ -115,7 +115,8 @@ contains
       call file%group("/supports")
       call file%write("/supports/face", (model%supported_faces%label), "Number in the deck; (face)")
       call file%write("/supports/reacted", resultants_of_faces(model, results), &
-         "Axial force, lateral force, moment, torque, lateral force and moment at 90 degrees of the "// &
+         "Axial force, lateral force, moment, torque, lateral force and moment at 90 degrees "// &
+         "of the "// &
          "reactions; (6, face)")
    end subroutine write_support_group
 

@@ -15,7 +15,8 @@ module axijoint_output_table_in_situ
    !> Columns of a real
    integer, parameter :: wide = 15
    !> Node and body of a part; node, direction and increment of a traction; body and materials
-   character(len=*), parameter :: format_part = '(2i10)', format_place = '(i10, 3x, a1, i6)', format_pair = '(i10, i12, i10)'
+   character(len=*), parameter :: format_part = '(2i10)', format_place = '(i10, 3x, a1, i6)', &
+      format_pair = '(i10, i12, i10)'
    !> Directions of a traction
    character(len=1), parameter :: direction_name(2) = ["r", "z"]
 
@@ -44,9 +45,11 @@ contains
 
       if (.not. has_findings(findings)) return
       call write_heading(file, "IN-SITU STRESS BEFORE ANYTHING MOVES (shares out of balance)")
-      call file%put("   part of      body        largest         weight       traction        over the       over the"// &
+      call file%put("   part of      body        largest         weight       traction        "// &
+         "over the       over the"// &
                     "        at  along  incr.")
-      call file%put("      node                   stress      and gamma      left over        largest   stress there"// &
+      call file%put("      node                   stress      and gamma      left over        "// &
+         "largest   stress there"// &
                     "      node")
       do k = 1, size(findings%parts)
          associate (part => findings%parts(k))
@@ -57,17 +60,20 @@ contains
          associate (part => findings%parts(k))
             if (part%has_stress) cycle
             write (words, format_part) model%mesh%node_label(part%node), part%body
-            call file%put(trim(words)//"   has none; joints press it with up to"//columns([part%pressed], wide))
+            call file%put(trim(words)//"   has none; joints press it with up to"// &
+               columns([part%pressed], wide))
          end associate
       end do
       if (size(findings%boundaries) == 0) return
       call file%put("")
       call file%put("  boundaries of materials: traction and its jump")
-      call file%put("      body   materials                traction           jump          share              r              z")
+      call file%put("      body   materials                traction           jump          "// &
+         "share              r              z")
       do k = 1, size(findings%boundaries)
          associate (boundary => findings%boundaries(k))
             write (words, format_pair) boundary%body, model%materials(boundary%materials)%label
-            call file%put(words(:32)//columns([boundary%traction, boundary%jump, boundary%share(), boundary%position], wide))
+            call file%put(words(:32)//columns([boundary%traction, boundary%jump, boundary%share(), &
+               boundary%position], wide))
          end associate
       end do
 
@@ -82,9 +88,11 @@ contains
 
          write (words, format_part) model%mesh%node_label(part%node), part%body
          place = ""
-         if (part%on_place%node > 0) write (place, format_place) model%mesh%node_label(part%on_place%node), &
+         if (part%on_place%node > 0) &
+            write (place, format_place) model%mesh%node_label(part%on_place%node), &
             direction_name(part%on_place%direction), part%on_place%increment
-         call file%put(words(:20)//columns([part%largest, part%weight_share, part%on_place%traction, &
+         call file%put(words(:20)//columns([part%largest, part%weight_share, &
+            part%on_place%traction, &
                                             part%on_whole%share, part%on_place%share], wide)//place)
       end subroutine put_part
 
@@ -107,12 +115,15 @@ contains
       do k = 1, size(findings%parts)
          associate (part => findings%parts(k))
             if (k > 1) json = json//", "
-            json = json//'{"node": '//json_number(model%mesh%node_label(part%node))//', "body": '// &
+            json = json//'{"node": '//json_number(model%mesh%node_label(part%node))// &
+               ', "body": '// &
                json_number(part%body)//', "meant": '//trim(merge("true ", "false", part%meant))
             if (part%has_stress) then
-               json = json//', "largest": '//json_number(part%largest)//', "weight": '//json_number(part%weight_share)// &
+               json = json//', "largest": '//json_number(part%largest)//', "weight": '// &
+                  json_number(part%weight_share)// &
                   ', "traction": '//json_number(part%on_place%traction)//', "over_largest": '// &
-                  json_number(part%on_whole%share)//', "over_local": '//json_number(part%on_place%share)//'}'
+                  json_number(part%on_whole%share)//', "over_local": '// &
+                  json_number(part%on_place%share)//'}'
             else
                json = json//', "pressed": '//json_number(part%pressed)//'}'
             end if
@@ -123,7 +134,8 @@ contains
          associate (boundary => findings%boundaries(k))
             if (k > 1) json = json//", "
             json = json//'{"body": '//json_number(boundary%body)//', "materials": '// &
-               json_integers((model%materials(boundary%materials)%label))//', "jump": '//json_number(boundary%jump)// &
+               json_integers((model%materials(boundary%materials)%label))//', "jump": '// &
+               json_number(boundary%jump)// &
                ', "share": '//json_number(boundary%share())//'}'
          end associate
       end do
@@ -144,20 +156,27 @@ contains
          call file%group("/in_situ")
          call file%write("/in_situ/node", (parts%node), "A node of the part (index); (part)")
          call file%write("/in_situ/body", (parts%body), "Body; (part)")
-         call file%write("/in_situ/meant", merge(1, 0, parts%meant), "1 if it is meant to be out of balance; (part)")
-         call file%write("/in_situ/largest", (parts%largest), "Largest in-situ stress, 0 if it has none; (part) [stress]")
-         call file%write("/in_situ/weight", (parts%weight_share), "Difference of gamma and weight over the larger; (part)")
+         call file%write("/in_situ/meant", merge(1, 0, parts%meant), &
+            "1 if it is meant to be out of balance; (part)")
+         call file%write("/in_situ/largest", (parts%largest), &
+            "Largest in-situ stress, 0 if it has none; (part) [stress]")
+         call file%write("/in_situ/weight", (parts%weight_share), &
+            "Difference of gamma and weight over the larger; (part)")
          call file%write("/in_situ/traction", (parts%on_place%traction), &
             "Traction that no support, joint or load takes; (part) [stress]")
          call file%write("/in_situ/over_largest", (parts%on_whole%share), &
             "Largest of these over the largest stress along its direction; (part)")
-         call file%write("/in_situ/over_local", (parts%on_place%share), "Largest over the stress at its place; (part)")
+         call file%write("/in_situ/over_local", (parts%on_place%share), &
+            "Largest over the stress at its place; (part)")
          call file%write("/in_situ/pressed", (parts%pressed), &
             "Largest stress of joints on a part that has no in-situ stress; (part) [stress]")
-         call file%write("/in_situ/boundary_materials", reshape([(boundaries(k)%materials, k=1, size(boundaries))], &
+         call file%write("/in_situ/boundary_materials", &
+            reshape([(boundaries(k)%materials, k=1, size(boundaries))], &
             [2, size(boundaries)]), "Indices into /materials; (2, boundary)")
-         call file%write("/in_situ/boundary_jump", (boundaries%jump), "Largest jump of traction; (boundary) [stress]")
-         call file%write("/in_situ/boundary_share", boundaries%share(), "Jump over the largest traction; (boundary)")
+         call file%write("/in_situ/boundary_jump", (boundaries%jump), &
+            "Largest jump of traction; (boundary) [stress]")
+         call file%write("/in_situ/boundary_share", boundaries%share(), &
+            "Jump over the largest traction; (boundary)")
       end associate
    end subroutine write_in_situ_group
 

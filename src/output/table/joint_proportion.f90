@@ -4,7 +4,8 @@ module axijoint_output_table_joint_proportion
    use axijoint_analysis_core_results, only : results_type, stiffer_type
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
-   use axijoint_model_joint_proportion, only : proportion_type, joint_proportions, side_of, side_soft, side_stiff
+   use axijoint_model_joint_proportion, only : proportion_type, joint_proportions, side_of, &
+      side_soft, side_stiff
    use axijoint_model_model, only : model_type
    use axijoint_output_file_columns, only : columns
    use axijoint_output_file_hdf5, only : hdf5_file_type
@@ -13,10 +14,12 @@ module axijoint_output_table_joint_proportion
    use axijoint_output_file_text, only : text_file_type
    implicit none
    private
-   public :: write_proportions, write_proportion_arrays, proportions_json, proportions_text, stiffer_laws_text
+   public :: write_proportions, write_proportion_arrays, proportions_json, proportions_text, &
+      stiffer_laws_text
 
    !> Words for a side of what is sensible
-   character(len=*), parameter :: side_names(-1:1) = [character(len=8) :: 'soft', 'sensible', 'stiff']
+   character(len=*), parameter :: side_names(-1:1) = &
+      [character(len=8) :: 'soft', 'sensible', 'stiff']
    !> Directions of a joint
    character(len=*), parameter :: directions(3) = [character(len=5) :: 'xi', 'eta', 'theta']
    !> Number of a law, and of its joints
@@ -41,14 +44,17 @@ contains
 
       proportions = joint_proportions(model)
       if (all(proportions%n_joints == 0)) return
-      call write_heading(file, "STIFFNESS OF THE JOINTS BESIDE THE BODIES (k h/E, the least and the largest)")
-      call file%put("       law    joints      xi, least       largest     eta, least        largest"// &
+      call write_heading(file, "STIFFNESS OF THE JOINTS BESIDE THE BODIES (k h/E, the least "// &
+         "and the largest)")
+      call file%put("       law    joints      xi, least       largest     eta, least        "// &
+         "largest"// &
          "   theta, least        largest")
       do i = 1, size(proportions)
          associate (of_law => proportions(i), law => model%joint_materials(i)%law)
             if (of_law%n_joints == 0) cycle
             write (numbers, format_law) model%joint_materials(i)%label, of_law%n_joints
-            call file%put(numbers//columns([(of_law%least(k), of_law%largest(k), k=1, 3)], wide)//"  "// &
+            call file%put(numbers//columns([(of_law%least(k), of_law%largest(k), k=1, 3)], wide)// &
+               "  "// &
                trim(side_names(side_of(law, of_law))))
          end associate
       end do
@@ -68,9 +74,11 @@ contains
       n = size(proportions)
       call file%write("/joint_materials/joints", (proportions%n_joints), "Number of joints; (law)")
       call file%write("/joint_materials/kappa_least", &
-         reshape([(merge(proportions(i)%least, 0.0_wp, proportions(i)%n_joints > 0), i=1, n)], [3, n]), &
+         reshape([(merge(proportions(i)%least, 0.0_wp, proportions(i)%n_joints > 0), i=1, n)], &
+         [3, n]), &
          "Least k h/E of the joints along xi, eta, theta; (3, law)")
-      call file%write("/joint_materials/kappa_largest", reshape([(proportions(i)%largest, i=1, n)], [3, n]), &
+      call file%write("/joint_materials/kappa_largest", &
+         reshape([(proportions(i)%largest, i=1, n)], [3, n]), &
          "Largest k h/E of the joints along xi, eta, theta; (3, law)")
    end subroutine write_proportion_arrays
 
@@ -96,12 +104,14 @@ contains
             do k = 1, 3
                json = json//', "kappa_'//trim(directions(k))//'": '
                if (of_law%n_joints > 0) then
-                  json = json//'['//json_number(of_law%least(k))//', '//json_number(of_law%largest(k))//']'
+                  json = json//'['//json_number(of_law%least(k))//', '// &
+                     json_number(of_law%largest(k))//']'
                else
                   json = json//'null'
                end if
             end do
-            json = json//', "side": "'//trim(side_names(side_of(model%joint_materials(i)%law, of_law)))// &
+            json = json//', "side": "'//trim(side_names(side_of(model%joint_materials(i)%law, &
+               of_law)))// &
                '", "ten_times": '//ten_times_json(model, results, i)//'}'
          end associate
       end do
@@ -139,7 +149,8 @@ contains
       end do
    end function ten_times_json
 
-   !> For the terminal: k h/E of each law, or of all together if there are many; empty without joints
+   !> For the terminal: k h/E of each law, or of all together if there are many; empty without
+   !> joints
    pure function proportions_text(model) result(text)
       !> The job
       type(model_type), intent(in) :: model
@@ -159,7 +170,8 @@ contains
          side = side_of(model%joint_materials(i)%law, proportions(i))
          if (size(used) > most_laws .and. side /= side_soft .and. side /= side_stiff) cycle
          if (len(text) > 0) text = text//", "
-         text = text//range_text(proportions(i:i))//" (law "//to_text(model%joint_materials(i)%label)
+         text = text//range_text(proportions(i:i))//" (law "// &
+            to_text(model%joint_materials(i)%label)
          if (side == side_soft .or. side == side_stiff) text = text//", "//trim(side_names(side))
          text = text//")"
       end do

@@ -1,5 +1,5 @@
-!> What the iterations left out of balance, part by part and harmonic by harmonic: in the listing, the
-!> summary, the HDF5 file
+!> What the iterations left out of balance, part by part and harmonic by harmonic: in the listing,
+!> the summary, the HDF5 file
 module axijoint_output_table_residuals
    use axijoint_analysis_core_results, only : results_type
    use axijoint_base_kinds, only : wp
@@ -34,13 +34,17 @@ contains
 
       if (size(results%residuals) == 0) return
       call write_result_heading(file, "FORCES OUT OF BALANCE", results%converged)
-      call file%put("  (of the whole: over the loads; of a part in a harmonic: over what its joints would carry")
-      call file%put("  of the increment if they held, all harmonics together where the increment has no load)")
-      call file%put("   increment    load factor       of whole of largest part   part with node, harmonic")
+      call file%put("  (of the whole: over the loads; of a part in a harmonic: over what its "// &
+         "joints would carry")
+      call file%put("  of the increment if they held, all harmonics together where the "// &
+         "increment has no load)")
+      call file%put("   increment    load factor       of whole of largest part   part with "// &
+         "node, harmonic")
       do i = 1, size(results%residuals)
          associate (record => results%residuals(i))
             write (number, format_increment) record%increment
-            call file%put(number//columns([record%load_factor, record%whole, largest(record)], wide)//"   "// &
+            call file%put(number//columns([record%load_factor, record%whole, largest(record)], &
+               wide)//"   "// &
                place_text(results, record))
          end associate
       end do
@@ -94,13 +98,16 @@ contains
       do i = 1, n
          ratio(:, :, i) = results%residuals(i)%ratio
       end do
-      call file%write("/convergence/step_increment", (results%residuals%increment), "Increment of a load step; (load step)")
-      call file%write("/convergence/step_load_factor", (results%residuals%load_factor), "Load factor after it; (load step)")
+      call file%write("/convergence/step_increment", (results%residuals%increment), &
+         "Increment of a load step; (load step)")
+      call file%write("/convergence/step_load_factor", (results%residuals%load_factor), &
+         "Load factor after it; (load step)")
       call file%write("/convergence/step_residual", (results%residuals%whole), &
          "Forces out of balance at its end over the loads (Eq. 17); (load step)")
       call file%write("/convergence/part_residual", ratio, &
          "Forces out of balance over those of the joints in the increment; (part, mode, load step)")
-      call file%write("/convergence/part_node", (results%residual_part_node), "A node of each part with joints; (part)")
+      call file%write("/convergence/part_node", (results%residual_part_node), &
+         "A node of each part with joints; (part)")
    end subroutine write_residual_arrays
 
    !> The largest ratio of every step in the summary
@@ -121,7 +128,8 @@ contains
                ', "largest_part": '//json_number(largest(record))
             if (largest(record) > 0.0_wp) then
                place = maxloc(record%ratio)
-               json = json//', "node": '//to_text(results%residual_part_node(place(1)))//', "harmonic": '// &
+               json = json//', "node": '//to_text(results%residual_part_node(place(1)))// &
+                  ', "harmonic": '// &
                   to_text(results%modes(place(2))%harmonic)//', "mode": '// &
                   json_string(mode_name(results%modes(place(2))))
             else

@@ -12,7 +12,8 @@ module axijoint_output_vtkhdf_bodies
    use axijoint_output_file_totals, only : new_circle
    use axijoint_output_vtkhdf_grid, only : write_frame, write_steps, write_cell_labels, point_group
    use axijoint_output_vtkhdf_swept_mesh, only : swept_mesh_type, n_points
-   use axijoint_output_vtkhdf_swept_section, only : section_type, plane_type, make_section, plane_fields, &
+   use axijoint_output_vtkhdf_swept_section, only : section_type, plane_type, make_section, &
+      plane_fields, &
       scalars
    implicit none
    private
@@ -49,8 +50,10 @@ contains
       end associate
       call write_node_labels(file, model, section, mesh)
       call write_fields(file, model, structure, results, section, mesh, error)
-      call write_steps(file, mesh, results%states, [character(len=12) :: 'displacement', 'stress', scalars], &
-                       [character(len=1) ::], ['node'], [character(len=8) :: 'body', 'material', 'element'])
+      call write_steps(file, mesh, results%states, &
+         [character(len=12) :: 'displacement', 'stress', scalars], &
+                       [character(len=1) ::], ['node'], &
+                       [character(len=8) :: 'body', 'material', 'element'])
    end subroutine write_bodies
 
    !> Numbers of the nodes

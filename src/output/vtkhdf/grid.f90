@@ -20,7 +20,8 @@ module axijoint_output_vtkhdf_grid
    public :: point_group, cell_group
 
    !> Groups of the fields
-   character(len=*), parameter :: point_group = "/VTKHDF/PointData/", cell_group = "/VTKHDF/CellData/"
+   character(len=*), parameter :: point_group = "/VTKHDF/PointData/", &
+      cell_group = "/VTKHDF/CellData/"
    !> Sectors that a wave of the highest harmonic gets: linear between them, a cosine
    !> is then wrong by 2 % of its amplitude at most
    integer, parameter :: sectors_per_wave = 16
@@ -55,7 +56,8 @@ contains
       n = sweep%n_sectors
       if (n == 0) n = ceiling(max(fewest_sectors, sectors_per_wave*maxval(modes%harmonic)) &
                               *width/(2.0_wp*pi) - same_angle)
-      angle = [(sweep%from + width*(real(j, wp)/real(n, wp)), j=0, merge(n - 1, n, is_circle(sweep)))]
+      angle = [(sweep%from + width*(real(j, wp)/real(n, wp)), j=0, &
+         merge(n - 1, n, is_circle(sweep)))]
    end function sweep_planes
 
    !> Tags of the run, points and cells
@@ -125,7 +127,8 @@ contains
                       "Points of the cells, from 0")
       call file%begin(offsets, "/VTKHDF/Offsets", kind_long, [n_cells(mesh) + 1], &
                       "Place of the first point of each cell, and the end")
-      call file%begin(kinds, "/VTKHDF/Types", kind_byte, [n_cells(mesh)], "Kinds of cells of VTK; (cell)")
+      call file%begin(kinds, "/VTKHDF/Types", kind_byte, [n_cells(mesh)], &
+         "Kinds of cells of VTK; (cell)")
       last = cell_sizes(mesh)
       do k = 2, size(last)
          last(k) = last(k) + last(k - 1)
@@ -166,7 +169,8 @@ contains
    end subroutine write_cell_labels
 
    !> Where the values of each step begin; nothing in a file of one step
-   subroutine write_steps(file, mesh, states, point_fields, cell_fields, labels_points, labels_cells)
+   subroutine write_steps(file, mesh, states, point_fields, cell_fields, labels_points, &
+      labels_cells)
       !> The file
       class(hdf5_file_type), intent(inout) :: file
       !> The mesh
@@ -191,7 +195,8 @@ contains
       call file%write(steps//"/NumberOfParts", none + 1, "Parts; (step)")
       call file%write(steps//"/PartOffsets", none, "First part; (step)")
       call file%write(steps//"/PointOffsets", none, "First point; (step)")
-      call file%write(steps//"/CellOffsets", reshape(none, [1, size(none)]), "First cell; (1, step)")
+      call file%write(steps//"/CellOffsets", reshape(none, [1, size(none)]), &
+         "First cell; (1, step)")
       call file%write(steps//"/ConnectivityIdOffsets", reshape(none, [1, size(none)]), &
                       "First point of the first cell; (1, step)")
       call file%group(steps//"/PointDataOffsets")

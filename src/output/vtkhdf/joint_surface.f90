@@ -93,7 +93,8 @@ contains
       integer :: k
 
       n_pairs = model%mesh%joint_size(joint)/2
-      call joint_rule(model%joint_materials(model%mesh%joint_material(joint))%rule, n_pairs, n, x, w)
+      call joint_rule(model%joint_materials(model%mesh%joint_material(joint))%rule, n_pairs, n, x, &
+         w)
       ends(1) = -1.0_wp
       do k = 1, n - 1
          ends(k + 1) = ends(k) + w(k)

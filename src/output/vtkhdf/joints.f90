@@ -19,7 +19,8 @@ module axijoint_output_vtkhdf_joints
    use axijoint_output_file_hdf5_series, only : hdf5_series_type
    use axijoint_output_file_run, only : run_type
    use axijoint_output_file_totals, only : circle_type, new_circle, total_displacement
-   use axijoint_output_vtkhdf_grid, only : write_frame, write_steps, write_cell_labels, point_group, cell_group
+   use axijoint_output_vtkhdf_grid, only : write_frame, write_steps, write_cell_labels, &
+      point_group, cell_group
    use axijoint_output_vtkhdf_joint_surface, only : surface_type, make_surface
    use axijoint_output_vtkhdf_swept_mesh, only : swept_mesh_type, n_points, n_cells
    use axijoint_output_vtkhdf_swept_section, only : cartesian_vector
@@ -28,10 +29,12 @@ module axijoint_output_vtkhdf_joints
    public :: write_joint_surfaces
 
    !> Names of the fields of the cells
-   character(len=*), parameter :: scalars(8) = [character(len=9) :: 'd_xi', 'd_eta', 'd_theta', 'gap', &
+   character(len=*), parameter :: scalars(8) = &
+      [character(len=9) :: 'd_xi', 'd_eta', 'd_theta', 'gap', &
       'slip', 'tau_xi', 'sigma', 'tau_theta']
    !> Names of the fields of the points: displacements of sides 1-2 and 4-3
-   character(len=*), parameter :: vectors(2) = [character(len=21) :: 'displacement', 'displacement_opposite']
+   character(len=*), parameter :: vectors(2) = &
+      [character(len=21) :: 'displacement', 'displacement_opposite']
 
    !> The datasets of the fields
    type :: series_type
@@ -66,13 +69,15 @@ contains
       call write_frame(file, run, model, results, mesh)
       associate (points => structure%joint_points(mesh%owner(:mesh%n_cells)))
          call write_cell_labels(file, mesh, "joint", model%mesh%joint_label(points%joint), "Joint")
-         call write_cell_labels(file, mesh, "law", (model%joint_materials(points%material)%label), "Law")
+         call write_cell_labels(file, mesh, "law", (model%joint_materials(points%material)%label), &
+            "Law")
          call write_cell_labels(file, mesh, "joint_point", mesh%owner(:mesh%n_cells), &
                                 "Joint point, as in the results file")
       end associate
       call write_planes(file, surface, mesh)
       call write_fields(file, model, structure, results, surface, mesh, error)
-      call write_steps(file, mesh, results%states, vectors, [character(len=9) :: scalars, 'state'], &
+      call write_steps(file, mesh, results%states, vectors, &
+         [character(len=9) :: scalars, 'state'], &
                        [character(len=1) ::], &
                        [character(len=11) :: 'joint', 'law', 'joint_point', 'plane', 'mirrored'])
    end subroutine write_joint_surfaces
@@ -90,7 +95,8 @@ contains
       integer :: j
 
       call file%begin(plane, cell_group//"plane", kind_long, [n_cells(mesh)], &
-                      "Plane of the joint law, as in the results file; 0 if the job is linear; (cell)")
+                      "Plane of the joint law, as in the results file; 0 if the job is linear; "// &
+                      "(cell)")
       call file%begin(mirrored, cell_group//"mirrored", kind_long, [n_cells(mesh)], &
                       "1 if what is shown is the mirror image of the plane; (cell)")
       do j = 1, mesh%n_sectors
@@ -227,7 +233,8 @@ contains
       do side = 1, 2
          call file%append(series%vector(side), moved(now, surface, side, mesh%angle(1), mesh%axis))
          do j = 1, size(mesh%angle)
-            call file%append(series%vector(side), moved(now, surface, side, mesh%angle(j), .not. mesh%axis))
+            call file%append(series%vector(side), &
+               moved(now, surface, side, mesh%angle(j), .not. mesh%axis))
          end do
       end do
    end subroutine put_displacements

@@ -114,7 +114,8 @@ contains
          if (n == 3) then
             call add_cell(mesh, owner, tetrahedron, [p(2), p(3), p(3), p(1)], [0, 0, 1, 0])
          else
-            call add_cell(mesh, owner, wedge, [p(2), p(3), p(3), p(1), p(4), p(4)], [0, 1, 0, 0, 1, 0])
+            call add_cell(mesh, owner, wedge, [p(2), p(3), p(3), p(1), p(4), p(4)], &
+               [0, 1, 0, 0, 1, 0])
          end if
       end select
    end subroutine add_solid

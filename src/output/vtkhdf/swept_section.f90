@@ -21,7 +21,8 @@ module axijoint_output_vtkhdf_swept_section
       'sigma_1', 'sigma_2', 'sigma_3']
    !> Triangles and quadrilaterals that elements of 6, 8 and 9 nodes are divided into
    integer, parameter :: parts_of_six(3, 4) = reshape([1, 4, 6, 4, 2, 5, 6, 5, 3, 4, 5, 6], [3, 4])
-   integer, parameter :: parts_of_nine(4, 4) = reshape([1, 5, 9, 8, 5, 2, 6, 9, 9, 6, 3, 7, 8, 9, 7, 4], &
+   integer, parameter :: parts_of_nine(4, 4) = &
+      reshape([1, 5, 9, 8, 5, 2, 6, 9, 9, 6, 3, 7, 8, 9, 7, 4], &
                                                        [4, 4])
 
    !> Points of the meridional plane: the nodes, once for each material that they
@@ -59,7 +60,8 @@ contains
       integer :: element, k, n_values, points(9)
 
       call shape_element(8, 0.0_wp, 0.0_wp, section%shape, derivative)
-      section%centred = pack([(element, element=1, n_elements(model%mesh))], model%mesh%element_size == 8)
+      section%centred = pack([(element, element=1, n_elements(model%mesh))], &
+         model%mesh%element_size == 8)
       n_values = size(results%nodal%node)
       section%node = [results%nodal%node, (0, k=1, size(section%centred))]
       pole = on_axis(model%mesh)
@@ -157,7 +159,8 @@ contains
          plane%scalar(k, 1:3) = u(:, k)
          plane%scalar(k, 4:9) = s(:, k)
          plane%scalar(k, 10:12) = s(1, k)
-         if (all(ieee_is_finite(s(:, k)))) plane%scalar(k, 10:12) = principal_stresses(plane%stress(:, k))
+         if (all(ieee_is_finite(s(:, k)))) &
+            plane%scalar(k, 10:12) = principal_stresses(plane%stress(:, k))
       end do
    end function plane_fields
 
