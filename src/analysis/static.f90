@@ -1,12 +1,10 @@
 !> Static analysis of a structure under its loads, told in order
 module axijoint_analysis_static
-   use axijoint_analysis_core_cuts, only : cut_resultants
    use axijoint_analysis_core_in_situ_balance, only : in_situ_balance
-   use axijoint_analysis_core_increment_fields, only : elastic_field
+   use axijoint_analysis_core_increment_fields, only : field_of_state, recover_fields, &
+      move_bodies
    use axijoint_analysis_core_left_out, only : what_was_left_out
    use axijoint_analysis_core_motion, only : motion_text
-   use axijoint_analysis_core_nodal_stress, only : smooth_stress
-   use axijoint_analysis_core_recovery, only : recover
    use axijoint_analysis_core_remarks, only : remarks_on, mechanism_text
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_solution, only : solve_displacements
@@ -25,13 +23,11 @@ module axijoint_analysis_static
    use axijoint_base_timer, only : timer_type, phase_factor, phase_joints, phase_recover
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_floating, only : add_motions
-   use axijoint_joints_history, only : history_type
+   use axijoint_joints_history, only : history_type, state_of
    use axijoint_joints_increments, only : run_increments, compare_loops
    use axijoint_joints_load_steps, only : final_factors, loads_of_increments
-   use axijoint_joints_planes, only : planes_type, new_view, on_all
    use axijoint_joints_scene, only : stand_where_they_are
    use axijoint_joints_states, only : increment_state_type
-   use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type
    use axijoint_model_model, only : model_type
    implicit none
@@ -105,18 +101,17 @@ contains
          call timer%pop()
          return
       end if
-      call join_joints(model, structure, history, results, field)
-      call take_joint_results(structure%joint_points, field, results)
+      associate (state => results%states(size(results%states)))
+         call field_of_state(model, structure, state, results%plane_angles, results%displacement, &
+            field)
+      end associate
       call timer%pop()
 
       call timer%push(phase_recover)
-      call recover(model, structure, history%loading, history%peak, field, results)
-      call smooth_stress(model, results)
+      call recover_fields(model, structure, history%loading, history%peak, field, results)
       call estimate_discretization(model, structure, history%loading, field, &
          history%largest_stress, mesh_error, results)
-      call cut_resultants(model, structure, history%loading, field, results)
-      if (size(field%offset) > 0) &
-         call add_motions(structure%condensed%floating, field%offset, results%displacement)
+      call move_bodies(model, structure, results%states(size(results%states)), results)
       results%converged = results%converged .and. max(results%residual_ratio, results%mismatch) &
          <= results%tolerance
       if (results%converged) then
@@ -164,7 +159,6 @@ contains
       call stand_where_they_are(structure%condensed, history%scene, history%field)
       call compare_loops(model, structure%condensed, history, results%other_loop, other)
       results%path = history%path
-      results%states = [history%states, last_state(history)]
       results%tolerance = model%increments(size(model%increments))%tolerance
       allocate (results%displacement, mold=history%loading%right)
       if (allocated(history%runaway)) then
@@ -187,6 +181,7 @@ contains
       if (allocated(error)) return
       call keep_claim(model, structure, history, results, error)
       if (allocated(error)) return
+      results%states = [history%states, last_state(history)]
       results%residuals = history%residuals
       results%residual_part_node = model%mesh%node_label(structure%condensed%measure%part_node)
       call name_idle_motions(model, structure, history, results)
@@ -251,7 +246,6 @@ contains
       allocate (results%displacement, mold=history%loading%right)
       allocate (results%path(0), results%residuals(0), results%residual_part_node(0))
       results%states = loads_of_increments(model, combination)
-      if (.not. model%sweep%wanted) results%states = results%states(size(results%states):)
       call new_difference(size(results%displacement, 2), size(structure%joint_points), &
          size(structure%modes), &
                           difference)
@@ -267,7 +261,7 @@ contains
       results%plane_angles = model%output_angles
    end subroutine solve_linear
 
-   !> Loads at the end of the increments: of the last one, or of the one that failed
+   !> State at the end of the increments: of the last one, or of the one that failed
    pure function last_state(history) result(state)
       !> What the increments came to
       type(history_type), intent(in) :: history
@@ -275,66 +269,11 @@ contains
       type(increment_state_type) :: state
 
       associate (last => history%path(size(history%path)))
-         state%increment = last%increment
-         state%load_factor = last%load_factor
+         state = state_of(history, history%field, last%increment, last%load_factor, &
+                          history%loading%case_factor)
       end associate
       if (allocated(history%runaway) .or. allocated(history%motion)) &
          state%load_factor = history%reached
-      state%case_factor = history%loading%case_factor
    end function last_state
-
-   !> State of all joints: of those that yield as the increments left it
-   subroutine join_joints(model, structure, history, results, field)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The structure
-      type(structure_type), intent(in) :: structure
-      !> What the increments came to
-      type(history_type), intent(in) :: history
-      !> Results with displacements
-      type(results_type), intent(in) :: results
-      !> The state
-      type(joint_field_type), intent(out) :: field
-
-      type(planes_type) :: shown
-
-      if (size(structure%yielding) == 0) then
-         shown = new_view(results%plane_angles, structure%modes)
-         call elastic_field(model, structure, shown, history%loading%case_factor, &
-            results%displacement, field)
-         return
-      end if
-      call elastic_field(model, structure, structure%planes, history%loading%case_factor, &
-         results%displacement, field)
-      associate (yield => structure%yielding, planes => history%scene%planes, &
-         yielding => history%field)
-         field%jump(:, yield, :) = on_all(planes, yielding%jump)
-         field%stress(:, yield, :) = on_all(planes, yielding%stress)
-         field%state(yield, :) = yielding%state(:, planes%place)
-         field%excess(:, yield, :) = yielding%excess + yielding%pending
-         field%offset = yielding%offset
-      end associate
-   end subroutine join_joints
-
-   !> Joint points and their state into the results
-   subroutine take_joint_results(points, field, results)
-      !> Points of all joints
-      type(model_joint_point_type), intent(in) :: points(:)
-      !> Their state
-      type(joint_field_type), intent(in) :: field
-      !> The results
-      type(results_type), intent(inout) :: results
-
-      integer :: k
-
-      results%joint_point_joint = points%joint
-      allocate (results%joint_point_position(2, size(points)))
-      do k = 1, size(points)
-         results%joint_point_position(:, k) = points(k)%position
-      end do
-      results%joint_jump = field%jump
-      results%joint_stress = field%stress
-      results%joint_state = field%state
-   end subroutine take_joint_results
 
 end module axijoint_analysis_static

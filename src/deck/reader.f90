@@ -29,6 +29,7 @@ module axijoint_deck_reader
    use axijoint_deck_section_combine, only : keyword_combine
    use axijoint_deck_section_control, only : check_planes
    use axijoint_deck_section_cuts, only : place_cuts
+   use axijoint_deck_section_points, only : place_points
    use axijoint_deck_section_error, only : refine_sections
    use axijoint_deck_section_faces, only : lay_faces
    use axijoint_deck_section_groups, only : keyword_groups
@@ -232,12 +233,13 @@ contains
 
       associate (draft => deck%draft, model => deck%model)
          model%supported_faces = gather_supported_faces(deck)
-         if (size(model%lines) + size(model%cuts) == 0) return
+         if (size(model%lines) + size(model%cuts) + size(model%points) == 0) return
          if (draft%n_elements == 0 .or. .not. (draft%nodes_complete .and. draft%elements_complete &
              .and. all(draft%element_good(:draft%n_elements)))) return
          call take_mesh(draft, model)
          call place_lines(deck, model%mesh)
          call place_cuts(deck, model%mesh)
+         call place_points(deck, model%mesh)
       end associate
    end subroutine place_requests
 

@@ -21,6 +21,7 @@ module axijoint_deck_registry
    use axijoint_deck_section_increments, only : increments_section
    use axijoint_deck_section_interfaces, only : interfaces_section
    use axijoint_deck_section_joints, only : joints_section
+   use axijoint_deck_section_keep, only : keep_section
    use axijoint_deck_section_kinds, only : kinds_section
    use axijoint_deck_section_law_details, only : law_details_section
    use axijoint_deck_section_laws, only : laws_section
@@ -32,6 +33,7 @@ module axijoint_deck_registry
    use axijoint_deck_section_nodes, only : nodes_section
    use axijoint_deck_section_orthotropic, only : orthotropic_section
    use axijoint_deck_section_output, only : output_section
+   use axijoint_deck_section_points, only : points_section
    use axijoint_deck_section_point_loads, only : point_loads_section
    use axijoint_deck_section_pressures, only : pressures_section
    use axijoint_deck_section_restraints, only : restraints_section
@@ -73,7 +75,8 @@ contains
                   temperatures_section(), node_temps_section(), moved_nodes_section(), &
                   moved_faces_section(), &
                   in_situ_section(), springs_section(), combine_section(), &
-                  sections_section(), cuts_section(), sweep_section(), error_section(), &
+                  sections_section(), cuts_section(), points_section(), keep_section(), &
+                  sweep_section(), error_section(), &
                   include_section(), end_section()]
       do k = 1, size(sections)
          if (.not. allocated(sections(k)%fields)) allocate (sections(k)%fields(0))

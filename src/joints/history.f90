@@ -11,12 +11,12 @@ module axijoint_joints_history
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_planes, only : on_all
    use axijoint_joints_residual, only : residual_record_type, ratios_of
-   use axijoint_joints_scene, only : scene_type, new_scene
+   use axijoint_joints_scene, only : scene_type, new_scene, stand_where_they_are
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: history_type, new_history, new_state, keep_state, note_failure, forget_failure, &
+   public :: history_type, new_history, new_state, state_of, keep_state, note_failure, forget_failure, &
       note_residual
 
    !> What the increments came to
@@ -102,28 +102,49 @@ contains
                               size(condensed%floating))
    end function new_state
 
-   !> Append the state at the end of an increment
-   subroutine keep_state(history, increment, load_factor, case_factor)
-      !> The history
-      type(history_type), intent(inout) :: history
+   !> The state that the joints are in
+   pure function state_of(history, field, increment, load_factor, case_factor) result(state)
+      !> The history, for its planes
+      type(history_type), intent(in) :: history
+      !> Joints that can yield
+      type(joint_field_type), intent(in) :: field
       !> Increment
       integer, intent(in) :: increment
       !> Sum of the load factors, and factor of each load case
       real(wp), intent(in) :: load_factor, case_factor(:)
-
+      !> The state
       type(increment_state_type) :: state
 
       state%increment = increment
       state%load_factor = load_factor
       state%case_factor = case_factor
-      associate (field => history%field, planes => history%scene%planes)
+      associate (planes => history%scene%planes)
          state%jump = on_all(planes, field%jump)
          state%stress = on_all(planes, field%stress)
          state%state = field%state(:, planes%place)
          state%excess = field%excess
+         state%pending = field%pending
          state%offset = field%offset
       end associate
-      history%states = [history%states, state]
+   end function state_of
+
+   !> Append the state at the end of an increment in equilibrium
+   subroutine keep_state(condensed, increment, load_factor, case_factor, history)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Increment
+      integer, intent(in) :: increment
+      !> Sum of the load factors, and factor of each load case
+      real(wp), intent(in) :: load_factor, case_factor(:)
+      !> The history
+      type(history_type), intent(inout) :: history
+
+      type(joint_field_type) :: field
+
+      field = history%field
+      call stand_where_they_are(condensed, history%scene, field)
+      history%states = [history%states, &
+                        state_of(history, field, increment, load_factor, case_factor)]
    end subroutine keep_state
 
    !> Note where joints ran away to, or which motion nothing resists

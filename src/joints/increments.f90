@@ -74,8 +74,8 @@ contains
          call reach(i, start, goal, most_halvings)
          if (.not. history%verdict%converged) return
          call forget_failure(history)
-         if (model%sweep%wanted .and. i < size(model%increments)) then
-            call keep_state(history, i, goal%load_factor, goal%case_factor)
+         if (i < size(model%increments)) then
+            call keep_state(condensed, i, goal%load_factor, goal%case_factor, history)
          end if
       end do
 

@@ -5,9 +5,8 @@ module axijoint_joints_states
    private
    public :: increment_state_type
 
-   !> An increment in equilibrium: what is needed to find all fields again. The
-   !> arrays of joints are of those that can yield; they are not allocated for the
-   !> end of a run, whose fields are its results
+   !> The end of an increment: what is needed to find all fields again. The arrays of joints are of
+   !> those that can yield, and not allocated if there are none
    type :: increment_state_type
       !> Increment
       integer :: increment = 0
@@ -19,8 +18,9 @@ module axijoint_joints_states
       real(wp), allocatable :: jump(:, :, :), stress(:, :, :)
       !> Stick, slip or open, shape (points, planes)
       integer, allocatable :: state(:, :)
-      !> Amplitudes of the stress that was not admitted, shape (3, points, modes)
-      real(wp), allocatable :: excess(:, :, :)
+      !> Amplitudes of the stress that was not admitted, and of what the last iteration changed of
+      !> it, shape (3, points, modes)
+      real(wp), allocatable :: excess(:, :, :), pending(:, :, :)
       !> Where the parts stand from which displacements count: shares of the floating motions
       real(wp), allocatable :: offset(:)
    end type increment_state_type

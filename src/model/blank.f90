@@ -4,6 +4,7 @@ module axijoint_model_blank
    use axijoint_model_load, only : increment_type, combination_type, load_case_type
    use axijoint_model_mesh, only : mesh_type, max_element_nodes
    use axijoint_model_model, only : model_type
+   use axijoint_model_request, only : default_keep
    implicit none
    private
    public :: new_model
@@ -33,13 +34,14 @@ contains
       model%load_cases = [load_case_type(label=1, name='')]
       model%combinations = [combination_type(label=1, factor=[1.0_wp])]
       model%increments = [increment_type(max_iterations=most_iterations)]
+      model%keep = default_keep()
       call make_empty(model%mesh)
       allocate (model%materials(0), model%joint_materials(0), model%fixed(3, 0))
       allocate (model%edge_loads(0), model%ring_loads(0), model%body_loads(0), &
          model%thermal_loads(0))
       allocate (model%prescribed(0), model%initial_stresses(0), model%edge_supports(0), &
          model%truncations(0))
-      allocate (model%lines(0), model%cuts(0), model%supported_faces(0))
+      allocate (model%lines(0), model%points(0), model%cuts(0), model%supported_faces(0))
    end function new_model
 
    !> A mesh without nodes

@@ -9,7 +9,7 @@ module axijoint_model_model
       load_case_type, combination_type, increment_type, truncation_type
    use axijoint_model_material, only : solid_material_type, joint_material_type
    use axijoint_model_mesh, only : mesh_type
-   use axijoint_model_request, only : line_type, cut_type, supported_face_type, sweep_type, &
+   use axijoint_model_request, only : line_type, point_type, keep_type, keep_names, cut_type, supported_face_type, sweep_type, &
       error_goal_type
    use axijoint_model_restraint, only : restraint_type, acts_in
    use axijoint_solver_entry, only : solver_entry_type
@@ -84,6 +84,10 @@ module axijoint_model_model
       real(wp), allocatable :: output_angles(:)
       !> Lines along which results are listed
       type(line_type), allocatable :: lines(:)
+      !> Points whose displacements are followed
+      type(point_type), allocatable :: points(:)
+      !> Of which increments what is kept, in the order of `keep_names`
+      type(keep_type) :: keep(size(keep_names))
       !> Cuts whose resultants are listed
       type(cut_type), allocatable :: cuts(:)
       !> Range of theta that the bodies are swept through

@@ -4,8 +4,10 @@ module axijoint_model_request
    use axijoint_base_kinds, only : wp, pi
    implicit none
    private
-   public :: line_type, line_point_type, cut_type, supported_face_type, sweep_type, &
-      error_goal_type, refinement_type
+   public :: line_type, line_point_type, point_type, cut_type, supported_face_type, sweep_type, &
+      error_goal_type, refinement_type, keep_type, default_keep, is_kept
+   public :: keep_series, keep_displacement, keep_joints, keep_stress, keep_names
+   public :: which_all, which_every, which_last, which_only, which_names
    public :: goal_joints, goal_displacement, goal_energy, goal_names
 
    !> What the error of a job may be asked of: of joint stress, of displacements, of the
@@ -40,6 +42,42 @@ module axijoint_model_request
       type(line_point_type), allocatable :: points(:)
    end type line_type
 
+   !> What is kept of increments: resultants and energies, displacements, joints, stresses
+   integer, parameter :: keep_series = 1, keep_displacement = 2, keep_joints = 3, keep_stress = 4
+   !> Their names on cards
+   character(len=8), parameter :: keep_names(4) = &
+      [character(len=8) :: 'SERIES', 'DISPLACE', 'JOINTS', 'STRESSES']
+   !> Of which increments: all, every n-th, the last, those named; always of the last, too
+   integer, parameter :: which_all = 1, which_every = 2, which_last = 3, which_only = 4
+   !> Their names on cards
+   character(len=5), parameter :: which_names(4) = &
+      [character(len=5) :: 'ALL', 'EVERY', 'LAST', 'ONLY']
+
+   !> Of which increments something is kept
+   type :: keep_type
+      !> One of the `which_` parameters
+      integer :: which = which_all
+      !> Every so many increments
+      integer :: every = 1
+      !> Those that are named
+      integer, allocatable :: named(:)
+   end type keep_type
+
+   !> A point with a name, whose displacements are followed
+   type :: point_type
+      !> The user's number
+      integer :: label = 0
+      !> The name
+      character(len=16) :: name = ''
+      !> r and z
+      real(wp) :: position(2) = 0.0_wp
+      !> Body; 0 for any
+      integer :: body = 0
+      !> Nodes of the element that it is in, and their shape functions there
+      integer, allocatable :: nodes(:)
+      real(wp), allocatable :: shape(:)
+   end type point_type
+
    !> A cut z = const, whose resultants are wanted
    type :: cut_type
       !> The user's number
@@ -48,6 +86,8 @@ module axijoint_model_request
       real(wp) :: z = 0.0_wp
       !> Body that is cut; 0 for all
       integer :: body = 0
+      !> The card that asks for it, from 1
+      integer :: card = 0
    end type cut_type
 
    !> Range of theta that the bodies are swept through, for pictures
@@ -95,5 +135,35 @@ module axijoint_model_request
       !> Its nodes, without those of faces before it
       integer, allocatable :: nodes(:)
    end type supported_face_type
+
+contains
+
+   !> What is kept unless the job says otherwise: all, stresses of the last increment alone
+   pure function default_keep() result(keep)
+      !> In the order of `keep_names`
+      type(keep_type) :: keep(size(keep_names))
+
+      keep%which = which_all
+      keep%every = 1
+      keep(keep_stress)%which = which_last
+   end function default_keep
+
+   !> Whether something of an increment is kept
+   elemental logical function is_kept(keep, increment, last)
+      !> Of which increments it is
+      type(keep_type), intent(in) :: keep
+      !> The increment, and the last
+      integer, intent(in) :: increment, last
+
+      is_kept = increment == last
+      select case (keep%which)
+       case (which_all)
+         is_kept = .true.
+       case (which_every)
+         is_kept = is_kept .or. mod(increment, keep%every) == 0
+       case (which_only)
+         is_kept = is_kept .or. any(keep%named == increment)
+      end select
+   end function is_kept
 
 end module axijoint_model_request

@@ -87,7 +87,7 @@ contains
       character(len=:), allocatable :: text
 
       if (.not. results%converged .and. size(results%path) == 0) then
-         text = mark_not_converged//" (linear): residual ratio above "//to_text(results%tolerance)
+         text = mark_not_converged//" (linear): the equations are ill-conditioned"
       else if (.not. results%converged) then
          text = mark_not_converged//" after "//to_text(size(results%path))// &
             " iterations (tolerance "//to_text(results%tolerance)//")"

@@ -1,6 +1,7 @@
 !> The files of a run: all of them complete under their final names, or none
 module axijoint_output_output
    use axijoint_analysis_core_results, only : results_type, remark_type
+   use axijoint_analysis_core_series, only : series_type
    use axijoint_base_error, only : error_type, fatal_error, exit_io, exit_internal
    use axijoint_base_system, only : path_kind, is_directory, same_file, path_absent, path_file, &
       path_directory, path_link, error_text
@@ -14,14 +15,15 @@ module axijoint_output_output
    use axijoint_output_file_pending, only : join_path, sync_names
    use axijoint_output_file_run, only : run_type, new_run, exit_code_of
    use axijoint_output_file_text, only : text_file_type
+   use axijoint_output_increments, only : write_increments
    use axijoint_output_hdf5_results, only : write_results
    use axijoint_output_listing_contents, only : write_listing
    use axijoint_output_listing_solution, only : convergence_text
    use axijoint_output_listing_sweep, only : picture_type, new_picture
    use axijoint_output_summary, only : write_summary, write_failure_summary
-   use axijoint_output_vtkhdf_bodies, only : write_bodies
-   use axijoint_output_vtkhdf_joints, only : write_joint_surfaces
-   use axijoint_output_vtkhdf_swept_mesh, only : swept_mesh_type
+   use axijoint_output_vtkhdf_bodies, only : bodies_type, begin_bodies, end_bodies
+   use axijoint_output_vtkhdf_joints, only : surfaces_type, begin_surfaces, &
+      end_surfaces
    implicit none
    private
    public :: check_output, write_output, write_error_summary
@@ -114,7 +116,7 @@ contains
    !> name before all are complete on the disk; after an error the temporary files are
    !> gone and earlier files stand. The summary gets its name last: it speaks for all.
    subroutine write_output(job, results, error)
-      !> The job; its factors are used again where swept bodies show earlier increments
+      !> The job; its factors are used again for the fields of earlier increments
       type(job_type), intent(inout), target :: job
       !> Results of a combination
       type(results_type), intent(in) :: results
@@ -122,7 +124,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(run_type) :: run
-      type(hdf5_file_type) :: arrays, bodies, joints
+      type(hdf5_file_type) :: arrays
+      type(bodies_type) :: bodies
+      type(surfaces_type) :: surfaces
+      type(series_type) :: series
       type(picture_type), allocatable :: pictures(:)
       type(text_file_type) :: listing, summary
       character(len=:), allocatable :: directory, name, warnings(:), messages(:)
@@ -136,65 +141,73 @@ contains
       messages = warnings
       if (.not. results%converged) messages = with_first(convergence_text(results), warnings)
 
-      call arrays%create(final_path(directory, name, file_arrays), error)
+      call begin_arrays()
       if (.not. allocated(error)) then
-         call write_results(arrays, run, job%source, messages, job%model, results)
-         call arrays%finish(error)
+         call write_increments(job, results, arrays, bodies, surfaces, series, error)
       end if
-      allocate (pictures(0))
-      if (.not. allocated(error)) call write_pictures()
-      if (.not. allocated(error)) &
-         call listing%open(final_path(directory, name, file_listing), error)
+      if (.not. allocated(error)) call arrays%finish(error)
+      if (.not. allocated(error)) call end_bodies(bodies, results, error)
+      if (.not. allocated(error)) call end_surfaces(surfaces, results, error)
+      if (.not. allocated(error)) call listing%open(final_path(directory, name, file_listing), error)
       if (.not. allocated(error)) then
-         call write_listing(listing, run, job%source, warnings, job%model, results, job%timer, &
-            pictures)
+         pictures = pictures_of(name, bodies, surfaces)
+         call write_listing(listing, run, job, warnings, results, series, pictures)
          call listing%finish(error)
       end if
-      if (.not. allocated(error)) &
-         call summary%open(final_path(directory, name, file_summary), error)
+      if (.not. allocated(error)) call summary%open(final_path(directory, name, file_summary), error)
       if (.not. allocated(error)) then
-         call write_summary(summary, run, messages, job%model, results, job%timer)
+         call write_summary(summary, run, messages, job%model, results, series, job%timer)
          call summary%finish(error)
       end if
 
       if (.not. allocated(error)) call check_names(directory, name, n_files(job%model), error)
       if (.not. allocated(error)) call arrays%commit(error)
-      if (.not. allocated(error)) call bodies%commit(error)
-      if (.not. allocated(error)) call joints%commit(error)
+      if (.not. allocated(error)) call bodies%file%commit(error)
+      if (.not. allocated(error)) call surfaces%file%commit(error)
       if (.not. allocated(error)) call listing%commit(error)
       if (.not. allocated(error)) call summary%commit(error)
       call sync_names(directory)
       call arrays%abandon()
-      call bodies%abandon()
-      call joints%abandon()
+      call bodies%file%abandon()
+      call surfaces%file%abandon()
       call listing%abandon()
       call summary%abandon()
 
    contains
 
-      !> Swept bodies and joints, if they are wanted
-      subroutine write_pictures()
-         type(swept_mesh_type) :: mesh
-
-         if (n_files(job%model) < file_bodies) return
-         call bodies%create(final_path(directory, name, file_bodies), error)
+      !> The results file, and swept bodies and joints if they are wanted, up to what is written
+      !> increment by increment
+      subroutine begin_arrays()
+         call arrays%create(final_path(directory, name, file_arrays), error)
          if (allocated(error)) return
-         call write_bodies(bodies, run, job%model, job%structure, results, mesh, error)
+         call write_results(arrays, run, job%source, messages, job%model, results)
+         if (n_files(job%model) >= file_bodies) &
+            call begin_bodies(final_path(directory, name, file_bodies), run, job%model, results, &
+               bodies, error)
          if (allocated(error)) return
-         call bodies%finish(error)
-         if (allocated(error)) return
-         pictures = [new_picture(name//trim(endings(file_bodies)), bodies%size(), mesh)]
-         if (n_files(job%model) < file_joints) return
-         call joints%create(final_path(directory, name, file_joints), error)
-         if (allocated(error)) return
-         call write_joint_surfaces(joints, run, job%model, job%structure, results, mesh, error)
-         if (allocated(error)) return
-         call joints%finish(error)
-         if (allocated(error)) return
-         pictures = [pictures, new_picture(name//trim(endings(file_joints)), joints%size(), mesh)]
-      end subroutine write_pictures
+         if (n_files(job%model) >= file_joints) &
+            call begin_surfaces(final_path(directory, name, file_joints), run, job%model, &
+               job%structure, results, surfaces, error)
+      end subroutine begin_arrays
 
    end subroutine write_output
+
+   !> Sizes of the files of swept bodies and joints
+   function pictures_of(name, bodies, surfaces) result(pictures)
+      !> Name of the job
+      character(len=*), intent(in) :: name
+      !> The files
+      type(bodies_type), intent(in) :: bodies
+      type(surfaces_type), intent(in) :: surfaces
+      !> One a file
+      type(picture_type), allocatable :: pictures(:)
+
+      allocate (pictures(0))
+      if (bodies%wanted) pictures = [new_picture(name//trim(endings(file_bodies)), &
+                                                 bodies%file%size(), bodies%mesh)]
+      if (surfaces%wanted) pictures = [pictures, new_picture(name//trim(endings(file_joints)), &
+                                                             surfaces%file%size(), surfaces%mesh)]
+   end function pictures_of
 
    !> Warnings about the deck and remarks on the results
    pure function all_warnings(warnings, remarks) result(texts)

@@ -1,6 +1,7 @@
 !> Summary of a run in JSON, for scripts
 module axijoint_output_summary
    use axijoint_analysis_core_results, only : results_type, error_share_type, source_names
+   use axijoint_analysis_core_series, only : series_type
    use axijoint_analysis_error_budget, only : sum_of_shares
    use axijoint_base_kinds, only : wp
    use axijoint_base_system, only : peak_memory_mb
@@ -18,6 +19,7 @@ module axijoint_output_summary
    use axijoint_output_file_totals, only : count_states, n_unknowns
    use axijoint_output_listing_budget, only : sum_text
    use axijoint_output_table_in_situ, only : in_situ_json
+   use axijoint_output_table_increments, only : increments_json
    use axijoint_output_table_joint_proportion, only : proportions_json
    use axijoint_output_table_residuals, only : residuals_json
    implicit none
@@ -31,7 +33,7 @@ module axijoint_output_summary
 contains
 
    !> Summary of a finished run
-   subroutine write_summary(file, run, messages, model, results, timer)
+   subroutine write_summary(file, run, messages, model, results, series, timer)
       !> The file
       class(text_file_type), intent(inout) :: file
       !> Name tags of the run
@@ -42,6 +44,8 @@ contains
       type(model_type), intent(in) :: model
       !> Results
       type(results_type), intent(in) :: results
+      !> What is followed from increment to increment
+      type(series_type), intent(in) :: series
       !> Times of the run
       type(timer_type), intent(in) :: timer
 
@@ -58,6 +62,7 @@ contains
       call put_pair(file, "iterations", json_number(size(results%path)))
       call put_pair(file, "residual_ratio", json_number(results%residual_ratio))
       call put_pair(file, "residuals", residuals_json(results))
+      call put_pair(file, "increments", increments_json(series))
       call put_pair(file, "mismatch", json_number(results%mismatch))
       call put_pair(file, "tolerance", json_number(results%tolerance))
       call put_pair(file, "method", json_string(lower(trim(method_names(model%method)))))

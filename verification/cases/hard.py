@@ -10,6 +10,7 @@ from convergence import order
 from deck import Deck
 from material import Isotropic
 from mesh import ALL_TYPES, ELEMENT_TYPES, structured
+from program import ProgramError
 from solutions.plane_strain import ring_solution
 
 RATIOS = (0.3, 0.49, 0.499, 0.4999, 0.499999)
@@ -111,7 +112,12 @@ class NearAxis:
         deck.traction(mesh, "outer", solution.mode, (1.0, 0.0, 1.0 if m == 1 else 0.0))
         if m == 1:
             deck.fix(mesh, mesh.sides["outer"][0][:1], "100")
-        results = program.run(f"{self.name}_{name}_{m}_{cells}", deck.text())
+        try:
+            results = program.run(f"{self.name}_{name}_{m}_{cells}", deck.text())
+        except ProgramError as error:
+            if "exit code 3" not in str(error):
+                raise
+            return None  # the run says itself that rounding leaves more than it claims
         exact = solution.stress(*results.position.T).T
         error = np.abs(results.stress[solution.mode] - exact).max(axis=1)
         return error[results.position[:, 0] < NEAR].max()/np.abs(exact).max()
@@ -127,7 +133,7 @@ class NearAxis:
                     errors = [self._error(program, kind, solution, name, radii(n))
                               for n in self.sizes]
                     row.append(self._cell(errors))
-                    if errors[-1] > SMALL and not order(errors, self.sizes) >= kind.degree - 0.2:
+                    if None not in errors and errors[-1] > SMALL and not order(errors, self.sizes) >= kind.degree - 0.2:
                         misses.append(f"{self.name}, {words}, {kind.name}, m = {solution.harmonic}: "
                                       f"errors {report.errors(errors)}")
                 rows.append(row)
@@ -135,6 +141,8 @@ class NearAxis:
         return [report.table(headings, rows)], misses
 
     def _cell(self, errors):
+        if None in errors:
+            return "says: not exact enough"
         if errors[-1] <= EXACT:
             return report.rounding(errors[-1])
         return f"{errors[-1]:.1e} ({order(errors, self.sizes):.2f})"

@@ -68,7 +68,7 @@ contains
       footprint%loads = 21*nodes*n_modes*real_bytes
       footprint%fine = sum(fine_bytes(model%mesh%element_size))
       footprint%fine_work = nint(sum(fine_nodes(model%mesh%element_size))*fine_work_bytes, i8)
-      footprint%stresses = 3*nodes + 6*sum(int(references(model%mesh%element_kind)%n_points, i8)) &
+      footprint%stresses = 9*nodes + 6*sum(int(references(model%mesh%element_kind)%n_points, i8)) &
          + 6*nodes &  ! smoothed to nodes
          + 6*sum(merge(1_i8, 4_i8, model%mesh%element_size <= 4))  ! at samples
       if (any(is_reduced(model%mesh%kinds))) then  ! by the full rule
@@ -80,10 +80,10 @@ contains
       footprint%joints = real_bytes*(n_systems*jumps**2 &
                                      + plane_numbers*jumps/3*max(model%n_planes, n_modes) &
                                      + jumps*n_modes*min(newton_vectors, jumps*n_modes))
-      if (model%sweep%wanted .and. size(model%increments) > 1) then
+      if (size(model%increments) > 1) then
          ! jumps, stresses and states are kept; one earlier increment at a time is solved again
          footprint%joints = footprint%joints + real_bytes*(size(model%increments, kind=i8) - 1) &
-            *jumps/3*(7*model%n_planes + 3*n_modes)
+            *jumps/3*(7*model%n_planes + 6*n_modes)
          footprint%stresses = 2*footprint%stresses + footprint%loads
       end if
       footprint%joint_work = real_bytes*(unknowns**2 + 2*unknowns*jumps + 2*jumps**2)

@@ -1,25 +1,29 @@
-!> Fields of the joints and, found again, those at the ends of earlier increments
+!> The fields of an increment: of the last as it was found, of those before it found again
 module axijoint_analysis_core_increment_fields
+   use axijoint_analysis_core_cuts, only : cut_resultants
+   use axijoint_analysis_core_cut_motion, only : cut_motion
+   use axijoint_analysis_core_face_reactions, only : face_reactions
+   use axijoint_analysis_core_joint_resultants, only : joint_resultants
+   use axijoint_analysis_core_joint_work, only : joint_energy
    use axijoint_analysis_core_nodal_stress, only : smooth_stress
-   use axijoint_analysis_core_results, only : results_type, mode_solve_type
+   use axijoint_analysis_core_recovery, only : recover
+   use axijoint_analysis_core_results, only : results_type, mode_solve_type, n_resultants
    use axijoint_analysis_core_solution, only : solve_displacements
    use axijoint_analysis_core_structure, only : structure_type
-   use axijoint_assembly_equations, only : worth_threads
    use axijoint_assembly_force, only : joint_jump, elastic_joint_stress
    use axijoint_assembly_loading, only : loading_type, new_loading
-   use axijoint_assembly_solid_force, only : solid_force
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
    use axijoint_joints_field, only : joint_field_type, new_joint_field, set_initial_stress
    use axijoint_joints_floating, only : add_motions
-   use axijoint_joints_planes, only : planes_type, synthesize
+   use axijoint_joints_planes, only : planes_type, new_view, synthesize
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: elastic_field, solve_increment, view_joints
+   public :: elastic_field, field_of_state, recover_fields, move_bodies, solve_increment
 
 contains
 
@@ -56,8 +60,85 @@ contains
       end associate
    end subroutine elastic_field
 
-   !> Find the displacements of an increment again, and the stresses at the nodes: one
-   !> solution a mode
+   !> State of all joints at the end of an increment: that of the joint law where joints can yield,
+   !> on its planes, else any
+   subroutine field_of_state(model, structure, state, angles, displacement, field)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, for its joint points
+      type(structure_type), intent(in) :: structure
+      !> What was kept of the increment
+      type(increment_state_type), intent(in) :: state
+      !> Angles of the planes [radian]: any if no joint can yield, else not looked at
+      real(wp), intent(in) :: angles(:)
+      !> Displacement amplitudes without rigid motions of floating parts, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
+      !> State of all joints
+      type(joint_field_type), intent(out) :: field
+
+      if (size(structure%yielding) == 0) then
+         call elastic_field(model, structure, new_view(angles, structure%modes), &
+            state%case_factor, displacement, field)
+         return
+      end if
+      call elastic_field(model, structure, structure%planes, state%case_factor, displacement, field)
+      associate (yield => structure%yielding)
+         field%jump(:, yield, :) = state%jump
+         field%stress(:, yield, :) = state%stress
+         field%state(yield, :) = state%state
+         field%excess(:, yield, :) = state%excess + state%pending
+         field%offset = state%offset
+      end associate
+   end subroutine field_of_state
+
+   !> All that follows from displacements and joints
+   subroutine recover_fields(model, structure, loading, peak, field, results)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> Loads, and the largest on the way, by which errors are measured
+      type(loading_type), intent(in) :: loading, peak
+      !> State of all joints
+      type(joint_field_type), intent(in) :: field
+      !> Results; displacements, without rigid motions of floating parts, are there already
+      type(results_type), intent(inout) :: results
+
+      call take_joint_results(structure%joint_points, field, results)
+      call recover(model, structure, loading, peak, field, results)
+      call smooth_stress(model, results)
+      call cut_resultants(model, structure, loading, field, results)
+      results%face_reactions = face_reactions(model, results)
+      results%joint_resultants = joint_resultants(model%mesh, structure%joint_points, &
+         structure%modes, results%displacement, field)
+   end subroutine recover_fields
+
+   !> Put bodies that joints alone hold where they have gone to, and see how sections moved
+   subroutine move_bodies(model, structure, state, results)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> The state
+      type(increment_state_type), intent(in) :: state
+      !> Results with displacements
+      type(results_type), intent(inout) :: results
+
+      integer :: c
+
+      results%joint_energy = joint_energy(model, structure, state, results%displacement)
+      if (allocated(state%offset)) then
+         if (size(state%offset) > 0) &
+            call add_motions(structure%condensed%floating, state%offset, results%displacement)
+      end if
+      allocate (results%cut_motion(n_resultants, size(model%cuts)))
+      do c = 1, size(model%cuts)
+         results%cut_motion(:, c) = cut_motion(model%mesh, model%cuts(c), results%modes, &
+            results%displacement)
+      end do
+   end subroutine move_bodies
+
+   !> Find the fields of an increment again: one solution a mode
    subroutine solve_increment(model, structure, state, final, results, error)
       !> The job
       type(model_type), intent(in) :: model
@@ -67,59 +148,50 @@ contains
       type(increment_state_type), intent(in) :: state
       !> Results at the end of the run, for their extents
       type(results_type), intent(in) :: final
-      !> Modes, displacements and stresses of the increment; nothing else
+      !> The fields of the increment; nothing that is about the run
       type(results_type), intent(out) :: results
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
       type(loading_type) :: loading
       type(mode_solve_type), allocatable :: solves(:)
-      real(wp), allocatable :: force(:, :)
-      integer :: k
+      type(joint_field_type) :: field
 
       results%modes = final%modes
+      results%plane_angles = final%plane_angles
+      results%converged = .true.
       allocate (results%displacement, mold=final%displacement)
-      allocate (results%stress, mold=final%stress)
       call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
                        combination_type(0, state%case_factor), loading)
       ! where no joint yields there is no excess stress
       call solve_displacements(structure, model, loading, results%displacement, solves, error, &
          state%excess)
       if (allocated(error)) return
-      !$omp parallel do schedule(dynamic) private(force) if (worth_threads(structure%equations))
-      do k = 1, size(results%modes)
-         allocate (force, mold=results%displacement(:, :, k))
-         call solid_force(model, loading%initial, k, results%modes(k), &
-                          results%displacement(:, :, k), force, results%stress(:, :, k))
-         deallocate (force)
-      end do
-      !$omp end parallel do
-      call smooth_stress(model, results)
-      if (allocated(state%offset)) &
-         call add_motions(structure%condensed%floating, state%offset, results%displacement)
+      call field_of_state(model, structure, state, results%plane_angles, results%displacement, &
+         field)
+      call recover_fields(model, structure, loading, loading, field, results)
+      call move_bodies(model, structure, state, results)
    end subroutine solve_increment
 
-   !> Relative displacements, stresses and states of all joints on planes: those of
-   !> the joint law where joints can yield, else any
-   subroutine view_joints(model, structure, state, planes, displacement, field)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The structure, for its joint points
-      type(structure_type), intent(in) :: structure
-      !> What was kept of the increment
-      type(increment_state_type), intent(in) :: state
-      !> Planes
-      type(planes_type), intent(in) :: planes
-      !> Displacement amplitudes, shape (3, nodes, modes)
-      real(wp), intent(in) :: displacement(:, :, :)
-      !> State of all joints
-      type(joint_field_type), intent(out) :: field
+   !> Joint points and their state into the results
+   subroutine take_joint_results(points, field, results)
+      !> Points of all joints
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Their state
+      type(joint_field_type), intent(in) :: field
+      !> The results
+      type(results_type), intent(inout) :: results
 
-      call elastic_field(model, structure, planes, state%case_factor, displacement, field)
-      if (.not. allocated(state%jump)) return
-      field%jump(:, structure%yielding, :) = state%jump
-      field%stress(:, structure%yielding, :) = state%stress
-      field%state(structure%yielding, :) = state%state
-   end subroutine view_joints
+      integer :: k
+
+      results%joint_point_joint = points%joint
+      allocate (results%joint_point_position(2, size(points)))
+      do k = 1, size(points)
+         results%joint_point_position(:, k) = points(k)%position
+      end do
+      results%joint_jump = field%jump
+      results%joint_stress = field%stress
+      results%joint_state = field%state
+   end subroutine take_joint_results
 
 end module axijoint_analysis_core_increment_fields

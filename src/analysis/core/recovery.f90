@@ -44,15 +44,15 @@ contains
       real(wp), dimension(size(results%modes)) :: unbalanced, scale
       real(wp), dimension(n_resultants, size(results%modes)) :: applied, resultant, reacted
       real(wp), allocatable :: unbalance(:, :, :)
-      real(wp), allocatable :: internal(:, :), force(:, :)  ! threads have small stacks
+      real(wp), allocatable :: internal(:, :), force(:, :), spring(:, :)  ! threads' stacks are small
       integer, allocatable :: part(:)
       integer :: k
 
       call new_points(model, results)
       call solid_parts(model%mesh, part)
       allocate (unbalance(n_resultants, maxval(part), size(results%modes)))
-      allocate (results%reaction, mold=results%displacement)
-      !$omp parallel do schedule(dynamic) private(internal, force) &
+      allocate (results%reaction, results%acting, results%taken, mold=results%displacement)
+      !$omp parallel do schedule(dynamic) private(internal, force, spring) &
       !$omp if (worth_threads(structure%equations))
       do k = 1, size(results%modes)
          associate (mode => results%modes(k), reaction => results%reaction(:, :, k))
@@ -61,8 +61,10 @@ contains
             unbalanced(k) = sum(on_equations(structure%equations, k, force - internal)**2) &
                /mode_integral(mode)
             reaction = merge(internal - force, 0.0_wp, held(model, mode))
-            internal = internal - spring_force(k)
-            reaction = reaction - spring_force(k)
+            results%acting(:, :, k) = force + reaction
+            spring = spring_force(k)
+            internal = internal - spring
+            reaction = reaction - spring
             applied(:, k) = rigid_resultants(model%mesh%coordinates, mode, force)
             resultant(:, k) = rigid_resultants(model%mesh%coordinates, mode, peak%external(:, :, k))
             reacted(:, k) = rigid_resultants(model%mesh%coordinates, mode, reaction)
@@ -87,7 +89,7 @@ contains
 
    contains
 
-      !> Nodal forces of solids, joints and springs in one mode; fills the stress
+      !> Nodal forces of solids, springs and joints in one mode; fills the stress
       function internal_force(k) result(internal)
          !> Place of the mode
          integer, intent(in) :: k
@@ -97,9 +99,11 @@ contains
          allocate (internal, mold=results%displacement(:, :, k))
          call solid_force(model, loading%initial, k, results%modes(k), &
                           results%displacement(:, :, k), internal, results%stress(:, :, k))
-         internal = internal + spring_force(k) + joint_force(structure%joint_points, &
-            results%modes(k)%harmonic, stress_amplitude(structure%joint_points, &
-            results%modes(k), results%displacement(:, :, k), field, k), size(internal, 2))
+         internal = internal + spring_force(k)
+         results%taken(:, :, k) = internal
+         internal = internal + joint_force(structure%joint_points, results%modes(k)%harmonic, &
+            stress_amplitude(structure%joint_points, results%modes(k), &
+                             results%displacement(:, :, k), field, k), size(internal, 2))
       end function internal_force
 
       !> Nodal forces that hold the springs in one mode

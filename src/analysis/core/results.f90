@@ -165,6 +165,14 @@ module axijoint_analysis_core_results
       !> Generalized reactions of fixed components and springs, shape (3, nodes, modes):
       !> work over the whole circle on unit amplitudes [force]
       real(wp), allocatable :: reaction(:, :, :)
+      !> Loads on the nodes and reactions of fixed components, without those of springs: what does
+      !> work, shape (3, nodes, modes) [force]
+      real(wp), allocatable :: acting(:, :, :)
+      !> Nodal forces that solids and springs take, in-situ stress and temperature included, same
+      !> shape [force]
+      real(wp), allocatable :: taken(:, :, :)
+      !> Elastic energy of joints, beyond that of their stress in situ [force length]
+      real(wp) :: joint_energy = 0.0_wp
       !> Element (index) of each solid Gauss point, ascending
       integer, allocatable :: point_element(:)
       !> r and z of each solid Gauss point, shape (2, points)
@@ -186,8 +194,7 @@ module axijoint_analysis_core_results
       real(wp), allocatable :: joint_stress(:, :, :)
       !> Stick, slip or open, shape (joint points, planes); `state_` parameters
       integer, allocatable :: joint_state(:, :)
-      !> States at the ends of the increments, the last one being that of these results;
-      !> the others are there only if the job wants its bodies swept
+      !> States at the ends of the increments, the last one being that of these results
       type(increment_state_type), allocatable :: states(:)
       !> Convergence path; empty for a linear job
       type(iteration_type), allocatable :: path(:)
@@ -212,6 +219,14 @@ module axijoint_analysis_core_results
       !> Resultants of the stresses on the cuts of the deck, shape (n_resultants, cuts): of
       !> the part above a cut on the part below, moments about r = 0 at the cut
       real(wp), allocatable :: cut_resultants(:, :)
+      !> Motions of the sections there, rotations with the signs of the moments, same shape [length,
+      !> radian]
+      real(wp), allocatable :: cut_motion(:, :)
+      !> Resultants of what the body at side 4-3 of each joint exerts on that at side 1-2, moments
+      !> about r = 0 at the middle of its height, shape (n_resultants, joints)
+      real(wp), allocatable :: joint_resultants(:, :)
+      !> Resultants of the reactions of each supported face, shape (n_resultants, faces)
+      real(wp), allocatable :: face_reactions(:, :)
       !> A node of each part of the mesh that solid elements hold together
       integer, allocatable :: part_node(:)
       !> Resultants of the forces on each part that nothing balances, shape (n_resultants, parts)

@@ -152,7 +152,7 @@ contains
       type(model_type), intent(in) :: model
 
       reuses_factors = size(model%combinations) > 1 .or. can_yield(model) &
-         .or. model%sweep%wanted .and. size(model%increments) > 1
+         .or. size(model%increments) > 1
    end function reuses_factors
 
    !> Bandwidth, profile and fill of the orders side by side

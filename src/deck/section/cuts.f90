@@ -5,11 +5,12 @@ module axijoint_deck_section_cuts
    use axijoint_base_text, only : to_text
    use axijoint_deck_job_card, only : card_type, cards_of, next_card
    use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_requests
-   use axijoint_deck_text_common_fields, only : number, length, body
+   use axijoint_deck_text_common_fields, only : number, length, body, largest_division
    use axijoint_deck_text_entry, only : is_given, integer_of, real_of, is_good, field_fault
-   use axijoint_deck_text_field, only : described
+   use axijoint_deck_text_field, only : integer_field, real_field, described
    use axijoint_deck_text_labels, only : check_label
    use axijoint_model_mesh, only : mesh_type
+   use axijoint_model_request, only : cut_type
    implicit none
    private
    public :: cuts_section, place_cuts, keyword_cuts
@@ -17,7 +18,10 @@ module axijoint_deck_section_cuts
    !> The keyword
    character(len=*), parameter :: keyword_cuts = 'CUTS'
    !> Fields
-   integer, parameter :: field_label = 1, field_z = 2, field_body = 3
+   integer, parameter :: field_label = 1, field_z = 2, field_body = 3, field_last = 4, &
+      field_number = 5
+   !> Cuts between two heights unless the card says how many
+   integer, parameter :: default_number = 11
 
 contains
 
@@ -30,10 +34,16 @@ contains
       section%purpose = 'resultants on cuts z = const.'
       section%stage = stage_requests
       section%read => read_cuts
-      section%fields = [described(number('the cut', 1), 'cut', limits='each number once'), &
-                        described(length('z', 6), 'z [length]', &
-                                  limits='lowest … highest z of the body'), &
-                        described(body(16), 'body', blank='all')]
+      section%fields = &
+         [described(number('the cut', 1), 'cut; several are numbered on from it', &
+                    limits='each number once'), &
+          described(length('z', 6), 'z [length]', limits='lowest … highest z of the body'), &
+          described(body(16), 'body', blank='all'), &
+          described(real_field('z of the last cut', 21, default=0.0_wp), &
+                    'z of the last of several cuts at equal distances', blank='one cut', &
+                    limits='as z; another height'), &
+          described(integer_field('the number of cuts', 31, 35, 2, largest_division, &
+                                  default=default_number), 'number of these cuts')]
    end function cuts_section
 
    !> Read the cuts as far as their cards tell
@@ -43,18 +53,63 @@ contains
 
       type(card_type) :: card
       type(number_map_type) :: seen
+      type(cut_type), allocatable :: cuts(:)
+      type(cut_type) :: cut
+      real(wp) :: last
+      integer :: k, n
 
+      allocate (cuts(0))
       card = cards_of(deck, keyword_cuts)
-      allocate (deck%model%cuts(card%table%n))
       do while (next_card(card))
          call check_label(card, field_label, 'cut', seen, &
             allowed='a number of its own for each cut')
-         associate (cut => deck%model%cuts(card%entry))
-            cut%label = integer_of(card, field_label)
-            cut%z = real_of(card, field_z)
-            if (is_given(card, field_body)) cut%body = integer_of(card, field_body)
-         end associate
+         cut = cut_type(integer_of(card, field_label), real_of(card, field_z), 0, card%entry)
+         if (is_given(card, field_body)) cut%body = integer_of(card, field_body)
+         cuts = [cuts, cut]
+         if (.not. is_given(card, field_last)) then
+            if (is_given(card, field_number)) &
+               call field_fault(card, field_number, 'several cuts need the height of the last', &
+                                mend='give z of the last cut in columns 21-30')
+            cycle
+         end if
+         if (.not. is_good(card)) cycle
+         last = real_of(card, field_last)
+         if (.not. abs(last - cut%z) > 0.0_wp) then
+            call field_fault(card, field_last, 'first and last cut are at the same height', &
+                             allowed='another z, or none')
+            cycle
+         end if
+         n = integer_of(card, field_number)
+         do k = 1, n - 1
+            if (known_number(cut%label + k)) then
+               call field_fault(card, field_number, 'the number '//to_text(cut%label + k)// &
+                                ' of one of the cuts is that of another', &
+                                allowed='a number of its own for each cut', &
+                                mend='number cards further apart')
+               exit
+            end if
+            cuts = [cuts, cut_type(cut%label + k, (real(n - 1 - k, wp)*cut%z &
+                                                   + real(k, wp)*last)/real(n - 1, wp), &
+                                   cut%body, card%entry)]
+         end do
       end do
+      deck%model%cuts = cuts
+
+   contains
+
+      !> Whether a number belongs to another cut: of a card, or made before
+      pure logical function known_number(label)
+         !> The number
+         integer, intent(in) :: label
+
+         integer :: e
+
+         known_number = any(cuts%label == label)
+         do e = 1, card%table%n
+            known_number = known_number .or. nint(card%table%values(field_label, e)) == label
+         end do
+      end function known_number
+
    end subroutine read_cuts
 
    !> Check that cuts pass through their bodies
@@ -66,12 +121,13 @@ contains
 
       type(card_type) :: card
       real(wp) :: low, high
-      integer :: element
+      integer :: element, k
 
       card = cards_of(deck, keyword_cuts)
-      do while (next_card(card))
-         if (.not. is_good(card)) cycle
-         associate (cut => deck%model%cuts(card%entry))
+      do k = 1, size(deck%model%cuts)
+         associate (cut => deck%model%cuts(k))
+            card%entry = cut%card
+            if (.not. is_good(card)) cycle
             if (cut%body > 0 .and. .not. any(mesh%element_body == cut%body)) then
                call field_fault(card, field_body, 'body '//to_text(cut%body)//' has no elements')
                cycle
@@ -87,11 +143,25 @@ contains
                end associate
             end do
             if (cut%z >= low .and. cut%z <= high) cycle
-            call field_fault(card, field_z, 'the cut misses '// &
+            call field_fault(card, field_of(k), 'the cut at z = '//to_text(cut%z)//' misses '// &
                              trim(merge('the body  ', 'all bodies', cut%body > 0)), &
                              allowed='z from '//to_text(low)//' to '//to_text(high))
          end associate
       end do
+
+   contains
+
+      !> The field that tells the height of a cut, or the end of several that is nearer
+      pure integer function field_of(k) result(field)
+         !> The cut
+         integer, intent(in) :: k
+
+         field = field_z
+         if (count(deck%model%cuts%card == card%entry) > 1 .and. &
+             2*(k - findloc(deck%model%cuts%card, card%entry, 1)) > &
+             count(deck%model%cuts%card == card%entry)) field = field_last
+      end function field_of
+
    end subroutine place_cuts
 
 end module axijoint_deck_section_cuts

@@ -9,7 +9,7 @@ module axijoint_output_file_hdf5
    use axijoint_output_file_hdf5_data, only : hdf5_failure_type, no_handle, write_array, &
       write_string, write_attribute, write_string_attribute
    use axijoint_output_file_hdf5_series, only : hdf5_series_type, open_series, append_piece, &
-      close_series
+      piece_length, close_series
    use axijoint_output_file_pending, only : temporary_path, publish, discard, io_error
    use hdf5, only : hid_t, hsize_t, h5open_f, h5close_f, h5eset_auto_f, h5fcreate_f, &
       h5fopen_f, h5fflush_f, h5fclose_f, h5f_acc_excl_f, h5f_acc_rdonly_f, &
@@ -203,7 +203,8 @@ contains
       call self%attribute(name, "description", description)
    end subroutine begin
 
-   !> Write the next piece of reals: values of whole leading indices
+   !> Write the next piece of reals: values of whole leading indices, of one last index if they
+   !> have one index less
    subroutine append_reals(self, series, values)
       !> The file
       class(hdf5_file_type), intent(inout) :: self
@@ -212,8 +213,8 @@ contains
       !> Its next values
       real(wp), intent(in), target, contiguous :: values(..)
 
-      call append_piece(series, h5t_native_double, last_extent(shape(values, kind=hsize_t)), &
-         c_loc(values), self%failure)
+      call append_piece(series, h5t_native_double, &
+         piece_length(series, shape(values, kind=hsize_t)), c_loc(values), self%failure)
    end subroutine append_reals
 
    !> Write the next piece of long integers
@@ -236,10 +237,10 @@ contains
       !> The dataset
       type(hdf5_series_type), intent(inout) :: series
       !> Its next values
-      integer(int8), intent(in), target, contiguous :: values(:)
+      integer(int8), intent(in), target, contiguous :: values(..)
 
-      call append_piece(series, h5kind_to_type(int8, h5_integer_kind), size(values, kind=hsize_t), &
-         c_loc(values), self%failure)
+      call append_piece(series, h5kind_to_type(int8, h5_integer_kind), &
+         piece_length(series, shape(values, kind=hsize_t)), c_loc(values), self%failure)
    end subroutine append_bytes
 
    !> Close a dataset that was written piece by piece
@@ -350,14 +351,6 @@ contains
 
       extent = max(shape, 0_hsize_t)
    end function extent_of
-
-   !> Extent of a piece along its last dimension
-   pure integer(hsize_t) function last_extent(shape) result(extent)
-      !> Shape as the compiler gives it
-      integer(hsize_t), intent(in) :: shape(:)
-
-      extent = max(shape(size(shape)), 0_hsize_t)
-   end function last_extent
 
    !> Bring all to the disk and close; then open once more, so that what gets
    !> the final name is known to be an HDF5 file

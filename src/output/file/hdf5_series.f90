@@ -10,7 +10,7 @@ module axijoint_output_file_hdf5_series
       h5sselect_hyperslab_f
    implicit none
    private
-   public :: hdf5_series_type, open_series, append_piece, close_series
+   public :: hdf5_series_type, open_series, append_piece, piece_length, close_series
 
    !> A dataset under way
    type :: hdf5_series_type
@@ -99,6 +99,19 @@ contains
       call close_handles(series%name, failure, space=in_memory)
       call close_handles(series%name, failure, space=in_file)
    end subroutine append_piece
+
+   !> Extent of a piece along the last dimension: one, if it lacks this dimension; zero, if there
+   !> is nothing in it
+   pure integer(hsize_t) function piece_length(series, shape) result(length)
+      !> The dataset
+      type(hdf5_series_type), intent(in) :: series
+      !> Extents of the piece as the compiler gives them
+      integer(hsize_t), intent(in) :: shape(:)
+
+      length = 1
+      if (size(shape) == size(series%extent)) length = max(shape(size(shape)), 0_hsize_t)
+      if (any(shape == 0)) length = 0
+   end function piece_length
 
    !> Close the dataset. That it is full is for the caller to see to
    subroutine close_series(series, failure)

@@ -9,7 +9,7 @@ module axijoint_output_file_line_values
    use axijoint_output_file_totals, only : circle_type, new_circle, total_displacement, total_stress
    implicit none
    private
-   public :: line_displacement, line_stress
+   public :: line_displacement, line_stress, line_displacements, line_stresses
 
 contains
 
@@ -76,6 +76,42 @@ contains
          total(:, k) = total_stress(amplitude, circle)
       end do
    end function line_stress
+
+   !> Total displacements at all angles of a line
+   pure function line_displacements(model, results, line) result(total)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> The line
+      type(line_type), intent(in) :: line
+      !> The displacements, shape (3, points, angles)
+      real(wp) :: total(3, size(line%points), size(line%angles))
+
+      integer :: i
+
+      do i = 1, size(line%angles)
+         total(:, :, i) = line_displacement(model, results, line, line%angles(i))
+      end do
+   end function line_displacements
+
+   !> Total stresses at all angles of a line
+   pure function line_stresses(model, results, line) result(total)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> The line
+      type(line_type), intent(in) :: line
+      !> The stresses, shape (6, points, angles)
+      real(wp) :: total(6, size(line%points), size(line%angles))
+
+      integer :: i
+
+      do i = 1, size(line%angles)
+         total(:, :, i) = line_stress(model, results, line, line%angles(i))
+      end do
+   end function line_stresses
 
    !> Shape functions at a point
    pure subroutine shape_at(model, point, shape, n)

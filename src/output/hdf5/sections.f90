@@ -1,12 +1,11 @@
 !> Results along lines and on cuts in the HDF5 file
 module axijoint_output_hdf5_sections
    use axijoint_analysis_core_results, only : results_type
-   use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
    use axijoint_model_model, only : model_type
    use axijoint_model_request, only : line_type
    use axijoint_output_file_hdf5, only : hdf5_file_type
-   use axijoint_output_file_line_values, only : line_displacement, line_stress
+   use axijoint_output_file_line_values, only : line_displacements, line_stresses
    implicit none
    private
    public :: write_section_groups, write_cut_group
@@ -45,15 +44,9 @@ contains
       !> Its group
       character(len=*), intent(in) :: name
 
-      real(wp), allocatable :: displacement(:, :, :), stress(:, :, :)
       integer :: i, n
 
       n = size(line%points)
-      allocate (displacement(3, n, size(line%angles)), stress(6, n, size(line%angles)))
-      do i = 1, size(line%angles)
-         displacement(:, :, i) = line_displacement(model, results, line, line%angles(i))
-         stress(:, :, i) = line_stress(model, results, line, line%angles(i))
-      end do
       call file%group(name)
       call file%attribute(name, "points", line%n_points)
       call file%write(name//"/angles", line%angles, "theta; (angle) [radian]")
@@ -65,9 +58,9 @@ contains
       call file%write(name//"/position", reshape([(line%points(i)%position, i=1, n)], [2, n]), &
          "r and z; (2, row) [length]")
       call file%write(name//"/element", (line%points%element), "Element (index); (row)")
-      call file%write(name//"/displacement", displacement, &
+      call file%write(name//"/displacement", line_displacements(model, results, line), &
          "Totals u, v, w; (3, row, angle) [length]")
-      call file%write(name//"/stress", stress, &
+      call file%write(name//"/stress", line_stresses(model, results, line), &
          "Totals r, z, theta, rz, r-theta, z-theta; (6, row, angle) [stress]")
    end subroutine write_section
 
@@ -90,6 +83,10 @@ contains
          "= 0, moment that lifts theta = 0, torque, shear and moment at 90 degrees: of the "// &
          "part "// &
          "above on the part below, moments about r = 0 at the cut; (6, cut)")
+      call file%write("/cuts/motion", results%cut_motion, &
+         "Motion of the section, in the order of the resultants: along z, along theta = 0, "// &
+         "rotation that lifts theta = 0, about z, along 90 degrees, rotation that lifts them; "// &
+         "(6, cut) [length, radian]")
    end subroutine write_cut_group
 
 end module axijoint_output_hdf5_sections

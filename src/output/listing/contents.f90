@@ -1,10 +1,10 @@
 !> The listing: the job as understood and its results, in tables
 module axijoint_output_listing_contents
    use axijoint_analysis_core_results, only : results_type
+   use axijoint_analysis_core_series, only : series_type
    use axijoint_base_text, only : to_text
-   use axijoint_base_timer, only : timer_type
    use axijoint_base_version, only : program_name, program_version
-   use axijoint_deck_text_source, only : source_type
+   use axijoint_job_job, only : job_type
    use axijoint_model_model, only : model_type
    use axijoint_output_file_echo, only : write_echo
    use axijoint_output_file_headings, only : write_lines, rule, mark_not_converged
@@ -27,6 +27,7 @@ module axijoint_output_listing_contents
    use axijoint_output_listing_sweep, only : picture_type, write_pictures
    use axijoint_output_table_face_reactions, only : write_face_reactions
    use axijoint_output_table_in_situ, only : write_in_situ
+   use axijoint_output_table_increments, only : write_increment_table
    use axijoint_output_table_joint_proportion, only : write_proportions
    use axijoint_output_table_residuals, only : write_residuals
    implicit none
@@ -36,63 +37,64 @@ module axijoint_output_listing_contents
 contains
 
    !> All tables in order
-   subroutine write_listing(file, run, source, warnings, model, results, timer, pictures)
+   subroutine write_listing(file, run, job, warnings, results, series, pictures)
       !> The listing
       class(text_file_type), intent(inout) :: file
       !> Name tags of the run
       type(run_type), intent(in) :: run
-      !> Cards of the deck
-      type(source_type), intent(in) :: source
+      !> Deck, model, times
+      type(job_type), intent(in) :: job
       !> Warnings of the deck
       character(len=*), intent(in) :: warnings(:)
-      !> The job
-      type(model_type), intent(in) :: model
       !> Results
       type(results_type), intent(in) :: results
-      !> Times of the run
-      type(timer_type), intent(in) :: timer
+      !> What is followed from increment to increment
+      type(series_type), intent(in) :: series
       !> Files of the swept bodies
       type(picture_type), intent(in) :: pictures(:)
 
-      call write_header(file, run, model, results)
-      call write_echo(file, source)
-      call write_warnings(file, warnings)
+      associate (model => job%model)
+         call write_header(file, run, model, results)
+         call write_echo(file, job%source)
+         call write_warnings(file, warnings)
 
-      call write_model(file, model)
-      call write_materials(file, model)
-      call write_joint_materials(file, model)
-      call write_proportions(file, model)
-      call write_nodes(file, model)
-      call write_restraints(file, model)
-      call write_elements(file, model)
-      call write_joints(file, model)
-      call write_supports(file, model)
-      call write_loads(file, model)
-      call write_truncations(file, model)
-      call write_combinations(file, model)
-      call write_increments(file, model)
+         call write_model(file, model)
+         call write_materials(file, model)
+         call write_joint_materials(file, model)
+         call write_proportions(file, model)
+         call write_nodes(file, model)
+         call write_restraints(file, model)
+         call write_elements(file, model)
+         call write_joints(file, model)
+         call write_supports(file, model)
+         call write_loads(file, model)
+         call write_truncations(file, model)
+         call write_combinations(file, model)
+         call write_increments(file, model)
 
-      call write_in_situ(file, model, results%in_situ)
-      call write_equations(file, results)
-      call write_left_out(file, results)
-      call write_convergence(file, results)
-      call write_residuals(file, results)
-      call write_displacements(file, model, results)
-      call write_total_displacements(file, model, results)
-      call write_stresses(file, model, results)
-      call write_nodal_stresses(file, model, results)
-      call write_joint_results(file, model, results)
-      call write_sections(file, model, results)
-      call write_cuts(file, model, results)
-      call write_reactions(file, model, results)
-      call write_face_reactions(file, model, results)
-      call write_equilibrium(file, model, results)
-      call write_budget(file, results)
-      call write_singular(file, model, results)
-      call write_rounds(file, results)
-      call write_pictures(file, size(results%states), pictures)
-      call write_times(file, results, timer)
-      call write_end(file, results)
+         call write_in_situ(file, model, results%in_situ)
+         call write_equations(file, results)
+         call write_left_out(file, results)
+         call write_convergence(file, results)
+         call write_residuals(file, results)
+         call write_increment_table(file, series)
+         call write_displacements(file, model, results)
+         call write_total_displacements(file, model, results)
+         call write_stresses(file, model, results)
+         call write_nodal_stresses(file, model, results)
+         call write_joint_results(file, model, results)
+         call write_sections(file, model, results)
+         call write_cuts(file, model, results)
+         call write_reactions(file, model, results)
+         call write_face_reactions(file, model, results)
+         call write_equilibrium(file, model, results)
+         call write_budget(file, results)
+         call write_singular(file, model, results)
+         call write_rounds(file, results)
+         call write_pictures(file, size(results%states), pictures)
+         call write_times(file, results, job%timer)
+         call write_end(file, results)
+      end associate
    end subroutine write_listing
 
    !> Program, deck, date, status

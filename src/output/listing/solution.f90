@@ -131,8 +131,8 @@ contains
       ratio = to_text(results%residual_ratio)
       tolerance = to_text(results%tolerance)
       if (.not. results%converged .and. size(results%path) == 0) then
-         text = mark_not_converged//" linear job: residual ratio "//ratio//" above "//tolerance// &
-            ": its equations are ill-conditioned"
+         text = mark_not_converged//" linear job: its equations are ill-conditioned; residual "// &
+            "ratio "//ratio//", tolerance "//tolerance
       else if (allocated(results%mechanism)) then
          text = mark_not_converged//" after "//to_text(size(results%path))// &
             " iterations: a mechanism; results are those of the last equilibrium, residual "// &

@@ -6,14 +6,14 @@
 !> neighbours. Between them it is divided at the planes of the swept bodies. Joints of a
 !> linear job have what the harmonics give in the middle of each sector.
 module axijoint_output_vtkhdf_joints
-   use axijoint_analysis_core_increment_fields, only : solve_increment, view_joints
+   use axijoint_analysis_core_increment_fields, only : field_of_state
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp, i8
    use axijoint_element_joint_law, only : xi, eta, theta
    use axijoint_joints_field, only : joint_field_type
-   use axijoint_joints_planes, only : planes_type, new_view
+   use axijoint_joints_states, only : increment_state_type
    use axijoint_model_model, only : model_type
    use axijoint_output_file_hdf5, only : hdf5_file_type, kind_real, kind_long
    use axijoint_output_file_hdf5_series, only : hdf5_series_type
@@ -26,7 +26,7 @@ module axijoint_output_vtkhdf_joints
    use axijoint_output_vtkhdf_swept_section, only : cartesian_vector
    implicit none
    private
-   public :: write_joint_surfaces
+   public :: surfaces_type, begin_surfaces, put_surfaces, end_surfaces
 
    !> Names of the fields of the cells
    character(len=*), parameter :: scalars(8) = &
@@ -36,51 +36,109 @@ module axijoint_output_vtkhdf_joints
    character(len=*), parameter :: vectors(2) = &
       [character(len=21) :: 'displacement', 'displacement_opposite']
 
-   !> The datasets of the fields
-   type :: series_type
-      !> Of the points
-      type(hdf5_series_type) :: vector(size(vectors))
-      !> Of the cells
-      type(hdf5_series_type) :: scalar(size(scalars)), state
-   end type series_type
+   !> The file under way
+   type :: surfaces_type
+      !> Whether there is one
+      logical :: wanted = .false.
+      type(hdf5_file_type) :: file
+      !> What is in it
+      type(swept_mesh_type) :: mesh
+      type(surface_type), private :: surface
+      !> The datasets of the fields: of the points, and of the cells
+      type(hdf5_series_type), private :: vector(size(vectors))
+      type(hdf5_series_type), private :: scalar(size(scalars)), state
+   end type surfaces_type
 
 contains
 
-   !> Write the file
-   subroutine write_joint_surfaces(file, run, model, structure, results, mesh, error)
-      !> The file
-      class(hdf5_file_type), intent(inout) :: file
+   !> Begin the file: the mesh, and room for the fields of all steps
+   subroutine begin_surfaces(path, run, model, structure, results, surfaces, error)
+      !> Final path of the file
+      character(len=*), intent(in) :: path
       !> Name tags of the run
       type(run_type), intent(in) :: run
       !> The job
       type(model_type), intent(in) :: model
       !> The structure, assembled
-      type(structure_type), intent(inout) :: structure
+      type(structure_type), intent(in) :: structure
       !> Results at the end
       type(results_type), intent(in) :: results
-      !> What was written
-      type(swept_mesh_type), intent(out) :: mesh
-      !> Out of memory
+      !> The file under way
+      type(surfaces_type), intent(inout) :: surfaces
+      !> It cannot be created
       type(error_type), allocatable, intent(out) :: error
 
-      type(surface_type) :: surface
-
-      call make_surface(model, structure, results, surface, mesh)
-      call write_frame(file, run, model, results, mesh)
-      associate (points => structure%joint_points(mesh%owner(:mesh%n_cells)))
-         call write_cell_labels(file, mesh, "joint", model%mesh%joint_label(points%joint), "Joint")
-         call write_cell_labels(file, mesh, "law", (model%joint_materials(points%material)%label), &
-            "Law")
-         call write_cell_labels(file, mesh, "joint_point", mesh%owner(:mesh%n_cells), &
-                                "Joint point, as in the results file")
+      call surfaces%file%create(path, error)
+      if (allocated(error)) return
+      surfaces%wanted = .true.
+      call make_surface(model, structure, results, surfaces%surface, surfaces%mesh)
+      associate (file => surfaces%file, mesh => surfaces%mesh)
+         call write_frame(file, run, model, results, mesh)
+         associate (points => structure%joint_points(mesh%owner(:mesh%n_cells)))
+            call write_cell_labels(file, mesh, "joint", model%mesh%joint_label(points%joint), &
+               "Joint")
+            call write_cell_labels(file, mesh, "law", &
+               (model%joint_materials(points%material)%label), "Law")
+            call write_cell_labels(file, mesh, "joint_point", mesh%owner(:mesh%n_cells), &
+                                   "Joint point, as in the results file")
+         end associate
+         call write_planes(file, surfaces%surface, mesh)
       end associate
-      call write_planes(file, surface, mesh)
-      call write_fields(file, model, structure, results, surface, mesh, error)
-      call write_steps(file, mesh, results%states, vectors, &
-         [character(len=9) :: scalars, 'state'], &
-                       [character(len=1) ::], &
-                       [character(len=11) :: 'joint', 'law', 'joint_point', 'plane', 'mirrored'])
-   end subroutine write_joint_surfaces
+      call begin_series(size(results%states), surfaces)
+   end subroutine begin_surfaces
+
+   !> One step, if the file is wanted
+   subroutine put_surfaces(surfaces, model, structure, state, now)
+      !> The file under way
+      type(surfaces_type), intent(inout) :: surfaces
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> State of the step
+      type(increment_state_type), intent(in) :: state
+      !> Fields of the step
+      type(results_type), intent(in) :: now
+
+      type(joint_field_type) :: field
+
+      if (.not. surfaces%wanted) return
+      if (size(structure%yielding) > 0) then
+         field%jump = now%joint_jump
+         field%stress = now%joint_stress
+         field%state = now%joint_state
+      else
+         call field_of_state(model, structure, state, surfaces%surface%middle, now%displacement, &
+            field)
+      end if
+      call put_displacements(now, surfaces)
+      call put_joints(model, structure, field, surfaces)
+   end subroutine put_surfaces
+
+   !> End the file, if it is wanted
+   subroutine end_surfaces(surfaces, results, error)
+      !> The file under way
+      type(surfaces_type), intent(inout) :: surfaces
+      !> Results at the end
+      type(results_type), intent(in) :: results
+      !> Something is not on the disk
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: k
+
+      if (.not. surfaces%wanted) return
+      do k = 1, size(vectors)
+         call surfaces%file%end(surfaces%vector(k))
+      end do
+      do k = 1, size(scalars)
+         call surfaces%file%end(surfaces%scalar(k))
+      end do
+      call surfaces%file%end(surfaces%state)
+      call write_steps(surfaces%file, surfaces%mesh, results%states, vectors, &
+         [character(len=9) :: scalars, 'state'], [character(len=1) ::], &
+         [character(len=11) :: 'joint', 'law', 'joint_point', 'plane', 'mirrored'])
+      call surfaces%file%finish(error)
+   end subroutine end_surfaces
 
    !> Planes of the cells, the same in all steps
    subroutine write_planes(file, surface, mesh)
@@ -107,136 +165,49 @@ contains
       call file%end(mirrored)
    end subroutine write_planes
 
-   !> All fields, step by step
-   subroutine write_fields(file, model, structure, results, surface, mesh, error)
-      !> The file
-      class(hdf5_file_type), intent(inout) :: file
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The structure, assembled
-      type(structure_type), intent(inout) :: structure
-      !> Results at the end
-      type(results_type), intent(in) :: results
-      !> Points and planes
-      type(surface_type), intent(in) :: surface
-      !> The mesh
-      type(swept_mesh_type), intent(in) :: mesh
-      !> Out of memory
-      type(error_type), allocatable, intent(out) :: error
-
-      type(series_type) :: series
-      type(results_type) :: earlier
-      type(joint_field_type) :: field
-      type(planes_type) :: planes
-      integer :: i
-
-      call begin_series(file, size(results%states), mesh, series)
-      planes = structure%planes
-      if (size(structure%yielding) == 0) planes = new_view(surface%middle, results%modes)
-      do i = 1, size(results%states) - 1
-         call solve_increment(model, structure, results%states(i), results, earlier, error)
-         if (allocated(error)) exit
-         call view_joints(model, structure, results%states(i), planes, earlier%displacement, field)
-         call put_displacements(file, earlier, surface, mesh, series)
-         call put_joints(file, model, structure, field, surface, mesh, series)
-      end do
-      if (.not. allocated(error)) then
-         call last_field(model, structure, results, planes, field)
-         call put_displacements(file, results, surface, mesh, series)
-         call put_joints(file, model, structure, field, surface, mesh, series)
-      end if
-      call end_series(file, series)
-   end subroutine write_fields
-
-   !> State of the joints at the end of the run
-   subroutine last_field(model, structure, results, planes, field)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The structure
-      type(structure_type), intent(in) :: structure
-      !> Results at the end
-      type(results_type), intent(in) :: results
-      !> Planes
-      type(planes_type), intent(in) :: planes
-      !> The state
-      type(joint_field_type), intent(out) :: field
-
-      if (size(structure%yielding) > 0) then
-         field%jump = results%joint_jump
-         field%stress = results%joint_stress
-         field%state = results%joint_state
-      else
-         call view_joints(model, structure, results%states(size(results%states)), planes, &
-                          results%displacement, field)
-      end if
-   end subroutine last_field
-
-   !> Make the datasets
-   subroutine begin_series(file, n_steps, mesh, series)
-      !> The file
-      class(hdf5_file_type), intent(inout) :: file
+   !> Make the datasets of the fields
+   subroutine begin_series(n_steps, surfaces)
       !> Number of steps
       integer, intent(in) :: n_steps
-      !> The mesh
-      type(swept_mesh_type), intent(in) :: mesh
-      !> The datasets
-      type(series_type), intent(out) :: series
+      !> The file under way
+      type(surfaces_type), intent(inout) :: surfaces
 
       integer :: k
 
-      do k = 1, size(vectors)
-         call file%begin(series%vector(k), point_group//trim(vectors(k)), kind_real, &
-                         [3_i8, n_steps*n_points(mesh)], "x, y, z; (3, point) [length]")
-      end do
-      do k = 1, size(scalars)
-         call file%begin(series%scalar(k), cell_group//trim(scalars(k)), kind_real, &
-                         [n_steps*n_cells(mesh)], &
-                         "Of relative displacement or stress; (cell) [length or stress]")
-      end do
-      call file%begin(series%state, cell_group//"state", kind_long, [n_steps*n_cells(mesh)], &
-                      "0 stick, 1 slip, 2 open; (cell)")
+      associate (file => surfaces%file, mesh => surfaces%mesh)
+         do k = 1, size(vectors)
+            call file%begin(surfaces%vector(k), point_group//trim(vectors(k)), kind_real, &
+                            [3_i8, n_steps*n_points(mesh)], "x, y, z; (3, point) [length]")
+         end do
+         do k = 1, size(scalars)
+            call file%begin(surfaces%scalar(k), cell_group//trim(scalars(k)), kind_real, &
+                            [n_steps*n_cells(mesh)], &
+                            "Of relative displacement or stress; (cell) [length or stress]")
+         end do
+         call file%begin(surfaces%state, cell_group//"state", kind_long, [n_steps*n_cells(mesh)], &
+                         "0 stick, 1 slip, 2 open; (cell)")
+      end associate
    end subroutine begin_series
 
-   !> Close the datasets
-   subroutine end_series(file, series)
-      !> The file
-      class(hdf5_file_type), intent(inout) :: file
-      !> The datasets
-      type(series_type), intent(inout) :: series
-
-      integer :: k
-
-      do k = 1, size(vectors)
-         call file%end(series%vector(k))
-      end do
-      do k = 1, size(scalars)
-         call file%end(series%scalar(k))
-      end do
-      call file%end(series%state)
-   end subroutine end_series
-
    !> Displacements of both sides in a step: points on the axis, then those of each plane
-   subroutine put_displacements(file, now, surface, mesh, series)
-      !> The file
-      class(hdf5_file_type), intent(inout) :: file
-      !> Results of the step
+   subroutine put_displacements(now, surfaces)
+      !> Fields of the step
       type(results_type), intent(in) :: now
-      !> The points
-      type(surface_type), intent(in) :: surface
-      !> The mesh
-      type(swept_mesh_type), intent(in) :: mesh
-      !> The datasets
-      type(series_type), intent(inout) :: series
+      !> The file under way
+      type(surfaces_type), intent(inout) :: surfaces
 
       integer :: j, side
 
-      do side = 1, 2
-         call file%append(series%vector(side), moved(now, surface, side, mesh%angle(1), mesh%axis))
-         do j = 1, size(mesh%angle)
-            call file%append(series%vector(side), &
-               moved(now, surface, side, mesh%angle(j), .not. mesh%axis))
+      associate (surface => surfaces%surface, mesh => surfaces%mesh)
+         do side = 1, 2
+            call surfaces%file%append(surfaces%vector(side), &
+               moved(now, surface, side, mesh%angle(1), mesh%axis))
+            do j = 1, size(mesh%angle)
+               call surfaces%file%append(surfaces%vector(side), &
+                  moved(now, surface, side, mesh%angle(j), .not. mesh%axis))
+            end do
          end do
-      end do
+      end associate
    end subroutine put_displacements
 
    !> Cartesian displacements of some points of a plane
@@ -273,27 +244,22 @@ contains
    end function moved
 
    !> Relative displacements, stresses and states of a step, sector by sector
-   subroutine put_joints(file, model, structure, field, surface, mesh, series)
-      !> The file
-      class(hdf5_file_type), intent(inout) :: file
+   subroutine put_joints(model, structure, field, surfaces)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure, for the joint points
       type(structure_type), intent(in) :: structure
       !> State of the joints on the planes
       type(joint_field_type), intent(in) :: field
-      !> The sectors
-      type(surface_type), intent(in) :: surface
-      !> The mesh
-      type(swept_mesh_type), intent(in) :: mesh
-      !> The datasets
-      type(series_type), intent(inout) :: series
+      !> The file under way
+      type(surfaces_type), intent(inout) :: surfaces
 
-      real(wp), dimension(mesh%n_cells, size(scalars)) :: values
-      real(wp) :: gap(mesh%n_cells), mirror
+      real(wp), dimension(surfaces%mesh%n_cells, size(scalars)) :: values
+      real(wp) :: gap(surfaces%mesh%n_cells), mirror
       integer :: j, k, plane
 
-      associate (owner => mesh%owner(:mesh%n_cells))
+      associate (mesh => surfaces%mesh, surface => surfaces%surface, &
+                 owner => surfaces%mesh%owner(:surfaces%mesh%n_cells))
          gap = model%joint_materials(structure%joint_points(owner)%material)%law%gap
          do j = 1, mesh%n_sectors
             plane = merge(j, surface%plane(j), size(structure%yielding) == 0)
@@ -307,9 +273,9 @@ contains
             values(:, 7) = field%stress(eta, owner, plane)
             values(:, 8) = mirror*field%stress(theta, owner, plane)
             do k = 1, size(scalars)
-               call file%append(series%scalar(k), values(:, k))
+               call surfaces%file%append(surfaces%scalar(k), values(:, k))
             end do
-            call file%append(series%state, int(field%state(owner, plane), i8))
+            call surfaces%file%append(surfaces%state, int(field%state(owner, plane), i8))
          end do
       end associate
    end subroutine put_joints

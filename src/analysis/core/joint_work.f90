@@ -1,0 +1,139 @@
+!> Energy in joints, and what sliding in them dissipates
+module axijoint_analysis_core_joint_work
+   use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_assembly_force, only : joint_jump
+   use axijoint_base_kinds, only : wp, pi
+   use axijoint_element_joint_law, only : joint_law_type, state_open
+   use axijoint_fe_fourier, only : circle_integral
+   use axijoint_joints_field, only : joint_field_type, new_joint_field, set_initial_stress
+   use axijoint_joints_planes, only : planes_type
+   use axijoint_joints_states, only : increment_state_type
+   use axijoint_model_joint_points, only : model_joint_point_type
+   use axijoint_model_model, only : model_type, can_yield_at
+   implicit none
+   private
+   public :: joint_energy, sliding_work
+
+contains
+
+   !> Energy in the springs of all joints: of those that can yield on the planes, of others harmonic
+   !> by harmonic. Relative displacements count from the state in situ, whose stress t0 is there
+   !> without them: the energy is (t^2 - t0^2)/2k
+   function joint_energy(model, structure, state, displacement) result(energy)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> State of the joints that can yield
+      type(increment_state_type), intent(in) :: state
+      !> Displacement amplitudes, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
+      !> The energy [force length]
+      real(wp) :: energy
+
+      type(model_joint_point_type), allocatable :: elastic(:)
+      real(wp), allocatable :: jump(:, :)
+      type(joint_field_type) :: in_situ
+      type(joint_law_type) :: law
+      real(wp) :: weight(size(structure%planes%angle))
+      integer :: i, j, k
+
+      energy = 0.0_wp
+      elastic = pack(structure%joint_points, &
+                     .not. can_yield_at(model, structure%joint_points%material))
+      do i = 1, size(structure%modes)
+         jump = joint_jump(elastic, displacement(:, :, i))
+         do k = 1, size(elastic)
+            energy = energy + 0.5_wp*circle_integral(structure%modes(i)%harmonic) &
+               *elastic(k)%weight*sum(elastic(k)%base*jump(:, k)**2)
+         end do
+      end do
+      if (.not. allocated(state%stress)) return
+      in_situ = new_joint_field(size(structure%condensed%points), 1, size(structure%modes), 0)
+      call set_initial_stress(model, structure%condensed%points, state%case_factor, in_situ)
+      weight = circle_weights(structure%planes)
+      do j = 1, size(weight)
+         do k = 1, size(structure%condensed%points)
+            associate (point => structure%condensed%points(k))
+               law = model%joint_materials(point%material)%law
+               energy = energy + 0.5_wp*weight(j)*point%weight &
+                  *sum((state%stress(:, k, j)**2 - in_situ%initial(:, k)**2)/law%stiffness, &
+                       law%stiffness > 0.0_wp)
+            end associate
+         end do
+      end do
+   end function joint_energy
+
+   !> Work that shear stress has done on slip from one state to the next, by the mean of both
+   !> stresses: exact if friction does not change in between. Slip is the relative displacement
+   !> less what the springs take; of points that open none counts
+   function sliding_work(model, structure, before, now) result(work)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> Both states; the first has no stress if it was not reached
+      type(increment_state_type), intent(in) :: before, now
+      !> The work [force length]
+      real(wp) :: work
+
+      integer, parameter :: shear(2) = [1, 3]
+      type(joint_law_type) :: law
+      real(wp) :: weight(size(structure%planes%angle)), stress(2), slip(2)
+      integer :: j, k
+
+      work = 0.0_wp
+      if (.not. allocated(now%stress)) return
+      weight = circle_weights(structure%planes)
+      do j = 1, size(weight)
+         do k = 1, size(structure%condensed%points)
+            if (now%state(k, j) == state_open) cycle
+            associate (point => structure%condensed%points(k))
+               law = model%joint_materials(point%material)%law
+               stress = now%stress(shear, k, j)
+               slip = slip_of(law, now%jump(shear, k, j), stress)
+               if (allocated(before%stress)) then
+                  stress = 0.5_wp*(stress + before%stress(shear, k, j))
+                  slip = slip - slip_of(law, before%jump(shear, k, j), &
+                                        before%stress(shear, k, j))
+               end if
+               work = work + weight(j)*point%weight*dot_product(stress, slip)
+            end associate
+         end do
+      end do
+
+   contains
+
+      !> Relative displacement less what the springs take
+      pure function slip_of(law, jump, stress) result(slip)
+         !> The law
+         type(joint_law_type), intent(in) :: law
+         !> Along xi and theta
+         real(wp), intent(in) :: jump(2), stress(2)
+         !> The slip
+         real(wp) :: slip(2)
+
+         slip = 0.0_wp
+         where (law%stiffness(shear) > 0.0_wp) slip = jump - stress/law%stiffness(shear)
+      end function slip_of
+
+   end function sliding_work
+
+   !> Weights of the planes in an integral over the circle: trapezium rule
+   pure function circle_weights(planes) result(weight)
+      !> All planes
+      type(planes_type), intent(in) :: planes
+      !> One a plane; their sum is 2 pi
+      real(wp) :: weight(size(planes%angle))
+
+      integer :: n
+
+      n = size(planes%angle)
+      weight = 2.0_wp*pi/max(1, n)
+      if (n < 2) return
+      if (planes%angle(n) < pi*(1.0_wp - 1.0e-6_wp) .or. n > planes%n) return
+      weight = 2.0_wp*pi/(n - 1)  ! from 0 to pi, which stands for the other half
+      weight([1, n]) = 0.5_wp*weight([1, n])
+   end function circle_weights
+
+end module axijoint_analysis_core_joint_work

@@ -1,0 +1,174 @@
+!> What is followed from increment to increment: one entry for each
+module axijoint_analysis_core_series
+   use axijoint_analysis_core_joint_work, only : sliding_work
+   use axijoint_analysis_core_results, only : results_type, n_resultants
+   use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_base_kinds, only : wp
+   use axijoint_element_joint_law, only : state_slip, state_open, eta
+   use axijoint_joints_states, only : increment_state_type
+   use axijoint_model_model, only : model_type
+   implicit none
+   private
+   public :: series_type, new_series, append_increment
+
+   !> The series; the last index is the increment
+   type :: series_type
+      !> Entries that are filled
+      integer :: n = 0
+      !> Increment, iterations in it
+      integer, allocatable :: increment(:), iterations(:)
+      !> Whether it is in equilibrium, 1 or 0
+      integer, allocatable :: equilibrium(:)
+      !> Sum of the load factors, factor of each load case, shape (cases, increments)
+      real(wp), allocatable :: load_factor(:), case_factor(:, :)
+      !> Forces out of balance at its end over the loads (Eq. 17); of a linear job from the stresses
+      real(wp), allocatable :: residual(:)
+      !> Largest amplitude of a displacement; largest pressure and shear stress of a joint
+      real(wp), allocatable :: displacement(:), pressure(:), shear(:)
+      !> Points times planes that slip, and that are open
+      integer, allocatable :: n_slip(:), n_open(:)
+      !> Work of loads and given displacements; elastic energy; work dissipated by sliding [force
+      !> length]
+      real(wp), allocatable :: work(:), energy(:), dissipated(:)
+      !> Resultants of loads and reactions, shape (n_resultants, increments)
+      real(wp), allocatable :: applied(:, :), reacted(:, :)
+      !> Resultants and motions at cuts, shape (n_resultants, cuts, increments)
+      real(wp), allocatable :: cuts(:, :, :), cut_motion(:, :, :)
+      !> Resultants of each joint, shape (n_resultants, joints, increments)
+      real(wp), allocatable :: joints(:, :, :)
+      !> Reactions of supported faces, shape (n_resultants, faces, increments)
+      real(wp), allocatable :: faces(:, :, :)
+      !> Displacements of named points, shape (3, points, modes, increments)
+      real(wp), allocatable :: points(:, :, :, :)
+      !> Of the last entry: displacements, what acts on them, what solids and springs take of it,
+      !> shape (3, nodes, modes); state; energy of solids and springs [force length]
+      real(wp), allocatable, private :: before(:, :, :), acting(:, :, :), taken(:, :, :)
+      type(increment_state_type), private :: state
+      real(wp), private :: stored = 0.0_wp
+   end type series_type
+
+contains
+
+   !> Room for all increments of a run
+   function new_series(model, results, n) result(series)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results at the end
+      type(results_type), intent(in) :: results
+      !> Increments that are followed
+      integer, intent(in) :: n
+      !> The series
+      type(series_type) :: series
+
+      allocate (series%increment(n), series%iterations(n), series%equilibrium(n), &
+                series%n_slip(n), series%n_open(n), source=0)
+      allocate (series%load_factor(n), source=0.0_wp)
+      allocate (series%residual(n), series%displacement(n), series%pressure(n), series%shear(n), &
+                series%work(n), series%energy(n), series%dissipated(n), source=0.0_wp)
+      allocate (series%case_factor(size(results%states(1)%case_factor), n))
+      allocate (series%applied(n_resultants, n), series%reacted(n_resultants, n))
+      allocate (series%cuts(n_resultants, size(model%cuts), n))
+      allocate (series%cut_motion, mold=series%cuts)
+      allocate (series%joints(n_resultants, size(model%mesh%joint_label), n))
+      allocate (series%faces(n_resultants, size(model%supported_faces), n))
+      allocate (series%points(3, size(model%points), size(results%modes), n))
+      allocate (series%before, source=0.0_wp*results%displacement)
+      allocate (series%acting, series%taken, source=series%before)
+   end function new_series
+
+   !> Add the next increment
+   subroutine append_increment(model, structure, final, place, now, series)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> Results at the end, with the path and the states of all increments
+      type(results_type), intent(in) :: final
+      !> Place of the increment among the states
+      integer, intent(in) :: place
+      !> Fields of the increment
+      type(results_type), intent(in) :: now
+      !> The series
+      type(series_type), intent(inout) :: series
+
+      integer :: i
+
+      i = series%n + 1
+      series%n = i
+      associate (state => final%states(place))
+         series%increment(i) = state%increment
+         series%load_factor(i) = state%load_factor
+         series%case_factor(:, i) = state%case_factor
+         series%iterations(i) = count(final%path%increment == state%increment)
+         series%equilibrium(i) = merge(1, 0, place < size(final%states) .or. final%converged)
+         series%residual(i) = residual_of(final, state%increment, now%residual_ratio)
+         series%displacement(i) = maxval(abs(now%displacement))
+         if (size(now%joint_state) > 0) then
+            series%pressure(i) = max(0.0_wp, maxval(-now%joint_stress(eta, :, :)))
+            series%shear(i) = sqrt(maxval(now%joint_stress(1, :, :)**2 + &
+                                          now%joint_stress(3, :, :)**2))
+         end if
+         series%n_slip(i) = count(now%joint_state == state_slip)
+         series%n_open(i) = count(now%joint_state == state_open)
+         series%applied(:, i) = now%applied
+         series%reacted(:, i) = now%reacted
+         series%cuts(:, :, i) = now%cut_resultants
+         series%cut_motion(:, :, i) = now%cut_motion
+         series%joints(:, :, i) = now%joint_resultants
+         series%faces(:, :, i) = now%face_reactions
+         call interpolate_points(model, now, series%points(:, :, :, i))
+         associate (change => now%displacement - series%before)
+            series%work(i) = 0.5_wp*sum((series%acting + now%acting)*change)
+            series%stored = series%stored + 0.5_wp*sum((series%taken + now%taken)*change)
+         end associate
+         series%energy(i) = series%stored + now%joint_energy
+         series%dissipated(i) = sliding_work(model, structure, series%state, state)
+         if (i > 1) then
+            series%work(i) = series%work(i) + series%work(i - 1)
+            series%dissipated(i) = series%dissipated(i) + series%dissipated(i - 1)
+         end if
+         series%before = now%displacement
+         series%acting = now%acting
+         series%taken = now%taken
+         series%state = state
+      end associate
+   end subroutine append_increment
+
+   !> Residual of the last load step of an increment, if joints were iterated on
+   pure real(wp) function residual_of(final, increment, whole) result(residual)
+      !> Results at the end
+      type(results_type), intent(in) :: final
+      !> The increment
+      integer, intent(in) :: increment
+      !> Residual found from the stresses
+      real(wp), intent(in) :: whole
+
+      integer :: k
+
+      residual = whole
+      do k = 1, size(final%residuals)
+         if (final%residuals(k)%increment == increment) residual = final%residuals(k)%whole
+      end do
+   end function residual_of
+
+   !> Displacement amplitudes at the named points
+   pure subroutine interpolate_points(model, now, value)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Fields
+      type(results_type), intent(in) :: now
+      !> Displacements, shape (3, points, modes)
+      real(wp), intent(out) :: value(:, :, :)
+
+      integer :: k, p
+
+      do k = 1, size(now%modes)
+         do p = 1, size(model%points)
+            associate (point => model%points(p))
+               value(:, p, k) = matmul(now%displacement(:, point%nodes, k), point%shape)
+            end associate
+         end do
+      end do
+   end subroutine interpolate_points
+
+end module axijoint_analysis_core_series

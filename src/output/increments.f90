@@ -1,0 +1,85 @@
+!> Results of all increments, one after the other, for every file that shows them
+module axijoint_output_increments
+   use axijoint_analysis_core_increment_fields, only : solve_increment
+   use axijoint_analysis_core_results, only : results_type
+   use axijoint_analysis_core_series, only : series_type, new_series, append_increment
+   use axijoint_base_error, only : error_type
+   use axijoint_base_progress, only : show_progress
+   use axijoint_base_text, only : to_text
+   use axijoint_base_timer, only : phase_recover
+   use axijoint_job_job, only : job_type
+   use axijoint_model_request, only : is_kept, keep_series
+   use axijoint_output_file_hdf5, only : hdf5_file_type
+   use axijoint_output_hdf5_history, only : history_fields_type, begin_history, put_history, &
+      end_history, write_series
+   use axijoint_output_vtkhdf_bodies, only : bodies_type, put_bodies
+   use axijoint_output_vtkhdf_joints, only : surfaces_type, put_surfaces
+   implicit none
+   private
+   public :: write_increments
+
+contains
+
+   !> Find the fields of each increment, the last of which are the results, and hand them to all
+   !> files
+   subroutine write_increments(job, results, arrays, bodies, surfaces, series, error)
+      !> The job; its factors are used again
+      type(job_type), intent(inout), target :: job
+      !> Results of a combination
+      type(results_type), intent(in) :: results
+      !> The results file
+      class(hdf5_file_type), intent(inout) :: arrays
+      !> Swept bodies and joints, begun if they are wanted
+      type(bodies_type), intent(inout) :: bodies
+      type(surfaces_type), intent(inout) :: surfaces
+      !> What is followed from increment to increment
+      type(series_type), intent(out) :: series
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(results_type) :: earlier
+      type(history_fields_type) :: fields
+      integer :: i, last
+
+      last = size(results%states)
+      associate (model => job%model, structure => job%structure, states => results%states)
+         call begin_history(arrays, model, results, fields)
+         series = new_series(model, results, &
+            count([(is_kept(model%keep(keep_series), states(i)%increment, &
+                            states(last)%increment), i=1, last)]))
+         call job%timer%push(phase_recover)
+         do i = 1, last - 1
+            if (.not. any(is_kept(model%keep, states(i)%increment, states(last)%increment)) &
+                .and. .not. bodies%wanted) cycle
+            call show_progress(job%progress, 'fields of increment '//to_text(i)//' of '// &
+               to_text(last))
+            call solve_increment(model, structure, states(i), results, earlier, error)
+            if (allocated(error)) exit
+            call put(earlier)
+         end do
+         if (.not. allocated(error)) call put(results)
+         call job%timer%pop()
+         call end_history(arrays, fields)
+         call write_series(arrays, model, series)
+      end associate
+
+   contains
+
+      !> Hand the fields of increment i to the files
+      subroutine put(now)
+         !> The fields
+         type(results_type), intent(in) :: now
+
+         associate (model => job%model, structure => job%structure)
+            if (is_kept(model%keep(keep_series), results%states(i)%increment, &
+                        results%states(last)%increment)) &
+               call append_increment(model, structure, results, i, now, series)
+            call put_history(arrays, model, results, i, now, fields)
+            call put_bodies(bodies, now)
+            call put_surfaces(surfaces, model, structure, results%states(i), now)
+         end associate
+      end subroutine put
+
+   end subroutine write_increments
+
+end module axijoint_output_increments
