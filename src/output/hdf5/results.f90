@@ -15,6 +15,7 @@ module axijoint_output_hdf5_results
    use axijoint_output_hdf5_sections, only : write_section_groups, write_cut_group
    use axijoint_output_table_face_reactions, only : write_support_group
    use axijoint_output_table_in_situ, only : write_in_situ_group
+   use axijoint_output_table_interfaces, only : write_interface_group
    use axijoint_output_table_joint_proportion, only : write_proportion_arrays
    use axijoint_output_table_residuals, only : write_residual_arrays
    implicit none
@@ -53,6 +54,7 @@ contains
       call write_mesh(file, model)
       call write_materials(file, model)
       call write_proportion_arrays(file, model)
+      call write_interface_group(file, model)
       call write_load_group(file, model, results)
       call write_spring_group(file, model)
       call write_solution(file, results)
@@ -119,6 +121,11 @@ contains
          call file%write("/mesh/joint_size", mesh%joint_size, "Number of nodes; (joint)")
          call file%write("/mesh/joint_nodes", mesh%joint_nodes, &
             "1-2 one side, 4-3 opposite, 5 and 6 mid-sides, then zeros; (6, joint)")
+         call file%write("/mesh/joint_interface", mesh%joint_interface, &
+            "Index into /interfaces, 0 if to none; (joint)")
+         call file%write("/mesh/shared_label", mesh%shared_label, &
+            "Numbers of nodes that bonded bodies share: number in node_label, further number; "// &
+            "(2, further numbers)")
       end associate
       call write_restraint_group(file, model)
    end subroutine write_mesh
