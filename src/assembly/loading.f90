@@ -9,7 +9,7 @@ module axijoint_assembly_loading
    use axijoint_model_load, only : combination_type, initial_stress_type, covers, is_stressed, &
       scaled_stresses, &
       stress_before
-   use axijoint_model_mesh, only : n_nodes
+   use axijoint_model_mesh, only : n_nodes, n_elements, max_element_nodes
    use axijoint_model_model, only : model_type, on_axis
    implicit none
    private
@@ -225,21 +225,6 @@ contains
       end do
    end function in_situ_joint_stress
 
-   !> Body of each node; bodies share none
-   pure function body_of_nodes(model) result(body)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The bodies, shape (nodes)
-      integer :: body(size(model%mesh%node_label))
-
-      integer :: k
-
-      body = 0
-      do k = 1, size(model%mesh%element_body)
-         body(model%mesh%element_nodes(:model%mesh%element_size(k), k)) = model%mesh%element_body(k)
-      end do
-   end function body_of_nodes
-
    !> Temperatures and in-situ stresses of a combination
    subroutine new_initial_state(model, modes, factor, state)
       !> The job
@@ -251,22 +236,27 @@ contains
       !> The state
       type(initial_state_type), intent(out) :: state
 
-      integer, allocatable :: body(:)
-      integer :: k, j
+      integer :: k, j, element
 
       state%in_situ = scaled_stresses(model%initial_stresses, factor)
       state%present = size(state%in_situ) > 0 .or. size(model%thermal_loads) > 0
       if (size(model%thermal_loads) == 0) return
-      body = body_of_nodes(model)
-      allocate (state%temperature(size(body), size(modes)), source=0.0_wp)
+      associate (mesh => model%mesh)
+         allocate (state%temperature(max_element_nodes, n_elements(mesh), size(modes)), &
+            source=0.0_wp)
+      end associate
       do j = 1, size(modes)
          do k = 1, size(model%thermal_loads)
             associate (load => model%thermal_loads(k))
                if (.not. same_mode(load%mode, modes(j))) cycle
-               where (load%body == 0 .or. load%body == body)
-                  state%temperature(:, j) = state%temperature(:, j) + &
-                     factor(load%case)*load%temperature
-               end where
+               do element = 1, n_elements(model%mesh)
+                  if (all(load%body /= [0, model%mesh%element_body(element)])) cycle
+                  associate (n => model%mesh%element_size(element), &
+                             own => state%temperature(:, element, j))
+                     own(:n) = own(:n) + factor(load%case) &
+                        *load%temperature(model%mesh%element_nodes(:n, element))
+                  end associate
+               end do
             end associate
          end do
       end do

@@ -109,6 +109,7 @@ contains
          call jump_matrix(points(k)%joint_point_type, matrix(:, :3*n))
          lower = part(points(k)%nodes(1))
          upper = part(points(k)%nodes(3))
+         if (lower == upper) cycle  ! a slit: both sides move together
          jump = 0.0_wp
          do i = 1, n  ! nodes of side 1-2 move with one part, of side 4-3 with the other
             associate (node => points(k)%nodes(i), &

@@ -20,8 +20,9 @@ module axijoint_assembly_solid_force
    type :: initial_state_type
       !> Whether there is anything of it
       logical :: present = .false.
-      !> Temperature at the nodes, shape (nodes, modes); not allocated if none
-      real(wp), allocatable :: temperature(:, :)
+      !> Temperature at the nodes of each element, shape (max_element_nodes, elements, modes); not
+      !> allocated if none. Bodies that share nodes may have temperatures of their own
+      real(wp), allocatable :: temperature(:, :, :)
       !> In-situ stresses, factors of the load cases in them
       type(initial_stress_type), allocatable :: in_situ(:)
    end type initial_state_type
@@ -29,7 +30,7 @@ module axijoint_assembly_solid_force
 contains
 
    !> Nodal forces that balance the stresses of one mode, and the stresses
-   subroutine solid_force(model, initial, k, mode, displacement, force, stress)
+   subroutine solid_force(model, initial, k, mode, displacement, force, stress, body)
       !> The job
       type(model_type), intent(in) :: model
       !> Stress without strain
@@ -43,6 +44,8 @@ contains
       real(wp), intent(out) :: force(:, :)
       !> Stress amplitudes at the Gauss points, shape (6, points)
       real(wp), intent(out), optional :: stress(:, :)
+      !> Body whose elements alone count, without their stresses; all if absent or 0
+      integer, intent(in), optional :: body
 
       type(solid_point_type) :: points(max_element_points)
       type(reference_type), allocatable :: references(:)
@@ -55,6 +58,9 @@ contains
       force = 0.0_wp
       last = 0
       do element = 1, n_elements(model%mesh)
+         if (present(body)) then
+            if (all(body /= [0, model%mesh%element_body(element)])) cycle
+         end if
          n = model%mesh%element_size(element)
          associate (reference => references(model%mesh%element_kind(element)), &
                     nodes => model%mesh%element_nodes(:n, element), &
@@ -105,9 +111,8 @@ contains
       stress = 0.0_wp
       if (.not. allocated(initial%temperature)) return
       n = model%mesh%element_size(element)
-      associate (nodes => model%mesh%element_nodes(:n, element), &
-                 material => model%materials(model%mesh%element_material(element)))
-         stress = -dot_product(shape(:n), initial%temperature(nodes, k)) &
+      associate (material => model%materials(model%mesh%element_material(element)))
+         stress = -dot_product(shape(:n), initial%temperature(:n, element, k)) &
             *matmul(d, thermal_strain(material))
       end associate
    end function thermal_stress

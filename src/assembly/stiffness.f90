@@ -309,7 +309,11 @@ contains
          do i = j, size(nodes)
             p = p + 1
             if (first(i) == 0 .or. first(j) == 0) cycle
-            if (first(i) >= first(j)) then
+            if (i /= j .and. first(i) == first(j)) then  ! tip of a slit: one node on both sides
+               if (mine(i)) call add_block(stiffness, nodes(i), nodes(j), first(i), first(j), &
+                                           whole(i), &
+                                           blocks(:, :, :, p) + transposed(blocks(:, :, :, p)))
+            else if (first(i) >= first(j)) then
                if (mine(i)) call add_block(stiffness, nodes(i), nodes(j), first(i), first(j), &
                                            whole(i) .and. whole(j), blocks(:, :, :, p))
             else

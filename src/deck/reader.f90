@@ -19,6 +19,7 @@ module axijoint_deck_reader
    use axijoint_deck_job_supports, only : gather_supported_faces
    use axijoint_deck_load_lists, only : new_load_lists, take_loads
    use axijoint_deck_mesh_arrange, only : sort_nodes_and_elements, sort_joints
+   use axijoint_deck_mesh_bonds, only : merge_bonded, check_bonded_joints
    use axijoint_deck_mesh_draft, only : draft_type, new_draft, corners_known
    use axijoint_deck_mesh_edges, only : new_edge_table, check_edges
    use axijoint_deck_mesh_places, only : group_places, new_point_tree, point_tree_type, same_place
@@ -165,6 +166,8 @@ contains
                                group, edges, draft)
          call check_joint_edges(edges, draft, diagnostics)
          if (tiles) call check_overlap(draft, edges, diagnostics)
+         call check_bonded_joints(draft, diagnostics)
+         call bond(deck)
          if (diagnostics%n_errors == 0) then
             call check_touching(draft, group, diagnostics)
             call check_slivers(draft, diagnostics)
@@ -173,6 +176,17 @@ contains
          call sort_joints(draft)
       end associate
    end subroutine make_faces_and_joints
+
+   !> Merge the nodes of bonded interfaces, and check that the elements still fit
+   subroutine bond(deck)
+      !> The deck
+      type(deck_type), intent(inout), target :: deck
+
+      if (.not. allocated(deck%draft%bonded_to) .or. deck%diagnostics%n_errors > 0) return
+      call merge_bonded(deck%draft, deck%group)
+      deck%edges = new_edge_table(deck%draft)
+      call check_edges(deck%draft, deck%edges, deck%diagnostics)
+   end subroutine bond
 
    !> Find which nodes are at one place and which edges are shared, and check that the elements of a
    !> body fit each other
@@ -267,6 +281,7 @@ contains
       associate (n => draft%n_nodes, m => draft%n_elements, k => draft%n_joints)
          model%mesh%coordinates = draft%position(:, :n)
          model%mesh%node_label = draft%node_label(:n)
+         model%mesh%shared_label = draft%bonded_labels
          model%mesh%element_label = draft%element_label(:m)
          model%mesh%element_material = draft%element_material(:m)
          model%mesh%element_body = draft%element_body(:m)
@@ -278,6 +293,8 @@ contains
          model%mesh%joint_material = draft%joint_law(:k)
          model%mesh%joint_size = draft%joint_size(:k)
          model%mesh%joint_nodes = draft%joint_nodes(:, :k)
+         model%mesh%joint_interface = draft%joint_interface(:k)
+         model%interfaces = draft%interfaces
       end associate
    end subroutine take_mesh
 

@@ -36,7 +36,8 @@ contains
       model%increments = [increment_type(max_iterations=most_iterations)]
       model%keep = default_keep()
       call make_empty(model%mesh)
-      allocate (model%materials(0), model%joint_materials(0), model%fixed(3, 0))
+      allocate (model%materials(0), model%joint_materials(0), model%interfaces(0), &
+         model%fixed(3, 0))
       allocate (model%edge_loads(0), model%ring_loads(0), model%body_loads(0), &
          model%thermal_loads(0))
       allocate (model%prescribed(0), model%initial_stresses(0), model%edge_supports(0), &
@@ -49,13 +50,14 @@ contains
       !> The mesh
       type(mesh_type), intent(out) :: mesh
 
-      allocate (mesh%coordinates(2, 0), mesh%node_label(0), mesh%element_label(0), &
+      allocate (mesh%coordinates(2, 0), mesh%node_label(0), mesh%shared_label(2, 0), &
+         mesh%element_label(0), &
          mesh%element_material(0))
       allocate (mesh%element_body(0), mesh%element_size(0), &
          mesh%element_nodes(max_element_nodes, 0))
       allocate (mesh%kinds(0), mesh%element_kind(0))
       allocate (mesh%joint_label(0), mesh%joint_material(0), mesh%joint_size(0), &
-         mesh%joint_nodes(6, 0))
+         mesh%joint_nodes(6, 0), mesh%joint_interface(0))
    end subroutine make_empty
 
 end module axijoint_model_blank

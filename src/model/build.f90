@@ -7,6 +7,7 @@ module axijoint_model_build
    use axijoint_fe_element_kind, only : kind_choice_type, chosen_kind, find_kind
    use axijoint_fe_mode, only : mode_type
    use axijoint_fe_shape, only : n_corners
+   use axijoint_model_interface, only : interface_type
    use axijoint_model_load, only : edge_load_type
    use axijoint_model_material, only : solid_material_type, joint_material_type, rule_gauss
    use axijoint_model_mesh, only : max_element_nodes, edge_nodes
@@ -253,6 +254,7 @@ contains
 
       edges = edges_along(model, from, to, bodies(1))
       if (size(edges, 2) == 0) call refuse(from, to, error)
+      model%interfaces = [model%interfaces, interface_type(law=law, bodies=bodies)]
       do k = 1, size(edges, 2)
          one = edges([2, 1, 3], k)  ! eta points out of the first body: it lies on the right
          n = count(one > 0)
@@ -270,6 +272,7 @@ contains
             mesh%joint_label = [mesh%joint_label, size(mesh%joint_label) + 1]
             mesh%joint_material = [mesh%joint_material, law]
             mesh%joint_size = [mesh%joint_size, 2*n]
+            mesh%joint_interface = [mesh%joint_interface, size(model%interfaces)]
             mesh%joint_nodes = reshape([mesh%joint_nodes, joint], [6, size(mesh%joint_label)])
          end associate
       end do

@@ -21,6 +21,9 @@ module axijoint_model_mesh
       real(wp), allocatable :: coordinates(:, :)
       !> The user's number of each node
       integer, allocatable :: node_label(:)
+      !> Further numbers of nodes that bodies share: number in `node_label`, further number; shape
+      !> (2, further numbers)
+      integer, allocatable :: shared_label(:, :)
       !> The user's number of each solid element
       integer, allocatable :: element_label(:)
       !> Index of each element's material in the model
@@ -47,6 +50,8 @@ module axijoint_model_mesh
       !> the paper: 1-2 along one side, 4-3 opposite (4 faces 1, 3 faces 2);
       !> 5 and 6 are the mid-side nodes of 1-2 and 4-3; zeros beyond
       integer, allocatable :: joint_nodes(:, :)
+      !> Interface (index) of the model that each joint belongs to; 0 if to none
+      integer, allocatable :: joint_interface(:)
    end type mesh_type
 
 contains

@@ -4,6 +4,7 @@ module axijoint_model_model
    use axijoint_base_memory, only : no_limit
    use axijoint_element_joint_law, only : law_elastic
    use axijoint_fe_mode, only : mode_type
+   use axijoint_model_interface, only : interface_type
    use axijoint_model_load, only : edge_load_type, ring_load_type, body_load_type, &
       thermal_load_type, prescribed_type, initial_stress_type, edge_support_type, &
       load_case_type, combination_type, increment_type, truncation_type
@@ -37,6 +38,8 @@ module axijoint_model_model
       type(solid_material_type), allocatable :: materials(:)
       !> Materials of the joints
       type(joint_material_type), allocatable :: joint_materials(:)
+      !> Interfaces, in the order of their cards
+      type(interface_type), allocatable :: interfaces(:)
       !> Fixed components u, v, w of each node in every mode, shape (3, nodes);
       !> a component that is prescribed anywhere is one of them
       logical, allocatable :: fixed(:, :)

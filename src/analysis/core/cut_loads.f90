@@ -188,6 +188,7 @@ contains
       type(line_split_type) :: split
       real(wp) :: x(3), w(3), whole(3, 3), part(3, 3, 2)
       integer :: joint, i, n, n_points, last, side_node(3), nodes(3)
+      logical :: upper_cut
 
       excess = 0.0_wp
       last = 0
@@ -198,9 +199,9 @@ contains
          last = last + n_points
          associate (all_nodes => model%mesh%joint_nodes(:, joint), &
                     at_points => stress(:, last - n_points + 1:last))
-            if (plane%cut(all_nodes(1)) .eqv. plane%cut(all_nodes(4))) cycle  ! the sides cancel
-            side_node = lower_node
-            if (plane%cut(all_nodes(4))) side_node = upper_node
+            upper_cut = all(plane%cut(all_nodes([4, 3])))
+            if (all(plane%cut(all_nodes([1, 2]))) .eqv. upper_cut) cycle  ! the sides cancel
+            side_node = merge(upper_node, lower_node, upper_cut)
             nodes(:n) = all_nodes(side_node(:n))
             if (.not. is_cut(plane, nodes(:n))) cycle
             split = split_line(plane%position(2, nodes(:n)))
@@ -375,7 +376,7 @@ contains
       !> The nodes
       integer, intent(in) :: nodes(:)
 
-      is_cut = plane%cut(nodes(1)) .and. any(plane%above(nodes)) .and. .not. all(plane%above(nodes))
+      is_cut = all(plane%cut(nodes)) .and. any(plane%above(nodes)) .and. .not. all(plane%above(nodes))
    end function is_cut
 
    !> Share of a line that is above

@@ -55,9 +55,10 @@ contains
          if (results%modes(k)%harmonic > 1) cycle  ! no resultants
          associate (mode => results%modes(k), displacement => results%displacement(:, :, k), &
                     case_factor => loading%case_factor)
-            call solid_force(model, loading%initial, k, mode, displacement, force)
             stress = stress_amplitude(structure%joint_points, mode, displacement, field, k)
             do c = 1, size(planes)
+               if (has_new_body(model%cuts, c)) call solid_force(model, loading%initial, k, mode, &
+                  displacement, force, body=model%cuts(c)%body)
                associate (plane => planes(c), total => results%cut_resultants(:, c))
                   total = total + rigid_resultants(plane%position, mode, &
                      merge(force, 0.0_wp, spread(plane%above .and. plane%cut, 1, 3))) &
@@ -70,6 +71,18 @@ contains
          end associate
       end do
    end subroutine cut_resultants
+
+   !> Whether a cut is the first, or of another body than the one before: bonded bodies share
+   !> nodes, whose forces are then of their own elements
+   pure logical function has_new_body(cuts, c)
+      !> The cuts
+      type(cut_type), intent(in) :: cuts(:)
+      !> Which
+      integer, intent(in) :: c
+
+      has_new_body = c == 1
+      if (.not. has_new_body) has_new_body = cuts(c)%body /= cuts(c - 1)%body
+   end function has_new_body
 
    !> Nodes above and below a cut. A node on the cut is below it: loads there act
    !> below; but at the top of what is cut they act above

@@ -234,7 +234,7 @@ contains
                 work%coefficient(max_functions, 2*n), work%matrix(max_element_points, 2*n))
    end subroutine reserve
 
-   !> Add the neighbours of an element to a patch, but for other bodies and materials
+   !> Add the neighbours of an element to a patch, but for other materials
    pure subroutine add_neighbours(mesh, patches, element, middle, work)
       !> The mesh
       type(mesh_type), intent(in) :: mesh
@@ -255,7 +255,6 @@ contains
             associate (other => patches%element(k))
                if (work%found_for(other) == element) cycle
                if (mesh%element_material(other) /= mesh%element_material(element)) cycle
-               if (mesh%element_body(other) /= mesh%element_body(element)) cycle
                work%found_for(other) = element
                work%n = work%n + 1
                work%elements(work%n) = other

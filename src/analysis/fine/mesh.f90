@@ -346,7 +346,7 @@ contains
 
       associate (mesh => fine%mesh, n => n_joints(coarse))
          allocate (mesh%joint_label(2*n), mesh%joint_material(2*n), mesh%joint_size(2*n), &
-            mesh%joint_nodes(6, 2*n))
+            mesh%joint_nodes(6, 2*n), mesh%joint_interface(2*n))
          do k = 1, n
             associate (nodes => coarse%joint_nodes(:, k))
                lower = half_edges(fine, nodes(1), nodes(2))
@@ -355,6 +355,7 @@ contains
             do c = 1, 2
                mesh%joint_label(2*k - 2 + c) = coarse%joint_label(k)
                mesh%joint_material(2*k - 2 + c) = coarse%joint_material(k)
+               mesh%joint_interface(2*k - 2 + c) = coarse%joint_interface(k)
                mesh%joint_size(2*k - 2 + c) = coarse%joint_size(k)
                mesh%joint_nodes(:, 2*k - 2 + c) = &
                   [lower(1, c), lower(2, c), upper(2, c), upper(1, c), &

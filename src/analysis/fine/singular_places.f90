@@ -40,7 +40,7 @@ module axijoint_analysis_fine_singular_places
       integer :: ends(2) = 0
       !> Angles of its sides, ascending [radian]
       real(wp) :: from = 0.0_wp, to = 0.0_wp
-      !> Whether a joint on the side can open
+      !> Whether a joint on the side can open, or is so soft that it counts as open
       logical :: opens(2) = .false.
    end type sector_type
 
@@ -55,7 +55,7 @@ module axijoint_analysis_fine_singular_places
       !> The first of the nodes that joints hold together at one place; the node itself without
       !> joints
       integer, allocatable :: together(:)
-      !> Whether a joint that cannot open holds the node
+      !> Whether a joint that cannot open, or the solid before the tip of a slit, holds the node
       logical, allocatable :: holds(:)
       !> Largest stiffness k/E of the joints there, and length of the line of joints; zero without
       !> joints
@@ -80,11 +80,11 @@ contains
       integer :: node
 
       allocate (places(0))
-      corners = corners_of(model, fine)
       call look_at_joints(model, joints)
+      corners = corners_of(model, fine, joints)
       do node = 1, n_nodes(model%mesh)
          if (.not. model%mesh%coordinates(1, node) > 0.0_wp) cycle
-         associate (bonded => joints%stiffness(node)*part*joints%length(node) >= bonding, &
+         associate (bonded => hold_together(joints, node), &
                     distance => part*joints%length(node))
             if (.not. bonded) then
                exponent = exponent_of(model, fine, &
@@ -104,6 +104,16 @@ contains
          end associate
       end do
    end function find_singular_places
+
+   !> Whether joints hold the bodies together at a node, as seen from a little farther away
+   elemental logical function hold_together(joints, node)
+      !> Joints at the nodes
+      type(joint_places_type), intent(in) :: joints
+      !> The node
+      integer, intent(in) :: node
+
+      hold_together = joints%stiffness(node)*part*joints%length(node) >= bonding
+   end function hold_together
 
    !> Sectors of all nodes that are together
    function sectors_at(corners, together, node) result(sectors)
@@ -126,11 +136,13 @@ contains
    end function sectors_at
 
    !> Sectors at the corners of all elements
-   function corners_of(model, fine) result(corners)
+   function corners_of(model, fine, joints) result(corners)
       !> The job
       type(model_type), intent(in) :: model
       !> Edges of its mesh
       type(fine_mesh_type), intent(in) :: fine
+      !> Joints at the nodes
+      type(joint_places_type), intent(in) :: joints
       !> The sectors
       type(corners_type) :: corners
 
@@ -141,7 +153,9 @@ contains
       opens = .false.
       do k = 1, n_joints(model%mesh)
          associate (nodes => model%mesh%joint_nodes(:, k))
-            if (.not. can_yield_at(model, model%mesh%joint_material(k))) cycle
+            ! soft ones count as open: at the tip of a slit both sides share the node
+            if (.not. can_yield_at(model, model%mesh%joint_material(k)) .and. &
+                hold_together(joints, nodes(1))) cycle
             opens([find_edge(fine, nodes(1), nodes(2)), find_edge(fine, nodes(4), nodes(3))]) = &
                .true.
          end associate
@@ -223,6 +237,8 @@ contains
             associate (nodes => mesh%joint_nodes(:4, k), &
                law => model%joint_materials(mesh%joint_material(k))%law)
                if (.not. can_yield_at(model, mesh%joint_material(k))) joints%holds(nodes) = .true.
+               if (nodes(1) == nodes(4)) joints%holds(nodes(1)) = .true.
+               if (nodes(2) == nodes(3)) joints%holds(nodes(2)) = .true.
                h = norm2(mesh%coordinates(:, nodes(2)) - mesh%coordinates(:, nodes(1)))
                joints%length(line(nodes(1))) = joints%length(line(nodes(1))) + h
                do i = 1, 2

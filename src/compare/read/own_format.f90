@@ -39,12 +39,13 @@ module axijoint_compare_read_own_format
       '   COLUMN body     key', &
       '   COLUMN material key']
    !> Cards for all tables
-   character(len=*), parameter :: general(5) = [character(len=80) :: &
+   character(len=*), parameter :: general(6) = [character(len=80) :: &
       'FORMAT listing of axijoint', &
       'FIRST  axijoint', &
       'LAST   END OF LISTING', &
       'IGNORE ...outside the mesh', &
-      'IGNORE equilibrium error']
+      'IGNORE equilibrium error', &
+      'IGNORE interface:']
    !> Status, nodes
    character(len=*), parameter :: head(11) = [character(len=80) :: &
       'TABLE status', &

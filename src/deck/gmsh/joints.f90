@@ -8,7 +8,8 @@ module axijoint_deck_gmsh_joints
    use axijoint_deck_mesh_edges, only : edge_table_type, find_edge, outer_edge
    use axijoint_deck_mesh_joint_layer, only : check_layer, lay_joints
    use axijoint_deck_property_properties, only : properties_type
-   use axijoint_deck_text_entry, only : entry_type, field_fault, first_card, field_named
+   use axijoint_deck_text_entry, only : entry_type, field_fault, first_card, field_named, text_of
+   use axijoint_model_interface, only : interface_type
    implicit none
    private
    public :: lay_group_joints
@@ -58,10 +59,22 @@ contains
                field_named(card, name_group)], &
                              properties%laws(use%number)%rule, draft, a, b)
             if (card%diagnostics%n_errors > errors_before) cycle
-            call lay_joints(first_card(card), use%number, a, b, draft)
+            call lay_joints(first_card(card), &
+                            interface_type(name=group_name(card), law=use%number), a, b, draft)
          end associate
       end do
    end subroutine lay_group_joints
+
+   !> Name of the group as the card has it, without quotes
+   function group_name(card) result(name)
+      !> The card of GROUPS
+      class(entry_type), intent(in) :: card
+      !> The name
+      character(len=:), allocatable :: name
+
+      name = text_of(card, field_named(card, name_group))
+      if (len(name) > 2 .and. name(1:1) == '"') name = name(2:len(name) - 1)
+   end function group_name
 
    !> The edges of two bodies along each line of a group; where the group has the lines of both
    !> bodies, once. The first line without two bodies is reported

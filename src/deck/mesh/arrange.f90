@@ -57,6 +57,7 @@ contains
       draft%joint_label(:n) = draft%joint_label(order)
       draft%joint_card(:n) = draft%joint_card(order)
       draft%joint_entry(:n) = draft%joint_entry(order)
+      draft%joint_interface(:n) = draft%joint_interface(order)
       draft%joint_law(:n) = draft%joint_law(order)
       draft%joint_size(:n) = draft%joint_size(order)
       draft%joint_nodes(:, :n) = draft%joint_nodes(:, order)

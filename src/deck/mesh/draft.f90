@@ -6,6 +6,7 @@ module axijoint_deck_mesh_draft
    use axijoint_base_text, only : to_text
    use axijoint_fe_element_kind, only : element_kind_type
    use axijoint_fe_shape, only : n_corners
+   use axijoint_model_interface, only : interface_type
    implicit none
    private
    public :: draft_type, edge_type, face_type, add_node, add_element, add_joint, new_draft
@@ -75,10 +76,17 @@ module axijoint_deck_mesh_draft
       integer :: n_joints = 0
       !> Number, card, law (index) and size of each joint
       integer, allocatable :: joint_label(:), joint_card(:), joint_law(:), joint_size(:)
-      !> Entry of JOINTS; 0 for a joint of an interface
-      integer, allocatable :: joint_entry(:)
+      !> Entry of JOINTS, 0 for a joint of an interface; interface (index), 0 for one of JOINTS
+      integer, allocatable :: joint_entry(:), joint_interface(:)
       !> Nodes of each joint, shape (6, joints); 0 where the node is not known
       integer, allocatable :: joint_nodes(:, :)
+      !> Interfaces
+      type(interface_type), allocatable :: interfaces(:)
+      !> A node, itself or one before it, that each node becomes one with; unallocated if nothing
+      !> is bonded
+      integer, allocatable :: bonded_to(:)
+      !> Numbers of nodes that have become one, the one in the tables first, shape (2, pairs)
+      integer, allocatable :: bonded_labels(:, :)
       !> Faces
       type(face_type), allocatable :: faces(:)
       !> Faces by number
@@ -101,7 +109,7 @@ contains
       call resize_nodes(draft, room)
       call resize_elements(draft, room)
       call resize_joints(draft, room)
-      allocate (draft%faces(0))
+      allocate (draft%faces(0), draft%interfaces(0), draft%bonded_labels(2, 0))
    end function new_draft
 
    !> Add a node
@@ -153,13 +161,15 @@ contains
    end subroutine add_element
 
    !> Add a joint
-   pure subroutine add_joint(draft, label, card, entry, law, nodes)
+   pure subroutine add_joint(draft, label, card, law, nodes, entry, interface)
       !> The draft
       type(draft_type), intent(inout) :: draft
-      !> Number, card, entry of JOINTS or 0, and law (index)
-      integer, intent(in) :: label, card, entry, law
+      !> Number, card and law (index)
+      integer, intent(in) :: label, card, law
       !> Nodes; 0 where one is not known
       integer, intent(in) :: nodes(:)
+      !> Entry of JOINTS, or interface (index) that it belongs to
+      integer, intent(in), optional :: entry, interface
 
       integer :: n
 
@@ -167,7 +177,8 @@ contains
       if (n > size(draft%joint_label)) call resize_joints(draft, 2*n)
       draft%joint_label(n) = label
       draft%joint_card(n) = card
-      draft%joint_entry(n) = entry
+      if (present(entry)) draft%joint_entry(n) = entry
+      if (present(interface)) draft%joint_interface(n) = interface
       draft%joint_law(n) = law
       draft%joint_size(n) = size(nodes)
       draft%joint_nodes(:, n) = 0
@@ -250,6 +261,7 @@ contains
       call resize(draft%joint_label, draft%n_joints, room)
       call resize(draft%joint_card, draft%n_joints, room)
       call resize(draft%joint_entry, draft%n_joints, room)
+      call resize(draft%joint_interface, draft%n_joints, room)
       call resize(draft%joint_law, draft%n_joints, room)
       call resize(draft%joint_size, draft%n_joints, room)
       allocate (nodes(6, room), source=0)

@@ -4,6 +4,7 @@ module axijoint_deck_mesh_joint_layer
    use axijoint_base_text, only : to_text
    use axijoint_deck_mesh_draft, only : draft_type, edge_type, add_joint, place_text
    use axijoint_deck_text_entry, only : entry_type, field_fault, card_fault
+   use axijoint_model_interface, only : interface_type
    use axijoint_model_material, only : rule_centroid
    implicit none
    private
@@ -55,22 +56,28 @@ contains
 
    !> Add the joints of one interface: side 1-2 on face a, which lies on the right of
    !> the direction from 1 to 2, so that eta leads to face b
-   pure subroutine lay_joints(card, law, a, b, draft)
-      !> Card of the interface, and its law
-      integer, intent(in) :: card, law
+   pure subroutine lay_joints(card, interface, a, b, draft)
+      !> Card of the interface
+      integer, intent(in) :: card
+      !> The interface; its bodies are found here
+      type(interface_type), intent(in) :: interface
       !> Edges of both faces
       type(edge_type), intent(in) :: a(:), b(:)
       !> The mesh
       type(draft_type), intent(inout) :: draft
 
-      integer :: i, label, nodes(6)
+      integer :: i, n, label, nodes(6)
 
+      draft%interfaces = [draft%interfaces, interface]
+      n = size(draft%interfaces)
+      draft%interfaces(n)%bodies = draft%element_body([a(1)%element, b(1)%element])
       label = maxval([0, draft%joint_label(:draft%n_joints)])
       do i = 1, size(a)
          nodes = [a(i)%nodes(1), a(i)%nodes(2), b(i)%nodes(2), b(i)%nodes(1), a(i)%nodes(3), &
                   b(i)%nodes(3)]
          if (a(i)%body_on_left) nodes(:4) = nodes([2, 1, 4, 3])
-         call add_joint(draft, label + i, card, 0, law, nodes(:merge(6, 4, nodes(5) > 0)))
+         call add_joint(draft, label + i, card, interface%law, nodes(:merge(6, 4, nodes(5) > 0)), &
+            interface=n)
       end do
    end subroutine lay_joints
 

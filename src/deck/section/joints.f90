@@ -59,8 +59,8 @@ contains
             end if
          end associate
          call find_joint_nodes(card, n, deck%draft, nodes(:n))
-         call add_joint(deck%draft, integer_of(card, field_label), first_card(card), card%entry, &
-                        law, nodes(:n))
+         call add_joint(deck%draft, integer_of(card, field_label), first_card(card), law, &
+                        nodes(:n), entry=card%entry)
       end do
    end subroutine read_joints
 

@@ -2,8 +2,10 @@
 module axijoint_output_hdf5_results
    use axijoint_analysis_core_results, only : results_type, source_names
    use axijoint_base_kinds, only : wp
+   use axijoint_base_text, only : lower, to_text
    use axijoint_base_version, only : program_name, program_version
    use axijoint_deck_text_source, only : source_type
+   use axijoint_element_joint_law, only : law_names
    use axijoint_model_model, only : model_type
    use axijoint_output_file_echo, only : deck_text
    use axijoint_output_file_hdf5, only : hdf5_file_type
@@ -13,6 +15,7 @@ module axijoint_output_hdf5_results
    use axijoint_output_hdf5_sections, only : write_section_groups, write_cut_group
    use axijoint_output_table_face_reactions, only : write_support_group
    use axijoint_output_table_in_situ, only : write_in_situ_group
+   use axijoint_output_table_interfaces, only : write_interface_group
    use axijoint_output_table_joint_proportion, only : write_proportion_arrays
    use axijoint_output_table_residuals, only : write_residual_arrays
    implicit none
@@ -51,6 +54,7 @@ contains
       call write_mesh(file, model)
       call write_materials(file, model)
       call write_proportion_arrays(file, model)
+      call write_interface_group(file, model)
       call write_load_group(file, model, results)
       call write_spring_group(file, model)
       call write_solution(file, results)
@@ -117,6 +121,11 @@ contains
          call file%write("/mesh/joint_size", mesh%joint_size, "Number of nodes; (joint)")
          call file%write("/mesh/joint_nodes", mesh%joint_nodes, &
             "1-2 one side, 4-3 opposite, 5 and 6 mid-sides, then zeros; (6, joint)")
+         call file%write("/mesh/joint_interface", mesh%joint_interface, &
+            "Index into /interfaces, 0 if to none; (joint)")
+         call file%write("/mesh/shared_label", mesh%shared_label, &
+            "Numbers of nodes that bonded bodies share: number in node_label, further number; "// &
+            "(2, further numbers)")
       end associate
       call write_restraint_group(file, model)
    end subroutine write_mesh
@@ -158,7 +167,7 @@ contains
          call file%write("/joint_materials/label", (materials%label), "Number; (law)")
          call file%write("/joint_materials/rule", (materials%rule), &
             "1 centroid, 2 Gauss, 3 Lobatto; (law)")
-         call file%write("/joint_materials/kind", (materials%law%kind), "0 elastic, 1 paper; (law)")
+         call file%write("/joint_materials/kind", (materials%law%kind), law_kinds()//"; (law)")
          call file%write("/joint_materials/stiffness", &
             reshape([(materials(i)%law%stiffness, i=1, size(materials))], [3, size(materials)]), &
             "k_xi, k_eta, k_theta; (3, law) [stress/length]")
@@ -181,6 +190,20 @@ contains
             "Normal, before loading; (law) [stress]")
       end associate
    end subroutine write_materials
+
+   !> Numbers of the kinds of joint laws: "0 elastic, 1 paper"
+   pure function law_kinds() result(text)
+      !> The text
+      character(len=:), allocatable :: text
+
+      integer :: kind
+
+      text = ""
+      do kind = lbound(law_names, 1), ubound(law_names, 1)
+         text = text//", "//to_text(kind)//" "//lower(trim(law_names(kind)))
+      end do
+      text = text(3:)
+   end function law_kinds
 
    !> Equations, displacements, reactions, resultants
    subroutine write_solution(file, results)

@@ -25,6 +25,7 @@ module axijoint_output_listing_contents
    use axijoint_output_listing_stress, only : write_stresses, write_nodal_stresses, &
       write_joint_results
    use axijoint_output_listing_sweep, only : picture_type, write_pictures
+   use axijoint_output_table_interfaces, only : write_interfaces
    use axijoint_output_table_face_reactions, only : write_face_reactions
    use axijoint_output_table_in_situ, only : write_in_situ
    use axijoint_output_table_increments, only : write_increment_table
@@ -65,6 +66,7 @@ contains
          call write_nodes(file, model)
          call write_restraints(file, model)
          call write_elements(file, model)
+         call write_interfaces(file, model)
          call write_joints(file, model)
          call write_supports(file, model)
          call write_loads(file, model)

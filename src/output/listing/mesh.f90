@@ -2,6 +2,7 @@
 module axijoint_output_listing_mesh
    use axijoint_base_text, only : to_text
    use axijoint_fe_mode, only : family_symmetric
+   use axijoint_model_interface, only : interface_name
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type
    use axijoint_model_restraint, only : restraint_type, any_family
@@ -124,13 +125,15 @@ contains
 
       if (n_joints(model%mesh) == 0) return
       call write_heading(file, "JOINTS (side 1-2, side 4-3 opposite, mid-sides 5 and 6)")
-      call file%put("     joint       law         nodes 1-4 (1-6)")
+      call file%put("     joint       law         nodes 1-4 (1-6), name of the interface")
       associate (mesh => model%mesh)
          do i = 1, n_joints(mesh)
             write (line, format_joint) mesh%joint_label(i), &
                model%joint_materials(mesh%joint_material(i))%label, &
                mesh%node_label(mesh%joint_nodes(:mesh%joint_size(i), i))
-            call file%put(line)
+            if (mesh%joint_interface(i) > 0) line = trim(line)//"  "// &
+               interface_name(model%interfaces, mesh%joint_interface(i))
+            call file%put(trim(line))
          end do
       end associate
    end subroutine write_joints

@@ -4,6 +4,7 @@ module axijoint_output_listing_stress
    use axijoint_base_kinds, only : degree
    use axijoint_base_text, only : to_text
    use axijoint_element_joint_law, only : state_stick, state_slip, state_open
+   use axijoint_model_interface, only : interface_name
    use axijoint_model_model, only : model_type
    use axijoint_output_file_columns, only : columns
    use axijoint_output_file_headings, only : write_result_heading
@@ -107,6 +108,7 @@ contains
       local = 0
       do point = 1, size(results%joint_point_joint)
          local = next_local(results%joint_point_joint, point, local)
+         call write_new_interface(file, model, results%joint_point_joint, point)
          write (label, format_point) &
             model%mesh%joint_label(results%joint_point_joint(point)), local
          do plane = 1, size(results%plane_angles)
@@ -118,6 +120,30 @@ contains
          end do
       end do
    end subroutine write_joint_results
+
+   !> The name of the interface where the joints of another one begin
+   subroutine write_new_interface(file, model, joints, point)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Joint of each point
+      integer, intent(in) :: joints(:)
+      !> The point
+      integer, intent(in) :: point
+
+      associate (interface => model%mesh%joint_interface)
+         if (point > 1) then
+            if (interface(joints(point)) == interface(joints(point - 1))) return
+         end if
+         if (interface(joints(point)) == 0) then
+            if (point > 1) call file%put("interface: none")
+         else
+            call file%put("interface: "//interface_name(model%interfaces, &
+                                                        interface(joints(point))))
+         end if
+      end associate
+   end subroutine write_new_interface
 
    !> Number of a point within its element, from the number of the one before
    pure integer function next_local(owners, point, last)
