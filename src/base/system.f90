@@ -7,6 +7,7 @@ module axijoint_base_system
    public :: path_kind, target_kind, is_directory, same_file, rename_path, unlink_path, sync_path
    public :: peak_memory_mb, process_id, error_output_is_terminal
    public :: return_freed_memory, ignore_file_size_signal, last_error, set_last_error, error_text
+   public :: make_directories, read_standard_input
    public :: path_absent, path_file, path_directory, path_link, path_other
 
    !> Nothing has this name
@@ -60,6 +61,23 @@ module axijoint_base_system
          character(kind=c_char), intent(in) :: from(*), to(*)
          integer(c_int) :: c_rename
       end function c_rename
+
+      !> POSIX mkdir
+      function c_mkdir(path, mode) bind(c, name="mkdir")
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: mode
+         integer(c_int) :: c_mkdir
+      end function c_mkdir
+
+      !> POSIX read; the result has the width of a size
+      function c_read(descriptor, buffer, count) bind(c, name="read")
+         import :: c_char, c_int, c_size_t
+         integer(c_int), value :: descriptor
+         character(kind=c_char), intent(out) :: buffer(*)
+         integer(c_size_t), value :: count
+         integer(c_size_t) :: c_read
+      end function c_read
 
       !> POSIX unlink
       function c_unlink(path) bind(c, name="unlink")
@@ -157,6 +175,61 @@ contains
       errno = 0
       if (c_rename(from//c_null_char, to//c_null_char) /= 0_c_int) errno = last_error()
    end subroutine rename_path
+
+   !> Make a directory and those above it that are not there
+   subroutine make_directories(path, errno)
+      !> The directory
+      character(len=*), intent(in) :: path
+      !> Zero, or the system's error
+      integer, intent(out) :: errno
+
+      integer(c_int), parameter :: all_may = 511_c_int  ! less what the user's mask says
+      integer :: last
+
+      errno = 0
+      do last = 1, len(path)
+         if (last < len(path)) then
+            if (path(last + 1:last + 1) /= "/") cycle
+         end if
+         if (is_directory(path(:last))) cycle
+         ! another process may be first
+         if (c_mkdir(path(:last)//c_null_char, all_may) /= 0_c_int) errno = last_error()
+         if (is_directory(path(:last))) errno = 0
+         if (errno /= 0) return
+      end do
+   end subroutine make_directories
+
+   !> All that comes from the standard input
+   subroutine read_standard_input(bytes, errno)
+      !> The bytes
+      character(len=:), allocatable, intent(out) :: bytes
+      !> Zero, or the system's error
+      integer, intent(out) :: errno
+
+      integer, parameter :: block = 65536
+      character(kind=c_char) :: buffer(block)
+      character(len=:), allocatable :: larger
+      integer :: i, n, used
+
+      errno = 0
+      used = 0
+      allocate (character(len=block) :: bytes)
+      do
+         n = int(c_read(0_c_int, buffer, int(block, c_size_t)))
+         if (n < 0) errno = last_error()
+         if (n <= 0) exit
+         if (used + n > len(bytes)) then
+            allocate (character(len=2*len(bytes)) :: larger)
+            larger(:used) = bytes(:used)
+            call move_alloc(larger, bytes)
+         end if
+         do i = 1, n
+            bytes(used + i:used + i) = buffer(i)
+         end do
+         used = used + n
+      end do
+      bytes = bytes(:used)
+   end subroutine read_standard_input
 
    !> Remove a file
    subroutine unlink_path(path, errno)

@@ -4,7 +4,8 @@ module axijoint_base_text
    use axijoint_base_kinds, only : wp, i8
    implicit none
    private
-   public :: to_text, percent_text, lower, upper, count_of, edit_distance, nearest_word
+   public :: to_text, percent_text, lower, upper, count_of, edit_distance, nearest_word, &
+      did_you_mean
 
    !> A number as text without blanks
    interface to_text
@@ -186,25 +187,47 @@ contains
                                  .and. a(len(a) - 1:len(a) - 1) == b(len(b):)
    end function exchanged
 
-   !> Index of the choice that a misspelt word most likely means: at most one
-   !> slip in three letters; 0 if none resembles it. Letter case is ignored
+   !> Index of the choice that a misspelt word most likely means: at most one slip in three
+   !> letters, or else the only one that begins with the word; 0 if none resembles it. Letter case
+   !> is ignored
    pure integer function nearest_word(word, choices)
       !> The word
       character(len=*), intent(in) :: word
       !> Correct words
       character(len=*), intent(in) :: choices(:)
 
+      integer, parameter :: shortest_beginning = 3
       integer :: i, distance, least
+      logical :: begins(size(choices))
 
       nearest_word = 0
       least = max(1, len_trim(word)/3) + 1
       do i = 1, size(choices)
+         begins(i) = index(upper(choices(i)), upper(trim(word))) == 1
          distance = edit_distance(upper(trim(word)), upper(trim(choices(i))))
          if (distance < least .and. distance < len_trim(choices(i))) then
             least = distance
             nearest_word = i
          end if
       end do
+      if (nearest_word > 0 .or. len_trim(word) < shortest_beginning) return
+      if (count(begins) == 1) nearest_word = findloc(begins, .true., 1)
    end function nearest_word
+
+   !> A question for a misspelt word; empty if no choice resembles it
+   pure function did_you_mean(word, choices) result(question)
+      !> The word
+      character(len=*), intent(in) :: word
+      !> Correct words
+      character(len=*), intent(in) :: choices(:)
+      !> The question
+      character(len=:), allocatable :: question
+
+      integer :: nearest
+
+      question = ''
+      nearest = nearest_word(word, choices)
+      if (nearest > 0) question = 'did you mean '//trim(choices(nearest))//'?'
+   end function did_you_mean
 
 end module axijoint_base_text

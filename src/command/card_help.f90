@@ -5,21 +5,14 @@ module axijoint_command_card_help
    use axijoint_command_unknown_word, only : unknown
    use axijoint_deck_registry, only : all_sections, without_readers
    use axijoint_deck_text_reference, only : index_text, index_table, section_text, section_table
-   use axijoint_deck_text_section, only : section_type, section_named, names_of
+   use axijoint_deck_text_section, only : section_type, section_named, names_of, &
+      keyword_length
    implicit none
    private
-   public :: card_help, card_usage
+   public :: card_help, names_of_cards
 
    !> The option for tables as they stand in the manual
    character(len=*), parameter :: markdown_option = '--markdown'
-   !> Lines of help on this help
-   character(len=*), parameter :: card_usage = &
-      'usage: axijoint help card [NAME] [--markdown]'//new_line('a')// &
-      new_line('a')// &
-      'Without NAME, an index of all cards; with it, the fields of the card NAME.'// &
-      new_line('a')// &
-      new_line('a')// &
-      '  --markdown  the table of doc/deck.md'
 
 contains
 
@@ -68,5 +61,13 @@ contains
       text = section_text(sections(k))
       if (markdown) text = section_table(sections(k))
    end subroutine card_help
+
+   !> Names of all cards
+   function names_of_cards() result(names)
+      !> The names
+      character(len=keyword_length), allocatable :: names(:)
+
+      names = names_of(without_readers(all_sections()))
+   end function names_of_cards
 
 end module axijoint_command_card_help

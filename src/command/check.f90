@@ -3,9 +3,9 @@ module axijoint_command_check
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
    use axijoint_base_error, only : exit_ok, exit_deck
    use axijoint_base_text, only : to_text
-   use axijoint_command_line, only : word_type
+   use axijoint_command_line, only : command_type
    use axijoint_deck_text_diagnostics, only : diagnostics_type, render
-   use axijoint_job_job, only : job_type
+   use axijoint_job_job, only : job_type, deck_name
    use axijoint_job_read, only : read_job
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_modes, only : used_modes
@@ -16,9 +16,9 @@ module axijoint_command_check
 contains
 
    !> Read and check decks; solve nothing
-   subroutine check_decks(decks, exit_code)
-      !> The decks
-      type(word_type), intent(in) :: decks(:)
+   subroutine check_decks(command, exit_code)
+      !> Decks and options
+      type(command_type), intent(in) :: command
       !> 0, or 2 if any deck has errors
       integer, intent(out) :: exit_code
 
@@ -27,15 +27,15 @@ contains
       integer :: k
 
       exit_code = exit_ok
-      do k = 1, size(decks)
-         call read_job(decks(k)%text, job, diagnostics)
+      do k = 1, size(command%decks)
+         call read_job(command%decks(k)%text, job, diagnostics)
          if (diagnostics%n_errors + diagnostics%n_warnings > 0) then
             write (error_unit, '(a)') render(diagnostics, job%source)
          end if
          if (diagnostics%n_errors > 0) then
             exit_code = exit_deck
-         else
-            write (output_unit, '(a)') decks(k)%text//': ok, '// &
+         else if (.not. command%quiet) then
+            write (output_unit, '(a)') deck_name(command%decks(k)%text)//': ok, '// &
                to_text(n_nodes(job%model%mesh))//' nodes, '// &
                to_text(n_elements(job%model%mesh))//' elements, '// &
                to_text(n_joints(job%model%mesh))//' joints, '// &

@@ -3,6 +3,7 @@ module axijoint_command_compare_line
    use axijoint_base_error, only : error_type, fatal_error, exit_deck
    use axijoint_base_kinds, only : wp
    use axijoint_command_line, only : word_type
+   use axijoint_command_manual, only : option_type, compare_options
    use axijoint_command_unknown_word, only : unknown
    use axijoint_compare_tolerances, only : tolerances_type, special_type, name_type
    use axijoint_deck_text_token, only : read_real, read_integer, token_good
@@ -20,14 +21,6 @@ module axijoint_command_compare_line
       logical :: print_format = .false.
    end type compare_type
 
-   !> Options that take a value
-   character(len=*), parameter :: value_options(11) = [character(len=15) :: '--relative', &
-      '--absolute', '--of-table', '--of-file', '--coordinates', '--tolerance', '--allow-missing', &
-      '--skip', '--format-a', '--format-b', '--worst']
-   !> Options without one
-   character(len=*), parameter :: plain_options(3) = [character(len=15) :: '--exact-digits', &
-      '--allow-unknown', '--print-format']
-
 contains
 
    !> Read the words after `compare`
@@ -39,8 +32,10 @@ contains
       !> Wrong options, or not two files
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: k, n
+      type(option_type), allocatable :: options(:)
+      integer :: k, n, option
 
+      options = compare_options()
       allocate (compare%tolerances%special(0), compare%tolerances%skipped(0))
       compare%format(1)%text = ''
       compare%format(2)%text = ''
@@ -51,19 +46,20 @@ contains
          if (index(words(k)%text, '-') /= 1) then
             n = n + 1
             if (n <= 2) compare%path(n)%text = words(k)%text
-         else if (any(plain_options == words(k)%text)) then
+            cycle
+         end if
+         option = findloc(options%name == words(k)%text, .true., 1)
+         if (option == 0) then
+            call unknown('option', words(k)%text, [character(len=16) :: options%name, '--help'], &
+                         error)
+         else if (options(option)%value == '') then
             call set_plain(words(k)%text, compare)
-         else if (any(value_options == words(k)%text)) then
-            if (k == size(words)) then
-               call fatal_error(error, exit_deck, 'option '//words(k)%text// &
-                                " needs a value: see 'axijoint help compare'")
-               return
-            end if
+         else if (k == size(words)) then
+            call fatal_error(error, exit_deck, 'option '//words(k)%text//' needs '// &
+               trim(options(option)%value)//": see 'axijoint help compare'")
+         else
             k = k + 1
             call set_value(words(k - 1)%text, words(k)%text, compare, error)
-         else
-            call unknown('option', words(k)%text, &
-               [character(len=15) :: value_options, plain_options], error)
          end if
          if (allocated(error)) return
       end do

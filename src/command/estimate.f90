@@ -8,7 +8,7 @@ module axijoint_command_estimate
    use axijoint_command_line, only : command_type
    use axijoint_command_run, only : print_error
    use axijoint_deck_text_diagnostics, only : diagnostics_type, render
-   use axijoint_job_job, only : job_type
+   use axijoint_job_job, only : job_type, deck_name
    use axijoint_job_read, only : read_job
    use axijoint_linalg_lapack, only : product_rate
    use axijoint_model_model, only : model_type, yielding_nodes
@@ -48,7 +48,8 @@ contains
             exit_code = max(exit_code, exit_deck)
             cycle
          end if
-         call estimate_deck(command%decks(k)%text, job%model, command%solvers, rate, error)
+         call estimate_deck(deck_name(command%decks(k)%text), job%model, command%solvers, rate, &
+                            error)
          if (allocated(error)) then
             call print_error(command%decks(k)%text, error)
             exit_code = max(exit_code, error%code)

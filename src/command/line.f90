@@ -4,41 +4,19 @@ module axijoint_command_line
    use axijoint_base_kinds, only : i8
    use axijoint_base_text, only : upper, lower
    use axijoint_base_version, only : program_name, program_version
-   use axijoint_command_card_help, only : card_help, card_usage
-   use axijoint_command_compare_help, only : compare_help
+   use axijoint_command_card_help, only : card_help, names_of_cards
+   use axijoint_command_completion, only : completion
+   use axijoint_command_help, only : overview, help_on
+   use axijoint_command_man_page, only : man_page
+   use axijoint_command_manual, only : topic_type, all_topics, topic_named, option_named, &
+      names_of_topics, names_of_options
    use axijoint_command_unknown_word, only : unknown
    use axijoint_job_job, only : options_type
    use axijoint_solver_entry, only : solver_entry_type
    use axijoint_solver_registry, only : find_solver, solver_words
    implicit none
    private
-   public :: command_type, word_type, read_command, help_text
-   public :: command_run, command_check, command_estimate, command_compare, command_help, &
-      command_help_card
-
-   !> Solve decks
-   integer, parameter :: command_run = 1
-   !> Read and check decks
-   integer, parameter :: command_check = 2
-   !> Say what decks would cost
-   integer, parameter :: command_estimate = 3
-   !> Compare two listings or result files
-   integer, parameter :: command_compare = 4
-   !> Print help
-   integer, parameter :: command_help = 5
-   !> Print the version
-   integer, parameter :: command_version = 6
-   !> Print help on cards
-   integer, parameter :: command_help_card = 7
-
-   !> Names of the commands, by number
-   character(len=*), parameter :: command_names(5) = [character(len=8) :: 'run', 'check', &
-      'estimate', 'compare', 'help']
-
-   !> Options of `run` that take a value; `estimate` has the last two
-   character(len=*), parameter :: value_options(4) = &
-      ['-o       ', '--solver ', '--threads', '--memory ']
-   character(len=*), parameter :: estimate_options(2) = value_options(3:)
+   public :: command_type, word_type, read_command
 
    !> A word of any length
    type :: word_type
@@ -48,8 +26,8 @@ module axijoint_command_line
 
    !> What the user asked for
    type :: command_type
-      !> One of the `command_` parameters
-      integer :: command = command_help
+      !> Name of the command; `print` if there is only a text to be printed
+      character(len=:), allocatable :: name
       !> Decks to run or check; of `compare`, all words that follow it
       type(word_type), allocatable :: decks(:)
       !> Solvers that can be asked for
@@ -58,10 +36,10 @@ module axijoint_command_line
       type(options_type) :: options
       !> Threads asked for; 0: as the environment says
       integer :: threads = 0
-      !> Command that help was asked for; empty for all
-      character(len=:), allocatable :: topic
-      !> Help on cards, where it was asked for
-      character(len=:), allocatable :: card_help
+      !> Whether nothing but errors and warnings is to be told; whether a log is to say what is done
+      logical :: quiet = .false., verbose = .false.
+      !> Help or version, where these were asked for
+      character(len=:), allocatable :: text
    end type command_type
 
 contains
@@ -76,45 +54,41 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(word_type), allocatable :: words(:)
+      type(topic_type), allocatable :: topics(:)
       integer :: k
 
+      topics = all_topics(solvers)
       allocate (words(command_argument_count()), command%decks(0))
       command%solvers = solvers
       do k = 1, size(words)
          words(k)%text = argument(k)
       end do
       command%options%directory = '.'
-      command%topic = ''
+      command%name = 'print'
+      command%text = overview(topics)
       if (size(words) == 0) return
 
       select case (words(1)%text)
-      case ('run')
-         command%command = command_run
-      case ('check')
-         command%command = command_check
-      case ('estimate')
-         command%command = command_estimate
+      case ('run', 'check', 'estimate')
+         call read_arguments(words(2:), topics(topic_named(topics, words(1)%text)), command, error)
       case ('compare')
-         call read_compare_words(words(2:), command)
-         return
+         call read_compare_words(words(2:), topics, command)
       case ('help', '--help', '-h')
-         call read_help_words(words(2:), command, error)
-         return
+         call read_help_words(words(2:), topics, command, error)
       case ('--version')
-         command%command = command_version
-         return
+         command%text = program_name//' '//program_version
       case default
-         call unknown('command', words(1)%text, [character(len=9) :: command_names, '--version'], &
-                      error)
-         return
+         call unknown('command', words(1)%text, &
+                      [character(len=12) :: names_of_topics(topics), '--version'], error)
       end select
-      call read_arguments(words(2:), command, error)
    end subroutine read_command
 
-   !> Words of `help`: a command, or `card` and what follows it
-   subroutine read_help_words(words, command, error)
+   !> Words of `help`: a command, `card` and what follows it, or an option
+   subroutine read_help_words(words, topics, command, error)
       !> Words after the command
       type(word_type), intent(in) :: words(:)
+      !> All commands
+      type(topic_type), intent(in) :: topics(:)
       !> What the user asked for
       type(command_type), intent(inout) :: command
       !> Unknown command or card
@@ -124,97 +98,136 @@ contains
       integer :: k
 
       if (size(words) == 0) return
-      command%topic = words(1)%text
-      if (command%topic == 'card') then
-         command%command = command_help_card
-         do k = 2, size(words)
-            names(k - 1) = words(k)%text
-         end do
-         call card_help(names, command%card_help, error)
-      else if (.not. any(command_names == command%topic)) then
-         call unknown('command', command%topic, [character(len=8) :: command_names, 'card'], error)
-      end if
+      do k = 2, size(words)
+         names(k - 1) = words(k)%text
+      end do
+      select case (words(1)%text)
+      case ('card')
+         call card_help(names, command%text, error)
+      case ('--man')
+         command%text = man_page(topics)
+      case ('--completion')
+         if (.not. any([character(len=4) :: 'bash', 'zsh'] == join(names))) then
+            call unknown('shell', join(names), [character(len=4) :: 'bash', 'zsh'], error)
+         else
+            command%text = completion(join(names), topics, names_of_cards())
+         end if
+      case default
+         k = topic_named(topics, words(1)%text)
+         if (k > 0) then
+            command%text = help_on(topics(k))
+         else
+            call unknown('command', words(1)%text, [character(len=12) :: names_of_topics(topics), &
+                         'card', '--man', '--completion'], error)
+         end if
+      end select
    end subroutine read_help_words
 
+   !> Words with a blank between them
+   pure function join(words) result(text)
+      !> The words
+      character(len=*), intent(in) :: words(:)
+      !> The text
+      character(len=:), allocatable :: text
+
+      integer :: k
+
+      text = ''
+      do k = 1, size(words)
+         text = trim(text//' '//words(k))
+      end do
+      text = trim(adjustl(text))
+   end function join
+
    !> Words of `compare`, which reads them itself, unless help is asked for
-   subroutine read_compare_words(words, command)
+   subroutine read_compare_words(words, topics, command)
       !> Words after the command
       type(word_type), intent(in) :: words(:)
+      !> All commands
+      type(topic_type), intent(in) :: topics(:)
       !> What the user asked for
       type(command_type), intent(inout) :: command
 
       integer :: k
 
-      command%command = command_compare
+      command%name = 'compare'
       command%decks = words
       do k = 1, size(words)
          if (words(k)%text /= '-h' .and. words(k)%text /= '--help') cycle
-         command%command = command_help
-         command%topic = 'compare'
+         command%name = 'print'
+         command%text = help_on(topics(topic_named(topics, 'compare')))
       end do
    end subroutine read_compare_words
 
    !> Decks and options of `run`, `check` and `estimate`
-   subroutine read_arguments(words, command, error)
+   subroutine read_arguments(words, topic, command, error)
       !> Words after the command
       type(word_type), intent(in) :: words(:)
+      !> The command
+      type(topic_type), intent(in) :: topic
       !> What the user asked for
       type(command_type), intent(inout) :: command
       !> Unknown option, missing deck or directory
       type(error_type), allocatable, intent(out) :: error
 
       logical :: only_decks
-      integer :: k
+      integer :: k, option
 
+      command%name = trim(topic%name)
       only_decks = .false.
       k = 0
       do while (k < size(words))
          k = k + 1
          associate (word => words(k)%text)
+            option = option_named(topic, word)
             if (only_decks .or. index(word, '-') /= 1 .or. len(word) == 1) then
                command%decks = [command%decks, words(k)]
             else if (word == '--') then
                only_decks = .true.
-            else if ((any(word == value_options) .and. command%command == command_run) .or. &
-                     (any(word == estimate_options) .and. command%command == command_estimate)) then
-               if (k == size(words)) then
-                  call fatal_error(error, exit_deck, 'option '//word//' needs a '// &
-                                   trim(merge('directory', 'value    ', word == '-o'))// &
-                                   ": see 'axijoint help "//trim(command_names(command%command))// &
-                                   "'")
-                  return
-               end if
+            else if (word == '-h' .or. word == '--help') then
+               command%name = 'print'
+               command%text = help_on(topic)
+               return
+            else if (option == 0) then
+               call unknown('option', word, names_of_options(topic), error)
+            else if (topic%options(option)%value == '') then
+               call set_option(word, command)
+            else if (k == size(words)) then
+               call fatal_error(error, exit_deck, 'option '//word//' needs '// &
+                  trim(topic%options(option)%value)//": see 'axijoint help "//command%name//"'")
+            else
                k = k + 1
                call read_option(word, words(k)%text, command, error)
-               if (allocated(error)) return
-            else if (word == '--vtk' .and. command%command == command_run) then
-               command%options%swept = .true.
-            else if (word == '-h' .or. word == '--help') then
-               command%topic = trim(command_names(command%command))
-               command%command = command_help
-               return
-            else if (command%command == command_run) then
-               call unknown('option', word, [character(len=9) :: value_options, '--vtk', &
-                  '--help'], error)
-               return
-            else if (command%command == command_estimate) then
-               call unknown('option', word, [character(len=9) :: estimate_options, '--help'], error)
-               return
-            else
-               call unknown('option', word, ['--help'], error)
-               return
             end if
+            if (allocated(error)) return
          end associate
       end do
-      if (size(command%decks) == 0) then
-         call fatal_error(error, exit_deck, 'no deck given; use: '//program_name//' '// &
-                          trim(command_names(command%command))//' DECK...')
-      end if
+      if (command%quiet .and. command%verbose) call fatal_error(error, exit_deck, &
+         'only one of --quiet and --verbose can be had')
+      if (size(command%decks) == 0) call fatal_error(error, exit_deck, &
+         'no deck given; use: '//program_name//' '//command%name//' DECK...')
    end subroutine read_arguments
+
+   !> Set an option without a value
+   subroutine set_option(option, command)
+      !> The option
+      character(len=*), intent(in) :: option
+      !> What the user asked for
+      type(command_type), intent(inout) :: command
+
+      select case (option)
+      case ('--vtk')
+         command%options%swept = .true.
+      case ('--quiet')
+         command%quiet = .true.
+      case default
+         command%verbose = .true.
+      end select
+   end subroutine set_option
 
    !> Value of an option
    subroutine read_option(option, value, command, error)
-      !> The option, one of `value_options`
+      !> The option
       character(len=*), intent(in) :: option
       !> Its value
       character(len=*), intent(in) :: value
@@ -286,22 +299,6 @@ contains
       end do
    end function lower_all
 
-   !> Words as in: one, two or three
-   pure function alternatives(words) result(text)
-      !> The words, two or more
-      character(len=*), intent(in) :: words(:)
-      !> The text
-      character(len=:), allocatable :: text
-
-      integer :: k
-
-      text = trim(words(1))
-      do k = 2, size(words) - 1
-         text = text//', '//trim(words(k))
-      end do
-      text = text//' or '//trim(words(size(words)))
-   end function alternatives
-
    !> A word of the command line
    function argument(k) result(text)
       !> Its number
@@ -315,72 +312,5 @@ contains
       allocate (character(len=length) :: text)
       call get_command_argument(k, text)
    end function argument
-
-   !> Help on a command, or on all
-   function help_text(topic, solvers) result(text)
-      !> Name of a command; empty for all
-      character(len=*), intent(in) :: topic
-      !> Solvers that there are
-      type(solver_entry_type), intent(in) :: solvers(:)
-      !> Lines of help
-      character(len=:), allocatable :: text
-
-      character, parameter :: nl = new_line('a')
-
-      select case (topic)
-      case ('run')
-         text = 'usage: axijoint run DECK... [-o DIR] [--solver NAME] [--threads N]'//nl// &
-            '                            [--memory MIB] [--vtk]'//nl// &
-            nl// &
-            'Solves each deck and writes NAME.lis (listing), NAME.json (summary) and NAME.h5'// &
-            nl// &
-            '(results), NAME being the name of the deck without its ending.'//nl// &
-            nl// &
-            '  -o DIR         directory for the results (default: the current one)'//nl// &
-            '  --solver NAME  '//alternatives(lower_all(solver_words(solvers)))// &
-            ' (default: as the deck says)'//nl// &
-            '  --threads N    harmonics at once (default: OMP_NUM_THREADS, or all processors)'// &
-            nl// &
-            '  --memory MIB   memory that the process may take: fewer factors at once then '// &
-            '(default:'//nl// &
-            '                 what the machine, its control group and limits leave)'//nl// &
-            '  --vtk          NAME.vtkhdf for ParaView, too (whole circle; SWEEP of the deck '// &
-            'says more)'//nl// &
-            '  --             everything that follows is a deck'//nl// &
-            nl// &
-            'Exit codes: 0 ok; 2 deck or usage; 3 not converged; 4 singular or mechanism;'//nl// &
-            '5 input or output; 6 memory; 70 internal. Of several decks, the largest.'
-      case ('check')
-         text = 'usage: axijoint check DECK...'//nl// &
-            nl// &
-            'Reads and checks each deck, prints all its errors and what it describes, and'//nl// &
-            'solves nothing. Exit codes: 0 ok; 2 deck or usage.'
-      case ('estimate')
-         text = 'usage: axijoint estimate DECK... [--threads N] [--memory MIB]'//nl// &
-            nl// &
-            'Says for each solver what a run of each deck would need: unknowns, entries of the'// &
-            nl// &
-            'factors, operations, memory and time, with the threads and in the memory that the '// &
-            'run'//nl// &
-            'would have. Nothing is solved.'
-      case ('compare')
-         text = compare_help
-      case ('help')
-         text = 'usage: axijoint help [COMMAND]'//nl//nl//card_usage
-      case default
-         text = program_name//' '//program_version//': Fourier finite element analysis of '// &
-            'axisymmetric bodies with joints'//nl// &
-            nl// &
-            'usage: axijoint COMMAND'//nl// &
-            nl// &
-            '  run DECK... [OPTIONS]  solve decks'//nl// &
-            '  check DECK...          read and check decks only'//nl// &
-            '  estimate DECK...       say what decks would cost'//nl// &
-            '  compare A B [OPTIONS]  compare two listings or result files'//nl// &
-            '  help [COMMAND]         help on a command'//nl// &
-            '  help card [NAME]       the cards of a deck, or the fields of one'//nl// &
-            '  --version              version'
-      end select
-   end function help_text
 
 end module axijoint_command_line

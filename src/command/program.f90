@@ -3,18 +3,21 @@ module axijoint_command_program
    use, intrinsic :: iso_fortran_env, only : output_unit
    use axijoint_base_error, only : error_type, exit_ok
    use axijoint_base_system, only : return_freed_memory
-   use axijoint_base_version, only : program_name, program_version
    use axijoint_command_check, only : check_decks
    use axijoint_command_compare, only : compare_files
    use axijoint_command_estimate, only : estimate_decks
-   use axijoint_command_line, only : command_type, read_command, help_text, command_run, &
-      command_check, &
-      command_estimate, command_compare, command_help, command_help_card
+   use axijoint_command_line, only : command_type, read_command
    use axijoint_command_run, only : run_decks, print_error
    use axijoint_solver_entry, only : solver_entry_type
    implicit none
    private
    public :: run_program
+
+   interface
+      !> Links environment_shim.c, which does its work before the program begins
+      subroutine c_link_environment() bind(c, name='axijoint_link_environment')
+      end subroutine c_link_environment
+   end interface
 
 contains
 
@@ -29,6 +32,7 @@ contains
       type(error_type), allocatable :: error
 
       exit_code = exit_ok
+      call c_link_environment()
       call return_freed_memory()
       call read_command(command, solvers, error)
       if (allocated(error)) then
@@ -36,21 +40,17 @@ contains
          exit_code = error%code
          return
       end if
-      select case (command%command)
-      case (command_run)
+      select case (command%name)
+      case ('run')
          call run_decks(command, exit_code)
-      case (command_check)
-         call check_decks(command%decks, exit_code)
-      case (command_estimate)
+      case ('check')
+         call check_decks(command, exit_code)
+      case ('estimate')
          call estimate_decks(command, exit_code)
-      case (command_compare)
+      case ('compare')
          call compare_files(command%decks, exit_code)
-      case (command_help)
-         write (output_unit, '(a)') help_text(command%topic, solvers)
-      case (command_help_card)
-         write (output_unit, '(a)') command%card_help
       case default
-         write (output_unit, '(a)') program_name//' '//program_version
+         write (output_unit, '(a)') command%text
       end select
    end subroutine run_program
 

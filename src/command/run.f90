@@ -4,15 +4,15 @@ module axijoint_command_run
    use axijoint_analysis_core_results, only : results_type
    use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck
    use axijoint_base_progress, only : show_progress, clear_progress
-   use axijoint_base_system, only : error_output_is_terminal
+   use axijoint_base_system, only : error_output_is_terminal, target_kind, path_file
    use axijoint_base_timer, only : phase_write
    use axijoint_command_line, only : command_type, word_type
    use axijoint_deck_text_diagnostics, only : diagnostics_type, render
    use axijoint_job_combination, only : solve_combination
    use axijoint_job_goal, only : refine_to_goal
-   use axijoint_job_job, only : job_type, job_name
+   use axijoint_job_job, only : job_type, job_name, deck_name, standard_input
    use axijoint_job_read, only : read_job
-   use axijoint_output_brief, only : brief_text
+   use axijoint_output_brief, only : brief_text, status_text
    use axijoint_output_file_run, only : exit_code_of
    use axijoint_output_output, only : check_output, write_output, write_error_summary
    use omp_lib, only : omp_set_num_threads
@@ -30,6 +30,7 @@ contains
       integer, intent(out) :: exit_code
 
       type(error_type), allocatable :: error
+      logical :: there
       integer :: k, code
 
       exit_code = exit_ok
@@ -46,11 +47,11 @@ contains
             call run_deck(deck, command, code, error)
             if (allocated(error)) then
                call print_error(deck, error)
-               if (len(job_name(deck)) > 0) then
-                  call write_error_summary(command%options%directory, job_name(deck), deck, &
-                     error%code, &
-                                           [error%message])
-               end if
+               ! a name that was mistyped leaves nothing
+               there = target_kind(deck) == path_file
+               if (there .or. deck == standard_input) &
+                  call write_error_summary(command%options%directory, job_name(deck), &
+                                           deck_name(deck), error%code, [error%message])
                code = error%code
             end if
          end associate
@@ -81,14 +82,15 @@ contains
          call refine_to_goal(job, results, error)
          do k = 1, size(job%model%combinations)
             if (allocated(error)) exit
-            call write_combination(job, results(k), exit_code, error)
+            call write_combination(job, results(k), command%quiet, exit_code, error)
          end do
       else
          allocate (results(1))
          ! the results of each are written before the next is begun
          do k = 1, size(job%model%combinations)
             call solve_combination(job, k, results(1), error)
-            if (.not. allocated(error)) call write_combination(job, results(1), exit_code, error)
+            if (.not. allocated(error)) &
+               call write_combination(job, results(1), command%quiet, exit_code, error)
             if (allocated(error)) exit
          end do
       end if
@@ -109,9 +111,11 @@ contains
       type(diagnostics_type) :: diagnostics
 
       job%options = command%options
-      job%progress%enabled = error_output_is_terminal()
+      job%progress%logged = command%verbose
+      job%progress%enabled = error_output_is_terminal() .and. &
+                             .not. (command%quiet .or. command%verbose)
       call job%timer%start()
-      call show_progress(job%progress, 'reading '//deck)
+      call show_progress(job%progress, 'reading '//deck_name(deck))
       call read_job(deck, job, diagnostics)
       call clear_progress(job%progress)
       if (diagnostics%n_errors > 0) then
@@ -122,11 +126,13 @@ contains
    end subroutine begin
 
    !> Write the results of a combination, and the lines on the screen
-   subroutine write_combination(job, results, exit_code, error)
+   subroutine write_combination(job, results, quiet, exit_code, error)
       !> The job, solved
       type(job_type), intent(inout), target :: job
       !> The results
       type(results_type), intent(in) :: results
+      !> Whether the screen is to stay empty
+      logical, intent(in) :: quiet
       !> Largest of the combinations
       integer, intent(inout) :: exit_code
       !> The results cannot be written
@@ -138,7 +144,12 @@ contains
       call write_output(job, results, error)
       call job%timer%pop()
       if (allocated(error)) return
-      write (output_unit, '(a)') brief_text(job, results)
+      if (.not. quiet) then
+         write (output_unit, '(a)') brief_text(job, results)
+      else if (exit_code_of(results) /= exit_ok) then
+         write (error_unit, '(a)') 'axijoint: '//deck_name(job%deck)//': '//status_text(results)
+         if (allocated(results%mechanism)) write (error_unit, '(a)') results%mechanism
+      end if
    end subroutine write_combination
 
    !> Say that the program was built for debugging: fpm does so unless it is told otherwise
@@ -179,7 +190,7 @@ contains
       if (error%code == exit_deck .and. len(deck) > 0) then
          write (error_unit, '(a)') error%message  ! names file and line itself
       else if (len(deck) > 0) then
-         write (error_unit, '(a)') 'axijoint: '//deck//': '//error%message
+         write (error_unit, '(a)') 'axijoint: '//deck_name(deck)//': '//error%message
       else
          write (error_unit, '(a)') 'axijoint: '//error%message
       end if

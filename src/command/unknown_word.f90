@@ -1,7 +1,7 @@
 !> Words of the command line that are not known
 module axijoint_command_unknown_word
    use axijoint_base_error, only : error_type, fatal_error, exit_deck
-   use axijoint_base_text, only : nearest_word
+   use axijoint_base_text, only : did_you_mean
    implicit none
    private
    public :: unknown
@@ -19,12 +19,12 @@ contains
       !> The error
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: message
+      character(len=:), allocatable :: message, question
       integer :: k
 
       message = "unknown "//what//" '"//word//"'"
-      k = nearest_word(word, known)
-      if (k > 0) message = message//"; did you mean '"//trim(known(k))//"'?"
+      question = did_you_mean(word, known)
+      if (len(question) > 0) message = message//'; '//question
       message = message//new_line('a')//'known:'
       do k = 1, size(known)
          message = message//' '//trim(known(k))

@@ -53,7 +53,7 @@ contains
 
    !> Read a deck with all that it includes. The model is valid only if there are
    !> no errors among the messages
-   subroutine read_deck(path, source, model, diagnostics, refinement)
+   subroutine read_deck(path, source, model, diagnostics, refinement, bytes)
       !> The deck
       character(len=*), intent(in) :: path
       !> Its cards, for the echo and the messages
@@ -64,12 +64,14 @@ contains
       type(diagnostics_type), intent(out), target :: diagnostics
       !> Refinement of what the deck says; none if absent
       type(refinement_type), intent(in), optional :: refinement
+      !> What the deck says, if it is not to be read from its file
+      character(len=*), intent(in), optional :: bytes
 
       type(deck_type), target :: deck
       type(read_section_type), allocatable :: sections(:)
 
       sections = all_sections()
-      call read_source(path, without_readers(sections), source, diagnostics)
+      call read_source(path, without_readers(sections), source, diagnostics, bytes)
       if (source%n_cards == 0) return
       call read_sections(source, deck%sections, diagnostics)
       if (.not. deck%sections%complete) return

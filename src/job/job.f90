@@ -11,7 +11,11 @@ module axijoint_job_job
    use axijoint_solver_entry, only : solver_entry_type
    implicit none
    private
-   public :: job_type, options_type, new_job, take_options, job_name, result_name
+   public :: job_type, options_type, new_job, take_options, job_name, result_name, &
+      deck_name, standard_input
+
+   !> The path that means the standard input
+   character(len=*), parameter :: standard_input = '-'
 
    !> What is asked for beside the deck
    type :: options_type
@@ -30,6 +34,8 @@ module axijoint_job_job
    type :: job_type
       !> Path of the deck; it names the result files
       character(len=:), allocatable :: deck
+      !> What came from the standard input, if the deck stands there; it comes only once
+      character(len=:), allocatable :: input
       !> What is asked for beside it
       type(options_type) :: options
       !> Its cards, and warnings about them
@@ -82,6 +88,17 @@ contains
       model%sweep%wanted = model%sweep%wanted .or. options%swept
    end subroutine take_options
 
+   !> What a deck is called in messages
+   pure function deck_name(deck) result(name)
+      !> Path of the deck
+      character(len=*), intent(in) :: deck
+      !> The path, or a name for the standard input
+      character(len=:), allocatable :: name
+
+      name = deck
+      if (deck == standard_input) name = 'stdin'
+   end function deck_name
+
    !> Name of a deck without directories and ending
    pure function job_name(deck) result(name)
       !> Path of the deck
@@ -91,7 +108,8 @@ contains
 
       integer :: dot
 
-      name = deck(index(deck, '/', back=.true.) + 1:)
+      name = deck_name(deck)
+      name = name(index(name, '/', back=.true.) + 1:)
       dot = index(name, '.', back=.true.)
       if (dot > 1) name = name(:dot - 1)
    end function job_name

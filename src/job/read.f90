@@ -2,9 +2,11 @@
 module axijoint_job_read
    use axijoint_base_timer, only : phase_read
    use axijoint_deck_reader, only : read_deck
-   use axijoint_deck_text_diagnostics, only : diagnostics_type, warning_texts
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, warning_texts
+   use axijoint_deck_text_file_bytes, only : read_input_bytes
+   use axijoint_deck_text_source, only : source_type, add_file
    use axijoint_job_in_situ_messages, only : judge_in_situ
-   use axijoint_job_job, only : job_type, take_options
+   use axijoint_job_job, only : job_type, take_options, deck_name, standard_input
    use axijoint_model_request, only : refinement_type
    implicit none
    private
@@ -28,7 +30,11 @@ contains
       if (.not. allocated(job%options%directory)) job%options%directory = '.'
       if (allocated(job%structure)) deallocate (job%structure)
       call job%timer%push(phase_read)
-      call read_deck(path, job%source, job%model, diagnostics, refinement)
+      if (path == standard_input) then
+         call read_input(job, diagnostics, refinement)
+      else
+         call read_deck(path, job%source, job%model, diagnostics, refinement)
+      end if
       if (diagnostics%n_errors == 0) then
          if (size(job%model%initial_stresses) > 0) call judge_in_situ(job%model, diagnostics)
       end if
@@ -36,5 +42,29 @@ contains
       job%warnings = warning_texts(diagnostics, job%source)
       call take_options(job%options, job%model)
    end subroutine read_job
+
+   !> Read the deck that comes from the standard input, or has come from it before
+   subroutine read_input(job, diagnostics, refinement)
+      !> The job
+      type(job_type), intent(inout) :: job
+      !> Errors and warnings
+      type(diagnostics_type), intent(inout) :: diagnostics
+      !> Refinement of what the deck says
+      type(refinement_type), intent(in), optional :: refinement
+
+      character(len=:), allocatable :: failure
+
+      if (.not. allocated(job%input)) then
+         call read_input_bytes(job%input, failure)
+         if (len(failure) > 0) then
+            job%source = source_type()
+            call add_file(job%source, deck_name(standard_input), job%input, 0)
+            call add_error(diagnostics, 0, 0, 0, failure)
+            return
+         end if
+      end if
+      call read_deck(deck_name(standard_input), job%source, job%model, diagnostics, refinement, &
+                     job%input)
+   end subroutine read_input
 
 end module axijoint_job_read

@@ -6,7 +6,7 @@ module axijoint_output_brief
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : phase_total
    use axijoint_element_joint_law, only : state_stick, state_slip, state_open
-   use axijoint_job_job, only : job_type, result_name
+   use axijoint_job_job, only : job_type, result_name, deck_name
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type
    use axijoint_output_file_headings, only : mark_not_converged
@@ -17,7 +17,7 @@ module axijoint_output_brief
    use axijoint_output_table_joint_proportion, only : proportions_text, stiffer_laws_text
    implicit none
    private
-   public :: brief_text
+   public :: brief_text, status_text
 
    !> Columns of the words before the values
    integer, parameter :: margin = 22
@@ -33,7 +33,7 @@ contains
       !> Lines, the last without its end
       character(len=:), allocatable :: text
 
-      text = line("deck", job%deck)
+      text = line("deck", deck_name(job%deck))
       if (results%combination > 0) text = text//line("combination", to_text(results%combination))
       text = text//line("status", status_text(results))
       if (allocated(results%mechanism)) text = text//line("mechanism", results%mechanism)

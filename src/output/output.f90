@@ -4,7 +4,7 @@ module axijoint_output_output
    use axijoint_analysis_core_series, only : series_type
    use axijoint_base_error, only : error_type, fatal_error, exit_io, exit_internal
    use axijoint_base_system, only : path_kind, is_directory, same_file, path_absent, path_file, &
-      path_directory, path_link, error_text
+      path_directory, path_link, error_text, make_directories
    use axijoint_deck_text_source, only : source_type, card_file
    use axijoint_job_combination, only : combination_label
    use axijoint_job_job, only : job_type, result_name
@@ -69,11 +69,8 @@ contains
 
       type(text_file_type) :: probe
 
-      if (.not. is_directory(join_path(directory, "."))) then
-         call fatal_error(error, exit_io, "there is no directory "//trim(directory)// &
-            " for the results"//new_line("a")//"mend: make it first, or choose another with -o")
-         return
-      end if
+      call make_place(directory, error)
+      if (allocated(error)) return
       call check_names(directory, name, n, error)
       if (allocated(error)) return
       call spare_sources(directory, name, source, n, error)
@@ -81,6 +78,22 @@ contains
       call probe%open(final_path(directory, name, file_summary), error)
       call probe%abandon()
    end subroutine check_place
+
+   !> Make the directory of the files if it is not there
+   subroutine make_place(directory, error)
+      !> The directory; empty for the current one
+      character(len=*), intent(in) :: directory
+      !> What stands in the way
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: errno
+
+      if (is_directory(join_path(directory, "."))) return
+      call make_directories(trim(directory), errno)
+      if (errno /= 0) call fatal_error(error, exit_io, "the directory "//trim(directory)// &
+         " for the results cannot be made: "//error_text(errno)//new_line("a")// &
+         "mend: make it first, or choose another with -o")
+   end subroutine make_place
 
    !> Refuse to write over the deck or a file that it includes
    subroutine spare_sources(directory, name, source, n, error)
@@ -274,6 +287,8 @@ contains
       if (path_kind(final_path(directory, name, file_arrays)) /= path_absent) return
       if (path_kind(final_path(directory, name, file_listing)) /= path_absent) return
       if (same_file(final_path(directory, name, file_summary), deck)) return
+      call make_place(directory, error)
+      if (allocated(error)) return
       call check_names(directory, name, file_summary, error)
       if (allocated(error)) return
       call summary%open(final_path(directory, name, file_summary), error)

@@ -1,7 +1,9 @@
 """Commands and options of the program"""
 import os
 import re
+import shutil
 import subprocess
+import time
 
 from support import HERE, INPUTS, Test, expected, read_text, write
 
@@ -18,8 +20,13 @@ CASES = (
     (('help', 'card', 'NODES', '--markdown'), 0, '| 6–15 F | r [length] | | ≥ 0 |\n', ''),
     (('help', 'card', '--markdown'), 0, '| NODES | nodes one by one | any number |\n', ''),
     (('help', 'card', 'TITLE'), 0, 'TITLE: the next card', ''),
-    (('help', 'help'), 0, 'usage: axijoint help card [NAME]', ''),
-    (('help', 'card', 'FACE'), 2, '', "unknown card 'FACE'; did you mean 'FACES'?\nknown: TITLE CONTROL "),
+    (('help', 'help'), 0, 'usage: axijoint help [COMMAND]', ''),
+    (('help', '--man'), 0, '\n.SS compare\n', ''),
+    (('help', '--completion', 'bash'), 0, '\ncomplete -o filenames -F _axijoint axijoint', ''),
+    (('help', '--completion', 'zsh'), 0, '\nautoload -U +X bashcompinit', ''),
+    (('help', '--completion', 'fish'), 2, '', "unknown shell 'fish'\nknown: bash zsh"),
+    (('help', '--completion'), 2, '', "unknown shell ''\nknown: bash zsh"),
+    (('help', 'card', 'FACE'), 2, '', "unknown card 'FACE'; did you mean FACES?\nknown: TITLE CONTROL "),
     (('help', 'card', 'QUADS'), 2, '', "unknown card 'QUADS'\nknown: TITLE CONTROL "),
     (('help', 'card', 'NODES', 'LINES'), 2, '', 'help on one card at a time'),
     (('help', 'card', 'NODES', '--html'), 2, '', "unknown option '--html'\nknown: --markdown"),
@@ -27,23 +34,28 @@ CASES = (
     (('--version',), 0, 'axijoint ', ''),
     (('check', FIRST), 0, 'first.dat: ok, 128 nodes, 96 elements, 8 joints', ''),
     (('check', FIRST, FIRST), 0, 'first.dat: ok', ''),
+    (('check', '--quiet', FIRST), 0, '', ''),
+    (('run', FIRST, '--quiet', '--verbose'), 2, '', 'only one of --quiet and --verbose'),
+    (('run', FIRST, '--quit'), 2, '', "unknown option '--quit'; did you mean --quiet?"),
+    (('run', 'frist.dat'), 2, '', 'frist.dat: error: there is no such file'),
+    (('run', '.', '-o', 'out'), 2, '', '.: error: this is a directory, not a file'),
     (('help', 'compare'), 0, 'Exit codes: 0 same; 1 different', ''),
     (('compare', 'a', '--help'), 0, 'usage: axijoint compare A B', ''),
     (('compare', '--print-format'), 0, 'HEADING TOTAL DISPLACEMENTS, theta = {theta}', ''),
     (('compare', FIRST), 2, '', 'two files are compared'),
     (('compare', FIRST, FIRST), 2, '', 'this is no listing of axijoint'),
     (('compare', FIRST, 'absent'), 2, '', 'this is no listing of axijoint'),
-    (('compare', FIRST, FIRST, '--relativ', '1'), 2, '', "did you mean '--relative'?"),
+    (('compare', FIRST, FIRST, '--relativ', '1'), 2, '', "did you mean --relative?"),
     (('compare', FIRST, FIRST, '--worst', '-1'), 2, '', 'allowed is a number from 0'),
     (('compare', FIRST, FIRST, '--tolerance', 'u'), 2, '', 'NAME=RELATIVE,ABSOLUTE'),
     (('compare', FIRST, FIRST, '--relative', '-1'), 2, '', 'allowed is a number from 0'),
     (('compare', FIRST, FIRST, '--allow-missing', 'x'), 2, '', 'tables, columns, rows, all'),
-    (('help', 'rum'), 2, '', "unknown command 'rum'; did you mean 'run'?"),
-    (('chek', FIRST), 2, '', "unknown command 'chek'; did you mean 'check'?"),
+    (('help', 'rum'), 2, '', "unknown command 'rum'; did you mean run?"),
+    (('chek', FIRST), 2, '', "unknown command 'chek'; did you mean check?"),
     (('solve', FIRST), 2, '', "unknown command 'solve'"),
     (('run',), 2, '', 'no deck given'),
     (('check',), 2, '', 'no deck given'),
-    (('run', FIRST, '-o'), 2, '', 'option -o needs a directory'),
+    (('run', FIRST, '-o'), 2, '', 'option -o needs DIR'),
     (('run', FIRST, '--fast'), 2, '', "unknown option '--fast'"),
     (('check', FIRST, '-o', '.'), 2, '', "unknown option '-o'"),
     (('run', '--', '-x.dat'), 2, '', '-x.dat: error: there is no such file'),
@@ -58,8 +70,7 @@ def case_faults(program, folder, arguments, code, out, err):
     for words, text in ((out, ran.out), (err, ran.err)):
         if words not in text or bool(words) != bool(text):
             faults.append(f'expected {words!r}, found {text!r}')
-    files = [file for file in os.listdir(folder) if file != '-x.json']
-    return faults + expected('files', [], files)
+    return faults + expected('files', [], os.listdir(folder))
 
 
 def several_decks(program, folder):
@@ -69,6 +80,124 @@ def several_decks(program, folder):
     faults = ran.ended_with(2)
     return faults + expected('files', ['bad.dat', 'bad.json', 'first.h5', 'first.json',
                                        'first.lis'], sorted(os.listdir(folder)))
+
+
+def piped(program, folder, text, *arguments):
+    """Run with a text as standard input"""
+    return subprocess.run([program.path, *arguments], input=text, cwd=folder, text=True,
+                          env=program.environment, capture_output=True, check=False, timeout=60)
+
+
+def standard_input(program, folder):
+    """The deck -: its files and messages are called stdin, includes begin at the current folder, and
+    a refined job is read again though its text comes only once"""
+    deck = read_text(FIRST)
+    ran = piped(program, folder, deck, 'run', '-', '-o', 'out')
+    faults = expected('exit code', 0, ran.returncode) + expected(
+        'files', ['stdin.h5', 'stdin.json', 'stdin.lis'],
+        sorted(os.listdir(os.path.join(folder, 'out'))))
+    if not re.search(r'^deck +stdin$', ran.stdout, re.M):
+        faults.append(f'the deck is not called stdin:\n{ran.stdout}')
+    lines = deck.split('\n')
+    write(folder, 'part.dat', '\n'.join(lines[4:6] + ['END', '']))
+    split = '\n'.join(lines[:4] + ['INCLUDE   part.dat'] + lines[6:])
+    for text, command, code, words in (
+            (split, 'check', 0, 'stdin: ok, 128 nodes'), (deck, 'estimate', 0, 'stdin: 5 harmonics'),
+            (deck.replace('END', 'ERROR\n      5.0\nEND'), 'run', 0, 'stdin'),
+            ('', 'run', 2, 'stdin: error: nothing came from the standard input'),
+            (deck.replace('LAT', 'LOT'), 'check', 2, 'stdin:24:6-15: error: the kind of')):
+        ran = piped(program, folder, text, command, '-')
+        faults += expected(f'exit code of {command}', code, ran.returncode)
+        if words not in ran.stdout + ran.stderr:
+            faults.append(f'expected {words!r}, found\n{ran.stdout}{ran.stderr}')
+    return faults
+
+
+def quiet(program, folder):
+    """--quiet: no word of a run that converges; of one that does not, on the error output alone"""
+    ran = program.run('run', FIRST, '--quiet', folder=folder)
+    faults = ran.ended_with(0) + expected('output', '', ran.out + ran.err)
+    faults += expected('files', ['first.h5', 'first.json', 'first.lis'], sorted(os.listdir(folder)))
+    deck = read_text(FIRST).replace('END', 'INCREMENTS\n       1.0              1\nEND')
+    ran = program.run('run', write(folder, 'one.dat', deck), '--quiet', folder=folder)
+    faults += ran.ended_with(3) + expected('output', '', ran.out)
+    if 'one.dat: *** NOT CONVERGED ***' not in ran.err:
+        faults.append(f'the end is not told:\n{ran.err}')
+    return faults
+
+
+def verbose(program, folder):
+    """--verbose: a line at each stage with the time since the start, in printing characters"""
+    ran = program.run('run', FIRST, '--verbose', folder=folder)
+    faults = ran.ended_with(0)
+    stages = re.findall(r'^axijoint: \d+:\d\d:\d\d (\w+) .*\n', ran.err, re.M)
+    faults += expected('stages', ['reading', 'assembling', 'factoring', 'condensing', 'increment'],
+                       stages)
+    if re.search(r'[^ -~\n]', ran.err):
+        faults.append(f'found control characters: {ran.err!r}')
+    return faults
+
+
+def environment(program, folder):
+    """What the program sets for its libraries is what scripts/environment sets, and what the user has
+    set stays"""
+    if not os.path.isdir('/proc/self'):
+        return []
+    names = ('OMP_WAIT_POLICY', 'OPENBLAS_NUM_THREADS', 'OPENBLAS_CORETYPE')
+    bare = {name: value for name, value in program.environment.items() if name not in names}
+    script = os.path.join(HERE, '..', '..', 'scripts', 'environment')
+    faults = []
+    for given in ({}, {'OMP_WAIT_POLICY': 'ACTIVE', 'OPENBLAS_CORETYPE': 'HASWELL'}):
+        printed = subprocess.run(['bash', '-c', f'. "{script}"; env'], env=bare | given, text=True,
+                                 capture_output=True, check=True).stdout
+        wanted = sorted(line for line in printed.split('\n') if line.split('=')[0] in names)
+        # it waits for its deck once it reads the standard input
+        with subprocess.Popen([program.path, 'run', '-'], env=bare | given, cwd=folder,
+                              stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE) as process:
+            process.stdin.write(b'TITLE\n')
+            process.stdin.flush()
+            found = []
+            for _ in range(500):
+                with open(f'/proc/{process.pid}/environ', encoding='utf-8') as file:
+                    found = sorted(line for line in file.read().split('\0')
+                                   if line.split('=')[0] in names)
+                if found == wanted:
+                    break
+                time.sleep(0.01)
+            process.communicate()
+        faults += expected('environment', wanted, found)
+    return faults
+
+
+def completed(program, folder):
+    """Completion in bash: commands, options, words that are their values, cards, files"""
+    write(folder, 'pile.dat', '')
+    source = program.run('help', '--completion', 'bash').out
+    faults = []
+    for words, found in ((('axijoint', 'es'), 'estimate'), (('axijoint', 'run', '--q'), '--quiet'),
+                         (('axijoint', 'run', '--solver', 's'), 'skyline sparse'),
+                         (('scripts/run', '--verb'), '--verbose'),
+                         (('axijoint', 'help', 'card', 'BLO'), 'BLOCKS'),
+                         (('axijoint', 'run', 'pi'), 'pile.dat')):
+        script = source + f"""
+COMP_WORDS=({' '.join(words)}); COMP_CWORD={len(words) - 1}; _axijoint {words[0]}
+echo "${{COMPREPLY[*]}}"
+"""
+        ran = subprocess.run(['bash', '-c', script], cwd=folder, capture_output=True, text=True,
+                             check=False)
+        faults += expected(' '.join(words), found, ran.stdout.replace('\n', ' ').strip())
+    return faults
+
+
+def manual_page(program, folder):
+    """groff, where it is, has nothing to say against the manual page"""
+    if not shutil.which('groff'):
+        return []
+    path = write(folder, 'axijoint.1', program.run('help', '--man').out)
+    ran = subprocess.run(['groff', '-man', '-Tascii', '-ww', path], capture_output=True, text=True,
+                         check=False)
+    return expected('warnings', '', ran.stderr)
 
 
 def output_lost(program, folder):
@@ -126,7 +255,9 @@ def input_decks(program, _):
 def tests(program):
     """One test a command line"""
     functions = {'several decks': several_decks, 'lost output': output_lost,
-                 'closed pipe': closed_pipe, 'decks of the manuals': documented_decks,
+                 'closed pipe': closed_pipe,
+                 'standard input': standard_input, '--quiet': quiet, '--verbose': verbose,
+                 'environment': environment, 'completion': completed, 'manual page': manual_page, 'decks of the manuals': documented_decks,
                  'decks of inputs': input_decks}
     return [Test('command line: ' + (' '.join(case[0]) or 'none'),
                  lambda folder, case=case: case_faults(program, folder, *case))

@@ -37,10 +37,18 @@ def failed(ran, code, words):
 
 
 def missing(program, folder):
-    """The directory for results does not exist, and is not made"""
-    ran = program.run('run', FIRST, '-o', 'nowhere', folder=folder)
-    return failed(ran, 5, 'there is no directory nowhere') + expected('files', [],
-                                                                      os.listdir(folder))
+    """The directory for results does not exist, nor the one above it: both are made"""
+    ran = program.run('run', FIRST, '-o', 'above/below/', folder=folder)
+    return ran.ended_with(0) + expected('files', ['first.h5', 'first.json', 'first.lis'],
+                                        sorted(os.listdir(os.path.join(folder, 'above', 'below'))))
+
+
+def not_made(program, folder):
+    """The directory for results cannot be made below a file"""
+    write(folder, 'file', 'not a directory')
+    ran = program.run('run', FIRST, '-o', 'file/below', folder=folder)
+    return failed(ran, 5, 'the directory file/below for the results cannot be made') + expected(
+        'files', ['file'], os.listdir(folder))
 
 
 def is_file(program, folder):
@@ -147,7 +155,7 @@ def memory(program, folder):
 def tests(program):
     """One test a way to fail"""
     functions = {
-        'no directory': missing, 'a file for a directory': is_file,
+        'no directory': missing, 'no directory can be made': not_made, 'a file for a directory': is_file,
         'read-only directory': read_only, 'file size limit': file_size_limit,
         'a deck named like a result': deck_named_like_a_result,
         'full disk': full_disk, 'memory limit': memory,

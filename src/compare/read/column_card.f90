@@ -1,6 +1,6 @@
 !> The COLUMN card of a format description
 module axijoint_compare_read_column_card
-   use axijoint_base_text, only : lower, nearest_word, to_text
+   use axijoint_base_text, only : lower, did_you_mean, to_text
    use axijoint_compare_read_factor, only : read_factor
    use axijoint_compare_read_format, only : column_format_type, translation_type, place_free, &
       place_fixed, place_heading, place_constant, blank_missing, blank_zero, blank_above
@@ -184,14 +184,8 @@ contains
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
-      character(len=:), allocatable :: mend
-      integer :: k
-
-      mend = ''
-      k = nearest_word(content(first:last), known)
-      if (k > 0) mend = "did you mean '"//trim(known(k))//"'?"
       call add_error(diagnostics, card, first, last, text, found=content(first:last), &
-         allowed=list_of(known), mend=mend)
+         allowed=list_of(known), mend=did_you_mean(content(first:last), known))
    end subroutine report
 
    !> Words in a row

@@ -1,6 +1,6 @@
 !> Cards of a format description to a format
 module axijoint_compare_read_format_reader
-   use axijoint_base_text, only : upper, nearest_word, to_text
+   use axijoint_base_text, only : upper, did_you_mean, to_text
    use axijoint_compare_read_column_card, only : read_column
    use axijoint_compare_read_format, only : format_type, table_format_type, column_format_type, &
       pattern_type, end_blank, end_next, end_heading, end_text
@@ -224,18 +224,15 @@ contains
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
-      character(len=:), allocatable :: allowed, mend
+      character(len=:), allocatable :: allowed
       integer :: k
 
       allowed = ''
       do k = 1, size(card_names)
          allowed = allowed//' '//trim(card_names(k))
       end do
-      mend = ''
-      k = nearest_word(word, card_names)
-      if (k > 0) mend = 'did you mean '//trim(card_names(k))//'?'
       call add_error(diagnostics, card, first, last, 'no card of a format begins so', found=word, &
-         allowed=allowed(2:), mend=mend)
+         allowed=allowed(2:), mend=did_you_mean(word, card_names))
    end subroutine report_unknown
 
    !> Add a table without columns

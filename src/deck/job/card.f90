@@ -8,7 +8,8 @@ module axijoint_deck_job_card
    use axijoint_deck_mesh_face_geometry, only : moment_of_radius
    use axijoint_deck_mesh_faces, only : find_face
    use axijoint_deck_mesh_node_range, only : find_nodes
-   use axijoint_deck_text_entry, only : entry_type, next_entry, is_given, integer_of, field_fault, &
+   use axijoint_deck_text_entry, only : entry_type, next_entry, is_given, integer_of, &
+      field_fault, lack_fault, &
       first_card
    use axijoint_deck_text_sections, only : table_of
    implicit none
@@ -100,7 +101,7 @@ contains
       if (node > 0) then
          if (.not. card%deck%draft%node_good(node)) node = 0
       else if (card%deck%draft%nodes_complete) then
-         call field_fault(card, field, 'node '//to_text(integer_of(card, field))//' is not defined')
+         call lack_fault(card, field, 'node '//to_text(integer_of(card, field))//' is not defined')
       end if
    end subroutine find_node
 
@@ -125,8 +126,8 @@ contains
          if (.not. is_given(card, field) .or. .not. draft%elements_complete) return
          if (any(draft%element_body(:draft%n_elements) == integer_of(card, field))) return
       end associate
-      call field_fault(card, field, 'there is no body '//to_text(integer_of(card, field)), &
-                       allowed='the body of an ELEMENTS or BLOCKS card (1 if blank there)')
+      call lack_fault(card, field, 'there is no body '//to_text(integer_of(card, field)), &
+                      allowed='the body of an ELEMENTS or BLOCKS card (1 if blank there)')
    end subroutine check_body
 
 end module axijoint_deck_job_card

@@ -8,7 +8,8 @@ module axijoint_deck_job_modes
    use axijoint_deck_job_load_fields, only : name_harmonic, name_family, name_shape
    use axijoint_deck_load_shares, only : share_type, shares_of, add_truncation
    use axijoint_deck_text_diagnostics, only : add_warning
-   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, field_named, field_fault, &
+   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, field_named, &
+      field_fault, lack_fault, &
       card_fault, is_good, is_sound, first_card
    use axijoint_fe_circle_function, only : circle_function_type, share_left_out
    use axijoint_fe_mode, only : mode_type, family_symmetric
@@ -127,9 +128,9 @@ contains
       if (shape > 0) then
          if (.not. card%deck%shapes%good(shape)) shape = 0
       else if (card%deck%shapes%complete) then
-         call field_fault(card, field, 'shape '//to_text(integer_of(card, field))// &
+         call lack_fault(card, field, 'shape '//to_text(integer_of(card, field))// &
             ' is not defined', &
-                          allowed='a shape of a SHAPES card')
+                         allowed='a shape of a SHAPES card')
       end if
    end subroutine find_shape
 

@@ -3,7 +3,7 @@ module axijoint_deck_mesh_faces
    use axijoint_base_number_map, only : find_number, insert_number
    use axijoint_base_text, only : to_text
    use axijoint_deck_mesh_draft, only : draft_type, face_type
-   use axijoint_deck_text_entry, only : entry_type, is_given, integer_of, field_fault, first_card
+   use axijoint_deck_text_entry, only : entry_type, is_given, integer_of, lack_fault, first_card
    use axijoint_deck_text_labels, only : repeated_label
    implicit none
    private
@@ -56,8 +56,8 @@ contains
       if (.not. is_given(card, field)) return
       face = find_number(draft%face_of, integer_of(card, field))
       if (face > 0 .or. .not. draft%faces_complete) return
-      call field_fault(card, field, 'face '//to_text(integer_of(card, field))//' is not defined', &
-                       allowed='a face of a FACES or CHAINS card, or a FACE of GROUPS')
+      call lack_fault(card, field, 'face '//to_text(integer_of(card, field))//' is not defined', &
+                      allowed='a face of a FACES or CHAINS card, or a FACE of GROUPS')
    end subroutine find_face
 
 end module axijoint_deck_mesh_faces

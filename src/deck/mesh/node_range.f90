@@ -4,7 +4,8 @@ module axijoint_deck_mesh_node_range
    use axijoint_base_text, only : to_text
    use axijoint_deck_mesh_draft, only : draft_type
    use axijoint_deck_text_common_fields, only : name_node, name_last, name_step
-   use axijoint_deck_text_entry, only : entry_type, is_given, integer_of, is_good, field_fault, &
+   use axijoint_deck_text_entry, only : entry_type, is_given, integer_of, is_good, &
+      field_fault, lack_fault, &
       field_named
    implicit none
    private
@@ -45,9 +46,9 @@ contains
       i = findloc(nodes, 0, 1)
       if (i == 0) return
       if (draft%nodes_complete) then
-         call field_fault(card, merge(field_last, field_first, i > 1), &
-                          'node '//to_text(first + (i - 1)*step)//' is not defined', &
-                          allowed='nodes first, first + step, ..., last must all exist')
+         call lack_fault(card, merge(field_last, field_first, i > 1), &
+                         'node '//to_text(first + (i - 1)*step)//' is not defined', &
+                         allowed='nodes first, first + step, ..., last must all exist')
       end if
       nodes = [integer ::]
    end subroutine find_nodes

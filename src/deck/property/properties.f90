@@ -2,7 +2,7 @@
 module axijoint_deck_property_properties
    use axijoint_base_number_map, only : number_map_type, find_number, insert_number
    use axijoint_base_text, only : to_text
-   use axijoint_deck_text_entry, only : entry_type, is_given, integer_of, field_fault, first_card
+   use axijoint_deck_text_entry, only : entry_type, is_given, integer_of, lack_fault, first_card
    use axijoint_deck_text_labels, only : repeated_label
    use axijoint_model_material, only : solid_material_type, joint_material_type
    implicit none
@@ -138,7 +138,7 @@ contains
       if (.not. is_given(card, field)) return
       index = find_number(index_of, integer_of(card, field))
       if (index > 0 .or. .not. complete) return
-      call field_fault(card, field, noun//' '//to_text(integer_of(card, field))//' is not defined')
+      call lack_fault(card, field, noun//' '//to_text(integer_of(card, field))//' is not defined')
    end subroutine find_property
 
 end module axijoint_deck_property_properties

@@ -8,7 +8,7 @@ module axijoint_deck_section_chains
    use axijoint_deck_mesh_edges, only : edge_table_type, find_edge, outer_edge
    use axijoint_deck_mesh_faces, only : number_face
    use axijoint_deck_text_common_fields, only : number, nodes
-   use axijoint_deck_text_entry, only : is_given, integer_of, is_good, field_fault
+   use axijoint_deck_text_entry, only : is_given, integer_of, is_good, field_fault, lack_fault
    use axijoint_deck_text_field, only : described
    implicit none
    private
@@ -92,7 +92,7 @@ contains
          if (.not. is_given(card, field)) then
             call field_fault(card, field, 'a node is lacking inside the chain')
          else if (node == 0) then
-            call field_fault(card, field, 'node '//to_text(integer_of(card, field))// &
+            call lack_fault(card, field, 'node '//to_text(integer_of(card, field))// &
                ' is not defined')
          else if (field == field_node) then
             if (all(last_node /= [0, node])) then

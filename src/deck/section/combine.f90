@@ -8,7 +8,8 @@ module axijoint_deck_section_combine
    use axijoint_deck_load_cases, only : cases_type
    use axijoint_deck_text_common_fields, only : number, last_number
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_warning
-   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, is_good, field_fault, &
+   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, is_good, &
+      field_fault, lack_fault, &
       card_fault
    use axijoint_deck_text_field, only : real_field, described
    use axijoint_model_load, only : combination_type
@@ -141,9 +142,9 @@ contains
          case = find_number(cases%index_of, integer_of(card, field))
          if (case == 0) then
             if (.not. cases%complete) cycle
-            call field_fault(card, field, &
-                             'load case '//to_text(integer_of(card, field))//' is not defined', &
-                             allowed='a case of a CASE card; 1 for loads above the first CASE')
+            call lack_fault(card, field, &
+                            'load case '//to_text(integer_of(card, field))//' is not defined', &
+                            allowed='a case of a CASE card; 1 for loads above the first CASE')
          else if (taken(case)) then
             call field_fault(card, field, &
                              'the combination has load case '//to_text(integer_of(card, field)) &

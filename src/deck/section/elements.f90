@@ -8,7 +8,8 @@ module axijoint_deck_section_elements
    use axijoint_deck_mesh_draft, only : draft_type, add_node, add_element
    use axijoint_deck_property_properties, only : find_material
    use axijoint_deck_text_common_fields, only : number, nodes_field => nodes, body_field => body
-   use axijoint_deck_text_entry, only : integer_of, is_good, field_fault, card_fault, first_card
+   use axijoint_deck_text_entry, only : integer_of, is_good, &
+      field_fault, lack_fault, card_fault, first_card
    use axijoint_deck_text_field, only : described
    use axijoint_deck_text_labels, only : check_label
    use axijoint_deck_text_source, only : card_position
@@ -145,10 +146,10 @@ contains
          else
             nodes(i) = 0
             if (.not. draft%nodes_complete) cycle
-            call field_fault(card, field, &
-                             'node '//to_text(label)//' is not defined', &
-                             allowed='a node of a NODES or LINES card; only mid-side and centre ' &
-                                //'nodes are generated')
+            call lack_fault(card, field, &
+                            'node '//to_text(label)//' is not defined', &
+                            allowed='a node of a NODES or LINES card; only mid-side and centre ' &
+                               //'nodes are generated')
          end if
       end do
    end subroutine find_nodes

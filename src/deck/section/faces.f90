@@ -11,7 +11,8 @@ module axijoint_deck_section_faces
    use axijoint_deck_mesh_straight_face, only : line_type, line_between, outer_edges, &
       lay_straight_face
    use axijoint_deck_text_common_fields, only : number, body, length
-   use axijoint_deck_text_entry, only : integer_of, reals_of, is_good, field_fault, first_card
+   use axijoint_deck_text_entry, only : integer_of, reals_of, is_good, &
+      field_fault, lack_fault, first_card
    use axijoint_deck_text_field, only : described
    implicit none
    private
@@ -101,8 +102,8 @@ contains
             allowed='two different points')
       else if (.not. any(draft%element_body(:draft%n_elements) == face%body)) then
          face%good = .false.
-         call field_fault(card, field_body, 'there is no body '//to_text(face%body), &
-                          allowed='the body of an ELEMENTS or BLOCKS card (1 if blank there)')
+         call lack_fault(card, field_body, 'there is no body '//to_text(face%body), &
+                         allowed='the body of an ELEMENTS or BLOCKS card (1 if blank there)')
       else
          call lay_straight_face(card, line, edges, outer, draft, face)
       end if

@@ -1,6 +1,6 @@
 !> GROUPS: what the physical groups of the mesh file mean
 module axijoint_deck_section_groups
-   use axijoint_base_text, only : to_text, count_of, nearest_word
+   use axijoint_base_text, only : to_text, count_of, did_you_mean
    use axijoint_deck_gmsh_import, only : gmsh_import_type, group_use_type, use_body, use_joint, &
       name_number, name_group
    use axijoint_deck_job_card, only : card_type, cards_of, next_card
@@ -178,8 +178,8 @@ contains
       integer, intent(in) :: dimension
       character(len=*), intent(in) :: name
 
-      character(len=:), allocatable :: noun, mend
-      integer :: i, nearest
+      character(len=:), allocatable :: noun
+      integer :: i
 
       noun = 'physical '//trim(noun_of(dimension))
       do i = 1, size(mesh%groups)
@@ -190,30 +190,27 @@ contains
                           group_list(mesh, dimension))
          return
       end do
-      mend = ''
-      nearest = nearest_name(mesh, dimension, name)
-      if (nearest > 0) mend = 'did you mean '//mesh%groups(nearest)%name//'?'
       call field_fault(card, field_name, 'the mesh file has no such '//noun, &
-                       allowed=group_list(mesh, dimension), mend=mend)
+                       allowed=group_list(mesh, dimension), &
+                       mend=did_you_mean(name, names_of(mesh, dimension)))
    end subroutine report_group
 
-   !> Group that a misspelt name most likely means; 0 if none
-   pure integer function nearest_name(mesh, dimension, name) result(nearest)
+   !> Names of the groups of a dimension; blank for the others
+   pure function names_of(mesh, dimension) result(names)
       !> The mesh
       type(gmsh_mesh_type), intent(in) :: mesh
-      !> Dimension of the group, and the name
+      !> The dimension
       integer, intent(in) :: dimension
-      character(len=*), intent(in) :: name
-
+      !> The names
       character(len=80) :: names(size(mesh%groups))
+
       integer :: i
 
       names = ''
       do i = 1, size(names)
          if (mesh%groups(i)%dimension == dimension) names(i) = mesh%groups(i)%name
       end do
-      nearest = nearest_word(name, names)
-   end function nearest_name
+   end function names_of
 
    !> Names of all groups of a dimension, with their numbers where they have none
    pure function group_list(mesh, dimension) result(list)

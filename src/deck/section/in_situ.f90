@@ -9,7 +9,8 @@ module axijoint_deck_section_in_situ
    use axijoint_deck_job_modes, only : needs_harmonic
    use axijoint_deck_load_lists, only : add_initial_stress
    use axijoint_deck_text_common_fields, only : last_number
-   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, is_sound, field_fault, &
+   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, is_sound, &
+      field_fault, lack_fault, &
       field_doubt, first_card
    use axijoint_deck_text_field, only : real_field, word_field, described
    use axijoint_model_load, only : initial_stress_type, covers, is_stressed, any_material
@@ -112,10 +113,10 @@ contains
       material = any_material
       if (.not. is_given(card, field_material)) return
       material = find_number(card%deck%properties%material_of, integer_of(card, field_material))
-      if (material == 0) call field_fault(card, field_material, &
-                                          'material '//to_text(integer_of(card, field_material))// &
-                                          ' is not defined', &
-                                          allowed='a material of MATERIALS or ORTHOTROPIC')
+      if (material == 0) call lack_fault(card, field_material, &
+                                         'material '//to_text(integer_of(card, field_material))// &
+                                         ' is not defined', &
+                                         allowed='a material of MATERIALS or ORTHOTROPIC')
    end subroutine find_layer
 
    !> Check that an in-situ stress is one of some elements, and that these have no other in its load

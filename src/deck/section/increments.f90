@@ -6,7 +6,7 @@ module axijoint_deck_section_increments
    use axijoint_deck_job_card, only : card_type, cards_of, next_card
    use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_job
    use axijoint_deck_text_diagnostics, only : add_warning
-   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, field_fault
+   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, lack_fault
    use axijoint_deck_text_field, only : integer_field, real_field, described, largest_number
    use axijoint_model_load, only : increment_type
    implicit none
@@ -78,10 +78,10 @@ contains
             case = find_number(deck%cases%index_of, integer_of(card, field_case))
             if (case > 0 .or. .not. deck%cases%complete) cycle
          end associate
-         call field_fault(card, field_case, &
-                          'load case '//to_text(integer_of(card, field_case))//' is not defined', &
-                          allowed='a case of a CASE card; 1 for loads above the first CASE; '// &
-                          'blank for all')
+         call lack_fault(card, field_case, &
+                         'load case '//to_text(integer_of(card, field_case))//' is not defined', &
+                         allowed='a case of a CASE card; 1 for loads above the first CASE; '// &
+                         'blank for all')
       end do
    end subroutine refer_increments
 

@@ -7,7 +7,8 @@ module axijoint_deck_section_joints
    use axijoint_deck_mesh_draft, only : draft_type, add_joint
    use axijoint_deck_property_properties, only : find_law
    use axijoint_deck_text_common_fields, only : number, nodes_field => nodes
-   use axijoint_deck_text_entry, only : integer_of, is_good, field_fault, card_fault, first_card
+   use axijoint_deck_text_entry, only : integer_of, is_good, &
+      field_fault, lack_fault, card_fault, first_card
    use axijoint_deck_text_field, only : described
    use axijoint_deck_text_labels, only : check_label
    implicit none
@@ -81,8 +82,8 @@ contains
          label = integer_of(card, field_node + i - 1)
          nodes(i) = find_number(draft%node_of, label)
          if (nodes(i) == 0 .and. draft%nodes_complete) then
-            call field_fault(card, field_node + i - 1, &
-                             'node '//to_text(label)//' is not defined')
+            call lack_fault(card, field_node + i - 1, &
+                            'node '//to_text(label)//' is not defined')
          else if (nodes(i) > 0 .and. any(nodes(:i - 1) == nodes(i))) then
             call field_fault(card, field_node + i - 1, &
                              'the joint has node '//to_text(label)//' twice', &

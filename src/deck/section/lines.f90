@@ -8,7 +8,7 @@ module axijoint_deck_section_lines
    use axijoint_deck_mesh_grading, only : graded_fraction, between
    use axijoint_deck_text_common_fields, only : node, step, ratio
    use axijoint_deck_text_entry, only : is_given, integer_of, real_of, is_good, is_sound, &
-      field_fault, card_fault, first_card
+      field_fault, lack_fault, card_fault, first_card
    use axijoint_deck_text_field, only : described
    use axijoint_deck_text_source, only : card_position
    implicit none
@@ -76,8 +76,8 @@ contains
             labels(i) = integer_of(card, field)
             ends(i) = find_number(draft%node_of, labels(i))
             if (ends(i) > 0 .or. .not. draft%nodes_complete) cycle
-            call field_fault(card, field, 'node '//to_text(labels(i))//' is not defined', &
-                             allowed='a node of a NODES card or of an earlier LINES card')
+            call lack_fault(card, field, 'node '//to_text(labels(i))//' is not defined', &
+                            allowed='a node of a NODES card or of an earlier LINES card')
          end associate
       end do
       if (any(ends == 0)) draft%nodes_complete = .false.

@@ -4,6 +4,7 @@ module axijoint_deck_text_card
    use axijoint_deck_text_decimal_comma, only : has_decimal_comma, report_decimal_comma
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
    use axijoint_deck_text_field, only : field_type, kind_text
+   use axijoint_deck_text_foreign, only : comment_mark, trailing_comment
    use axijoint_deck_text_section, only : card_width
    use axijoint_deck_text_source, only : source_type, card_content, tab
    use axijoint_deck_text_strange_byte, only : has_strange_byte, report_strange_byte
@@ -40,6 +41,7 @@ contains
       logical :: free
 
       content = card_content(source, card)
+      call cut_comment(card, content, fields, diagnostics)
       free = index(content, ',') > 0
       if (has_strange_byte(content, free)) then
          slots = slot_type(1, len(content), 1, 0, .false.)
@@ -64,6 +66,30 @@ contains
          call divide_fixed(card, content, fields, slots, diagnostics)
       end if
    end subroutine divide_card
+
+   !> Report a comment of another program behind the values, and cut it off. A text may hold
+   !> its mark
+   subroutine cut_comment(card, content, fields, diagnostics)
+      !> The card
+      integer, intent(in) :: card
+      !> The card without its comment
+      character(len=:), allocatable, intent(inout) :: content
+      !> Fields
+      type(field_type), intent(in) :: fields(:)
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      character(len=:), allocatable :: mark
+      integer :: first
+
+      first = trailing_comment(content)
+      if (first == 0 .or. any(fields%kind == kind_text)) return
+      mark = comment_mark(content(first:))
+      call add_error(diagnostics, card, first, len(content), &
+                     'a comment begins with !, not with '//mark, found=content(first:), &
+                     mend='write ! in its place', once=.true.)
+      content = content(:len_trim(content(:first - 1)))
+   end subroutine cut_comment
 
    !> Divide a card at its commas
    subroutine divide_free(card, content, fields, slots, diagnostics)

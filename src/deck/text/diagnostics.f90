@@ -18,12 +18,16 @@ module axijoint_deck_text_diagnostics
       character(len=:), allocatable :: text
       !> What was found, what is allowed, how to mend it; empty if not said
       character(len=:), allocatable :: found, allowed, mend
+      !> Further cards with the same error, which is told once
+      integer :: n_more = 0
    end type message_type
 
    !> All messages about a deck
    type :: diagnostics_type
-      !> Number of errors; a model is valid only if there is none
+      !> Number of errors, told or not; a model is valid only if there is none
       integer :: n_errors = 0
+      !> Errors among them that are told with another
+      integer, private :: n_repeated = 0
       !> Number of warnings
       integer :: n_warnings = 0
       !> The first errors and warnings that were found
@@ -45,7 +49,7 @@ module axijoint_deck_text_diagnostics
 contains
 
    !> Record an error
-   subroutine add_error(diagnostics, card, first, last, text, found, allowed, mend)
+   subroutine add_error(diagnostics, card, first, last, text, found, allowed, mend, once)
       !> The messages
       type(diagnostics_type), intent(inout) :: diagnostics
       !> Index of the card; 0 for the deck as a whole
@@ -56,10 +60,22 @@ contains
       character(len=*), intent(in) :: text
       !> What was found, what is allowed, how to mend it
       character(len=*), intent(in), optional :: found, allowed, mend
+      !> Whether one slip may cause this error on many cards: it is told at the first, and how many
+      !> more there are
+      logical, intent(in), optional :: once
 
       type(message_type) :: message
+      integer :: i
 
       diagnostics%n_errors = diagnostics%n_errors + 1
+      if (present(once)) then
+         do i = 1, merge(diagnostics%n_messages, 0, once)
+            if (diagnostics%messages(i)%text /= text) cycle
+            diagnostics%messages(i)%n_more = diagnostics%messages(i)%n_more + 1
+            diagnostics%n_repeated = diagnostics%n_repeated + 1
+            return
+         end do
+      end if
       if (diagnostics%n_errors > max_kept_errors) return
       call new_message(message, card, first, last, text, found, allowed, mend)
       call add_message(diagnostics, message)
@@ -142,9 +158,10 @@ contains
       character(len=:), allocatable :: lines
 
       integer, allocatable :: order(:)
-      integer :: i, n_shown
+      integer :: i, n_shown, n_told
 
       lines = ''
+      n_told = diagnostics%n_errors - diagnostics%n_repeated
       n_shown = 0
       call deck_order(diagnostics, order)
       do i = 1, size(order)
@@ -155,13 +172,12 @@ contains
             end if
          end associate
       end do
-      if (diagnostics%n_errors > max_shown_errors) then
-         lines = lines//'... and '//count_of(diagnostics%n_errors - max_shown_errors, 'error')// &
-                 ' more that '//trim(merge('is ', 'are', &
-                 diagnostics%n_errors == max_shown_errors + 1)) &
+      if (n_told > max_shown_errors) then
+         lines = lines//'... and '//count_of(n_told - max_shown_errors, 'error')// &
+                 ' more that '//trim(merge('is ', 'are', n_told == max_shown_errors + 1)) &
                  //' not shown'//new_line('a')
       end if
-      if (size(order) > 0) lines = lines//count_of(diagnostics%n_errors, 'error')//', '// &
+      if (size(order) > 0) lines = lines//count_of(n_told, 'error')//', '// &
                                    count_of(diagnostics%n_warnings, 'warning')
    end function render
 
@@ -242,6 +258,7 @@ contains
       end if
       if (len(line) > 0) line = line//' '
       line = line//trim(merge('warning:', 'error:  ', message%is_warning))//' '//message%text
+      if (message%n_more > 0) line = line//' (on '//count_of(message%n_more, 'more card')//', too)'
    end function headline
 
    !> All lines of a message, each with its line feed

@@ -10,7 +10,7 @@ module axijoint_deck_text_entry
    private
    public :: entry_type, new_entries, next_entry
    public :: is_given, integer_of, real_of, reals_of, text_of, first_card, field_named
-   public :: field_fault, field_doubt, card_fault, is_good, is_sound
+   public :: field_fault, lack_fault, field_doubt, card_fault, is_good, is_sound
 
    !> One entry of a section
    type :: entry_type
@@ -141,6 +141,23 @@ contains
       call field_error(card%diagnostics, card%source, card%table, card%entry, field, text, &
                        allowed, mend)
    end subroutine field_fault
+
+   !> Report that a field names what the deck lacks. Many cards may name it: it is told at the
+   !> first. A card with another fault may not be meant as it stands: that fault is told alone
+   subroutine lack_fault(card, field, text, allowed)
+      !> The entry
+      class(entry_type), intent(in) :: card
+      !> The field
+      integer, intent(in) :: field
+      !> What is lacking
+      character(len=*), intent(in) :: text
+      !> What is allowed
+      character(len=*), intent(in), optional :: allowed
+
+      if (.not. is_good(card)) return
+      call field_error(card%diagnostics, card%source, card%table, card%entry, field, text, &
+                       allowed, once=.true.)
+   end subroutine lack_fault
 
    !> Warn of the value of a field
    subroutine field_doubt(card, field, text, mend)

@@ -1,11 +1,12 @@
 !> A text file as one string of bytes
 module axijoint_deck_text_file_bytes
    use axijoint_base_kinds, only : i8
-   use axijoint_base_system, only : path_kind, target_kind, path_absent, path_directory, path_other
+   use axijoint_base_system, only : path_kind, target_kind, path_absent, path_directory, &
+      path_other, read_standard_input, error_text
    use axijoint_base_text, only : to_text
    implicit none
    private
-   public :: read_bytes, line_end, next_line, control_byte
+   public :: read_bytes, read_input_bytes, line_end, next_line, control_byte
 
    !> Ends of a line
    character(len=1), parameter :: carriage_return = achar(13), line_feed = achar(10)
@@ -53,6 +54,27 @@ contains
       if (len(failure) == 0 .and. index(bytes, byte_order_mark) == 1) bytes = bytes(4:)
       if (len(failure) == 0 .and. len(bytes) == 0) failure = 'the file is empty'
    end subroutine read_bytes
+
+   !> Read the standard input to its end
+   subroutine read_input_bytes(bytes, failure)
+      !> Its bytes without a byte order mark; empty if it could not be read
+      character(len=:), allocatable, intent(out) :: bytes
+      !> What is wrong, empty if nothing
+      character(len=:), allocatable, intent(out) :: failure
+
+      integer :: errno
+
+      failure = ''
+      call read_standard_input(bytes, errno)
+      if (errno /= 0) then
+         failure = 'the standard input cannot be read: '//error_text(errno)
+         bytes = ''
+      else if (len(bytes) == 0) then
+         failure = 'nothing came from the standard input'
+      else if (index(bytes, byte_order_mark) == 1) then
+         bytes = bytes(4:)
+      end if
+   end subroutine read_input_bytes
 
    !> What keeps a path from being read as a file; empty if nothing does
    function path_failure(path) result(failure)

@@ -1,9 +1,10 @@
 !> The cards of a deck sorted into sections and read into tables
 module axijoint_deck_text_sections
-   use axijoint_base_text, only : to_text, count_of
+   use axijoint_base_text, only : to_text, count_of, upper
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, add_warning
+   use axijoint_deck_text_entry_reader, only : read_entries
    use axijoint_deck_text_field, only : field_type
-   use axijoint_deck_text_section, only : cards_per_entry, keyword_fields, ordinal, cardinal, &
+   use axijoint_deck_text_section, only : cards_per_entry, keyword_fields, &
       form_entries, form_include, form_file, keyword_length, card_width
    use axijoint_deck_text_source, only : source_type, card_text, card_content, card_position, &
       card_title, card_data, card_keyword, form_of, tab
@@ -64,7 +65,7 @@ contains
          end associate
       end do
       allocate (entries(source%n_cards), source=0)
-      call read_entries(source, owner, sections, entries, diagnostics)
+      call read_entries(source, owner, sections%tables, entries, sections%complete, diagnostics)
       call read_keywords(source, entries, sections, diagnostics)
       do section = 1, size(source%sections)
          if (source%sections(section)%required) &
@@ -240,70 +241,6 @@ contains
       end do
    end subroutine keep_utf8
 
-   !> Read all data cards, in the order of the deck
-   subroutine read_entries(source, owner, sections, entries, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
-      !> Keyword card of each data card
-      integer, intent(in) :: owner(:)
-      !> The sections
-      type(sections_type), intent(inout) :: sections
-      !> Number of entries that follow each keyword card, 0 before
-      integer, intent(inout) :: entries(:)
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
-
-      integer, allocatable :: begun(:, :), n_begun(:)
-      integer :: card, n
-
-      n = 1
-      do card = 1, size(source%sections)
-         n = max(n, cards_per_entry(source%sections(card)))
-      end do
-      ! Cards of the entry that is being read below each keyword card
-      allocate (begun(n, size(owner)), n_begun(size(owner)), source=0)
-      do card = 1, source%n_cards
-         if (owner(card) == 0) cycle
-         associate (keyword => owner(card), section => source%cards(owner(card))%keyword)
-            n_begun(keyword) = n_begun(keyword) + 1
-            begun(n_begun(keyword), keyword) = card
-            if (n_begun(keyword) < cards_per_entry(source%sections(section))) cycle
-            call read_entry(sections%tables(section), source, begun(:n_begun(keyword), keyword), &
-                            diagnostics)
-            n_begun(keyword) = 0
-            entries(keyword) = entries(keyword) + 1
-         end associate
-      end do
-      do card = 1, source%n_cards
-         if (n_begun(card) == 0) cycle
-         sections%complete = .false.
-         if (source%complete) call report_lacking(source, card, begun(1, card), n_begun(card), &
-            diagnostics)
-      end do
-   end subroutine read_entries
-
-   !> Report an entry of which the last cards are lacking
-   subroutine report_lacking(source, keyword_card, first_card, n, diagnostics)
-      !> The deck
-      type(source_type), intent(in) :: source
-      !> The keyword card, the first card of the entry, and the number of its cards that are there
-      integer, intent(in) :: keyword_card, first_card, n
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
-
-      character(len=:), allocatable :: allowed
-      integer :: k
-
-      associate (section => source%sections(source%cards(keyword_card)%keyword))
-         allowed = cardinal(cards_per_entry(section))//' cards: '//trim(section%cards(1))
-         do k = 2, cards_per_entry(section)
-            allowed = allowed//'; then '//trim(section%cards(k))
-         end do
-         call add_error(diagnostics, first_card, 0, 0, 'the '//ordinal(n + 1)//' card of the '// &
-                        trim(section%entry)//' is lacking', allowed=allowed)
-      end associate
-   end subroutine report_lacking
-
    !> Read the keyword cards and check the numbers of entries given there
    subroutine read_keywords(source, entries, sections, diagnostics)
       !> The deck
@@ -342,8 +279,8 @@ contains
       end do
    end subroutine read_keywords
 
-   !> Whether the first column of a keyword card is the keyword's, not a blank or a byte
-   !> that is not ASCII
+   !> Whether the first column of a keyword card is the keyword's, not a blank, a byte that is not
+   !> ASCII, or a mark of another program
    pure logical function starts_with_letter(source, card)
       !> The deck
       type(source_type), intent(in) :: source
@@ -353,7 +290,9 @@ contains
       character(len=:), allocatable :: content
 
       content = card_content(source, card)
-      starts_with_letter = scan(content, ' '//tab) /= 1 .and. iachar(content(1:1)) < 128
+      starts_with_letter = .false.
+      if (len(content) > 0) &
+         starts_with_letter = upper(content(1:1)) >= 'A' .and. upper(content(1:1)) <= 'Z'
    end function starts_with_letter
 
    !> Check that a section which must be there has one entry

@@ -5,7 +5,7 @@ module axijoint_deck_text_source
    private
    public :: source_type, add_file, add_card
    public :: card_text, card_content, card_file, card_line, card_position, form_of, printable, tab
-   public :: card_title, card_data, card_keyword
+   public :: card_title, card_data, card_keyword, card_ignored
 
    !> Blank card, comment card, or a card that was already found at fault
    integer, parameter :: card_ignored = 0

@@ -1,15 +1,14 @@
 !> From files to cards: INCLUDE and GMSH cards are followed, END cards are sought
 module axijoint_deck_text_source_reader
-   use axijoint_base_text, only : upper, nearest_word
+   use axijoint_base_text, only : upper
+   use axijoint_deck_text_card_kind, only : classify, seek_hidden_heading, report_heading
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
    use axijoint_deck_text_file_bytes, only : read_bytes, line_end, next_line, control_byte
    use axijoint_deck_text_include_path, only : locate_path, path_fault, nesting_fault, folder
-   use axijoint_deck_text_section, only : section_type, section_named, names_of, first_words, &
-      form_title, &
-      form_include, form_file, form_end, keyword_last, keyword_length
+   use axijoint_deck_text_section, only : section_type, section_named, form_title, form_include, &
+      form_file, form_end, keyword_last, keyword_length
    use axijoint_deck_text_source, only : source_type, add_file, add_card, card_content, card_text, &
-      card_title, card_data, card_keyword, form_of, tab
-   use axijoint_deck_text_strange_byte, only : report_strange_byte
+      card_title, card_data, form_of, tab
    implicit none
    private
    public :: read_source
@@ -17,7 +16,7 @@ module axijoint_deck_text_source_reader
 contains
 
    !> Read a deck and all that it includes
-   subroutine read_source(path, sections, source, diagnostics)
+   subroutine read_source(path, sections, source, diagnostics, bytes)
       !> The deck
       character(len=*), intent(in) :: path
       !> Sections that it may have
@@ -26,9 +25,19 @@ contains
       type(source_type), intent(inout) :: source
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
+      !> What the deck says, if it is not to be read from its file
+      character(len=*), intent(in), optional :: bytes
+
+      character(len=:), allocatable :: text
 
       source%sections = sections
-      call splice_file(source, path, 0, 0, 0, 0, 0, diagnostics)
+      if (.not. present(bytes)) then
+         call splice_file(source, path, 0, 0, 0, 0, 0, diagnostics)
+         return
+      end if
+      text = bytes
+      call add_file(source, path, text, 0)
+      call splice_bytes(source, 1, 0, diagnostics)
    end subroutine read_source
 
    !> Read a file and add its cards
@@ -56,13 +65,25 @@ contains
          return
       end if
       call add_file(source, path, bytes, parent)
-      file = source%n_files
+      file = source%n_files  ! further files follow
+      call splice_bytes(source, file, depth, diagnostics)
+   end subroutine splice_file
+
+   !> Add the cards of a file that was read
+   recursive subroutine splice_bytes(source, file, depth, diagnostics)
+      !> The deck
+      type(source_type), intent(inout) :: source
+      !> The file, and how deep it is
+      integer, intent(in) :: file, depth
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
       if (control_byte(source%files(file)%bytes) > 0) then
          call report_binary(source, file, diagnostics)
       else
          call splice_lines(source, file, depth, diagnostics)
       end if
-   end subroutine splice_file
+   end subroutine splice_bytes
 
    !> Report a file that is not text; the line at fault is its only card
    subroutine report_binary(source, file, diagnostics)
@@ -107,7 +128,7 @@ contains
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
-      integer :: first, last, line, card, last_card
+      integer :: first, last, line, card, last_card, hidden
       logical :: title_next, ended, complained
 
       title_next = .false.
@@ -116,6 +137,7 @@ contains
       last_card = source%n_cards + 1
       first = 1
       line = 0
+      hidden = 0
       do while (first <= len(source%files(file)%bytes))
          line = line + 1
          last = line_end(source%files(file)%bytes, first)
@@ -131,12 +153,15 @@ contains
             title_next = .false.
             last_card = card
          else if (len(card_content(source, card)) == 0) then
-            cycle
+            call seek_hidden_heading(source, card, hidden)
          else if (ended) then
             if (.not. complained) call report_card_after_end(source, card, diagnostics)
             complained = .true.
          else
             call classify(source, card, diagnostics)
+            if (hidden > 0 .and. source%cards(card)%kind == card_data) &
+               call report_heading(source, hidden, diagnostics)
+            hidden = 0
             last_card = card
             title_next = form_of(source, card) == form_title
             ended = form_of(source, card) == form_end
@@ -185,103 +210,6 @@ contains
                      found=card_text(source, card), &
                      mend='write the title, or a blank card, between TITLE and this card')
    end subroutine report_keyword_as_title
-
-   !> A card with contents: its kind and, on a keyword card, its section
-   subroutine classify(source, card, diagnostics)
-      !> The deck
-      type(source_type), intent(inout) :: source
-      !> The card
-      integer, intent(in) :: card
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
-
-      character(len=:), allocatable :: content, word
-      integer :: first, keyword
-
-      content = card_content(source, card)
-      first = max(1, first_letter(content))
-      word = content(first:min(len(content), first + keyword_length - 1))
-      word = word(:scan(word//' ', ' ,'//tab) - 1)
-      keyword = section_named(source%sections, upper(word))
-      source%cards(card)%kind = card_data
-      if (keyword == 0 .and. .not. is_letter(content(1:1))) return
-      if (is_worded_card(source%sections, content, word)) return
-      source%cards(card)%kind = card_keyword
-      source%cards(card)%keyword = keyword
-      if (keyword == 0) then
-         call report_keyword(source, card, word, diagnostics)
-      else if (verify(content(:first - 1), ' '//tab) > 0) then
-         call report_strange_byte(diagnostics, card, content, .true.)
-      else if (first > 1) then
-         call add_error(diagnostics, card, first, first + len(word) - 1, &
-                        'the keyword does not begin in column 1', found=word)
-      end if
-   end subroutine classify
-
-   !> Whether a card with a letter in column 1 is no keyword card but an entry that begins with a
-   !> word: one of the words that such entries begin with (JOINT), and two values more. A misspelt
-   !> keyword (JOINTS) is followed by its number of entries only
-   pure logical function is_worded_card(sections, content, word)
-      !> Sections that the deck may have
-      type(section_type), intent(in) :: sections(:)
-      !> The card without its comment, and its first word
-      character(len=*), intent(in) :: content, word
-
-      integer :: first
-
-      is_worded_card = any(first_words(sections) == upper(word))
-      if (.not. is_worded_card) return
-      first = len(word) + verify(content(len(word) + 1:)//'.', ' ,'//tab)
-      first = first - 1 + scan(content(min(first, len(content)):)//' ', ' ,'//tab)
-      is_worded_card = verify(content(min(first, len(content) + 1):), ' ,'//tab) > 0
-   end function is_worded_card
-
-   !> Place of the first byte that is ASCII and no blank: a byte order mark or a blank that
-   !> is not ASCII does not hide a keyword. 0 if there is none
-   pure integer function first_letter(content) result(first)
-      !> The card without its comment
-      character(len=*), intent(in) :: content
-
-      do first = 1, len(content)
-         if (content(first:first) /= ' ' .and. content(first:first) /= tab &
-             .and. iachar(content(first:first)) < 128) return
-      end do
-      first = 0
-   end function first_letter
-
-   !> Whether a character is an ASCII letter
-   pure logical function is_letter(character)
-      !> The character
-      character(len=1), intent(in) :: character
-      is_letter = upper(character) >= 'A' .and. upper(character) <= 'Z'
-   end function is_letter
-
-   !> Report an unknown keyword and go on as if the likeliest had been written
-   subroutine report_keyword(source, card, word, diagnostics)
-      !> The deck
-      type(source_type), intent(inout) :: source
-      !> The card
-      integer, intent(in) :: card
-      !> The unknown word
-      character(len=*), intent(in) :: word
-      !> Messages
-      type(diagnostics_type), intent(inout) :: diagnostics
-
-      integer :: meant, i
-      character(len=:), allocatable :: names, mend
-
-      meant = nearest_word(word, names_of(source%sections))
-      names = trim(source%sections(1)%name)
-      do i = 2, size(source%sections)
-         names = names//' '//trim(source%sections(i)%name)
-      end do
-      source%cards(card)%keyword = meant
-      mend = 'write one of these keywords from column 1'
-      if (meant > 0) mend = 'did you mean '//trim(source%sections(meant)%name)//'?'
-      if (meant == 0) source%complete = .false.
-      call add_error(diagnostics, card, 1, len(word), 'this keyword is unknown', &
-                     found=word, allowed=names, mend=mend)
-   end subroutine report_keyword
 
    !> Report the first card after END
    subroutine report_card_after_end(source, card, diagnostics)

@@ -1,7 +1,7 @@
 !> The entries of one section as numbers, each with the cards it came from
 module axijoint_deck_text_table
    use axijoint_base_kinds, only : wp
-   use axijoint_base_text, only : to_text, upper
+   use axijoint_base_text, only : to_text, upper, did_you_mean
    use axijoint_deck_text_card, only : slot_type, divide_card
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, add_warning
    use axijoint_deck_text_field, only : field_type, allowed_text, in_range, kind_integer, &
@@ -12,8 +12,8 @@ module axijoint_deck_text_table
       token_too_large, token_too_small, token_not_finite, token_asterisks
    implicit none
    private
-   public :: table_type, new_table, read_entry, integer_value, text_value, entry_error, &
-      field_error, field_warning
+   public :: table_type, new_table, read_entry, card_faults, integer_value, text_value, &
+      entry_error, field_error, field_warning
 
    !> Entries of a section
    type :: table_type
@@ -80,6 +80,26 @@ contains
       end do
       table%good(table%n) = diagnostics%n_errors == errors_before
    end subroutine read_entry
+
+   !> Number of faults of a card, read as a card of an entry
+   integer function card_faults(source, card, fields, k)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> The card
+      integer, intent(in) :: card
+      !> Fields of the entry
+      type(field_type), intent(in) :: fields(:)
+      !> Which of the entry's cards it is
+      integer, intent(in) :: k
+
+      type(table_type) :: table
+      type(diagnostics_type) :: faults
+
+      table = new_table(fields, 1)
+      table%n = 1
+      call read_card(table, source, card, k, faults)
+      card_faults = faults%n_errors
+   end function card_faults
 
    !> Read one card of the last entry
    subroutine read_card(table, source, card, k, diagnostics)
@@ -173,7 +193,10 @@ contains
          call explain(field, code, fault, mend)
       case (kind_word)
          value = real(findloc(field%words, upper(token), 1), wp)
-         if (value < 1.0_wp) fault = 'is unknown'
+         if (value < 1.0_wp) then
+            fault = 'is unknown'
+            mend = did_you_mean(token, field%words)
+         end if
          return
       case (kind_code)
          value = 0.0_wp
@@ -306,7 +329,7 @@ contains
    end function text_value
 
    !> Report an error in the value of a field
-   subroutine field_error(diagnostics, source, table, entry, field, text, allowed, mend)
+   subroutine field_error(diagnostics, source, table, entry, field, text, allowed, mend, once)
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
       !> The deck
@@ -319,13 +342,15 @@ contains
       character(len=*), intent(in) :: text
       !> What is allowed, how to mend it
       character(len=*), intent(in), optional :: allowed, mend
+      !> Whether it is told at the first card only
+      logical, intent(in), optional :: once
 
       type(slot_type) :: slot
       integer :: card
 
       call find_slot(source, table, entry, field, card, slot)
       call add_error(diagnostics, card, slot%first, slot%last, text, &
-                     found=text_value(source, table, entry, field), allowed=allowed, mend=mend)
+                     text_value(source, table, entry, field), allowed, mend, once)
    end subroutine field_error
 
    !> Warn of the value of a field

@@ -1,0 +1,221 @@
+!> What the commands of the program are and which options they take: the command line is read by
+!> this table, and help, manual page and completion are made from it
+module axijoint_command_manual
+   use axijoint_base_text, only : lower
+   use axijoint_solver_entry, only : solver_entry_type
+   use axijoint_solver_registry, only : solver_words
+   implicit none
+   private
+   public :: option_type, topic_type, all_topics, compare_options, topic_named, option_named, &
+      names_of_topics, names_of_options
+   public :: takes_folder, takes_file, takes_word, takes_anything
+
+   !> What the value of an option is: one of some words, a path, anything
+   integer, parameter :: takes_anything = 0, takes_folder = 1, takes_file = 2, takes_word = 3
+
+   !> An option
+   type :: option_type
+      !> Name, with its dashes
+      character(len=16) :: name = ''
+      !> Name of its value; blank if it takes none
+      character(len=12) :: value = ''
+      !> What it does
+      character(len=200) :: meaning = ''
+      !> What its value is, and the words, separated by blanks, if it is one of some
+      integer :: takes = takes_anything
+      character(len=80) :: words = ''
+   end type option_type
+
+   !> A command
+   type :: topic_type
+      !> Name
+      character(len=12) :: name = ''
+      !> What it is given beside options
+      character(len=20) :: arguments = ''
+      !> What it does, in a few words
+      character(len=60) :: purpose = ''
+      !> What it does, at length
+      character(len=600) :: description = ''
+      !> Options
+      type(option_type), allocatable :: options(:)
+      !> Exit codes; blank if they are the usual ones
+      character(len=200) :: exit_codes = ''
+   end type topic_type
+
+contains
+
+   !> All commands
+   function all_topics(solvers) result(topics)
+      !> Solvers that can be asked for
+      type(solver_entry_type), intent(in) :: solvers(:)
+      !> The commands, in the order of the help
+      type(topic_type), allocatable :: topics(:)
+
+      type(option_type) :: threads, memory, quiet
+
+      threads = option_type('--threads', 'N', &
+         'harmonics at once (default: OMP_NUM_THREADS, or all processors)')
+      memory = option_type('--memory', 'MIB', 'memory that the process may take: fewer factors '// &
+         'at once then (default: what the machine, its control group and limits leave)')
+      quiet = option_type('--quiet', '', 'nothing but errors and warnings')
+      allocate (topics(5))
+      topics(1) = topic_type('run', 'DECK...', 'solve decks', &
+         'Solves each deck and writes NAME.lis (listing), NAME.json (summary) and NAME.h5 '// &
+         '(results), NAME being the name of the deck without its ending. The deck - is read '// &
+         'from the standard input; its results are called stdin, and paths in it begin at the '// &
+         'current directory.', &
+         [option_type('-o', 'DIR', 'directory for the results, made with those above it if it '// &
+                      'is not there (default: the current one)', takes_folder), &
+          option_type('--solver', 'NAME', alternatives(solvers)//' (default: as the deck says)', &
+                      takes_word, joined(solvers)), &
+          threads, memory, &
+          option_type('--vtk', '', 'NAME.vtkhdf for ParaView, too (whole circle; SWEEP of the '// &
+                      'deck says more)'), &
+          quiet, &
+          option_type('--verbose', '', 'lines on the standard error output that say what is '// &
+                      'being done, for logs: at each stage, and then at most one a minute'), &
+          option_type('--', '', 'everything that follows is a deck')], &
+         '0 ok; 2 deck or usage; 3 not converged; 4 singular or mechanism; 5 input or output; '// &
+         '6 memory; 70 internal. Of several decks, the largest.')
+      topics(2) = topic_type('check', 'DECK...', 'read and check decks only', &
+         'Reads and checks each deck, prints all its errors and what it describes, and solves '// &
+         'nothing. The deck - is read from the standard input.', &
+         [quiet], '0 ok; 2 deck or usage.')
+      topics(3) = topic_type('estimate', 'DECK...', 'say what decks would cost', &
+         'Says for each solver what a run of each deck would need: unknowns, entries of the '// &
+         'factors, operations, memory and time, with the threads and in the memory that the '// &
+         'run would have. Nothing is solved. The deck - is read from the standard input.', &
+         [threads, memory])
+      topics(4) = topic_type('compare', 'A B', 'compare two listings or result files', &
+         'Compares two listings, two HDF5 result files, or one of each, table by table and '// &
+         'column by column. Rows are matched by their places (r, z, theta), whatever the '// &
+         'numbers of the nodes. Values are the same if they differ by no more than the largest '// &
+         'of the tolerances, and the rounding of the digits printed.', compare_options(), &
+         '0 same; 1 different; 2 a file that cannot be read, or usage.')
+      topics(5) = topic_type('help', '[COMMAND]', 'help on a command', &
+         'Without COMMAND, what commands there are. `help card` prints an index of all cards '// &
+         'of a deck, `help card NAME` the fields of one.', &
+         [option_type('--markdown', '', 'of cards: as they stand in doc/deck.md'), &
+          option_type('--man', '', 'the manual page, as source for man'), &
+          option_type('--completion', 'SHELL', 'what completes command lines in bash or zsh', &
+                      takes_word, 'bash zsh')])
+   end function all_topics
+
+   !> Options of `compare`
+   pure function compare_options() result(options)
+      !> The options
+      type(option_type) :: options(14)
+
+      options = [ &
+         option_type('--relative', 'T', 'of the larger of the two values (default: 1E-6)'), &
+         option_type('--absolute', 'T', 'in the unit of the value (default: 0)'), &
+         option_type('--of-table', 'T', 'of the largest of the quantity in the table '// &
+                     '(default: 1E-9)'), &
+         option_type('--of-file', 'T', 'of the largest of the quantity in the file '// &
+                     '(default: 1E-12)'), &
+         option_type('--tolerance', 'NAME=R[,A]', 'relative and absolute, of a quantity or a '// &
+                     'column'), &
+         option_type('--coordinates', 'T', 'distance of the same place, of the extent '// &
+                     '(default: 1E-9)'), &
+         option_type('--exact-digits', '', 'printed numbers are exact, not rounded'), &
+         option_type('--allow-missing', 'WHAT', 'tables, columns, rows or all may be in one '// &
+                     'file only', takes_word, 'tables columns rows all'), &
+         option_type('--allow-unknown', '', 'NaN on both sides or asterisks are no difference'), &
+         option_type('--skip', 'NAME', 'table, column or quantity that is not compared'), &
+         option_type('--worst', 'N', 'differences shown for each table (default: 5)'), &
+         option_type('--format-a', 'FILE', 'description of the format of A', takes_file), &
+         option_type('--format-b', 'FILE', 'description of the format of B', takes_file), &
+         option_type('--print-format', '', 'print the description of axijoint''s own listing')]
+   end function compare_options
+
+   !> Names of the solvers as in: one, two or three
+   function alternatives(solvers) result(text)
+      !> The solvers
+      type(solver_entry_type), intent(in) :: solvers(:)
+      !> The text
+      character(len=:), allocatable :: text
+
+      integer :: k
+
+      associate (words => solver_words(solvers))
+         text = trim(words(1))
+         do k = 2, size(words) - 1
+            text = text//', '//trim(words(k))
+         end do
+         if (size(words) > 1) text = text//' or '//trim(words(size(words)))
+      end associate
+      text = lower(text)
+   end function alternatives
+
+   !> Names of the solvers with a blank between them
+   function joined(solvers) result(text)
+      !> The solvers
+      type(solver_entry_type), intent(in) :: solvers(:)
+      !> The text
+      character(len=:), allocatable :: text
+
+      integer :: k
+
+      text = ''
+      associate (words => solver_words(solvers))
+         do k = 1, size(words)
+            text = text//' '//lower(trim(words(k)))
+         end do
+      end associate
+      text = text(2:)
+   end function joined
+
+   !> Place of a command; 0 if there is none of the name
+   pure integer function topic_named(topics, name) result(k)
+      !> The commands
+      type(topic_type), intent(in) :: topics(:)
+      !> The name
+      character(len=*), intent(in) :: name
+
+      do k = size(topics), 1, -1
+         if (topics(k)%name == name) return
+      end do
+   end function topic_named
+
+   !> Place of an option of a command; 0 if it has none of the name
+   pure integer function option_named(topic, name) result(k)
+      !> The command
+      type(topic_type), intent(in) :: topic
+      !> The name
+      character(len=*), intent(in) :: name
+
+      do k = size(topic%options), 1, -1
+         if (topic%options(k)%name == name) return
+      end do
+   end function option_named
+
+   !> Names of the commands
+   pure function names_of_topics(topics) result(names)
+      !> The commands
+      type(topic_type), intent(in) :: topics(:)
+      !> Their names
+      character(len=12) :: names(size(topics))
+
+      integer :: k
+
+      do k = 1, size(topics)
+         names(k) = topics(k)%name
+      end do
+   end function names_of_topics
+
+   !> Names of the options of a command, and of help on it
+   pure function names_of_options(topic) result(names)
+      !> The command
+      type(topic_type), intent(in) :: topic
+      !> The names
+      character(len=16) :: names(size(topic%options) + 1)
+
+      integer :: k
+
+      do k = 1, size(topic%options)
+         names(k) = topic%options(k)%name
+      end do
+      names(size(names)) = '--help'
+   end function names_of_options
+
+end module axijoint_command_manual
