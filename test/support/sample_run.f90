@@ -45,6 +45,7 @@ contains
          mesh%joint_material = [1]
          mesh%joint_size = [4]
          mesh%joint_nodes = reshape([1, 2, 3, 4, 0, 0], [6, 1])
+         mesh%joint_interface = [0]
       end associate
       model%fixed = reshape([.false., .false., .false., .false., .false., .false., .true., &
          .true., .true., .true., .true., .true.], [3, n_nodes])
