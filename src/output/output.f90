@@ -169,7 +169,7 @@ contains
       end if
       if (.not. allocated(error)) call summary%open(final_path(directory, name, file_summary), error)
       if (.not. allocated(error)) then
-         call write_summary(summary, run, messages, job%model, results, series, job%timer)
+         call write_summary(summary, run, messages, job, results, series)
          call summary%finish(error)
       end if
 

@@ -4,6 +4,7 @@ module axijoint_output_summary
    use axijoint_analysis_core_series, only : series_type
    use axijoint_analysis_error_budget, only : sum_of_shares
    use axijoint_base_kinds, only : wp
+   use axijoint_base_sha256, only : sha256
    use axijoint_base_system, only : peak_memory_mb
    use axijoint_base_text, only : lower
    use axijoint_base_timer, only : timer_type, phase_names, phase_read, phase_assemble, &
@@ -11,8 +12,10 @@ module axijoint_output_summary
    use axijoint_base_version, only : program_name, program_version
    use axijoint_element_joint_law, only : state_stick, state_slip, state_open
    use axijoint_fe_mode, only : family_symmetric, family_antisymmetric
+   use axijoint_job_job, only : job_type
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type, method_names
+   use axijoint_output_file_echo, only : deck_text
    use axijoint_output_file_json, only : json_string, json_number, json_integers, json_strings
    use axijoint_output_file_run, only : run_type, status_name, status_error
    use axijoint_output_file_text, only : text_file_type
@@ -22,6 +25,7 @@ module axijoint_output_summary
    use axijoint_output_table_increments, only : increments_json
    use axijoint_output_table_interfaces, only : interfaces_json
    use axijoint_output_table_joint_proportion, only : proportions_json
+   use axijoint_output_table_modes, only : modes_json, truncations_json
    use axijoint_output_table_residuals, only : residuals_json
    implicit none
    private
@@ -34,57 +38,60 @@ module axijoint_output_summary
 contains
 
    !> Summary of a finished run
-   subroutine write_summary(file, run, messages, model, results, series, timer)
+   subroutine write_summary(file, run, messages, job, results, series)
       !> The file
       class(text_file_type), intent(inout) :: file
       !> Name tags of the run
       type(run_type), intent(in) :: run
       !> Warnings and how the iteration ended
       character(len=*), intent(in) :: messages(:)
-      !> The job
-      type(model_type), intent(in) :: model
+      !> Deck, model, times
+      type(job_type), intent(in) :: job
       !> Results
       type(results_type), intent(in) :: results
       !> What is followed from increment to increment
       type(series_type), intent(in) :: series
-      !> Times of the run
-      type(timer_type), intent(in) :: timer
 
-      call write_tags(file, run, status_name(results), messages, json_string(model%title))
-      call put_pair(file, "combination", json_number(results%combination))
-      call put_pair(file, "nodes", json_number(n_nodes(model%mesh)))
-      call put_pair(file, "elements", json_number(n_elements(model%mesh)))
-      call put_pair(file, "joints", json_number(n_joints(model%mesh)))
-      call put_pair(file, "unknowns", json_number(n_unknowns(results)))
-      call put_pair(file, "solver", json_string(lower(trim(results%solver%name))))
-      call put_pair(file, "harmonics", json_integers(distinct((results%modes%harmonic))))
-      call put_pair(file, "families", json_strings(family_names(results)))
-      call put_pair(file, "planes", json_number(model%n_planes))
-      call put_pair(file, "iterations", json_number(size(results%path)))
-      call put_pair(file, "residual_ratio", json_number(results%residual_ratio))
-      call put_pair(file, "residuals", residuals_json(results))
-      call put_pair(file, "increments", increments_json(series))
-      call put_pair(file, "mismatch", json_number(results%mismatch))
-      call put_pair(file, "tolerance", json_number(results%tolerance))
-      call put_pair(file, "method", json_string(lower(trim(method_names(model%method)))))
-      if (results%other_loop >= 0.0_wp) then
-         call put_pair(file, "other_loop_difference", json_number(results%other_loop))
-      else
-         call put_pair(file, "other_loop_difference", "null")
-      end if
-      call put_pair(file, "joint_states", states_text(results))
-      call put_pair(file, "interfaces", interfaces_json(model))
-      call put_pair(file, "joint_stiffness", proportions_json(model, results))
-      call put_pair(file, "equilibrium_error", json_number(results%equilibrium_error))
-      call put_pair(file, "part_equilibrium_error", json_number(results%part_error))
-      call put_pair(file, "in_situ", in_situ_json(model, results%in_situ))
-      call put_pair(file, "left_out", left_out_text(results))
-      call put_pair(file, "errors", errors_text(results))
-      call put_pair(file, "singular", singular_json(model, results))
-      call put_pair(file, "error_seconds", error_seconds_text(results))
-      if (allocated(results%rounds)) call put_pair(file, "rounds", rounds_text(results))
-      call put_pair(file, "seconds", seconds_text(timer))
-      call put_last(file)
+      associate (model => job%model)
+         call write_tags(file, run, status_name(results), messages, json_string(model%title))
+         call put_pair(file, "deck_sha256", json_string(sha256(deck_text(job%source))))
+         call put_pair(file, "combination", json_number(results%combination))
+         call put_pair(file, "nodes", json_number(n_nodes(model%mesh)))
+         call put_pair(file, "elements", json_number(n_elements(model%mesh)))
+         call put_pair(file, "joints", json_number(n_joints(model%mesh)))
+         call put_pair(file, "unknowns", json_number(n_unknowns(results)))
+         call put_pair(file, "solver", json_string(lower(trim(results%solver%name))))
+         call put_pair(file, "harmonics", json_integers(distinct((results%modes%harmonic))))
+         call put_pair(file, "families", json_strings(family_names(results)))
+         call put_pair(file, "modes", modes_json(results))
+         call put_pair(file, "truncations", truncations_json(model))
+         call put_pair(file, "planes", json_number(model%n_planes))
+         call put_pair(file, "iterations", json_number(size(results%path)))
+         call put_pair(file, "residual_ratio", json_number(results%residual_ratio))
+         call put_pair(file, "residuals", residuals_json(results))
+         call put_pair(file, "increments", increments_json(series))
+         call put_pair(file, "mismatch", json_number(results%mismatch))
+         call put_pair(file, "tolerance", json_number(results%tolerance))
+         call put_pair(file, "method", json_string(lower(trim(method_names(model%method)))))
+         if (results%other_loop >= 0.0_wp) then
+            call put_pair(file, "other_loop_difference", json_number(results%other_loop))
+         else
+            call put_pair(file, "other_loop_difference", "null")
+         end if
+         call put_pair(file, "joint_states", states_text(results))
+         call put_pair(file, "interfaces", interfaces_json(model))
+         call put_pair(file, "joint_stiffness", proportions_json(model, results))
+         call put_pair(file, "equilibrium_error", json_number(results%equilibrium_error))
+         call put_pair(file, "part_equilibrium_error", json_number(results%part_error))
+         call put_pair(file, "in_situ", in_situ_json(model, results%in_situ))
+         call put_pair(file, "left_out", left_out_text(results))
+         call put_pair(file, "errors", errors_text(results))
+         call put_pair(file, "singular", singular_json(model, results))
+         call put_pair(file, "error_seconds", error_seconds_text(results))
+         if (allocated(results%rounds)) call put_pair(file, "rounds", rounds_text(results))
+         call put_pair(file, "seconds", seconds_text(job%timer))
+         call put_last(file)
+      end associate
    end subroutine write_summary
 
    !> Rounds of refinement

@@ -3,21 +3,23 @@ module axijoint_analysis_core_cut_motion
    use axijoint_analysis_core_results, only : axial, lateral, moment, torque, lateral_90, &
       moment_90, n_resultants
    use axijoint_base_kinds, only : wp
-   use axijoint_element_solid_point, only : solid_point_type, solid_points
    use axijoint_fe_mode, only : mode_type, is_torsion, family_symmetric
-   use axijoint_fe_quadrature, only : max_element_points
-   use axijoint_fe_reference, only : reference_type
-   use axijoint_model_mesh, only : mesh_type, n_elements, element_references
-   use axijoint_model_request, only : cut_type
+   use axijoint_fe_shape, only : shape_element
+   use axijoint_model_locate, only : locate_points
+   use axijoint_model_mesh, only : mesh_type, n_elements, max_element_nodes
+   use axijoint_model_request, only : cut_type, line_type
    implicit none
    private
    public :: cut_motion
 
+   !> Points over the width of a section
+   integer, parameter :: n_section = 33
+
 contains
 
-   !> The rigid motion that comes nearest, by least squares over the volume of the elements that
-   !> the cut passes through, to the displacements there: along z, along theta = 0 and 90 degrees
-   !> at the cut, rotations with the signs of the moments, rotation about z
+   !> The rigid motion that comes nearest, by least squares over points on the section, to the
+   !> displacements there: along z, along theta = 0 and 90 degrees at the cut, rotations with the
+   !> signs of the moments, rotation about z
    function cut_motion(mesh, cut, modes, displacement) result(motion)
       !> The mesh
       type(mesh_type), intent(in) :: mesh
@@ -30,33 +32,29 @@ contains
       !> Displacements [length] and rotations [radian], in the order of the resultants
       real(wp) :: motion(n_resultants)
 
-      type(solid_point_type) :: points(max_element_points)
-      type(reference_type), allocatable :: references(:)
+      type(line_type) :: line
+      real(wp) :: shape(max_element_nodes), derivative(2, max_element_nodes)
       real(wp) :: matrix(2, 2, size(modes)), right(2, size(modes)), basis(3, 2), u(3)
-      integer :: element, i, k, n
+      integer :: i, k, n
 
-      references = element_references(mesh)
+      line = section_of(mesh, cut)
       matrix = 0.0_wp
       right = 0.0_wp
-      do element = 1, n_elements(mesh)
-         if (cut%body > 0 .and. mesh%element_body(element) /= cut%body) cycle
-         n = mesh%element_size(element)
-         associate (nodes => mesh%element_nodes(:n, element), &
-                    reference => references(mesh%element_kind(element)))
-            associate (z => mesh%coordinates(2, nodes))
-               if (minval(z) > cut%z .or. maxval(z) < cut%z) cycle
-            end associate
-            call solid_points(mesh%coordinates(:, nodes), reference, points(:reference%n_points))
-            do k = 1, size(modes)
-               if (modes(k)%harmonic > 1) cycle
-               do i = 1, reference%n_points
-                  basis = rigid_basis(modes(k), points(i)%position - [0.0_wp, cut%z])
-                  u = matmul(displacement(:, nodes, k), points(i)%shape(:n))
+      do i = 1, size(line%points)
+         associate (point => line%points(i))
+            if (cut%body > 0 .and. mesh%element_body(point%element) /= cut%body) cycle
+            n = mesh%element_size(point%element)
+            call shape_element(n, point%natural(1), point%natural(2), shape(:n), derivative(:, :n))
+            associate (nodes => mesh%element_nodes(:n, point%element))
+               do k = 1, size(modes)
+                  if (modes(k)%harmonic > 1) cycle
+                  basis = rigid_basis(modes(k), point%position(1))
+                  u = matmul(displacement(:, nodes, k), shape(:n))
                   matrix(:, :, k) = matrix(:, :, k) &
-                     + points(i)%weight*matmul(transpose(basis), basis)
-                  right(:, k) = right(:, k) + points(i)%weight*matmul(u, basis)
+                     + point%position(1)*matmul(transpose(basis), basis)
+                  right(:, k) = right(:, k) + point%position(1)*matmul(u, basis)
                end do
-            end do
+            end associate
          end associate
       end do
       motion = 0.0_wp
@@ -74,23 +72,52 @@ contains
       end do
    end function cut_motion
 
-   !> Amplitudes u, v, w of the rigid motions of a mode at a point
-   pure function rigid_basis(mode, place) result(basis)
+   !> Points on the cut, at equal distances
+   function section_of(mesh, cut) result(line)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The cut
+      type(cut_type), intent(in) :: cut
+      !> The points that lie in elements
+      type(line_type) :: line
+
+      real(wp) :: low, high
+      integer :: element
+
+      low = huge(low)
+      high = 0.0_wp
+      do element = 1, n_elements(mesh)
+         if (cut%body > 0 .and. mesh%element_body(element) /= cut%body) cycle
+         associate (x => mesh%coordinates(:, &
+            mesh%element_nodes(:mesh%element_size(element), element)))
+            if (minval(x(2, :)) > cut%z .or. maxval(x(2, :)) < cut%z) cycle
+            low = min(low, minval(x(1, :)))
+            high = max(high, maxval(x(1, :)))
+         end associate
+      end do
+      line%n_points = n_section
+      line%first = [min(low, high), cut%z]
+      line%last = [high, cut%z]
+      call locate_points(mesh, line)
+   end function section_of
+
+   !> Amplitudes u, v, w of the rigid motions of a mode at the height of the cut
+   pure function rigid_basis(mode, r) result(basis)
       !> The mode
       type(mode_type), intent(in) :: mode
-      !> r, and z above the cut
-      real(wp), intent(in) :: place(2)
+      !> Radius
+      real(wp), intent(in) :: r
       !> Of harmonic 0 the first alone; of harmonic 1 a unit displacement and a unit rotation
       real(wp) :: basis(3, 2)
 
       basis = 0.0_wp
       if (is_torsion(mode)) then
-         basis(3, 1) = -place(1)
+         basis(3, 1) = -r
       else if (mode%harmonic == 0) then
          basis(2, 1) = 1.0_wp
       else
          basis(:, 1) = [1.0_wp, 0.0_wp, -1.0_wp]
-         basis(:, 2) = [-place(2), place(1), place(2)]
+         basis(2, 2) = r
       end if
    end function rigid_basis
 

@@ -40,6 +40,7 @@ contains
                         described(body(26), 'body', blank='any'), &
                         described(text_field('the name', 32, 47), 'name', &
                                   blank='point and its number', limits='each once')]
+      section%fields(field_name)%required = .false.
    end function points_section
 
    !> Read the points as far as their cards tell

@@ -1,0 +1,164 @@
+!> SHA-256 of a text (FIPS 180-4)
+module axijoint_base_sha256
+   use, intrinsic :: iso_fortran_env, only : int32, int64
+   use axijoint_base_kinds, only : wp
+   implicit none
+   private
+   public :: sha256
+
+   !> Bytes of a block, rounds on it
+   integer, parameter :: block_bytes = 64, rounds = 64
+
+contains
+
+   !> The hash in hexadecimal digits
+   pure function sha256(text) result(hash)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> 64 digits
+      character(len=64) :: hash
+
+      integer(int32) :: state(8), key(rounds)
+      character(len=block_bytes) :: block
+      character(len=2*block_bytes) :: tail
+      integer :: blocks, i, n, used
+
+      call constants(state, key)
+      blocks = len(text)/block_bytes
+      do i = 1, blocks
+         block = text(block_bytes*(i - 1) + 1:block_bytes*i)
+         call mix(block, key, state)
+      end do
+      used = len(text) - block_bytes*blocks
+      n = merge(1, 2, used < block_bytes - 8)
+      tail = repeat(achar(0), len(tail))
+      tail(:used) = text(block_bytes*blocks + 1:)
+      tail(used + 1:used + 1) = char(128)
+      do i = 0, 7  ! length in bits, the highest byte first
+         tail(block_bytes*n - i:block_bytes*n - i) = &
+            char(int(ibits(8_int64*len(text, int64), 8*i, 8)))
+      end do
+      do i = 1, n
+         block = tail(block_bytes*(i - 1) + 1:block_bytes*i)
+         call mix(block, key, state)
+      end do
+      write (hash, '(8z8.8)') state
+      call to_lower(hash)
+   end function sha256
+
+   !> First 32 bits of the fractional parts of the square roots of the first 8 primes, and of the
+   !> cube roots of the first 64
+   pure subroutine constants(state, key)
+      !> First state
+      integer(int32), intent(out) :: state(8)
+      !> Constants of the rounds
+      integer(int32), intent(out) :: key(rounds)
+
+      integer :: candidate, n
+
+      candidate = 1
+      n = 0
+      do while (n < rounds)
+         candidate = candidate + 1
+         if (.not. is_prime(candidate)) cycle
+         n = n + 1
+         if (n <= size(state)) state(n) = root_fraction(candidate, 2)
+         key(n) = root_fraction(candidate, 3)
+      end do
+   end subroutine constants
+
+   !> Whether a number has no divisor
+   pure logical function is_prime(number)
+      !> The number
+      integer, intent(in) :: number
+
+      integer :: i
+
+      is_prime = .true.
+      do i = 2, number - 1
+         if (mod(number, i) == 0) is_prime = .false.
+      end do
+   end function is_prime
+
+   !> 32 bits of the fraction of a root
+   pure integer(int32) function root_fraction(number, degree) result(bits)
+      !> The number, and 2 or 3
+      integer, intent(in) :: number, degree
+
+      real(wp) :: root
+
+      root = real(number, wp)**(1.0_wp/degree)
+      bits = low_word(int((root - aint(root))*2.0_wp**32, int64))
+   end function root_fraction
+
+   !> Work a block into the state
+   pure subroutine mix(block, key, state)
+      !> 64 bytes
+      character(len=block_bytes), intent(in) :: block
+      !> Constants of the rounds
+      integer(int32), intent(in) :: key(rounds)
+      !> The state
+      integer(int32), intent(inout) :: state(8)
+
+      integer(int32) :: w(rounds), a(8), first, second
+      integer :: i, j
+
+      do i = 1, 16
+         w(i) = 0
+         do j = 1, 4
+            w(i) = ior(shiftl(w(i), 8), ichar(block(4*i - 4 + j:4*i - 4 + j)))
+         end do
+      end do
+      do i = 17, rounds
+         first = ieor(ieor(ishftc(w(i - 15), -7), ishftc(w(i - 15), -18)), shiftr(w(i - 15), 3))
+         second = ieor(ieor(ishftc(w(i - 2), -17), ishftc(w(i - 2), -19)), shiftr(w(i - 2), 10))
+         w(i) = plus([w(i - 16), first, w(i - 7), second])
+      end do
+      a = state
+      do i = 1, rounds
+         first = plus([a(8), ieor(ieor(ishftc(a(5), -6), ishftc(a(5), -11)), ishftc(a(5), -25)), &
+                       ieor(iand(a(5), a(6)), iand(not(a(5)), a(7))), key(i), w(i)])
+         second = plus([ieor(ieor(ishftc(a(1), -2), ishftc(a(1), -13)), ishftc(a(1), -22)), &
+                        ieor(ieor(iand(a(1), a(2)), iand(a(1), a(3))), iand(a(2), a(3)))])
+         a(2:8) = a(1:7)
+         a(5) = plus([a(5), first])
+         a(1) = plus([first, second])
+      end do
+      do i = 1, size(state)
+         state(i) = plus([state(i), a(i)])
+      end do
+   end subroutine mix
+
+   !> Sum modulo 2^32
+   pure integer(int32) function plus(words) result(total)
+      !> The terms
+      integer(int32), intent(in) :: words(:)
+
+      total = low_word(sum(iand(int(words, int64), int(z'FFFFFFFF', int64))))
+   end function plus
+
+   !> The lowest 32 bits
+   pure integer(int32) function low_word(long) result(word)
+      !> A number that is not negative
+      integer(int64), intent(in) :: long
+
+      integer(int64) :: low
+
+      low = iand(long, int(z'FFFFFFFF', int64))
+      if (low > huge(1_int32)) low = low - 2_int64**32
+      word = int(low, int32)
+   end function low_word
+
+   !> Small letters
+   pure subroutine to_lower(text)
+      !> Digits
+      character(len=*), intent(inout) :: text
+
+      integer :: i
+
+      do i = 1, len(text)
+         if (text(i:i) >= 'A' .and. text(i:i) <= 'F') text(i:i) = achar(iachar(text(i:i)) + 32)
+      end do
+   end subroutine to_lower
+
+end module axijoint_base_sha256
