@@ -2,7 +2,7 @@
 !> the gap look like, so that one card left out is one error
 module axijoint_deck_text_entry_reader
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
-   use axijoint_deck_text_field, only : kind_text, kind_word
+   use axijoint_deck_text_field, only : field_type, kind_text, kind_word
    use axijoint_deck_text_section, only : section_type, cards_per_entry, ordinal, cardinal, &
       form_entries, most_cards
    use axijoint_deck_text_source, only : source_type, card_keyword
@@ -192,6 +192,7 @@ contains
       !> The section, among those that the deck may have
       integer, intent(in) :: section
 
+      type(field_type), allocatable :: fields(:)
       integer :: i, n
 
       could_hold = .false.
@@ -200,10 +201,12 @@ contains
          if (any(deck%kind == card_keyword .and. deck%keyword == section)) return
          n = cards_per_entry(other)
          if (mod(size(cards), n) /= 0 .or. (other%once .and. size(cards) > n)) return
+         fields = other%fields
          ! a field for any text takes what is not meant for it
-         if (any(other%fields%kind == kind_text) .and. all(other%fields%kind /= kind_word)) return
+         if (all(fields%kind /= kind_word)) fields = pack(fields, fields%kind /= kind_text)
+         if (size(fields) == 0) return
          do i = 1, size(cards)
-            if (.not. fits(source, cards(i), other, mod(i - 1, n) + 1)) return
+            if (card_faults(source, cards(i), fields, mod(i - 1, n) + 1) > 0) return
          end do
       end associate
       could_hold = .true.

@@ -30,8 +30,8 @@ module axijoint_deck_text_field
    !> Columns of a field for a real
    integer, parameter :: real_width = 10
 
-   !> Letters of the longest word to choose from
-   integer, parameter :: word_length = 12
+   !> Most words to choose from, and letters of the longest
+   integer, parameter :: most_words = 64, word_length = 12
 
    !> One field of the cards of a section
    type :: field_type
@@ -62,7 +62,7 @@ module axijoint_deck_text_field
       !> Whether the ends of the range are outside
       logical :: above_low = .false., below_high = .false.
       !> Words to choose from
-      character(len=word_length), allocatable :: words(:)
+      character(len=word_length) :: words(most_words) = ''
       !> Symbol of a real in the text of its range
       character(len=12) :: symbol = 'x'
    end type field_type
@@ -138,7 +138,7 @@ contains
       character(len=*), intent(in) :: name
       !> Columns
       integer, intent(in) :: first, last
-      !> The words
+      !> The words, `most_words` at most; more would be a fault of the program
       character(len=*), intent(in) :: words(:)
       !> Place of the word that a blank field means; without it the field is required
       integer, intent(in), optional :: default
@@ -149,7 +149,9 @@ contains
       field%first = first
       field%last = last
       field%kind = kind_word
-      field%words = [character(len=word_length) :: words]
+      if (size(words) > most_words .or. any(len_trim(words) > word_length)) &
+         error stop 'word_field: more or longer words than a field holds'
+      field%words(:size(words)) = words
       field%required = .not. present(default)
       if (present(default)) field%default = real(default, wp)
    end function word_field
@@ -245,9 +247,9 @@ contains
          text = range_text(field)
       case (kind_word)
          text = trim(field%words(1))
-         do i = 2, size(field%words)
-            text = text//merge(', ', '  ', i < size(field%words))
-            if (i == size(field%words)) text = trim(text)//' or '
+         do i = 2, count(field%words /= '')
+            text = text//merge(', ', '  ', i < count(field%words /= ''))
+            if (i == count(field%words /= '')) text = trim(text)//' or '
             text = text//trim(field%words(i))
          end do
       case (kind_text)

@@ -231,7 +231,7 @@ contains
          text = range_of(field)
       case (kind_word)
          text = trim(field%words(1))
-         do k = 2, size(field%words)
+         do k = 2, count(field%words /= '')
             text = text//', '//trim(field%words(k))
          end do
       case (kind_code)
