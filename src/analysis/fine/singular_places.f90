@@ -40,8 +40,8 @@ module axijoint_analysis_fine_singular_places
       integer :: ends(2) = 0
       !> Angles of its sides, ascending [radian]
       real(wp) :: from = 0.0_wp, to = 0.0_wp
-      !> Whether nothing holds the side: it is an outer one without a joint, or its joint can open or
-      !> is so soft that it counts as open
+      !> Whether nothing holds the side: it is an outer one without a joint, or its joint can open
+      !> or is so soft that it counts as open
       logical :: opens(2) = .false.
    end type sector_type
 
