@@ -28,7 +28,7 @@ module axijoint_model_mesh
       integer, allocatable :: element_label(:)
       !> Index of each element's material in the model
       integer, allocatable :: element_material(:)
-      !> Body that each element belongs to; bodies meet in joints only
+      !> Body that each element belongs to; bodies meet in joints, and share nodes if bonded
       integer, allocatable :: element_body(:)
       !> Number of nodes of each element: 3 or 6 of a triangle, 4, 8 or 9 of a quadrilateral
       integer, allocatable :: element_size(:)

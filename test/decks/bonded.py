@@ -138,12 +138,27 @@ def either_number(folder, program):
     return faults + expected('nodes in the tables', [1, 2, 3, 4, 12, 13], nodes)
 
 
+def bodies_that_touch(folder, program):
+    """Two bodies bonded to a third touch without joints: between them is a slit, whose tip is named"""
+    deck = scenes.Deck('A slit without joints', 0, None).material(1, 4e4, 0.3)
+    deck.block(1, 1, 8, 2, 4, 0.5, 0.0, 1.0, 1.0).block(2, 1, 8, 2, 2, 1.0, 0.0, 1.5, 0.5)
+    deck.block(3, 1, 8, 2, 2, 1.0, 0.5, 1.5, 1.0)
+    deck.faces((1, 1, 1.0, 0.0, 1.0, 0.5), (2, 1, 1.0, 0.5, 1.0, 1.0), (3, 2, 1.0, 0.0, 1.0, 0.5),
+               (4, 3, 1.0, 0.5, 1.0, 1.0), (7, 1, 0.5, 0.0, 0.5, 1.0), (8, 3, 1.5, 0.5, 1.5, 1.0))
+    deck.add('INTERFACES', (None, 1, 3, 'BONDED'), (None, 2, 4, 'BONDED')).add('FIXEDFACES', (7, '111'))
+    summary, tables = run(program, folder, deck.resultants((8, 'AXIAL', 1.0)).text())
+    ends = sorted(row['v'] for row in tables['m = 0'] if (row['r'], row['z']) == (1.5, 0.5))
+    faults = [] if len(ends) == 2 and ends[1] > 2.0*abs(ends[0]) else [f'the slit does not open: {ends}']
+    tips = [place for place in summary['singular'] if (place['r'], place['z']) == (1.0, 0.5)]
+    return faults + expected('tips', 1, len(tips))
+
+
 def tests(program):
     """All tests"""
     def made(name, check):
         return Test(f'bonded/{name}', lambda folder: check(folder, program))
 
-    return ([made('either number', either_number)]
+    return ([made('either number', either_number), made('bodies that touch', bodies_that_touch)]
             + [made(f'one body, {nodes} nodes', one_body(nodes)) for nodes in (3, 4, 6, 8, 9)]
             + [made(f'stiff joints, {nodes} nodes', limit_of_stiff(nodes)) for nodes in (4, 8)]
             + [made('crack, contact', opens_like_sneddon((1, 1.0, 1.0, 1.0, 0.0, 0.0))),

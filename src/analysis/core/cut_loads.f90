@@ -376,7 +376,8 @@ contains
       !> The nodes
       integer, intent(in) :: nodes(:)
 
-      is_cut = all(plane%cut(nodes)) .and. any(plane%above(nodes)) .and. .not. all(plane%above(nodes))
+      is_cut = all(plane%cut(nodes)) .and. any(plane%above(nodes)) &
+         .and. .not. all(plane%above(nodes))
    end function is_cut
 
    !> Share of a line that is above

@@ -40,7 +40,8 @@ module axijoint_analysis_fine_singular_places
       integer :: ends(2) = 0
       !> Angles of its sides, ascending [radian]
       real(wp) :: from = 0.0_wp, to = 0.0_wp
-      !> Whether a joint on the side can open, or is so soft that it counts as open
+      !> Whether nothing holds the side: it is an outer one without a joint, or its joint can open
+      !> or is so soft that it counts as open
       logical :: opens(2) = .false.
    end type sector_type
 
@@ -150,9 +151,11 @@ contains
       integer :: element, i, n, node, k
       logical :: opens(size(fine%edges))
 
-      opens = .false.
+      opens = is_outer(model%mesh, fine)
       do k = 1, n_joints(model%mesh)
          associate (nodes => model%mesh%joint_nodes(:, k))
+            opens([find_edge(fine, nodes(1), nodes(2)), find_edge(fine, nodes(4), nodes(3))]) = &
+               .false.
             ! soft ones count as open: at the tip of a slit both sides share the node
             if (.not. can_yield_at(model, model%mesh%joint_material(k)) .and. &
                 hold_together(joints, nodes(1))) cycle
@@ -186,6 +189,29 @@ contains
       end do
       end associate
    end function corners_of
+
+   !> Which edges belong to one element alone: without a joint, bodies that are bonded beside them
+   !> gape there
+   pure function is_outer(mesh, fine) result(outer)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> Its edges
+      type(fine_mesh_type), intent(in) :: fine
+      !> Shape (edges)
+      logical :: outer(size(fine%edges))
+
+      integer :: n_elements_at(size(fine%edges)), element, side
+
+      n_elements_at = 0
+      do element = 1, n_elements(mesh)
+         do side = 1, n_corners(mesh%element_size(element))
+            associate (n => n_elements_at(fine%element_edges(side, element)))
+               n = n + 1
+            end associate
+         end do
+      end do
+      outer = n_elements_at == 1
+   end function is_outer
 
    !> The sector at a corner of an element
    pure function new_sector(mesh, element, i, n) result(sector)

@@ -278,7 +278,8 @@ contains
                           ' touch at '// &
                           count_of(pairs(3, k), 'node')// &
                           ' without a joint: they are not connected there', &
-                          mend='lay joints there by INTERFACES, or make them one body')
+                          mend='lay joints there or bond them by INTERFACES, or make them one '// &
+                          'body')
       end do
    end subroutine check_touching
 

@@ -80,8 +80,8 @@ contains
       else if (integer_of(card, field_kind) == kind_joints .and. &
                .not. is_given(card, field_law)) then
          call field_fault(card, field_law, 'the law is blank', allowed='a law of LAWS', &
-                          mend='give a law, or write BONDED in columns 16-25 if both bodies are '// &
-                          'to share their nodes')
+                          mend='give a law, or write BONDED in columns 16-25 if both bodies '// &
+                          'are to share their nodes')
       end if
    end subroutine check_kind
 
