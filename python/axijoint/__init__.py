@@ -5,18 +5,20 @@
     result.displacement(0.5, 0.25, theta=90, body=1)        # u, v, w
     result.stress([0.1, 0.2], 0.25)[:, 1]                   # sigma_z at two points, theta = 0
     result.line((0, 0.5), (2, 0.5), theta=[0, 180]).table() # along a line
+    result.at(3).displacement(0.5, 0.25)                    # at the end of increment 3
 
 Angles are in degrees, as in the deck and the listing; everything else is in the units of the deck.
 Figures are made by `axijoint.plot`, which needs matplotlib.
 """
 from .circle import cartesian_displacement, cartesian_stress, principal_stresses
 from .components import DISPLACEMENTS, STRESSES
+from .history import NotKeptError
 from .result import STATES, OutsideError, Result, open_combinations
 from .result import open_result as open
 from .section import Section
 from .table import Table
 
-__all__ = ["DISPLACEMENTS", "STATES", "STRESSES", "OutsideError", "Result", "Section", "Table",
+__all__ = ["DISPLACEMENTS", "STATES", "STRESSES", "NotKeptError", "OutsideError", "Result", "Section", "Table",
            "cartesian_displacement", "cartesian_stress", "open", "open_combinations",
            "principal_stresses"]
 __version__ = "0.1.0"
