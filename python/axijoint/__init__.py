@@ -1,4 +1,7 @@
-"""Results of axijoint: displacements and stresses at any point, sections, joints, figures.
+"""Decks and results of axijoint: cards written and run from Python; displacements and stresses at any point.
+
+    deck = axijoint.Deck("A title (MN, m, MPa)")            # a method for each card
+    result = axijoint.run(deck)
 
     import axijoint
     result = axijoint.open("case3.h5")
@@ -12,13 +15,15 @@ Figures are made by `axijoint.plot`, which needs matplotlib.
 """
 from .circle import cartesian_displacement, cartesian_stress, principal_stresses
 from .components import DISPLACEMENTS, STRESSES
+from .deck import Deck, DeckError
 from .history import NotKeptError
+from .program import RunError, run, run_combinations
 from .result import STATES, OutsideError, Result, open_combinations
 from .result import open_result as open
 from .section import Section
 from .table import Table
 
-__all__ = ["DISPLACEMENTS", "STATES", "STRESSES", "NotKeptError", "OutsideError", "Result", "Section", "Table",
-           "cartesian_displacement", "cartesian_stress", "open", "open_combinations",
-           "principal_stresses"]
+__all__ = ["DISPLACEMENTS", "STATES", "STRESSES", "Deck", "DeckError", "NotKeptError", "OutsideError", "Result",
+           "RunError", "Section", "Table", "cartesian_displacement", "cartesian_stress", "open",
+           "open_combinations", "principal_stresses", "run", "run_combinations"]
 __version__ = "0.1.0"

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import tempfile
 import time
+import weakref
 from collections.abc import Mapping, Sequence
 
 from .deck import Deck
@@ -30,6 +31,14 @@ class RunError(RuntimeError):
     def __init__(self, exit_code: int, messages: str, results: Mapping[int, Result] = NO_RESULTS) -> None:
         super().__init__(f"{MEANINGS.get(exit_code, 'failed')} (exit code {exit_code})\n{messages}")
         self.exit_code, self.messages, self.results = exit_code, messages, dict(results)
+
+
+class _Folder:
+    """A folder that is there as long as this object."""
+
+    def __init__(self) -> None:
+        self.path = tempfile.mkdtemp(prefix="axijoint_")
+        weakref.finalize(self, shutil.rmtree, self.path, ignore_errors=True)
 
 
 def find_program() -> str:
@@ -66,8 +75,8 @@ def run_combinations(deck: Deck | str | os.PathLike[str], directory: str | os.Pa
                      name: str = "job", threads: int | None = None, options: Sequence[str] = (),
                      program: str | os.PathLike[str] | None = None) -> dict[int, Result]:
     """The same for jobs of any number of combinations: a dictionary from their numbers, 0 of one alone."""
-    kept = tempfile.TemporaryDirectory(prefix="axijoint_") if directory is None else None
-    folder = pathlib.Path(kept.name if kept else directory)
+    kept = _Folder() if directory is None else None
+    folder = pathlib.Path(kept.path if kept else directory)
     folder.mkdir(parents=True, exist_ok=True)
     path = deck.write(folder/f"{name}.dat") if isinstance(deck, Deck) else pathlib.Path(deck)
     if threads is not None:
@@ -79,7 +88,7 @@ def run_combinations(deck: Deck | str | os.PathLike[str], directory: str | os.Pa
     for result in results.values():
         result.folder = kept  # which is removed with the last of them
     if done.returncode != 0:
-        raise RunError(done.returncode, done.stderr.strip() or done.stdout.strip(), results)
+        raise RunError(done.returncode, done.stderr.strip("\n") or done.stdout.strip("\n"), results)
     return results
 
 

@@ -7,7 +7,7 @@ from functools import cached_property
 import h5py
 import numpy as np
 
-from . import circle, elements
+from . import circle, convert, elements
 from .components import DISPLACEMENTS, STRESSES
 from .history import History, NotKeptError, place_of
 from .interface import read_interfaces
@@ -403,6 +403,34 @@ class Result:
         stress = np.sqrt((self.nodal_amplitude**2*weight).sum(-1)).max(-1)
         family = np.where(self.family == circle.SYMMETRIC, "symmetric", "antisymmetric")
         return Table({"harmonic": self.harmonic, "family": family, "displacement": size, "stress": stress})
+
+    # For other packages
+
+    def to_pandas(self, theta=0.0):
+        """All tables as pandas.DataFrames: a dictionary from their names.
+
+        nodes, nodal_stresses, gauss_stresses at an angle [degree]; joints, increments, convergence, spectrum.
+        """
+        return convert.to_pandas(self, theta)
+
+    def to_xarray(self):
+        """What the file keeps of all increments as an xarray.Dataset.
+
+        Amplitudes of displacements (increment, mode, node, component) and of smoothed stresses; relative
+        displacements, stresses and states of joints (increment, plane [degree], joint_point); every series of
+        the increments; resultants and motion of cuts. Fields that are not kept of an increment are nan there.
+        """
+        return convert.to_xarray(self)
+
+    def to_pyvista(self, sectors=None):
+        """The bodies swept round the axis as a pyvista.UnstructuredGrid, at this increment.
+
+        sectors: of the circle; 16 for each wave of the highest harmonic, at least 36. Point data: displacement
+        (x, y, z) and u, v, w; stress (xx, yy, zz, xy, yz, xz) and its cylindrical components, if they are
+        kept of this increment. Cell data: body, material, element. The mesh is at rest: `warp_by_vector`.
+        At the axis cells have points twice.
+        """
+        return convert.to_pyvista(self, sectors)
 
     def _sum(self, amplitude, theta):
         if np.ndim(theta):
