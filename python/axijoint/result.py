@@ -1,4 +1,5 @@
 """A result file of axijoint."""
+import copy
 import pathlib
 import re
 from functools import cached_property
@@ -6,13 +7,17 @@ from functools import cached_property
 import h5py
 import numpy as np
 
-from . import circle, elements
+from . import circle, convert, elements
 from .components import DISPLACEMENTS, STRESSES
+from .history import History, NotKeptError, place_of
+from .interface import read_interfaces
 from .mesh import Mesh
 from .section import Section, line_rows
 from .table import Table
 
 STATES = np.array(["stick", "slip", "open"])
+# What is the same in all increments and may be shared by their views
+SHARED = ("mesh", "deck", "messages", "harmonic", "family", "value_of", "interfaces", "history")
 
 
 class OutsideError(ValueError):
@@ -32,6 +37,8 @@ class Result:
     status        converged, not_converged or mechanism
     combination   number of the load combination; 0 if there is one only
     attributes    all attributes of the file
+    increment     number of the increment that displacements, joints, stresses, sections, cuts and
+                  resultants are of: the last, or the one asked for by `at`
     """
 
     def __init__(self, path):
@@ -43,18 +50,60 @@ class Result:
         self.title = self.attributes["title"].strip()
         self.status = self.attributes["status"]
         self.combination = int(self.attributes["combination"])
+        self._wanted = None
 
     def __repr__(self):
-        return f"Result({str(self.path)!r}): {self.title}"
+        at = "" if self._wanted is None else f".at({self._wanted})"
+        return f"Result({str(self.path)!r}){at}: {self.title}"
+
+    # Increments
+
+    @cached_property
+    def history(self):
+        """Series by increment: a History."""
+        return History(self)
+
+    @cached_property
+    def increments(self):
+        """Table of the increments: load factor, iterations, residual, joint states, work and energy."""
+        return self.history.table()
+
+    @property
+    def increment(self):
+        """Number of the increment that this is a view of."""
+        return int(self.history.increment[-1]) if self._wanted is None else self._wanted
+
+    def at(self, increment):
+        """This result as it was at the end of an increment: a Result.
+
+        Displacements, joints, stresses, sections, cuts and resultants are those of that increment. What the
+        file does not keep of it raises a NotKeptError when it is asked for.
+        """
+        known = set(self.history.increment.tolist()) | {
+            int(k) for what in ("displacement", "joints", "stress") for k in self.history.increments_of(what)}
+        if increment not in known:
+            raise ValueError(f"there is no increment {increment}; the file keeps {sorted(known)}")
+        self.mesh, self.harmonic, self.family  # read once for all views
+        view = copy.copy(self)
+        view.__dict__ = {name: value for name, value in self.__dict__.items()
+                         if name in SHARED or not isinstance(getattr(Result, name, None), cached_property)}
+        view._wanted = int(increment)
+        return view
 
     # What is in the file
 
     def read(self, name):
-        """A dataset as it is stored (C order), or the attributes and datasets' names of a group."""
+        """A dataset as it is stored (C order), of the increment that this is a view of."""
         with h5py.File(self.path, "r") as file:
-            if name not in file:
-                raise KeyError(f"{self.path} has no {name}")
-            return text_of(file[name][()])
+            place, row = (name, ()) if self._wanted is None else place_of(file, name, self._wanted)
+            if place not in file:
+                raise KeyError(f"{self.path} has no {place}")
+            return text_of(file[place][row])
+
+    def names_in(self, group):
+        """Names of the datasets and groups in a group."""
+        with h5py.File(self.path, "r") as file:
+            return sorted(file[group])
 
     def has(self, name):
         """Whether the file has a dataset or group."""
@@ -63,6 +112,8 @@ class Result:
 
     def attributes_of(self, name):
         """Attributes of a group, by name."""
+        if name in ("error", "errors", "resultants") and self.increment != self.history.increment[-1]:
+            raise NotKeptError(f"attributes of /{name} are of the last increment alone")
         with h5py.File(self.path, "r") as file:
             return {key: text_of(value) for key, value in file[name].attrs.items()}
 
@@ -70,6 +121,19 @@ class Result:
     def mesh(self):
         """The mesh."""
         return Mesh(self.read)
+
+    @cached_property
+    def interfaces(self):
+        """The cards of INTERFACES, with name, law, bodies and joints: a list of Interfaces."""
+        return read_interfaces(self)
+
+    def interfaces_of(self, wanted):
+        """Interfaces of a name, or that of a number."""
+        found = [one for one in self.interfaces if wanted in (one.name, one.number)]
+        if not found:
+            names = ", ".join(one.name for one in self.interfaces) or "none"
+            raise ValueError(f"there is no interface {wanted!r}; there is {names}")
+        return found
 
     @cached_property
     def deck(self):
@@ -339,6 +403,34 @@ class Result:
         stress = np.sqrt((self.nodal_amplitude**2*weight).sum(-1)).max(-1)
         family = np.where(self.family == circle.SYMMETRIC, "symmetric", "antisymmetric")
         return Table({"harmonic": self.harmonic, "family": family, "displacement": size, "stress": stress})
+
+    # For other packages
+
+    def to_pandas(self, theta=0.0):
+        """All tables as pandas.DataFrames: a dictionary from their names.
+
+        nodes, nodal_stresses, gauss_stresses at an angle [degree]; joints, increments, convergence, spectrum.
+        """
+        return convert.to_pandas(self, theta)
+
+    def to_xarray(self):
+        """What the file keeps of all increments as an xarray.Dataset.
+
+        Amplitudes of displacements (increment, mode, node, component) and of smoothed stresses; relative
+        displacements, stresses and states of joints (increment, plane [degree], joint_point); every series of
+        the increments; resultants and motion of cuts. Fields that are not kept of an increment are nan there.
+        """
+        return convert.to_xarray(self)
+
+    def to_pyvista(self, sectors=None):
+        """The bodies swept round the axis as a pyvista.UnstructuredGrid, at this increment.
+
+        sectors: of the circle; 16 for each wave of the highest harmonic, at least 36. Point data: displacement
+        (x, y, z) and u, v, w; stress (xx, yy, zz, xy, yz, xz) and its cylindrical components, if they are
+        kept of this increment. Cell data: body, material, element. The mesh is at rest: `warp_by_vector`.
+        At the axis cells have points twice.
+        """
+        return convert.to_pyvista(self, sectors)
 
     def _sum(self, amplitude, theta):
         if np.ndim(theta):

@@ -1,5 +1,5 @@
-"""What is kept of every increment, against runs that stop there, balance, and exact work"""
-import math
+"""Increments of a result: series, and views of the fields"""
+import shutil
 import tempfile
 import unittest
 
@@ -7,168 +7,104 @@ import h5py
 import jobs
 import numpy as np
 
-TWIST = """TITLE
-A plug that is turned in its hole until it slides
-CONTROL
-    0    2
-MATERIALS
-    1     1.0E4       0.0
-LAWS
-    1     1.0E3     1.0E3     1.0E3       0.0      30.0
-LAWDETAILS
-    1 RESULTANT                                                       -2.0
-BLOCKS
-    1    1    8    2    4
-       0.0       0.0       0.5       2.0
-    2    1    8    2    4
-       0.5       0.0       1.5       2.0
-FACES
-    1    1       0.5       0.0       0.5       2.0
-    2    2       0.5       0.0       0.5       2.0
-    3    1       0.0       0.0       0.5       0.0
-    4    1       0.0       2.0       0.5       2.0
-    5    2       1.5       0.0       1.5       2.0
-INTERFACES
-    1    1    2
-FIXEDFACES
-    5  111
-MOVEDFACES
-    3    0                           0.0                        -0.005    A
-    4    0                           0.0                        -0.005    A
-INCREMENTS
-       1.0
-       0.5
-       0.5
-      -0.1
-CUTS
-    1       0.5    1       1.5    3
-END
-"""
-LINEAR = """TITLE
-A ring, pulled, twisted and bent in three increments
-CONTROL
-    1    5
-MATERIALS
-    1     2.0E4       0.3
-BLOCKS
-    1    1    8    2    6
-       0.5       0.0       1.0       3.0
-FACES
-    1    1       0.5       0.0       1.0       0.0
-    2    1       0.5       3.0       1.0       3.0
-    3    1       1.0       0.0       1.0       3.0
-SPRINGS
-    3     100.0      50.0      20.0
-FIXEDFACES
-    1  111
-RESULTANTS
-    2     AXIAL       3.0
-    2   LATERAL       2.0      30.0
-    2    TORQUE       1.0
-INCREMENTS
-       0.5
-       1.0
-      -0.3
-END
-"""
+import axijoint
+
+INCREMENTS = "\nINCREMENTS "
+STOPPED = 4
 
 
-def without_increments(text, n):
-    """A deck that stops after n increments"""
-    lines = text.splitlines()
-    first = next(k for k, line in enumerate(lines) if line.startswith("INCREMENTS")) + 1
-    last = first
-    while lines[last][0] in " 0123456789-":
-        last += 1
-    return "\n".join(lines[:first + n] + lines[last:]) + "\n"
+class Increments(unittest.TestCase):
+    """The monopile, whole and stopped at an increment"""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        text = jobs.input_deck("monopile", "KEEP", "  STRESSES      ONLY    2")
+        cls.result = axijoint.open(f"{jobs.run(cls.folder.name, 'whole', text)}.h5")
+        head, tail = text.split(INCREMENTS)
+        lines = tail.split("\n")
+        cards = next(k for k, line in enumerate(lines[1:], 1) if line[:1].isalpha())
+        stopped = head + INCREMENTS + "\n".join(lines[:STOPPED + 1] + lines[cards:])
+        cls.stopped = axijoint.open(f"{jobs.run(cls.folder.name, 'stopped', stopped)}.h5")
+
+    def close(self, found, wanted, share=1e-12):
+        np.testing.assert_allclose(found, wanted, rtol=0, atol=share*abs(np.asarray(wanted)).max())
+
+    def test_view_is_the_run_stopped_there(self):
+        view, stopped = self.result.at(STOPPED), self.stopped
+        self.assertEqual((view.increment, stopped.increment, self.result.increment), (STOPPED, STOPPED, 8))
+        self.close(view.displacement(3.0, [5.0, -7.3], 30.0, body=1),
+                   stopped.displacement(3.0, [5.0, -7.3], 30.0, body=1))
+        self.close(view.nodal_displacement(180.0), stopped.nodal_displacement(180.0))
+        for column in ("sigma", "tau", "gap", "slip"):
+            self.close(view.joints()[column], stopped.joints()[column], 1e-9)
+        self.assertTrue((view.joints()["state"] == stopped.joints()["state"]).all())
+        for name in ("cuts/resultants", "resultants/applied"):
+            self.close(view.read(name), stopped.read(name), 1e-9)
+        self.close(view.section(1).displacement, stopped.section(1).displacement)
+        self.close(view.section(1).stress, stopped.section(1).stress, 1e-9)
+        self.assertGreater(abs(view.nodal_displacement() - self.result.nodal_displacement()).max(), 1e-3)
+
+    def test_views_share_the_mesh_and_leave_the_result_alone(self):
+        before = self.result.displacement_amplitude
+        self.assertIs(self.result.at(1).mesh, self.result.mesh)
+        self.assertIs(self.result.at(1).at(8).mesh, self.result.mesh)
+        self.assertFalse((self.result.at(1).displacement_amplitude == before).all())
+        self.assertIs(self.result.displacement_amplitude, before)
+        self.close(self.result.at(1).at(8).displacement_amplitude, before, 0)
+
+    def test_stresses_where_kept(self):
+        self.assertEqual(self.result.history.increments_of("stress").tolist(), [2, 8])
+        self.assertEqual(self.result.at(2).stress(3.0, -5.0, body=1).shape, (6,))
+        self.assertNotEqual(self.result.at(2).stress(3.0, -5.0, body=1)[1],
+                            self.result.stress(3.0, -5.0, body=1)[1])
+        with self.assertRaisesRegex(axijoint.NotKeptError, "stresses of increment 3 .* of 2, 8.*STRESSES ALL"):
+            self.result.at(3).stress(3.0, -5.0)
+        with self.assertRaisesRegex(axijoint.NotKeptError, "/reaction is of increment 8"):
+            self.result.at(3).read("reaction")
+        with self.assertRaises(axijoint.NotKeptError):
+            self.result.at(3).attributes_of("resultants")
+        with self.assertRaisesRegex(ValueError, "no increment 9"):
+            self.result.at(9)
+
+    def test_series(self):
+        history = self.result.history
+        self.assertEqual(self.result.increments["load_factor"].round(12).tolist(),
+                         [1, 1.2, 1.4, 1.6, 1.8, 2, 1.5, 1])
+        self.assertEqual(history.point_names, ["mudline", "head", "toe"])
+        for k in (1, 6):
+            self.close(history.point("head", 90.0)[k - 1], self.result.at(k).displacement(3, 5, 90.0))
+            self.close(history.point(2, 60.0, cartesian=True)[k - 1],
+                       self.result.at(k).displacement(3, 5, 60.0, cartesian=True))
+        with self.assertRaisesRegex(ValueError, "no point 'tip'; there is mudline, head, toe"):
+            history.point("tip")
+        self.assertEqual([one.name for one in self.result.interfaces], ["shaft", "plug", "toe"])
+        self.assertEqual([len(one.joints) for one in self.result.interfaces], [12, 12, 1])
+        total = sum(history.interface(name) for name in ("shaft", "plug", 3))
+        self.close(total[:, 1:3], -history["applied"][:, 1:3], 1e-6)
+
+    def test_only_what_is_asked_for_is_read(self):
+        path = f"{self.folder.name}/hollow.h5"
+        shutil.copy(self.result.path, path)
+        with h5py.File(path, "a") as file:
+            for name in ("joint_stress", "joint_jump", "stress", "cuts"):
+                del file[f"history/{name}"]
+        hollow = axijoint.open(path)
+        self.close(hollow.at(3).nodal_displacement(), self.result.at(3).nodal_displacement(), 0)
+        with self.assertRaisesRegex(KeyError, "history/joint_stress"):
+            hollow.at(3).joints()
 
 
-class History(unittest.TestCase):
-    """One test for each thing that is kept"""
+class OneIncrement(unittest.TestCase):
+    """A job of one increment keeps its series too"""
 
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
-    def run_deck(self, name, text):
-        """The results file of a deck, all of it in memory"""
-        path = jobs.run(self.folder.name, name, text)
-        found = {}
-        with h5py.File(f"{path}.h5") as file:
-            file.visititems(lambda key, item: found.update({key: item[()]})
-                            if isinstance(item, h5py.Dataset) else None)
-        return found
-
-    def equal(self, found, wanted, tolerance, what):
-        """Two arrays are equal, over the largest value of the second"""
-        largest = max(np.abs(wanted).max(initial=0.0), 1e-300)
-        self.assertLessEqual(np.abs(found - wanted).max(initial=0.0)/largest, tolerance, what)
-
-    def test_stopped(self):
-        """Each increment of a monopile is what a run gives that stops there"""
-        text = jobs.input_deck("monopile", "KEEP", "  STRESSES       ALL")
-        whole = self.run_deck("whole", text)
-        history = {key[8:]: value for key, value in whole.items() if key.startswith("history/")}
-        n = len(history["increment"])
-        for k in (1, 2, 5, 7, n):
-            one = self.run_deck(f"stop{k}", without_increments(text, k))
-            for name, last in (("displacement", "displacement"), ("joint_jump", "joints/jump"),
-                               ("joint_stress", "joints/stress"), ("stress", "stress/amplitude"),
-                               ("nodal_stress", "stress/nodal"), ("cuts", "cuts/resultants"),
-                               ("cut_motion", "cuts/motion"), ("supports", "supports/reacted"),
-                               ("sections/1/displacement", "sections/1/displacement"),
-                               ("sections/1/stress", "sections/1/stress")):
-                self.equal(history[name][k - 1], one[last], 1e-9, f"{name} of increment {k}")
-            for name in ("work", "energy", "dissipated", "joint_resultants", "points/displacement"):
-                self.equal(history[name][:k], one[f"history/{name}"], 1e-9, f"{name} up to {k}")
-            self.assertTrue((history["joint_state"][k - 1] == one["joints/state"]).all())
-
-    def test_balance(self):
-        """Forces and moments of the joints balance the loads on the pile, cuts end at these"""
-        whole = self.run_deck("balance", jobs.input_deck("monopile"))
-        z = whole["mesh/coordinates"][whole["mesh/joint_nodes"][:, :2] - 1, 1].mean(1)
-        forces = whole["history/joint_resultants"]
-        lateral = forces[:, :, 1].sum(1)
-        moment = (forces[:, :, 2] - z*forces[:, :, 1]).sum(1)
-        applied = whole["history/applied"]
-        self.equal(-lateral, applied[:, 1], 1e-6, "lateral force")
-        self.equal(-moment, applied[:, 2], 1e-6, "moment about the origin")
-        head = whole["history/cuts"][:, -1]
-        self.equal(head[:, 1], applied[:, 1], 1e-9, "shear at the head")
-        self.equal(head[:, 2], applied[:, 2] + 5.0*applied[:, 1], 1e-9, "moment at the head")
-
-    def test_linear_work(self):
-        """Work of loads is the energy of solids and springs where nothing slides"""
-        found = self.run_deck("linear", LINEAR)
-        self.equal(found["history/energy"], found["history/work"], 1e-11, "energy")
-        factor = found["history/load_factor"]
-        self.equal(found["history/work"], found["history/work"][0]*(factor/factor[0])**2, 1e-11,
-                   "work by the square of the load")
-        self.assertFalse(found["history/dissipated"].any())
-
-    def test_sliding(self):
-        """A plug that slides all round: torque 2 pi a^2 L p tan(phi), work on its rotation"""
-        found = self.run_deck("twist", TWIST)
-        torque = 2.0*math.pi*0.5**2*2.0*2.0*math.tan(math.radians(30.0))
-        turn = 0.01*np.diff(found["history/load_factor"])
-        self.equal(np.abs(found["history/joint_resultants"][1:3, :, 3].sum(1)), torque, 1e-6, "torque")
-        self.equal(np.diff(found["history/dissipated"])[:2], torque*turn[:2], 1e-6, "dissipated")
-        closure = found["history/work"] - found["history/energy"] - found["history/dissipated"]
-        self.equal(np.diff(closure)[:2], 0.0*turn[:2] + 1e-30, 1e30*1e-6*torque*turn[0], "closure")
-        lag = torque/2.0*2.0**2/8.0/(5.0e3*math.pi*0.5**4/2.0)  # q L^2/8 G J, at half length
-        self.equal(found["history/cut_motion"][1:3, 1, 3],
-                   0.01*found["history/load_factor"][1:3] - lag, 1e-3, "rotation of the plug")
-
-    def test_keep(self):
-        """KEEP chooses the increments"""
-        found = self.run_deck("keep", jobs.input_deck("monopile", "KEEP", "    SERIES     EVERY    3",
-                                                      "  DISPLACE      ONLY    2    4", "    JOINTS      LAST"))
-        self.assertEqual(list(found["history/increment"]), [3, 6, 8])
-        self.assertEqual(list(found["history/displacement_increment"]), [2, 4, 8])
-        self.assertEqual(list(found["history/joint_increment"]), [8])
-        self.assertEqual(found["history/displacement"].shape[0], 3)
-        self.equal(found["history/displacement"][-1], found["displacement"], 0.0, "the last")
-        self.assertNotIn("history/stress", found)
+    def test_first(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result = axijoint.open(f"{jobs.run(folder, 'first', jobs.input_deck('first'))}.h5")
+            self.assertEqual(result.increments.rows, 1)
+            np.testing.assert_array_equal(result.at(1).displacement_amplitude, result.displacement_amplitude)
+            np.testing.assert_array_equal(result.at(1).nodal_amplitude, result.nodal_amplitude)
 
 
 if __name__ == "__main__":

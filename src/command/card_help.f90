@@ -2,6 +2,7 @@
 module axijoint_command_card_help
    use axijoint_base_error, only : error_type, fatal_error, exit_deck
    use axijoint_base_text, only : upper
+   use axijoint_command_card_list, only : cards_json
    use axijoint_command_unknown_word, only : unknown
    use axijoint_deck_registry, only : all_sections, without_readers
    use axijoint_deck_text_reference, only : index_text, index_table, section_text, section_table
@@ -11,8 +12,8 @@ module axijoint_command_card_help
    private
    public :: card_help, names_of_cards
 
-   !> The option for tables as they stand in the manual
-   character(len=*), parameter :: markdown_option = '--markdown'
+   !> The options for tables as they stand in the manual, and for a list that programs read
+   character(len=*), parameter :: markdown_option = '--markdown', json_option = '--json'
 
 contains
 
@@ -27,17 +28,21 @@ contains
 
       type(section_type), allocatable :: sections(:)
       character(len=:), allocatable :: name
-      logical :: markdown
+      logical :: markdown, json
       integer :: k
 
       text = ''
       name = ''
       markdown = .false.
+      json = .false.
       do k = 1, size(names)
          if (names(k) == markdown_option) then
             markdown = .true.
+         else if (names(k) == json_option) then
+            json = .true.
          else if (index(names(k), '-') == 1) then
-            call unknown('option', trim(names(k)), [markdown_option], error)
+            call unknown('option', trim(names(k)), &
+               [character(len=10) :: markdown_option, json_option], error)
             return
          else if (len(name) > 0) then
             call fatal_error(error, exit_deck, &
@@ -51,6 +56,7 @@ contains
       if (len(name) == 0) then
          text = index_text(sections)
          if (markdown) text = index_table(sections)
+         if (json) text = cards_json(sections)
          return
       end if
       k = section_named(sections, name)
@@ -60,6 +66,7 @@ contains
       end if
       text = section_text(sections(k))
       if (markdown) text = section_table(sections(k))
+      if (json) text = cards_json(sections(k:k))
    end subroutine card_help
 
    !> Names of all cards

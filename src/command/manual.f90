@@ -96,6 +96,7 @@ contains
          'Without COMMAND, what commands there are. `help card` prints an index of all cards '// &
          'of a deck, `help card NAME` the fields of one.', &
          [option_type('--markdown', '', 'of cards: as they stand in doc/deck.md'), &
+          option_type('--json', '', 'of cards: with kinds and ranges, for programs'), &
           option_type('--man', '', 'the manual page, as source for man'), &
           option_type('--completion', 'SHELL', 'what completes command lines in bash or zsh', &
                       takes_word, 'bash zsh')])

@@ -74,8 +74,8 @@ DECKS = {
                          '9:4-28: error: r is too large'),
     'endless integer': (replaced(NODE, '99999999999999999999999999, 1.5, 0.0'),
                         '9:1-26: error: the node is too large'),
-    'value of 100 digits': (replaced(NODE, '2, 1.5, 0.' + '0' * 100),
-                            '9:81-110: error: there is text beyond column 80'),
+    'value of 500 digits': (replaced(NODE, '2, 1.5, 0.' + '0' * 500),
+                            '9:401-510: error: there is text beyond column 400'),
     'included file without END': (including('a.inc'), 'a.inc:2: error: the file ends without END',
                                   {'a.inc': 'MATERIALS\n2, 1.0, 0.2\n'}),
     'included file that is empty': (including('a.inc'), '16:11-15: error: the included file a.inc: '

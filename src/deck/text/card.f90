@@ -5,7 +5,7 @@ module axijoint_deck_text_card
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
    use axijoint_deck_text_field, only : field_type, kind_text
    use axijoint_deck_text_foreign, only : comment_mark, trailing_comment
-   use axijoint_deck_text_section, only : card_width
+   use axijoint_deck_text_section, only : card_width, free_width
    use axijoint_deck_text_source, only : source_type, card_content, tab
    use axijoint_deck_text_strange_byte, only : has_strange_byte, report_strange_byte
    implicit none
@@ -39,6 +39,7 @@ contains
 
       character(len=:), allocatable :: content
       logical :: free
+      integer :: width
 
       content = card_content(source, card)
       call cut_comment(card, content, fields, diagnostics)
@@ -48,12 +49,13 @@ contains
          call report_strange_byte(diagnostics, card, content, free)
          return
       end if
-      if (len(content) > card_width) then
-         call add_error(diagnostics, card, card_width + 1, len(content), &
-                        'there is text beyond column 80', &
-                        found=trim(adjustl(content(card_width + 1:))), &
+      width = merge(free_width, card_width, free)
+      if (len(content) > width) then
+         call add_error(diagnostics, card, width + 1, len(content), &
+                        'there is text beyond column '//to_text(width), &
+                        found=trim(adjustl(content(width + 1:))), &
                         mend='shorten the card; a comment begins with !')
-         content = content(:len_trim(content(:card_width)))
+         content = content(:len_trim(content(:width)))
       end if
       if (has_decimal_comma(content, fields)) then
          slots = slot_type(1, len(content), 1, 0, .false.)

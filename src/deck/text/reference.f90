@@ -9,7 +9,7 @@ module axijoint_deck_text_reference
       form_entries, form_end
    implicit none
    private
-   public :: index_text, index_table, section_text, section_table
+   public :: index_text, index_table, section_text, section_table, meaning, default, allowed
 
    !> End of a line; a dash and an ellipsis between numbers; a minus
    character(len=1), parameter :: nl = new_line('a')

@@ -14,6 +14,8 @@ module axijoint_deck_text_section
    !> Last column of a card, and the last one of a keyword before the number of entries.
    !> A longer keyword leaves less room for that number
    integer, parameter, public :: card_width = 80, keyword_last = 10
+   !> Last column of a card with commas: reals of all their digits have room there
+   integer, parameter, public :: free_width = 400
    !> Letters of the longest keyword
    integer, parameter, public :: keyword_length = 12
    !> Most cards of an entry

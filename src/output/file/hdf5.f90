@@ -1,7 +1,7 @@
 !> HDF5 file that notices when it cannot be written: every status of the
 !> library is checked, every handle is closed on every path
 module axijoint_output_file_hdf5
-   use, intrinsic :: iso_c_binding, only : c_int, c_loc
+   use, intrinsic :: iso_c_binding, only : c_int, c_loc, c_size_t
    use, intrinsic :: iso_fortran_env, only : int8
    use axijoint_base_error, only : error_type, fatal_error, exit_io
    use axijoint_base_kinds, only : wp, i8
@@ -11,7 +11,8 @@ module axijoint_output_file_hdf5
    use axijoint_output_file_hdf5_series, only : hdf5_series_type, open_series, append_piece, &
       piece_length, close_series
    use axijoint_output_file_pending, only : temporary_path, publish, discard, io_error
-   use hdf5, only : hid_t, hsize_t, h5open_f, h5close_f, h5eset_auto_f, h5fcreate_f, &
+   use hdf5, only : hid_t, hsize_t, h5f_obj_all_f, h5f_obj_file_f, h5open_f, h5close_f, &
+      h5eset_auto_f, h5fcreate_f, &
       h5fopen_f, h5fflush_f, h5fclose_f, h5f_acc_excl_f, h5f_acc_rdonly_f, &
       h5f_scope_global_f, h5gcreate_f, h5gclose_f, h5t_native_double, h5t_native_integer, &
       h5t_ieee_f64le, h5t_std_i32le, h5t_std_i64le, h5t_std_u8le, h5kind_to_type, h5_integer_kind
@@ -71,6 +72,15 @@ module axijoint_output_file_hdf5
          import :: c_int
          integer(c_int) :: c_dont_atexit
       end function c_dont_atexit
+
+      !> Number of open objects of some kinds; the library's own interface in Fortran takes its data
+      !> types off it, whatever the kinds
+      function c_open_objects(file, kinds) bind(c, name="H5Fget_obj_count")
+         import :: c_int, c_size_t, hid_t
+         integer(hid_t), value :: file
+         integer(c_int), value :: kinds
+         integer(c_size_t) :: c_open_objects
+      end function c_open_objects
    end interface
 
 contains
@@ -440,7 +450,7 @@ contains
       self%file = no_handle
    end subroutine close_file
 
-   !> End the library's work; nothing is written by it any more
+   !> End the library's work, unless other files are open still: it would close them, too
    subroutine close_library(self)
       !> The file
       class(hdf5_file_type), intent(inout) :: self
@@ -449,6 +459,7 @@ contains
 
       if (.not. self%started) return
       self%started = .false.
+      if (c_open_objects(int(h5f_obj_all_f, hid_t), int(h5f_obj_file_f, c_int)) > 0) return
       call h5close_f(status)
       call self%failure%check(status, "ending the library")
    end subroutine close_library
