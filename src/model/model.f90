@@ -10,7 +10,8 @@ module axijoint_model_model
       load_case_type, combination_type, increment_type, truncation_type
    use axijoint_model_material, only : solid_material_type, joint_material_type
    use axijoint_model_mesh, only : mesh_type
-   use axijoint_model_request, only : line_type, point_type, keep_type, keep_names, cut_type, supported_face_type, sweep_type, &
+   use axijoint_model_request, only : line_type, point_type, keep_type, keep_names, cut_type, &
+      supported_face_type, sweep_type, &
       error_goal_type
    use axijoint_model_restraint, only : restraint_type, acts_in
    use axijoint_solver_entry, only : solver_entry_type

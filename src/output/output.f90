@@ -161,13 +161,15 @@ contains
       if (.not. allocated(error)) call arrays%finish(error)
       if (.not. allocated(error)) call end_bodies(bodies, results, error)
       if (.not. allocated(error)) call end_surfaces(surfaces, results, error)
-      if (.not. allocated(error)) call listing%open(final_path(directory, name, file_listing), error)
+      if (.not. allocated(error)) &
+         call listing%open(final_path(directory, name, file_listing), error)
       if (.not. allocated(error)) then
          pictures = pictures_of(name, bodies, surfaces)
          call write_listing(listing, run, job, warnings, results, series, pictures)
          call listing%finish(error)
       end if
-      if (.not. allocated(error)) call summary%open(final_path(directory, name, file_summary), error)
+      if (.not. allocated(error)) &
+         call summary%open(final_path(directory, name, file_summary), error)
       if (.not. allocated(error)) then
          call write_summary(summary, run, messages, job, results, series)
          call summary%finish(error)

@@ -68,7 +68,8 @@ contains
       results%part_unbalance = reshape([(0.0_wp, k=1, 6)], [6, 1])
       solvers = known_solvers()
       results%solver = solvers(1)
-      allocate (results%cut_resultants(6, 0))
+      allocate (results%cut_resultants(6, 0), results%cut_motion(6, 0), results%face_reactions(6, 0))
+      results%joint_resultants = reshape(numbers(6, 2.0_wp), [6, 1])
       allocate (results%solves(2), results%path(3), results%states(1))
       results%solves%mode%harmonic = harmonics
       results%solves%n_equations = [4, 6]
@@ -81,6 +82,7 @@ contains
       results%residual_part_node = [1]
       results%displacement = reshape(numbers(3*n_nodes*2, 1.0e-3_wp), [3, n_nodes, 2])
       results%reaction = reshape(numbers(3*n_nodes*2, -0.5_wp), [3, n_nodes, 2])
+      allocate (results%acting, results%taken, source=results%reaction)
       results%point_element = [(1, k=1, n_points)]
       results%point_position = reshape(numbers(2*n_points, 0.1_wp), [2, n_points])
       results%stress = reshape(numbers(6*n_points*2, 7.0_wp), [6, n_points, 2])

@@ -35,7 +35,7 @@ contains
       real(wp), allocatable :: jump(:, :)
       type(joint_field_type) :: in_situ
       type(joint_law_type) :: law
-      real(wp) :: weight(size(structure%planes%angle))
+      real(wp), allocatable :: weight(:)
       integer :: i, j, k
 
       energy = 0.0_wp
@@ -79,7 +79,8 @@ contains
 
       integer, parameter :: shear(2) = [1, 3]
       type(joint_law_type) :: law
-      real(wp) :: weight(size(structure%planes%angle)), stress(2), slip(2)
+      real(wp), allocatable :: weight(:)
+      real(wp) :: stress(2), slip(2)
       integer :: j, k
 
       work = 0.0_wp
@@ -124,12 +125,12 @@ contains
       !> All planes
       type(planes_type), intent(in) :: planes
       !> One a plane; their sum is 2 pi
-      real(wp) :: weight(size(planes%angle))
+      real(wp), allocatable :: weight(:)
 
       integer :: n
 
       n = size(planes%angle)
-      weight = 2.0_wp*pi/max(1, n)
+      allocate (weight(n), source=2.0_wp*pi/max(1, n))
       if (n < 2) return
       if (planes%angle(n) < pi*(1.0_wp - 1.0e-6_wp) .or. n > planes%n) return
       weight = 2.0_wp*pi/(n - 1)  ! from 0 to pi, which stands for the other half

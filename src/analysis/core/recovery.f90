@@ -44,7 +44,8 @@ contains
       real(wp), dimension(size(results%modes)) :: unbalanced, scale
       real(wp), dimension(n_resultants, size(results%modes)) :: applied, resultant, reacted
       real(wp), allocatable :: unbalance(:, :, :)
-      real(wp), allocatable :: internal(:, :), force(:, :), spring(:, :)  ! threads' stacks are small
+      ! threads' stacks are small
+      real(wp), allocatable :: internal(:, :), force(:, :), spring(:, :)
       integer, allocatable :: part(:)
       integer :: k
 

@@ -65,7 +65,7 @@ contains
       allocate (series%load_factor(n), source=0.0_wp)
       allocate (series%residual(n), series%displacement(n), series%pressure(n), series%shear(n), &
                 series%work(n), series%energy(n), series%dissipated(n), source=0.0_wp)
-      allocate (series%case_factor(size(results%states(1)%case_factor), n))
+      allocate (series%case_factor(size(model%load_cases), n))
       allocate (series%applied(n_resultants, n), series%reacted(n_resultants, n))
       allocate (series%cuts(n_resultants, size(model%cuts), n))
       allocate (series%cut_motion, mold=series%cuts)

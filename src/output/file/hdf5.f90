@@ -1,7 +1,7 @@
 !> HDF5 file that notices when it cannot be written: every status of the
 !> library is checked, every handle is closed on every path
 module axijoint_output_file_hdf5
-   use, intrinsic :: iso_c_binding, only : c_int, c_loc, c_size_t
+   use, intrinsic :: iso_c_binding, only : c_int, c_int64_t, c_loc, c_size_t
    use, intrinsic :: iso_fortran_env, only : int8
    use axijoint_base_error, only : error_type, fatal_error, exit_io
    use axijoint_base_kinds, only : wp, i8
@@ -76,8 +76,8 @@ module axijoint_output_file_hdf5
       !> Number of open objects of some kinds; the library's own interface in Fortran takes its data
       !> types off it, whatever the kinds
       function c_open_objects(file, kinds) bind(c, name="H5Fget_obj_count")
-         import :: c_int, c_size_t, hid_t
-         integer(hid_t), value :: file
+         import :: c_int, c_int64_t, c_size_t
+         integer(c_int64_t), value :: file
          integer(c_int), value :: kinds
          integer(c_size_t) :: c_open_objects
       end function c_open_objects
@@ -459,7 +459,7 @@ contains
 
       if (.not. self%started) return
       self%started = .false.
-      if (c_open_objects(int(h5f_obj_all_f, hid_t), int(h5f_obj_file_f, c_int)) > 0) return
+      if (c_open_objects(int(h5f_obj_all_f, c_int64_t), int(h5f_obj_file_f, c_int)) > 0) return
       call h5close_f(status)
       call self%failure%check(status, "ending the library")
    end subroutine close_library

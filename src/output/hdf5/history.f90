@@ -203,8 +203,10 @@ contains
       call file%write(group//"/energy", series%energy, "Elastic: what solids, springs and "// &
          "joints hold of the work; (increment) [force length]")
       call file%write(group//"/dissipated", series%dissipated, &
-         "By sliding in joints, by the mean of the stresses at the ends; (increment) [force length]")
-      call file%write(group//"/applied", series%applied, resultants//" of the loads; (6, increment)")
+         "By sliding in joints, by the mean of the stresses at the ends; (increment) [force "// &
+         "length]")
+      call file%write(group//"/applied", series%applied, resultants// &
+         " of the loads; (6, increment)")
       call file%write(group//"/reacted", series%reacted, &
          resultants//" of the reactions; (6, increment)")
       call file%write(group//"/cuts", series%cuts, &
@@ -212,7 +214,8 @@ contains
       call file%write(group//"/cut_motion", series%cut_motion, &
          "As /cuts/motion; (6, cut, increment) [length, radian]")
       call file%write(group//"/joint_resultants", series%joints, &
-         resultants//" that the body at side 4-3 exerts on that at side 1-2, moments about r = 0 "// &
+         resultants//" that the body at side 4-3 exerts on that at side 1-2, moments about r = "// &
+         "0 "// &
          "at the middle of the joint's height; (6, joint, increment)")
       call file%write(group//"/supports", series%faces, &
          "As /supports/reacted; (6, face, increment)")
