@@ -152,6 +152,34 @@ class Monopile(unittest.TestCase):
             count += 1
         self.assertGreaterEqual(count, 6)
 
+    def test_cuts_give_the_same(self):
+        cuts, joints = axijoint.soil_reactions(self.result, source="cuts"), self.soil
+        self.assertEqual((cuts.source, joints.source), ("cuts", "joints"))
+        for name in ("H_b", "M_b"):
+            np.testing.assert_allclose(getattr(cuts, name), getattr(joints, name), atol=1e-6*5)
+        for found, wanted, applied in zip(cuts.totals(), joints.totals(), (5, 125)):
+            np.testing.assert_allclose(found, wanted, atol=1e-6*applied)
+        self.assertTrue(np.isnan(cuts.v_relative).all())
+        self.assertTrue((abs(cuts.p[:, cuts.low >= 0]) < 1e-6).all())
+
+    def test_bonded_toe(self):
+        """What the toe takes is known from cuts alone."""
+        text = jobs.input_deck("monopile").replace("    1    6    7    JOINTS    ", "         6    7    BONDED    ")
+        text = text.replace("    2       0.0   9.81E-3       0.5", "    2       0.0   9.81E-3       0.5" + 20*" " + "MEANT")
+        cards = "CUTS" + text.split("\nCUTS")[1].split("SECTIONS")[0]
+        result = axijoint.open(f"{jobs.run(self.folder.name, 'bonded', text)}.h5")
+        soil = axijoint.soil_reactions(result)
+        self.assertEqual(soil.source, "cuts")
+        applied = result.history["applied"]
+        force, moment = soil.totals()
+        self.assertLess(abs(force - applied[:, 1]).max(), 1e-6*5.0)
+        self.assertLess(abs(moment + applied[:, 2]).max(), 1e-6*125.0)
+        joints = axijoint.soil_reactions(result, source="joints")
+        self.assertGreater(abs(joints.totals()[0] - applied[:, 1]).max(), 1e-2*5.0)
+        uncut = axijoint.open(f"{jobs.run(self.folder.name, 'uncut', text.replace(cards, ''))}.h5")
+        with self.assertRaisesRegex(LookupError, "toe of body 1: bonded, .* CUTS of body 1 alone"):
+            axijoint.soil_reactions(uncut)
+
     def test_motion_is_that_of_the_cuts(self):
         motion, z = self.result.history["cut_motion"], self.result.read("cuts/z")
         for found, column, sign in ((self.soil.v, 1, 1), (self.soil.psi, 2, -1), (self.soil.s, 0, -1)):

@@ -2,7 +2,8 @@
 import numpy as np
 
 from .. import circle
-from ..soil import along_axis, pile_of, sides_of, soil_reactions
+from ..soil import NoShaftError, cuts_through, pile_of, soil_reactions
+from ..soil_joints import along_axis, sides_of
 from ..table import Table
 from . import style
 from .style import plt
@@ -17,16 +18,19 @@ def reactions(result, options):
 
 
 def has_shaft(result):
-    """Whether joints along z hold the pile."""
-    if not len(result.mesh.joint_nodes):
+    """Whether soil reactions of the pile are known."""
+    try:
+        return bool(len(soil_reactions(result, increments=result.history.increment[-1:]).z))
+    except NoShaftError:
         return False
-    return bool((along_axis(result.mesh) & (sides_of(result.mesh, pile_of(result)) != 0)).any())
 
 
-def _words(result, body, across):
-    """Names and laws of the interfaces of a body whose joints are along z, or across it."""
+def _words(result, soil, across):
+    """Where reactions come from: interfaces of the body along z, or across it, with their laws; or cuts."""
+    if soil.source == "cuts":
+        return "from cuts"
     mesh = result.mesh
-    chosen = (sides_of(mesh, body) != 0) & (along_axis(mesh) != across)
+    chosen = (sides_of(mesh, soil.body) != 0) & (along_axis(mesh) != across)
     names = [f"{one.name} (law {one.law})" for one in result.interfaces if chosen[one.joints].any()]
     if (chosen & (mesh.joint_interface == 0)).any():
         names.append("JOINTS")
@@ -65,22 +69,24 @@ def draw_curves(result, options, of):
     value, absolute, relative, name, moved = {
         "py": (soil.p, soil.v, soil.v_relative, "lateral resistance $p$", "deflection $y$"),
         "tz": (soil.t, soil.s, soil.s_relative, "shaft friction $t$", "settlement $s$")}[of]
-    figure, axes = plt.subplots(1, 2, figsize=(style.TWO_COLUMNS, 3.1), sharey=True)
-    segments = _chosen(soil, options)
-    _by_depth(axes[0], soil, segments, absolute, value)
-    points = _by_depth(axes[1], soil, segments, relative, value)
+    panels = 1 if np.isnan(relative).any() else 2
+    figure, axes = plt.subplots(1, panels, figsize=(style.TWO_COLUMNS, 3.1), sharey=True, squeeze=False)
+    axes, segments = axes[0], _chosen(soil, options)
+    for one, moved_by in zip(axes, (absolute, relative)):
+        points = _by_depth(one, soil, segments, moved_by, value)
     axes[0].set_ylabel(units.label(name, units.per_length(units.force)))
     axes[0].set_xlabel(units.of_length(f"{moved} of the pile"))
-    axes[1].set_xlabel(units.of_length(f"{moved} of the pile less that of the ground beside it"))
     style.scaled(axes[0], "xy")
-    style.scaled(axes[1], "x")
+    if panels == 2:
+        axes[1].set_xlabel(units.of_length(f"{moved} of the pile less that of the ground beside it"))
+        style.scaled(axes[1], "x")
     title, way = {"py": ("$p$–$y$ curves", f"along {style.degrees(soil.theta)}"),
                   "tz": ("$t$–$z$ curves", "downwards")}[of]
     figure.suptitle(options.title if options.title is not None else
-                    f"{title} of body {soil.body}: {_words(result, soil.body, False)}; what the pile exerts on "
+                    f"{title} of body {soil.body}: {_words(result, soil, False)}; what the pile exerts on "
                     f"the ground, positive {way}; increments {_span(soil.increment)}", fontsize=8)
     figure.canvas.draw()
-    _depth_labels(axes[1], soil, segments, points)
+    _depth_labels(axes[-1], soil, segments, points)
     return figure
 
 
@@ -108,8 +114,8 @@ def draw_pisa(result, options):
         one.set_ylabel(units.label(name, of))
         one.set_xlabel(x)
         style.scaled(one)
-    axes[0, 0].set_title(f"shaft: {_words(result, soil.body, False)}")
-    axes[1, 0].set_title(f"base, $z$ = {soil.base_z:g}: {_words(result, soil.body, True)}; numbers: increments")
+    axes[0, 0].set_title(f"shaft: {_words(result, soil, False)}")
+    axes[1, 0].set_title(f"base, $z$ = {soil.base_z:g}: {_words(result, soil, True)}; numbers: increments")
     figure.suptitle(options.title if options.title is not None else
                     f"Soil reactions on body {soil.body}: resistances, positive towards {style.degrees(soil.theta)};"
                     " moments and rotations that lean the pile that way", fontsize=8)
@@ -131,12 +137,15 @@ def cuts_of(result, options):
     bodies = result.read("cuts/body")
     body = options.body
     if body is None:
-        body = pile_of(result) if len(result.mesh.joint_nodes) else int(bodies[0])
+        try:
+            body = pile_of(result)
+        except NoShaftError:
+            body = int(bodies[0])
         body = body if body in bodies else int(bodies[0])
-    rows = np.flatnonzero(bodies == body)
+    rows = cuts_through(result, body)
     if not len(rows):
         raise LookupError(f"no CUTS of body {body}")
-    return body, rows[np.argsort(result.read("cuts/z")[rows], kind="stable")]
+    return body, rows
 
 
 def profile_table(result, options):
