@@ -21,9 +21,10 @@ from .program import RunError, run, run_combinations
 from .result import STATES, OutsideError, Result, open_combinations
 from .result import open_result as open
 from .section import Section
+from .soil import SoilReactions, soil_reactions
 from .table import Table
 
 __all__ = ["DISPLACEMENTS", "STATES", "STRESSES", "Deck", "DeckError", "NotKeptError", "OutsideError", "Result",
-           "RunError", "Section", "Table", "cartesian_displacement", "cartesian_stress", "open",
-           "open_combinations", "principal_stresses", "run", "run_combinations"]
+           "RunError", "Section", "SoilReactions", "Table", "cartesian_displacement", "cartesian_stress", "open",
+           "open_combinations", "principal_stresses", "run", "run_combinations", "soil_reactions"]
 __version__ = "0.1.0"

@@ -99,7 +99,8 @@ class History:
     @property
     def point_names(self):
         """Names of the points of POINTS, in their order."""
-        return self._result.attributes_of("history/points")["names"].splitlines()
+        names = self._result.attributes_of("history/points")["names"].splitlines()
+        return names[:len(self["points/label"])]
 
     def point(self, name, theta=0.0, cartesian=False):
         """Displacements u, v, w of a named point, or that of a number, at an angle: (increments, 3).

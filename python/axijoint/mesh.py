@@ -3,6 +3,7 @@
 Nodes, elements, joints and materials count from 0 here; labels are the numbers of the deck.
 """
 from collections import defaultdict
+from functools import cached_property
 
 import numpy as np
 
@@ -25,6 +26,7 @@ class Mesh:
     joint_label, joint_size
     joint_material    index of the law
     law_label         numbers of the laws
+    joint_interface   number of the card of INTERFACES, 0 for one of JOINTS
     joint_nodes       (joints, 6); -1 beyond
     """
 
@@ -36,9 +38,17 @@ class Mesh:
             setattr(self, name, read(f"mesh/{name}"))
         for name in ("element_material", "element_nodes", "joint_material", "joint_nodes"):
             setattr(self, name, read(f"mesh/{name}") - 1)
+        self.joint_interface = read("mesh/joint_interface")
         self.material_label = read("materials/label")
         self.law_label = read("joint_materials/label")
         self._bins = None
+
+    @cached_property
+    def joint_bodies(self):
+        """Bodies at side 1-2 and at side 4-3 of each joint, (joints, 2)."""
+        of_edge = {key: self.element_body[element] for key, (element, _) in self.boundary().items()}
+        return np.array([[of_edge.get(frozenset(nodes[side]), 0) for side in ([0, 1], [3, 2])]
+                         for nodes in self.joint_nodes]).reshape(-1, 2)
 
     def nodes_of(self, element):
         """Nodes of an element."""

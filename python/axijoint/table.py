@@ -1,4 +1,5 @@
 """Tables: named columns of equal length."""
+import csv
 
 
 class Table(dict):
@@ -29,6 +30,13 @@ class Table(dict):
         except ImportError as error:
             raise ImportError("Table.to_pandas needs pandas: pip install pandas") from error
         return pandas.DataFrame(dict(self))
+
+    def write_csv(self, path):
+        """Write a file of comma-separated values: names of the columns, then the rows with all digits."""
+        with open(path, "w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(self)
+            writer.writerows(zip(*(getattr(column, "tolist", lambda c=column: c)() for column in self.values())))
 
     def __repr__(self):
         return f"Table of {self.rows} rows: {', '.join(self)}"

@@ -10,7 +10,8 @@ STRESS = re.compile(r"[\w/^. ²]{1,12}")
 class Units:
     """Units that the deck names: in its title, or in a comment `Units: force, length, stress`.
 
-    force, length, stress: their names; empty where the deck names none.
+    force, length, stress: their names; empty where the deck names none. Without a name of its own, the unit of
+    stress is force/length².
     """
 
     def __init__(self, title, deck):
@@ -19,10 +20,18 @@ class Units:
         texts += re.findall(r"^[!$]\s*Units?:\s*([^.\n]*)", deck, re.MULTILINE | re.IGNORECASE)
         for text in texts:
             names = [name.strip() for name in text.split(",")]
-            if len(names) == 3 and names[0] in FORCES and names[1] in LENGTHS \
-                    and STRESS.fullmatch(names[2]):
-                self.force, self.length, self.stress = names
+            if len(names) in (2, 3) and names[0] in FORCES and names[1] in LENGTHS \
+                    and all(STRESS.fullmatch(name) for name in names[2:]):
+                self.name(*names)
                 return
+
+    def name(self, force, length, stress=None):
+        """Name the units."""
+        self.force, self.length, self.stress = force, length, stress or f"{force}/{length}²"
+
+    def per_length(self, unit):
+        """A unit over that of length."""
+        return f"{unit}/{self.length}" if unit else ""
 
     def label(self, name, unit=""):
         """A label: a name or a symbol, and the unit in brackets."""

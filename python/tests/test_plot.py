@@ -8,11 +8,13 @@ import unittest
 import xml.etree.ElementTree
 
 import jobs
+import numpy as np
 
 try:
     from axijoint import plot
     from axijoint.plot import __main__ as command
-    from axijoint.plot import pieces
+    from axijoint.plot import fields, pieces, style
+    from overlaps import overlaps
 except ImportError:
     plot = None
 
@@ -21,8 +23,13 @@ import axijoint
 CONTOURS = {f"contours_{name}" for name in ("displacement", "sigma_r", "sigma_z", "sigma_theta", "tau_rz")}
 LINES = {"line_across", "line_along"}
 ALWAYS = {"mesh", "deformed", "convergence", "spectrum"} | CONTOURS
-WANTED = {"case3": ALWAYS | LINES | {"joints_1", "joints_2"}, "first": ALWAYS | LINES | {"joints"},
-          "chimney.2": ALWAYS | {"section_1", "joints"}}
+WANTED = {"case3": ALWAYS | LINES | {"joints_1", "joints_2", "pressure_1", "pressure_2"},
+          "first": ALWAYS | LINES | {"joints", "pressure"},
+          "chimney.2": ALWAYS | {"section_1", "joints", "pressure"}}
+# Of a pile, and the tables with them
+OF_PILE = {"points", "energy", "pile", "py", "tz", "pisa"}
+INTERFACES = {f"{kind}_{name}" for kind in ("joints", "pressure") for name in ("shaft", "plug", "toe")}
+TABLES = {"points", "increments", "pile", "pisa_shaft", "pisa_base", "pressure"}
 
 
 @unittest.skipIf(plot is None, "matplotlib is not installed")
@@ -38,6 +45,7 @@ class Figures(unittest.TestCase):
             result = axijoint.open(self.results(folder, name))
             found = {}
             for figure_name, figure in plot.figures(result):
+                self.assertEqual(overlaps(figure), [], figure_name)
                 found[figure_name] = plot.save(figure, pathlib.Path(folder)/figure_name)
             self.assertEqual(found.keys(), WANTED[name])
             for png, svg in found.values():
@@ -79,6 +87,108 @@ class Figures(unittest.TestCase):
             area = ((r2 - r1)*(z3 - z1) - (r3 - r1)*(z2 - z1))/2
             self.assertTrue((area > 0).all())
             self.assertAlmostEqual(area.sum(), 0.5*1.5 + 1.5*1.0, 12)
+
+
+@unittest.skipIf(plot is None, "matplotlib is not installed")
+class Monopile(unittest.TestCase):
+    """Figures of a history, and options"""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.path = f"{jobs.run(cls.folder.name, 'monopile', jobs.input_deck('monopile'))}.h5"
+        cls.result = axijoint.open(cls.path)
+
+    def figures(self, *kinds, **options):
+        """Figures by name; each has no overlapping texts."""
+        found = {}
+        for name, figure in plot.figures(self.result, kinds, plot.Options(**options)):
+            self.assertEqual(overlaps(figure), [], name)
+            found[name] = figure
+        return found
+
+    def run_command(self, *words):
+        with contextlib.redirect_stdout(io.StringIO()) as out, contextlib.redirect_stderr(io.StringIO()) as said:
+            code = command.main([self.path, *words])
+        return code, out.getvalue(), said.getvalue()
+
+    def test_kinds_of_a_history(self):
+        found = self.figures("points", "energy", "pile", "py", "tz", "pisa", "joints", "pressure")
+        self.assertEqual(found.keys(), OF_PILE | INTERFACES)
+        self.assertEqual({name for name, _ in plot.tables(self.result)}, TABLES)
+        self.assertIn("shaft (law 1), from face 2 of body 1 to face 3 of body 2",
+                      found["joints_shaft"].get_suptitle())
+        self.assertIn("[MN/m]", found["py"].axes[0].get_ylabel())
+
+    def test_curves_are_those_of_the_table(self):
+        soil = axijoint.soil_reactions(self.result)
+        (figure,) = self.figures("pisa", depths=(-3.4, -19)).values()
+        for axes, x, y in zip(figure.axes[:2], (soil.v, soil.psi), (soil.p, soil.m)):
+            for depth, line in zip((-3.4, -19), (one for one in axes.lines if len(one.get_xdata()) > 2)):
+                segment = abs(soil.z - depth).argmin()
+                np.testing.assert_array_equal(line.get_xdata()[1:], x[:, segment])
+                np.testing.assert_array_equal(line.get_ydata()[1:], y[:, segment])
+
+    def test_increments_bodies_and_range(self):
+        (whole,) = self.figures("deformed", increments=(6,), enlargement=40).items()
+        self.assertEqual(whole[0], "deformed_increment_6")
+        self.assertIn("40 times enlarged", whole[1].axes[0].get_title())
+        self.assertIn("increment 6 of 8", whole[1].axes[0].get_title())
+
+        def colours(**options):
+            return fields.draw_contours(self.result, "sigma_z", plot.Options(**options))
+        steel, ground, everything = colours(body=1), colours(material=3, range=(-0.1, 0.02)), colours()
+        self.assertGreater(steel.axes[-1].get_ylim()[1], 2)  # the wall's own range, not that of the ground
+        np.testing.assert_allclose(ground.axes[-1].get_ylim(), (-0.1, 0.02))
+        self.assertLess(np.ptp(everything.axes[-1].get_ylim()), 0.2*np.ptp(steel.axes[-1].get_ylim()))
+        self.assertRegex(everything.get_supxlabel(), "beyond the colours: material 1 from -1.9")
+        for figure in (steel, ground, everything):
+            self.assertEqual(overlaps(figure), [])
+            plot.plt.close(figure)
+
+    def test_stresses_that_are_not_kept(self):
+        code, out, said = self.run_command("contours", "--increment", "3", "-o", self.folder.name, "--format", "svg")
+        self.assertEqual(code, 1)
+        self.assertIn("contours_displacement_increment_3.svg", out)
+        self.assertIn("stresses of increment 3 are not kept", said)
+
+    def test_options_of_the_command(self):
+        sheet = pathlib.Path(self.folder.name)/"own.mplstyle"
+        sheet.write_text("axes.prop_cycle: cycler('color', ['ff0000', '00ff00'])\n")
+        code, out, _ = self.run_command(
+            "energy", "pisa", "-o", f"{self.folder.name}/out", "--format", "svg,pdf", "--style", str(sheet),
+            "--units", "kN,m", "--title", "Bored pile")
+        self.assertEqual(code, 0)
+        self.assertEqual(sorted(os.listdir(f"{self.folder.name}/out")), sorted(
+            [f"monopile_{kind}.{ending}" for kind in ("energy", "pisa") for ending in ("pdf", "svg")]
+            + [f"monopile_{table}.csv" for table in ("increments", "pisa_shaft", "pisa_base")]))
+        self.assertIn("#ff0000", pathlib.Path(f"{self.folder.name}/out/monopile_energy.svg").read_text())
+        rows = pathlib.Path(f"{self.folder.name}/out/monopile_pisa_base.csv").read_text().splitlines()
+        self.assertEqual((rows[0], len(rows)), ("increment,load_factor,z,v_b,H_b,psi_b,M_b,s_b,V_b", 9))
+
+    def test_faults_of_the_command_line(self):
+        for words, said in ((("mesh", "--depth", "3"), "no kind of mesh heeds --depths; those that do: py"),
+                            (("--format", "gif"), "no format 'gif'"), (("--range", "3,1"), "two ascending numbers"),
+                            (("--units", "MN"), "--units wants"), (("--enlargement", "0"), "a positive number"),
+                            (("--style", "nothing.mplstyle"), "no file nothing.mplstyle"),
+                            (("pile", "--increments", "9"), "no increment 9"), (("pile", "--body", "2"), "no CUTS of body 2")):
+            code, _, found = self.run_command(*words, "-o", self.folder.name)
+            self.assertIn(said, found)
+            self.assertEqual(code, 0 if "CUTS" in said else 2)
+
+    def test_labels_beside_curves_keep_apart(self):
+        figure, axes = plot.plt.subplots()
+        axes.plot([0, 1], [0, 1])
+        style.direct_labels(axes, [(1, y) for y in (0.9, 0.5, 0.5, 0.51, 0.0, 0.001)], list("abcdef"))
+        self.assertEqual(overlaps(figure), [])
+        plot.plt.close(figure)
+
+    def test_powers_of_ten(self):
+        found = [style.power_of(x) for x in (0, 1e-12, 0.0009, 0.002, 0.05, 7, 9e4, 2e5, np.inf)]
+        self.assertEqual(found, [0, -12, -6, -3, 0, 0, 0, 3, 0])
+        self.assertEqual(style.with_power("$v$ [m]", -3), "$v$ [$10^{-3}$ m]")
+        self.assertEqual(style.with_power("share", 6), "share [$10^{6}$]")
 
 
 if __name__ == "__main__":

@@ -63,6 +63,7 @@ static void set_environment(int argc, char **argv, char **environment)
    length = readlink("/proc/self/exe", program, sizeof program - 1);
    if (length <= 0) return;
    program[length] = '\0';
+   if (strstr(program, "/ld-")) return; /* the loader was called with the program as its argument */
    /* not execve(), before which a build that counts coverage would write its files */
    syscall(SYS_execve, program, argv, larger);
 }

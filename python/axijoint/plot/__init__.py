@@ -1,10 +1,10 @@
 """Figures of a result; they need matplotlib.
 
     from axijoint import plot
-    for name, figure in plot.figures(result, ["mesh", "contours"]):
+    for name, figure in plot.figures(result, ["mesh", "contours"], plot.Options(body=1)):
         plot.save(figure, f"out/{name}")
 
-`python -m axijoint.plot RESULT.h5 [-o DIR] [KIND...]` writes them as PNG and SVG.
+`python -m axijoint.plot RESULT.h5 [-o DIR] [KIND...]` writes them as PNG and SVG, and tables of some as CSV.
 """
 import pathlib
 
@@ -13,70 +13,65 @@ try:
 except ImportError as error:
     raise ImportError("axijoint.plot needs matplotlib: pip install matplotlib") from error
 
-from . import curves, fields, joints, mesh
-from .style import SETTINGS, plt
+from .kinds import KINDS, NothingToDraw
+from .options import Options
+from .style import SETTINGS, plt, settings
 
-__all__ = ["KINDS", "figures", "save"]
+__all__ = ["FORMATS", "KINDS", "SETTINGS", "NothingToDraw", "Options", "figures", "plt", "save", "tables"]
 
-
-def _mesh(result):
-    yield "mesh", mesh.draw(result)
-
-
-def _deformed(result):
-    yield "deformed", fields.draw_deformed(result)
+FORMATS = ("png", "svg")
 
 
-def _contours(result):
-    for name in fields.quantities(result):
-        yield f"contours_{name}", fields.draw_contours(result, name)
+def figures(result, kinds=None, options=Options(), missing=None):
+    """Yield name and matplotlib Figure of each figure of some kinds, or of all that tell something.
 
-
-def _sections(result):
-    for name, section in curves.sections(result).items():
-        if len(section.point):
-            yield name, curves.draw_section(result, section)
-
-
-def _joints(result):
-    for name, interface in joints.interfaces(result).items():
-        yield name, joints.draw(result, interface)
-
-
-def _convergence(result):
-    figure = curves.draw_convergence(result)
-    if figure is not None:
-        yield "convergence", figure
-
-
-def _spectrum(result):
-    yield "spectrum", curves.draw_spectrum(result)
-
-
-# Kinds of figures: what yields the names and figures of each
-KINDS = {"mesh": _mesh, "deformed": _deformed, "contours": _contours, "sections": _sections,
-         "joints": _joints, "convergence": _convergence, "spectrum": _spectrum}
-
-
-def figures(result, kinds=None):
-    """Yield name and matplotlib Figure of each figure of some kinds, or of all.
-
-    A figure is closed when the next one is asked for. A linear job has no convergence path, a job
-    without joints no joint map.
+    A figure is closed when the next one is asked for. missing: called with the kind and the reason for kinds that
+    there is nothing to draw of, such as the convergence path of a linear job.
     """
-    for kind in kinds or KINDS:
+    for kind, view, suffix in _drawn(result, kinds, options):
+        try:
+            for name, figure in KINDS[kind].draw(view, options):
+                yield name + suffix, figure
+                plt.close(figure)
+        except NothingToDraw as reason:
+            if missing:
+                missing(kind, str(reason))
+
+
+def tables(result, kinds=None, options=Options()):
+    """Yield name and Table of what is drawn, of the kinds that have tables."""
+    for kind in _known(kinds) or KINDS:
+        if KINDS[kind].tables and (kinds or KINDS[kind].tells(result)):
+            try:
+                yield from KINDS[kind].tables(result, options)
+            except NothingToDraw:
+                pass
+
+
+def _drawn(result, kinds, options):
+    """Kinds, the view of the increment that each is drawn of, and what it adds to the name."""
+    for kind in _known(kinds) or KINDS:
+        if not kinds and not KINDS[kind].tells(result):
+            continue
+        if KINDS[kind].each_increment and options.increments is not None:
+            for number in options.increments:
+                yield kind, result.at(number), f"_increment_{number}"
+        else:
+            yield kind, result, ""
+
+
+def _known(kinds):
+    for kind in kinds or ():
         if kind not in KINDS:
             raise ValueError(f"there is no kind {kind!r}; there are {', '.join(KINDS)}")
-        for name, figure in KINDS[kind](result):
-            yield name, figure
-            plt.close(figure)
+    return kinds
 
 
-def save(figure, stem):
-    """Write a figure as STEM.png and STEM.svg; returns both paths."""
-    paths = [pathlib.Path(f"{stem}.{ending}") for ending in ("png", "svg")]
-    with plt.rc_context(SETTINGS):
+def save(figure, stem, formats=FORMATS, options=Options()):
+    """Write a figure as STEM.png and STEM.svg, or in other formats; returns the paths."""
+    paths = [pathlib.Path(f"{stem}.{ending}") for ending in formats]
+    with plt.rc_context(settings(options)):
         for path in paths:
-            figure.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)
+            figure.savefig(path, metadata={"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(path.suffix[1:]))
             figure.set_layout_engine("none")  # placed now, once is enough
     return paths

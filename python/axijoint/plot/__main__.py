@@ -1,43 +1,130 @@
-"""Writes figures of results as PNG and SVG.
-
-Usage: python -m axijoint.plot RESULT.h5... [-o DIR] [KIND...]
-"""
+"""Writes figures of results as PNG and SVG, and tables of some as CSV."""
 import argparse
 import pathlib
 import sys
 
 from .. import open as open_result
-from . import KINDS, figures, save
+from ..history import NotKeptError
+from . import FORMATS, KINDS, Options, figures, save, tables
+from .style import plt
+
+EVERY_FORMAT = ("png", "svg", "pdf")
+
+
+def numbers(of):
+    """Reads numbers between commas: `1,3,5`; of integers, ranges, too: `1-5`."""
+    def read(text):
+        found = []
+        for part in text.split(","):
+            first, dash, last = part.strip().partition("-")
+            if of is int and dash and first:
+                found += range(int(first), int(last) + 1)
+            else:
+                found.append(of(part))
+        return tuple(found)
+    read.__name__ = f"numbers between commas, not a list of {of.__name__}s: "
+    return read
+
+
+def parser():
+    """The parser of the command line."""
+    one = argparse.ArgumentParser(
+        prog="plot", formatter_class=argparse.RawDescriptionHelpFormatter,
+        description="Writes figures of results of axijoint, NAME_FIGURE.png and .svg, and tables of some, "
+        "NAME_TABLE.csv.", epilog="kinds:\n" + "\n".join(f"  {name:<12} {kind.about}" for name, kind in KINDS.items())
+        + "\n\nLists are numbers between commas: 0,90; increments 1,3-5. A list or range that begins with a minus sign "
+        "needs =: --depths=-2,-5.")
+    add = one.add_argument
+    add("words", nargs="+", metavar="RESULT.h5 | KIND", help="result files, and kinds of figures (default: all)")
+    add("-o", metavar="DIR", type=pathlib.Path, default=pathlib.Path("."),
+        help="directory of the figures (default: the current one)")
+    add("--body", type=int, metavar="N", help="only this body; the pile")
+    add("--material", type=int, metavar="N", help="only this material")
+    add("--range", type=numbers(float), metavar="A,B", help="least and greatest value of colours or radius")
+    add("--angle", "--angles", dest="angles", type=numbers(float), metavar="A,...",
+        help="theta of planes and curves, direction of forces and displacements [degree]")
+    add("--increment", "--increments", dest="increments", type=numbers(int), metavar="N,...", help="increments")
+    add("--depth", "--depths", dest="depths", type=numbers(float), metavar="Z,...",
+        help="heights z of curves by depth (r on interfaces across z)")
+    add("--enlargement", type=float, metavar="X", help="displacements are drawn so many times larger")
+    add("--title", metavar="TEXT", help="in place of the figures' titles")
+    add("--units", type=lambda text: tuple(name.strip() for name in text.split(",")),
+        metavar="FORCE,LENGTH[,STRESS]", help="names of units in labels")
+    add("--format", type=lambda text: tuple(name.strip() for name in text.split(",")), default=FORMATS,
+        metavar="png,svg,pdf", help="formats of the figures (default: png,svg)")
+    add("--style", metavar="FILE", help="style sheet of matplotlib")
+    return one
+
+
+def fault_of(given, kinds, paths):
+    """What is wrong with the command line, in words; None if nothing is."""
+    missing = [path for path in paths if not path.is_file()]
+    if missing or not paths:
+        what = f"{missing[0]} is neither a file nor a kind of figure" if missing else "no result file"
+        return f"{what}; kinds: {', '.join(KINDS)}"
+    unknown = [name for name in given.format if name not in EVERY_FORMAT]
+    if unknown:
+        return f"there is no format {unknown[0]!r}; there are {', '.join(EVERY_FORMAT)}"
+    if given.range and (len(given.range) != 2 or not given.range[0] < given.range[1]):
+        return "--range wants two ascending numbers, as --range=-0.5,1"
+    if given.units and len(given.units) not in (2, 3):
+        return "--units wants force and length, or force, length and stress, as MN,m,MPa"
+    if given.enlargement is not None and not given.enlargement > 0:
+        return "--enlargement wants a positive number"
+    if given.style and given.style not in plt.style.available and not pathlib.Path(given.style).is_file():
+        return f"--style: there is no file {given.style}, and matplotlib has no such style"
+    options = options_of(given)
+    for name in options.given():
+        heeding = [kind for kind, one in KINDS.items() if name in one.takes]
+        if kinds and not set(kinds) & set(heeding):
+            return f"no kind of {', '.join(kinds)} heeds --{name}; those that do: {', '.join(heeding)}"
+    return None
+
+
+def options_of(given):
+    """Options of the command line."""
+    return Options(given.body, given.material, given.range, given.angles, given.increments, given.depths,
+                   given.enlargement, given.title, given.units, given.style)
 
 
 def main(arguments=None):
     """Draw and write; the exit code."""
-    parser = argparse.ArgumentParser(
-        prog="plot", description="Writes figures of results of axijoint as PNG and SVG: NAME_FIGURE.png "
-        "and .svg.", epilog="kinds: " + ", ".join(KINDS))
-    parser.add_argument("words", nargs="+", metavar="RESULT.h5 | KIND",
-                        help="result files, and kinds of figures (default: all)")
-    parser.add_argument("-o", metavar="DIR", type=pathlib.Path, default=pathlib.Path("."),
-                        help="directory of the figures (default: the current one)")
-    options = parser.parse_intermixed_args(arguments)
-    kinds = [word for word in options.words if word in KINDS]
-    paths = [pathlib.Path(word) for word in options.words if word not in KINDS]
-    missing = [path for path in paths if not path.is_file()]
-    if missing or not paths:
-        what = f"{missing[0]} is neither a file nor a kind of figure" if missing else "no result file"
-        print(f"plot: {what}; kinds: {', '.join(KINDS)}", file=sys.stderr)
+    given = parser().parse_intermixed_args(arguments)
+    kinds = [word for word in given.words if word in KINDS]
+    paths = [pathlib.Path(word) for word in given.words if word not in KINDS]
+    fault = fault_of(given, kinds, paths)
+    if fault:
+        print(f"plot: {fault}", file=sys.stderr)
         return 2
-    options.o.mkdir(parents=True, exist_ok=True)
+    given.o.mkdir(parents=True, exist_ok=True)
+    code = 0
     for path in paths:
         try:
-            result = open_result(path)
+            write(open_result(path), given.o/path.name.removesuffix(".h5"), kinds, given)
+        except NotKeptError as error:
+            print(f"plot: {path}: {error}", file=sys.stderr)
+            code = 1
         except (OSError, ValueError) as error:
             print(f"plot: {path}: {error}", file=sys.stderr)
             return 2
-        for name, figure in figures(result, kinds):
-            written = save(figure, options.o/f"{path.name.removesuffix('.h5')}_{name}")
-            print(" ".join(str(one) for one in written))
-    return 0
+    return code
+
+
+def write(result, stem, kinds, given):
+    """Write the figures and tables of a result, and say what is written."""
+    options = options_of(given)
+
+    def missing(kind, reason):
+        if kinds:
+            print(f"plot: {result.path}: no figure of kind {kind}: {reason}", file=sys.stderr)
+    written = set()
+    for name, table in tables(result, kinds, options):
+        if name not in written:
+            written.add(name)
+            table.write_csv(f"{stem}_{name}.csv")
+            print(f"{stem}_{name}.csv")
+    for name, figure in figures(result, kinds, options, missing):
+        print(" ".join(str(one) for one in save(figure, f"{stem}_{name}", given.format, options)))
 
 
 if __name__ == "__main__":

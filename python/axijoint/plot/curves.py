@@ -1,8 +1,11 @@
 """Curves: profiles along sections, convergence path, spectrum of the harmonics."""
+from dataclasses import replace
+
 import numpy as np
 
 from ..components import STRESSES
 from . import pieces, style
+from .options import Options
 from .style import plt
 
 
@@ -22,19 +25,34 @@ def default_lines(result):
     return [((low[0], middle[1]), (high[0], middle[1])), ((inner[0], low[1]), (inner[0], high[1]))]
 
 
-def sections(result):
-    """Sections of the deck by name, or along the default lines."""
+def sections(result, angles=None):
+    """Sections of the deck by name, or along the default lines; at the deck's angles or others."""
     if result.section_numbers:
-        return {f"section_{number}": result.section(number) for number in result.section_numbers}
+        stored = {f"section_{number}": result.section(number) for number in result.section_numbers}
+        return stored if angles is None else {
+            name: replace(result.line(one.first, one.last, angles, one.point.max()), number=one.number)
+            for name, one in stored.items()}
     names = ("line_across", "line_along")
-    return dict(zip(names, (result.line(*ends, theta=(0, 180), points=201)
+    return dict(zip(names, (result.line(*ends, theta=(0, 180) if angles is None else angles, points=201)
                             for ends in default_lines(result))))
 
 
+def of_solid(section, options):
+    """The rows of a section in the options' body and material."""
+    keep = np.ones(len(section.point), bool)
+    if options.body is not None:
+        keep &= section.body == options.body
+    if options.material is not None:
+        keep &= section.material == options.material
+    rows = {name: getattr(section, name)[keep] for name in
+            ("point", "position", "distance", "element", "body", "material")}
+    return replace(section, displacement=section.displacement[:, keep], stress=section.stress[:, keep], **rows)
+
+
 @style.styled
-def draw_section(result, section):
+def draw_section(result, section, options=Options()):
     """Displacements and stresses along a line: a Figure. Curves break where solids meet."""
-    units = style.Units(result)
+    units = style.Units(result, options)
     shown = _components(section, units)
     rows = -(-len(shown)//3)
     figure, axes = plt.subplots(rows, 3, figsize=(style.TWO_COLUMNS, 0.5 + 1.75*rows), sharex=True,
@@ -44,14 +62,15 @@ def draw_section(result, section):
         one.set_ylabel(label)
         one.tick_params(labelbottom=True)
         one.set_xlabel(units.of_length("distance"))
-        one.ticklabel_format(axis="y", scilimits=(-3, 4), useMathText=True)
+        style.scaled(one, "y")
     for one in axes.flat[len(shown):]:
         one.remove()
     names = [style.degrees(theta) for theta in section.theta]
     figure.legend(axes[0, 0].get_lines()[:len(names)], names, loc="outside upper right", ncols=len(names))
     number = "" if section.number is None else f"section {section.number}: "
-    figure.suptitle(f"{number}from r = {section.first[0]:g}, z = {section.first[1]:g} to "
-                    f"r = {section.last[0]:g}, z = {section.last[1]:g}", x=0.01, ha="left")
+    figure.suptitle(style.heading(result, options, f"{number}from r = {section.first[0]:g}, "
+                                  f"z = {section.first[1]:g} to r = {section.last[0]:g}, "
+                                  f"z = {section.last[1]:g}"), x=0.01, ha="left")
     return figure
 
 
@@ -69,23 +88,22 @@ def _components(section, units):
 def plot_pieces(axes, section, values, **options):
     """Curves of values (angles, rows) against the distance; they break where the solid changes."""
     for k in range(len(section.theta)):
-        colour, dashes, _ = style.CURVES[k % len(style.CURVES)]
         distance, curve = broken(section, values[k])
-        axes.plot(distance, curve, color=colour, ls=dashes, **options)
+        axes.plot(distance, curve, **(style.curve(k) | {"marker": ""} | options))
     axes.axhline(0, color="0.7", lw=0.5, zorder=0)
 
 
 def broken(section, values):
-    """Distances and values with nan between the stretches of different solids."""
-    distance, curve = [], []
-    for rows in section.pieces():
+    """Distances and values with nan between the stretches of different solids; points alone are no curve."""
+    distance, curve, stretches = [], [], section.pieces()
+    for rows in [one for one in stretches if len(one) > 1] or stretches:
         distance += [*section.distance[rows], np.nan]
         curve += [*values[rows], np.nan]
     return np.array(distance), np.array(curve)
 
 
 @style.styled
-def draw_convergence(result):
+def draw_convergence(result, options=Options()):
     """Residual ratio against iterations, points that slip or are open below: a Figure.
 
     None if there is no residual to show: of a linear job, or where no joint slips or opens.
@@ -99,7 +117,7 @@ def draw_convergence(result):
     ratio = np.where(path["ratio"] > 0, path["ratio"], np.nan)
     above.semilogy(step, ratio, color="black", **marker)
     above.axhline(result.attributes_of("convergence")["tolerance"], color="0.4", ls="--", lw=0.8)
-    above.annotate("tolerance", (0.01, result.attributes_of("convergence")["tolerance"]), (0, 2),
+    above.annotate("tolerance", (1, result.attributes_of("convergence")["tolerance"]), (3, 0), va="center",
                    xycoords=("axes fraction", "data"), textcoords="offset points", color="0.25")
     ratio_axis(above.yaxis, np.nanmin(ratio), np.nanmax(ratio))
     above.set_ylabel("residual forces / applied forces")
@@ -113,6 +131,8 @@ def draw_convergence(result):
         for one in (above, below):
             one.axvline(change + 1.5, color="0.75", lw=0.6)
     below.xaxis.set_major_locator(style.matplotlib.ticker.MaxNLocator(integer=True))
+    if options.title:
+        figure.suptitle(options.title)
     return figure
 
 
@@ -126,9 +146,9 @@ def ratio_axis(axis, low, high):
 
 
 @style.styled
-def draw_spectrum(result):
+def draw_spectrum(result, options=Options()):
     """Largest amplitude of displacement and stress of each harmonic: a Figure."""
-    units, table = style.Units(result), result.spectrum()
+    units, table = style.Units(result, options), result.spectrum()
     figure, axes = plt.subplots(1, 2, figsize=(style.TWO_COLUMNS, 2.4))
     families = [name for name in ("symmetric", "antisymmetric") if (table["family"] == name).any()]
     width = 0.8/len(families)
@@ -145,4 +165,6 @@ def draw_spectrum(result):
         one.set_xlim(table["harmonic"].min() - 0.7, table["harmonic"].max() + 0.7)
     if len(families) > 1:
         axes[1].legend()
+    if options.title or result.history.increment[-1] > 1:
+        figure.suptitle(style.heading(result, options))
     return figure

@@ -1,9 +1,12 @@
 """Maps of the joints: state, stresses and gap over the interface and round the circle."""
+import re
+
 import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
 from . import pieces, style
+from .options import Options
 from .style import plt
 
 FACES = ("1.0", "0.75", "0.35")
@@ -12,39 +15,59 @@ NAMES = ("stick", "slip", "open")
 
 
 @style.styled
-def draw(result, interface):
-    """State, normal stress, shear stress and gap of an interface against theta: a Figure."""
-    units = style.Units(result)
+def draw(result, interface, options=Options()):
+    """State, normal stress, shear stress, gap and slip of an interface against theta: a Figure."""
+    units = style.Units(result, options)
     theta = np.degrees(result.read("joints/planes"))
     stress, jump, state = (result.read(f"joints/{name}")[:, interface.points]
                            for name in ("stress", "jump", "state"))
     name, place = interface.coordinate()
     order = np.argsort(place)
     place = place[order]
-    figure, axes = plt.subplots(1, 4, figsize=(style.TWO_COLUMNS, 3.1), sharey=True)
+    figure, axes = plt.subplots(1, 5, figsize=(style.TWO_COLUMNS, 3.3), sharey=True)
     shown = draw_state(axes[0], theta, place, state.T[order])
-    _state_bar(figure.colorbar(shown, ax=axes[0], orientation="horizontal", aspect=14, pad=0.02))
-    shear = np.hypot(stress[..., 0], stress[..., 2])
+    _state_bar(figure.colorbar(shown, ax=axes[0], orientation="horizontal", aspect=12, pad=0.02))
     panels = ((stress[..., 1], units.of_stress("sigma")),
-              (shear, units.label(r"$|\tau|$", units.stress)),
-              (jump[..., 1], units.of_length("gap")))
+              (np.hypot(stress[..., 0], stress[..., 2]), units.label(r"$|\tau|$", units.stress)),
+              (jump[..., 1], units.of_length("gap")),
+              (np.hypot(jump[..., 0], jump[..., 2]), units.of_length("slip")))
     for one, (values, label) in zip(axes[1:], panels):
-        largest = max(abs(values).max(), 1e-300)
-        limits = (values.min(), values.max()) if np.ptp(values) > 1e-9*largest else (0, largest)
-        shown = one.pcolormesh(theta, place, values.T[order], cmap=style.MAP, shading="nearest",
-                               rasterized=True, vmin=limits[0], vmax=limits[1])
-        if largest <= 1e-300:
-            one.text(0.5, 0.5, "0", transform=one.transAxes, color="white", ha="center", va="center")
-            shown.set_clim(0, 1)
-        bar = figure.colorbar(shown, ax=one, orientation="horizontal", label=label, aspect=14, pad=0.02)
-        bar.locator = style.matplotlib.ticker.MaxNLocator(3)
-        bar.formatter.set_powerlimits((-3, 4))
-        bar.outline.set_linewidth(0.5)
-        bar.update_ticks()
+        _map(figure, one, theta, place, values.T[order], label)
     for one in axes:
         axis_of_planes(one, theta)
     axes[0].set_ylabel(units.of_length(f"${name}$"))
+    figure.suptitle(style.heading(result, options, words(result, interface)), x=0.01, ha="left", fontsize=8)
     return figure
+
+
+def _map(figure, axes, theta, place, values, label):
+    """Values over theta and the place as colours, with a bar below."""
+    largest = max(abs(values).max(), 1e-300)
+    limits = (values.min(), values.max()) if np.ptp(values) > 1e-9*largest else (0, largest)
+    shown = axes.pcolormesh(theta, place, values, shading="nearest", rasterized=True,
+                            vmin=limits[0], vmax=limits[1])
+    if largest <= 1e-300:
+        axes.text(0.5, 0.5, "0", transform=axes.transAxes, color="white", ha="center", va="center")
+        shown.set_clim(0, 1)
+    power = style.power_of(largest) if largest > 1e-300 else 0
+    bar = figure.colorbar(shown, ax=axes, orientation="horizontal", label=style.with_power(label, power), aspect=12,
+                          pad=0.02, format=lambda x, _: f"{x/10.0**power:.6g}")
+    bar.locator = style.matplotlib.ticker.MaxNLocator(3)
+    bar.outline.set_linewidth(0.5)
+    bar.update_ticks()
+
+
+def words(result, interface):
+    """Name, law, faces and bodies of an interface, and which side stresses act on."""
+    (body_a, body_b), (face_a, face_b) = interface.bodies, interface.faces
+    name = interface.name or f"joints {_span(result.mesh.joint_label[interface.joints])}"
+    side = f"face {face_a} of body {body_a} to face {face_b} of body {body_b}" if face_a and face_b \
+        else f"body {body_a} to body {body_b}"
+    return f"{name} (law {interface.law}), from {side}"
+
+
+def _span(labels):
+    return f"{labels.min()}–{labels.max()}" if len(labels) > 1 else str(labels[0])
 
 
 def _state_bar(bar):
@@ -92,8 +115,13 @@ def state_handles():
 
 
 def interfaces(result):
-    """Interfaces by the name of their figure."""
-    found = pieces.interfaces(result)
-    if len(found) == 1:
-        return {"joints": found[0]}
-    return {f"joints_{k}": one for k, one in enumerate(found, 1)}
+    """Interfaces by the name of their figure: joints_NAME, joints_N of the Nth without a name."""
+    chains = pieces.interfaces(result)
+    if len(chains) == 1 and (not chains[0].name or chains[0].name == f"interface {chains[0].number}"):
+        return {"joints": chains[0]}
+    found = {}
+    for k, one in enumerate(chains, 1):
+        plain = not one.name or one.name == f"interface {one.number}"
+        name = f"joints_{k}" if plain else "joints_" + re.sub(r"\W+", "_", one.name).strip("_")
+        found[name if name not in found else f"{name}_{k}"] = one
+    return found

@@ -8,6 +8,7 @@ from matplotlib.patches import Patch
 
 from .. import circle
 from . import pieces, style
+from .options import Options
 from .style import plt
 
 FILLS = [("0.86", ""), ("1.0", ""), ("0.72", ""), ("0.93", "...."), ("1.0", "////"), ("0.8", "xxxx")]
@@ -16,9 +17,9 @@ NAMES = ("u", "v", "w")
 
 
 @style.styled
-def draw(result):
+def draw(result, options=Options()):
     """Mesh with materials, joints, supports and loads: a Figure."""
-    mesh, units = result.mesh, style.Units(result)
+    mesh, units = result.mesh, style.Units(result, options)
     extent = np.ptp(mesh.coordinates, axis=0)
     width = 4.6 if extent[1] < 1.6*extent[0] else 3.4
     figure, axes = plt.subplots(figsize=(width, min(8.5, 0.8 + 0.72*width*extent[1]/extent[0])))
@@ -35,6 +36,8 @@ def draw(result):
     handles += _applied(result, units)
     axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.02, 1), borderaxespad=0,
                 handlelength=2.6)
+    if options.title:
+        axes.set_title(options.title)
     return figure
 
 
@@ -65,11 +68,13 @@ def _joints(axes, result):
         lines = [pieces.edge_points(mesh.coordinates[pieces.side_nodes(mesh, j)]) for j in joints]
         dashes = LAW_LINES[k % len(LAW_LINES)]
         axes.add_collection(LineCollection(lines, colors="white", lw=3.4, zorder=3))
-        chains = [_chain(one) for one in pieces.interfaces(result)
-                  if one.law == label]
+        mine = [one for one in pieces.interfaces(result) if one.law == label]
+        chains = [_chain(one) for one in mine]
         axes.add_collection(LineCollection(chains, colors="black", lw=2.4, linestyles=[dashes], zorder=4,
                                            capstyle="butt"))
-        name = f"joints, law {label}" + (" (elastic)" if kinds[k] == 0 else "")
+        names = dict.fromkeys(one.name for one in mine if one.name)
+        name = f"joints, law {label}" + (" (elastic)" if kinds[k] == 0 else "") \
+            + (": " + ", ".join(names) if names else "")
         handles.append(Line2D([], [], color="black", lw=2.4, ls=dashes, label=name))
     return handles
 

@@ -17,10 +17,10 @@ def edge_points(nodes):
     return t*(t - 1)/2*nodes[0] + (1 - t**2)*nodes[1] + t*(t + 1)/2*nodes[2]
 
 
-def element_edges(mesh, positions):
-    """Polylines of all edges of the elements, each once."""
+def element_edges(mesh, positions, chosen=None):
+    """Polylines of all edges of the elements (or of the chosen ones), each once."""
     seen, lines = set(), []
-    for size, group in mesh.groups():
+    for size, group in mesh.groups(chosen):
         for local in elements.edges(size):
             for nodes in mesh.element_nodes[group][:, local]:
                 key = frozenset((nodes[0], nodes[-1]))
@@ -30,9 +30,13 @@ def element_edges(mesh, positions):
     return lines
 
 
-def outlines(mesh, positions):
-    """Polylines of the edges at which solids end or meet others, without the axis."""
-    solids = np.unique(np.stack([mesh.element_body, mesh.element_material], -1), axis=0)
+def outlines(mesh, positions, chosen=None):
+    """Polylines of the edges at which solids end or meet others, without the axis.
+
+    chosen: which elements (mask); without it, all.
+    """
+    solids = np.stack([mesh.element_body, mesh.element_material], -1)
+    solids = np.unique(solids if chosen is None else solids[chosen], axis=0)
     lines = []
     for body, material in solids:
         inside = (mesh.element_body == body) & (mesh.element_material == material)
@@ -54,15 +58,16 @@ def element_polygons(mesh, positions, chosen):
     return polygons
 
 
-def triangles(mesh, values, index, divisions=None):
+def triangles(mesh, values, index, divisions=None, chosen=None):
     """Elements cut into triangles, for contours.
 
-    values: (values, components); index: the value of each node of each element, (elements, 9).
+    values: (values, components); index: the value of each node of each element, (elements, 9); chosen: numbers of
+    the elements, without it all.
     Returns points (points, 2), values (points, components) and triangles (triangles, 3). Points are
     shared within a solid, so that contours go on from element to element and end where solids meet.
     """
     points, found, solids, corners, offset = [], [], [], [], 0
-    for size, group in mesh.groups():
+    for size, group in mesh.groups(chosen):
         n = divisions or (2 if size in (3, 4) else 4)
         natural, pattern = _cut(elements.corners(size), n)
         value, _ = elements.shape_functions(size, natural)
@@ -99,9 +104,13 @@ def _cut(n_corners, n):
 
 
 class Interface:
-    """Joints of one law that hang together, with their points in order along them.
+    """Joints of one card of INTERFACES, or of one law in JOINTS, that hang together, with their points in order.
 
+    number    of the card; 0 of joints of JOINTS
+    name      of the card; empty of joints of JOINTS
     law       number of the law
+    bodies    numbers of the bodies at side 1-2 and at side 4-3
+    faces     their faces; zeros if there are none
     joints    the joints (index), in order
     lines     polylines of side 1-2 of each joint
     points    joint points (index), in order along the interface
@@ -112,6 +121,11 @@ class Interface:
     def __init__(self, result, joints):
         mesh = result.mesh
         self.law = int(mesh.law_label[mesh.joint_material[joints[0]]])
+        self.number = int(mesh.joint_interface[joints[0]])
+        card = result.interfaces[self.number - 1] if self.number else None
+        self.name = card.name if card else ""
+        self.faces = (card.face_a, card.face_b) if card else (0, 0)
+        self.bodies = tuple(map(int, mesh.joint_bodies[joints[0]]))
         self.joints = joints
         self.lines = [edge_points(mesh.coordinates[side_nodes(mesh, joint)]) for joint in joints]
         owner, position = result.read("joints/joint") - 1, result.read("joints/position")
@@ -155,12 +169,12 @@ def side_nodes(mesh, joint):
 
 
 def interfaces(result):
-    """All Interfaces: joints of one law that hang together on both sides, end to end."""
+    """All Interfaces: joints of one card and one law that hang together on both sides, end to end."""
     mesh = result.mesh
     at_node = defaultdict(list)
     for joint, nodes in enumerate(mesh.joint_nodes):
         for pair in ((nodes[0], nodes[3]), (nodes[1], nodes[2])):
-            at_node[mesh.joint_material[joint], pair].append(joint)
+            at_node[mesh.joint_interface[joint], mesh.joint_material[joint], pair].append(joint)
     neighbours = defaultdict(set)
     for joints in at_node.values():
         if len(joints) == 2:

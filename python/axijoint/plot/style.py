@@ -1,8 +1,11 @@
 """How figures look: sizes, line styles and maps that a grey print keeps apart, labels with units."""
+import functools
+
 import matplotlib
 import numpy as np
 
 from .. import units
+from .options import Options
 
 matplotlib.use("Agg", force=False)
 import matplotlib.pyplot as plt  # noqa: E402
@@ -18,9 +21,8 @@ SETTINGS = {
     "axes.spines.top": False, "axes.spines.right": False, "axes.linewidth": 0.6,
     "xtick.major.width": 0.6, "ytick.major.width": 0.6, "xtick.direction": "out",
     "lines.linewidth": 1.2, "lines.markersize": 4, "legend.frameon": False, "hatch.linewidth": 0.5,
-    "axes.prop_cycle": matplotlib.cycler(color=["black"]), "svg.hashsalt": "axijoint"}
-# A map whose lightness grows all the way: dark is small
-MAP = "cividis"
+    "axes.prop_cycle": matplotlib.cycler(color=["black"]), "svg.hashsalt": "axijoint",
+    "image.cmap": "cividis"}  # its lightness grows all the way: dark is small
 # Curves: colour (dark to light), dashes, marker
 CURVES = [("black", "-", "o"), ("0.45", "--", "s"), ("0.2", ":", "^"), ("0.55", "-.", "D"),
           ("0.3", (0, (5, 1, 1, 1, 1, 1)), "v"), ("0.6", "-", "x")]
@@ -31,23 +33,112 @@ SYMBOLS = {"sigma_r": r"\sigma_r", "sigma_z": r"\sigma_z", "sigma_theta": r"\sig
 
 
 class Units(units.Units):
-    """Units of a result, as labels of axes."""
+    """Units of a result, or those of options, as labels of axes."""
 
-    def __init__(self, result):
+    def __init__(self, result, options=Options()):
         super().__init__(result.title, result.deck)
+        if options.units:
+            self.name(*options.units)
 
     def of_stress(self, name):
         """Label of a stress component."""
         return self.label(f"${SYMBOLS[name]}$", self.stress)
 
 
+def settings(options=Options()):
+    """The settings of figures, with the style sheet of the options over them."""
+    return SETTINGS | (dict(matplotlib.rc_params_from_file(options.style, use_default_template=False))
+                       if options.style and options.style not in plt.style.library
+                       else dict(plt.style.library.get(options.style, {})))
+
+
 def styled(draw):
-    """Decorator: draw a figure with the settings of this module."""
-    def drawn(*arguments, **options):
-        with plt.rc_context(SETTINGS):
-            return draw(*arguments, **options)
-    drawn.__doc__, drawn.__name__ = draw.__doc__, draw.__name__
+    """Decorator: draw a figure with the settings of this module, and of Options among the arguments."""
+    @functools.wraps(draw)
+    def drawn(*arguments, **named):
+        options = next((one for one in (*arguments, *named.values()) if isinstance(one, Options)), Options())
+        with plt.rc_context(settings(options)):
+            return draw(*arguments, **named)
     return drawn
+
+
+def curve(k):
+    """Colour, dashes and marker of curve k; a style sheet with colours of its own brings them."""
+    colour, dashes, marker = CURVES[k % len(CURVES)]
+    colours = plt.rcParams["axes.prop_cycle"].by_key().get("color", ["black"])
+    if len(colours) > 1:
+        colour = colours[k % len(colours)]
+    return {"color": colour, "ls": dashes, "marker": marker,
+            "markerfacecolor": "white" if k % 2 else colour, "markeredgewidth": 0.8}
+
+
+def heading(result, options, words=""):
+    """Title of a figure: that of the options, or some words, with the increment in jobs of several."""
+    if options.title is not None:
+        return options.title
+    numbers = result.history.increment
+    at = f"increment {result.increment} of {numbers[-1]}" if len(numbers) > 1 else ""
+    return ", ".join(one for one in (words, at) if one)
+
+
+def power_of(largest):
+    """Power of ten, a multiple of three, that numbers on an axis are given in; 0 for those that need none."""
+    if not 0 < largest < np.inf or 1e-2 < largest < 1e5:
+        return 0
+    return int(3*np.floor(np.log10(largest)/3 + 1e-9))
+
+
+def with_power(label, power):
+    """A label with a power of ten in front of its unit."""
+    if not power:
+        return label
+    name, bracket, unit = label.rpartition("[")
+    return rf"{name}[$10^{{{power}}}$ {unit}" if bracket else rf"{label} [$10^{{{power}}}$]"
+
+
+def scaled(axes, which="xy"):
+    """Powers of ten of the axes' numbers go into their labels, where they hide nothing."""
+    for letter in which:
+        axis = getattr(axes, f"{letter}axis")
+        power = power_of(max(map(abs, getattr(axes, f"get_{letter}lim")())))
+        axis.set_major_formatter(lambda x, _, power=power: f"{x/10.0**power:.6g}")
+        axis.set_label_text(with_power(axis.get_label_text(), power))
+
+
+def thinned(numbers, most):
+    """At most so many of some numbers, the first and the last among them."""
+    numbers = np.asarray(numbers)
+    if len(numbers) <= most:
+        return numbers
+    return numbers[np.unique(np.linspace(0, len(numbers) - 1, most).round().astype(int))]
+
+
+def direct_labels(axes, points, texts):
+    """Names of curves in a column to the right of the axes, each with a thin line to a point of its curve.
+
+    points: x and y of a point of each curve. The column is in the order of y, at distances that keep names apart.
+    """
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high)
+    height = axes.get_position().height*axes.figure.get_figheight()*72
+    size = matplotlib.font_manager.FontProperties(size=plt.rcParams["legend.fontsize"]).get_size_in_points()
+    step = 1.35*size/height
+    share = (np.asarray([y for _, y in points]) - low)/(high - low)
+    order = np.argsort(share, kind="stable")
+    place = np.clip(share[order], 0, 1)
+    for _ in range(200):  # push apart, keep within the axes
+        gap = np.diff(place)
+        short = np.flatnonzero(gap < step - 1e-9)
+        if not len(short):
+            break
+        for k in short:
+            middle = (place[k] + place[k + 1])/2
+            place[k], place[k + 1] = middle - step/2, middle + step/2
+        place += max(0, -place[0]) - max(0, place[-1] - 1)*(place[-1] - place[0] < 1)
+    for k, y in zip(order, place):
+        axes.annotate(texts[k], points[k], (1.05, y), textcoords=axes.transAxes, va="center", ha="left",
+                      annotation_clip=False, fontsize=size,
+                      arrowprops={"arrowstyle": "-", "lw": 0.4, "color": "0.5", "shrinkA": 1, "shrinkB": 2})
 
 
 def round_down(value):

@@ -62,8 +62,16 @@ def _saved(figure, plot, kind, **options):
 def describe(job, name):
     """Caption of a figure, and in words what it shows."""
     kind, _, rest = name.partition("_")
-    return {"mesh": _mesh, "deformed": _deformed, "contours": _contours, "section": _section, "line": _line,
-            "joints": _joints, "convergence": _convergence, "spectrum": _spectrum}[kind](job, rest)
+    captions = {"mesh": _mesh, "deformed": _deformed, "contours": _contours, "section": _section, "line": _line,
+            "joints": _joints, "convergence": _convergence, "spectrum": _spectrum}
+    return captions.get(kind, lambda job, rest: _about(kind, rest))(job, rest)
+
+
+def _about(kind, rest):
+    """Caption of a figure that says itself what it shows."""
+    from ..plot import KINDS
+    about = KINDS[kind].about
+    return about[0].upper() + about[1:], f"Interface {rest.replace('_', ' ')}." if rest else ""
 
 
 def with_unit(value, unit):
