@@ -15,14 +15,17 @@ def numbers(of):
     """Reads numbers between commas: `1,3,5`; of integers, ranges, too: `1-5`."""
     def read(text):
         found = []
-        for part in text.split(","):
-            first, dash, last = part.strip().partition("-")
-            if of is int and dash and first:
-                found += range(int(first), int(last) + 1)
-            else:
-                found.append(of(part))
+        try:
+            for part in text.split(","):
+                first, dash, last = part.strip().partition("-")
+                if of is int and dash and first:
+                    found += range(int(first), int(last) + 1)
+                else:
+                    found.append(of(part))
+        except ValueError as error:
+            raise argparse.ArgumentTypeError(f"{text!r} is no list of numbers between commas, such as "
+                                             + ("1,3-5" if of is int else "0,90")) from error
         return tuple(found)
-    read.__name__ = f"numbers between commas, not a list of {of.__name__}s: "
     return read
 
 

@@ -44,10 +44,13 @@ def _contours(result, options):
 
 
 def _sections(result, options):
-    for name, section in curves.sections(result, options.angles).items():
-        section = curves.of_solid(section, options)
-        if len(section.point):
-            yield name, curves.draw_section(result, section, options)
+    found = {name: curves.of_solid(section, options) for name, section
+             in curves.sections(result, options.angles).items()}
+    drawn = {name: one for name, one in found.items() if max(map(len, one.pieces()), default=0) > 1}
+    for name, section in drawn.items():
+        yield name, curves.draw_section(result, section, options)
+    if not drawn:
+        raise NothingToDraw("no section runs through what is asked for")
 
 
 def _joints(result, options):

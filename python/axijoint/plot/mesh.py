@@ -23,7 +23,7 @@ def draw(result, options=Options()):
     extent = np.ptp(mesh.coordinates, axis=0)
     width = 4.6 if extent[1] < 1.6*extent[0] else 3.4
     figure, axes = plt.subplots(figsize=(width, min(8.5, 0.8 + 0.72*width*extent[1]/extent[0])))
-    handles = _materials(axes, mesh) + _joints(axes, result)
+    handles = _materials(axes, mesh) + _joints(axes, result) + _bonded(result)
     handles += _supports(axes, mesh, extent.max()) + _springs(axes, result, extent.max())
     handles += _loads(axes, result, extent.max())
     axes.plot([0, 0], [mesh.coordinates[:, 1].min() - 0.06*extent.max(),
@@ -77,6 +77,12 @@ def _joints(axes, result):
             + (": " + ", ".join(names) if names else "")
         handles.append(Line2D([], [], color="black", lw=2.4, ls=dashes, label=name))
     return handles
+
+
+def _bonded(result):
+    """Names of bonded interfaces: an entry of the legend without a symbol."""
+    names = ", ".join(one.name for one in result.interfaces if one.law is None)
+    return [Line2D([], [], ls="", label=f"bonded: {names}")] if names else []
 
 
 def _chain(interface):
