@@ -3,12 +3,12 @@
     from axijoint import report
     report.write(report.page(report.jobs_of("out/case3")), "case3.html")
 
-`python -m axijoint.report NAME` does the same. Figures need matplotlib.
+`python -m axijoint.report NAME` does the same. Figures need matplotlib, the view in three dimensions plotly.
 """
 import os
 import pathlib
 
-from . import budget, summary, tables
+from . import budget, summary, tables, view
 from .job import Failure, Job, jobs_of
 from .look import CSS
 from .markup import Markup, escaped, joined, tag
@@ -19,20 +19,25 @@ __all__ = ["Failure", "Job", "jobs_of", "page", "write"]
 SHOWN_CARDS = 1000
 
 
-def page(jobs, figures=True):
-    """The page of one Job, or of several, one after the other: HTML."""
+def page(jobs, figures=True, views=False):
+    """The page of one Job, or of several, one after the other: HTML.
+
+    figures: whether it has the figures; views: whether it has a view to turn of each job, with plotly
+    """
     several = len(jobs) > 1
     first = jobs[0]
     heading = first.title if not several or len({job.title for job in jobs}) == 1 else "Several runs"
     word = next((summary.VERDICTS[job.verdict][0] for job in jobs if job.verdict != "converged"), None)
     parts = [tag("p", f"Report of axijoint {first.tags.get('version', '')}", class_="sort"), tag("h1", heading)]
     parts += [summary.overview(jobs, names(jobs))] if several else [summary.verdict(first)]
-    parts.append(contents(jobs, figures))
+    parts.append(contents(jobs, figures, views))
     same_deck = several and len({job.result.deck if job.result else None for job in jobs}) == 1
-    parts += [chapter(job, name, several, figures, not same_deck) for job, name in zip(jobs, names(jobs))]
+    parts += [chapter(job, name, several, figures, not same_deck, views and view.LARGEST//len(jobs)) for job, name in zip(jobs, names(jobs))]
     if same_deck and first.result:
         parts.append(tag("section", tag("h2", "Deck"), deck(first), id="deck"))
     parts.append(tag("footer", tag("p", f"Made by axijoint from {', '.join(job.name for job in jobs)}.")))
+    if views:
+        parts.append(view.scripts())
     title = f"{word}: {heading}" if word else heading
     head = tag("head", tag("meta", charset="utf-8"), "\n",
                tag("meta", name="viewport", content="width=device-width, initial-scale=1"), "\n",
@@ -47,13 +52,15 @@ def names(jobs):
     return [job.name for job in jobs]
 
 
-def sections(job, figures):
+def sections(job, figures, views):
     """Identifier, heading and function of each section that a job has."""
     if job.result is None:
         return [("messages", "Messages", summary.messages)]
     tabular = lambda function: lambda job: joined(function(job))  # noqa: E731
     found = [("summary", "Summary", summary.summary), ("messages", "Messages", summary.messages),
              ("errors", "Error budget", budget.errors)]
+    if views:
+        found.append(("view", "View", lambda job: view.element(job, f"{job.name.replace(' ', '_')}-view", views)))
     if figures:
         found.append(("figures", "Figures", _pictures))
     found += [("largest", "Largest values", tabular(tables.largest)),
@@ -76,13 +83,13 @@ def identifier(job, name, several):
     return f"{escaped(job.name.replace(' ', '_'))}-{name}" if several else name
 
 
-def contents(jobs, figures):
+def contents(jobs, figures, views):
     """Table of contents."""
     several = len(jobs) > 1
     rows = []
     for job, name in zip(jobs, names(jobs)):
         links = [tag("li", tag("a", title, href=f"#{identifier(job, key, several)}"))
-                 for key, title, _ in sections(job, figures)]
+                 for key, title, _ in sections(job, figures, views)]
         rows += [tag("li", tag("a", name, href=f"#{identifier(job, 'job', True)}"), tag("ul", *links))] \
             if several else links
     rows.append(tag("li", tag("a", "Deck", href="#deck"))) if _has_one_deck(jobs) else None
@@ -94,15 +101,15 @@ def _has_one_deck(jobs):
     return len(decks) == 1 and None not in decks
 
 
-def chapter(job, name, several, figures, with_deck):
+def chapter(job, name, several, figures, with_deck, views=0):
     """All sections of one job."""
     found = []
     level = "h3" if several else "h2"
     if several:
         found += [tag("h2", name), tag("p", job.title), summary.verdict(job)]
-    for key, title, function in sections(job, figures):
+    for key, title, function in sections(job, figures, views):
         found.append(tag("section", tag(level, f"{title}{summary.suffix(job)}"), function(job),
-                         id=identifier(job, key, several), class_="many" if key == "sections" else None))
+                         id=identifier(job, key, several), class_={"sections": "many", "view": "view-section"}.get(key)))
     if with_deck and job.result:
         found.append(tag("section", tag(level, "Deck"), deck(job), id=identifier(job, "deck", several)))
     return tag("article", *found, class_="job", id=identifier(job, "job", True) if several else None)

@@ -1,6 +1,6 @@
 """Makes a page of HTML about a run.
 
-Usage: python -m axijoint.report NAME|RESULT.h5... [-o FILE] [--no-figures] [--check]
+Usage: python -m axijoint.report NAME|RESULT.h5... [-o FILE] [--no-figures] [--no-view] [--check]
 """
 import argparse
 import pathlib
@@ -16,13 +16,13 @@ def main(arguments=None):
     try:
         jobs = [job for word in options.words for job in jobs_of(word)]
         path = options.o or default_path(options.words, jobs)
-        text = page(jobs, figures=not options.no_figures)
+        text = page(jobs, figures=not options.no_figures, views=not options.no_view)
         write(text, path)
     except Failure as failure:
         print(f"report: {failure}", file=sys.stderr)
         return 2
     except ImportError as error:
-        print(f"report: {error}; or leave the figures out: --no-figures", file=sys.stderr)
+        print(f"report: {error}; or leave them out: --no-figures, --no-view", file=sys.stderr)
         return 5
     except OSError as error:
         print(f"report: {error}", file=sys.stderr)
@@ -43,6 +43,7 @@ def parsed(arguments):
                         "(all combinations), or result files")
     parser.add_argument("-o", metavar="FILE", type=pathlib.Path, help="the page (default: NAME.html beside the results)")
     parser.add_argument("--no-figures", action="store_true", help="tables only; matplotlib is not needed")
+    parser.add_argument("--no-view", action="store_true", help="no view in three dimensions, no JavaScript; plotly is not needed")
     parser.add_argument("--check", action="store_true", help="open the page in headless Chromium")
     return parser.parse_args(arguments)
 

@@ -1,4 +1,4 @@
-"""How the page looks, on the screen and printed. Only black, white and greys."""
+"""How the page looks, on the screen and printed. Only black, white and greys, but in the view."""
 
 CSS = """
 :root { color-scheme: light; }
@@ -38,6 +38,13 @@ figure img { display: block; max-width: 100%; height: auto; }
 figcaption { font-size: 0.9rem; margin-top: 0.35rem; max-width: 42rem; }
 pre { font: 0.8rem/1.35 "Liberation Mono", "DejaVu Sans Mono", "Courier New", monospace; white-space: pre-wrap;
    border: 1px solid #888; padding: 0.6rem; margin: 0.6rem 0; }
+.controls { display: flex; flex-wrap: wrap; gap: 0.4rem 1.4rem; align-items: center; margin: 0.6rem 0; }
+.controls label { display: inline-flex; gap: 0.4rem; align-items: center; }
+.controls input[type=range] { width: min(14rem, 40vw); accent-color: #111; } .controls output { min-width: 4rem; }
+.controls select { font: inherit; max-width: 60vw; }
+.view .scene { height: min(75vh, 44rem); min-height: 24rem; border: 1px solid #888; }
+.curves { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 20rem), 1fr)); gap: 1rem; margin: 1rem 0; }
+.curve { height: 20rem; min-width: 0; }
 footer { margin-top: 2.5rem; border-top: 1px solid #111; font-size: 0.875rem; color: #333; }
 @page { margin: 16mm 14mm; }
 @media print {
@@ -55,5 +62,6 @@ footer { margin-top: 2.5rem; border-top: 1px solid #111; font-size: 0.875rem; co
    figure.narrow { min-width: 0; }
    figcaption { font-size: 0.8rem; }
    a { text-decoration: none; }
+   .view-section { display: none; }
 }
 """.strip()

@@ -1,0 +1,128 @@
+"""The view of the page: what it holds is what the result holds; drawn only where plotly and Chromium are installed"""
+import base64
+import json
+import pathlib
+import re
+import shutil
+import tempfile
+import unittest
+import unittest.mock
+
+import jobs
+import numpy as np
+
+from axijoint import report
+from axijoint.report import browser, view
+
+try:
+    import plotly
+except ImportError:
+    plotly = None
+CHROMIUM = any(map(shutil.which, browser.PROGRAMS))
+
+
+def reals(packed):
+    """Reals from what the page holds."""
+    return np.frombuffer(base64.b64decode(packed["data"]), "<i2")*packed["scale"]
+
+
+def numbers(text):
+    """Numbers of points from what the page holds."""
+    return np.frombuffer(base64.b64decode(text), "<u4")
+
+
+class Views(unittest.TestCase):
+    """The monopile with stresses of two increments; a chimney of two combinations and both families"""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        keep = {"monopile": ("KEEP", "  STRESSES      ONLY    3")}
+        cls.jobs = {}
+        for name in ("monopile", "chimney"):
+            path = jobs.run(cls.folder.name, name, jobs.input_deck(name, *keep.get(name, ())))
+            cls.jobs[name] = report.jobs_of(path)
+
+    def check(self, job, found):
+        """Points, amplitudes, triangles and joints of what the page holds."""
+        result, mesh = job.result, job.result.mesh
+        position = np.frombuffer(base64.b64decode(found["position"]), "<f4").reshape(-1, 2).astype(float)
+        modes, length = len(found["harmonic"]), abs(mesh.coordinates).max()
+        for row, increment in enumerate(found["increments"]):
+            at = result.at(increment)
+            u = reals(found["u"][row]).reshape(modes, -1, 3)
+            for one in found["bodies"]:
+                used = np.unique(numbers(one["cells"]))[::29]
+                told = at.displacement(*position[used].T, 0.0, body=one["body"], outside="nan")
+                self.assertTrue(np.isfinite(told).mean() > 0.9)  # some are outside by their rounding
+                symmetric = np.array(found["family"]) == 1
+                size = abs(at.displacement_amplitude).max()
+                known = np.isfinite(told[:, 0])
+                np.testing.assert_allclose(u[symmetric][:, used, :2].sum(0)[known], told[known, :2], atol=2e-4*size*modes)
+        for one in found["bodies"]:
+            corners = position[numbers(one["cells"]).reshape(-1, 3)]
+            (a, b), (c, d) = np.moveaxis(corners[:, 1:] - corners[:, :1], (1, 2), (0, 1))
+            area = (a*d - b*c)/2
+            self.assertGreater(area.min(), -1e-7*length**2)
+            yield one["body"], area.sum()
+
+    def test_data_are_those_of_the_result(self):
+        found, notes = view.data(self.jobs["monopile"][0])
+        self.assertEqual((found["increments"], notes), (list(range(1, 9)), []))
+        self.assertEqual([k for k, one in zip(found["increments"], found["s"]) if one], [3, 8])
+        areas = dict(self.check(self.jobs["monopile"][0], found))
+        self.assertAlmostEqual(areas[1], 0.08*25, 3)
+        self.assertAlmostEqual(areas[2], 30*36 - 0.08*20, 1)
+        joints, result = found["joints"], self.jobs["monopile"][0].result
+        np.testing.assert_array_equal(np.round(reals(joints["values"][5][0])), result.at(6).read("joints/state").ravel())
+        np.testing.assert_allclose(reals(joints["values"][5][3]), np.maximum(result.at(6).read("joints/jump")[..., 1].ravel(), 0),
+                                   atol=1e-5)
+        titles = [one["title"] for one in found["curves"]]
+        self.assertEqual(titles, ["Load and displacement", "Shear force of body 1", "Moment of body 1", "Axial force of body 1",
+                                  "Deflection of body 1", "Work and energy"])
+        self.assertAlmostEqual(found["curves"][2]["lines"][0]["x"][5][-1], -100, 3)
+        for job in self.jobs["chimney"]:
+            self.assertEqual(len(dict(self.check(job, view.data(job)[0]))), len(set(job.result.mesh.element_body)))
+
+    def test_data_keep_within_their_size(self):
+        job = self.jobs["monopile"][0]
+        with unittest.mock.patch("axijoint.report.view.MOST_WHOLE", 0):
+            whole, notes = view.data(job)
+            self.assertEqual(notes, ["the section is shown by the corner nodes of its elements"])
+            self.assertLess(whole["points"], 350)
+            areas = dict(self.check(job, whole))
+            self.assertAlmostEqual(areas[1], 0.08*25, 3)
+            for largest in (30_000, 60_000, 90_000):
+                found, notes = view.data(job, largest)
+                self.assertEqual(found["increments"][-1], 8)
+                self.assertLess(len(found["increments"]), 8)
+                fields = [one for one in found["u"] + found["s"] if one]
+                self.assertLessEqual(sum(len(one["data"]) for one in fields)*3/4, largest + 3)
+                self.assertIn("of 8 increments are shown", notes[-2])
+
+    @unittest.skipIf(plotly is None, "plotly is not installed: scripts/setup plot")
+    def test_the_page_is_of_one_file(self):
+        chimney = self.jobs["chimney"]
+        text = report.page(chimney, figures=False, views=True)
+        self.assertEqual(text.count("plotly.js v"), 1)
+        blocks = re.findall(r'<script type="application/json" id="([^"]+)">(.*?)</script>', text)
+        self.assertEqual(len(blocks), 2)
+        for identifier, block in blocks:
+            self.assertIn(f'data-view="{identifier}"', text)
+            self.assertNotIn("<", block)
+            json.loads(block)
+        self.assertNotRegex(re.sub(r"<script.*?</script>", "", text, flags=re.S), r"https?:|url\(|@import")
+        self.assertNotRegex(text, r"<script[^>]+src=")
+
+    @unittest.skipIf(plotly is None or not CHROMIUM, "plotly or Chromium is not installed")
+    def test_chromium_draws_it(self):
+        page = pathlib.Path(self.folder.name)/"page.html"
+        report.write(report.page(self.jobs["monopile"], figures=False, views=True), page)
+        said, good = browser.check(page)
+        self.assertTrue(good, said)
+        self.assertEqual(said.count("1 of 1 views drawn, 0 other files asked for, not wider than the window"), 2, said)
+
+
+if __name__ == "__main__":
+    unittest.main()
