@@ -7,6 +7,7 @@ import sys
 import tempfile
 import time
 
+import overview
 import report
 import residual
 from cases import all_cases
@@ -94,6 +95,7 @@ def main():
         for name, (blocks, missed) in results.items():
             if not missed:
                 manual = report.insert(manual, name, blocks)
+        manual = overview.insert(manual)
         MANUAL.write_text(manual, encoding="utf-8")
     rows = sum(block.count("\n") - 1 for blocks, _ in results.values() for block in blocks
                if block.startswith("|"))
