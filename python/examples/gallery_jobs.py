@@ -20,7 +20,38 @@ class Job:
     check: Callable
     combination: int = 0
     increment: int = None
-    body: int = None
+    curve: Callable = None
+
+
+def along(first, last, component, angles=(0.0, 90.0, 180.0)):
+    """A picture beside: a stress along a wall, at angles."""
+    def drawn(axes, result, units):
+        line = result.line(first, last, theta=angles)
+        for angle, stress, style in zip(angles, line.stress, ("-", "--", ":")):
+            axes.plot(stress[:, component], line.position[:, 1], style, color="black", label=f"θ = {angle:g}°")
+        name = ("σ_r", "σ_z", "σ_θ")[component]
+        axes.set(xlabel=f"{name} [{units.stress}]", ylabel=f"z [{units.length}]")
+        axes.legend(fontsize="small")
+    return drawn
+
+
+def p_y(axes, result, units):
+    """A picture beside: lateral resistance per length of both sides of the pile against its deflection, by depth."""
+    history, mesh = result.history, result.mesh
+    del units
+    z, order = result.read("cuts/z"), np.argsort(result.read("cuts/z"))
+    for depth, style in ((-1.0, "-"), (-5.0, "--"), (-9.0, "-."), (-19.0, ":")):
+        p = 0.0
+        for name in ("shaft", "plug"):
+            joints = result.interfaces_of(name)[0].joints
+            ends = mesh.coordinates[mesh.joint_nodes[joints, :2], 1]
+            joint = joints[abs(ends.mean(axis=1) - depth).argmin()]
+            low, high = np.sort(mesh.coordinates[mesh.joint_nodes[joint, :2], 1])
+            p = p - history.joint_resultants[:, joint, 1]/(high - low)
+        y = [np.interp((low + high)/2, z[order], row[order]) for row in history["cut_motion"][:, :, 1]]
+        axes.plot(1e3*np.array(y), p, style, color="black", marker=".", label=f"z = {(low + high)/2:.3g} m")
+    axes.set(xlabel="y [mm]", ylabel="p [MN/m]")
+    axes.legend(fontsize="small")
 
 
 def monopile(result):
@@ -134,7 +165,7 @@ def tank(result):
 
 JOBS = {
     "monopile": Job("inputs/monopile.dat", "A monopile in layered ground, with a gap behind it, at its largest load", "u",
-                    monopile, increment=6),
+                    monopile, increment=6, curve=p_y),
     "caisson": Job("inputs/gallery/caisson.dat", "A suction caisson in clay under weight and waves; adhesion that breaks", "u",
                    caisson),
     "plug": Job("inputs/gallery/plug.dat", "A plug pulled out of a block against friction", "tau_rz", plug),
@@ -142,10 +173,13 @@ JOBS = {
                       shrink_fit),
     "chimney": Job("inputs/chimney.dat", "A chimney under weight, wind and sun on a pad that lifts off", "sigma_z", chimney,
                    combination=2),
-    "lined_shaft": Job("inputs/gallery/lined_shaft.dat", "A lined shaft in ground of K0 = 0.6", "u", lined_shaft),
-    "pipe": Job("inputs/gallery/pipe.dat", "A pipe under a patch load", "sigma_theta", pipe),
+    "lined_shaft": Job("inputs/gallery/lined_shaft.dat", "A lined shaft in ground of K0 = 0.6", "u", lined_shaft,
+                       curve=along((2.85, -20.0), (2.85, 0.0), 2, (0.0,))),
+    "pipe": Job("inputs/gallery/pipe.dat", "A pipe under a patch load", "sigma_theta", pipe,
+                curve=along((100.0, 0.0), (100.0, 800.0), 2)),
     "flange": Job("inputs/gallery/flange.dat", "A bolted flange under tension and moment: it opens on one side", "sigma_z",
                   flange),
     "footing": Job("inputs/gallery/footing.dat", "A footing under an eccentric load, which lifts off", "sigma_z", footing),
-    "tank": Job("inputs/gallery/tank.dat", "A tank under water and settlement of harmonic 2", "sigma_theta", tank, combination=3),
+    "tank": Job("inputs/gallery/tank.dat", "A tank under water and settlement of harmonic 2", "sigma_theta", tank, combination=3,
+                curve=along((19.97, 0.0), (19.97, 12.0), 2)),
 }

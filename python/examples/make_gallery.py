@@ -41,6 +41,7 @@ def draw(result, job, path):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
+    whole = result
     if job.increment:
         result = result.at(job.increment)
     sweep, units = Sweep(result), Units(result.title, result.deck)
@@ -49,7 +50,11 @@ def draw(result, job, path):
     moved = sweep.at(sweep.displacement, (0.0, 180.0))
     extent = np.ptp(sweep.position, axis=0).max()
     factor = float(f"{SHOWN_SIZE*extent/np.sqrt((moved**2).sum(-1)).max():.1g}")
-    figure, axes = plt.subplots(figsize=(6.4, 4.4), layout="constrained")
+    figure, axes = plt.subplots(1, 2 if job.curve else 1, figsize=(9.2 if job.curve else 6.4, 4.4), layout="constrained",
+                                squeeze=False)
+    if job.curve:
+        job.curve(axes[0, 1], whole, units)
+    axes = axes[0, 0]
     planes, values = [], []
     for side, plane in zip((1, -1), (0, 1)):
         place = sweep.position + factor*moved[plane, :, :2]
@@ -64,7 +69,7 @@ def draw(result, job, path):
         outlines(axes, result, sweep, place)
     axes.set_aspect("equal")
     unit = units.length if job.colour == "u" else units.stress
-    figure.colorbar(shown, label=name_of(job) + (f" [{unit}]" if unit else ""), shrink=0.9)
+    figure.colorbar(shown, ax=axes, label=name_of(job) + (f" [{unit}]" if unit else ""), shrink=0.9)
     axes.set(xlabel=f"r [{units.length}]" if units.length else "r", ylabel=f"z [{units.length}]" if units.length else "z",
              title=f"displacements × {factor:g}")
     figure.savefig(path, dpi=110)
@@ -84,7 +89,8 @@ def outlines(axes, result, sweep, place):
 def digest(job):
     """Of the deck, the job and what draws it."""
     parts = [(ROOT/job.deck).read_bytes(), repr((job.told, job.colour, job.increment)).encode(),
-             pathlib.Path(__file__).read_bytes()]
+             *(pathlib.Path(__file__).with_name(name).read_bytes() for name in ("make_gallery.py", "gallery_jobs.py"))]
+
     return hashlib.sha256(b"\0".join(parts)).hexdigest()[:16]
 
 
