@@ -93,7 +93,7 @@ class Views(unittest.TestCase):
             self.assertLess(whole["points"], 350)
             areas = dict(self.check(job, whole))
             self.assertAlmostEqual(areas[1], 0.08*25, 3)
-            for largest in (30_000, 60_000, 90_000):
+            for largest in (20_000, 30_000, 60_000):
                 found, notes = view.data(job, largest)
                 self.assertEqual(found["increments"][-1], 8)
                 self.assertLess(len(found["increments"]), 8)

@@ -14,7 +14,7 @@ PLOT_PYTHON = os.path.join(HERE, '..', '..', '.tools', 'venv', 'bin', 'python3')
 def tests(program):
     """One test for each file of python/tests"""
     names = sorted(name for name in os.listdir(FOLDER) if name.startswith('test_'))
-    plots = [name for name in names if name.startswith(('test_plot', 'test_report', 'test_convert'))]
+    plots = [name for name in names if name.startswith(('test_plot', 'test_report', 'test_convert', 'test_gallery'))]
     found = [(PYTHON, name) for name in names if name not in plots] if has(PYTHON, 'numpy, h5py') else []
     if has(PLOT_PYTHON, 'matplotlib, h5py'):
         found += [(PLOT_PYTHON, name) for name in plots]
