@@ -2,7 +2,7 @@
 module axijoint_deck_text_card
    use axijoint_base_text, only : to_text
    use axijoint_deck_text_decimal_comma, only : has_decimal_comma, report_decimal_comma
-   use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, count_again
    use axijoint_deck_text_field, only : field_type, kind_text
    use axijoint_deck_text_foreign, only : comment_mark, trailing_comment
    use axijoint_deck_text_section, only : card_width, free_width
@@ -81,15 +81,18 @@ contains
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
+      character(len=*), parameter :: comment_fault = 'a comment begins with !, not with '
       character(len=:), allocatable :: mark
       integer :: first
+      logical :: told
 
       first = trailing_comment(content)
       if (first == 0 .or. any(fields%kind == kind_text)) return
       mark = comment_mark(content(first:))
-      call add_error(diagnostics, card, first, len(content), &
-                     'a comment begins with !, not with '//mark, found=content(first:), &
-                     mend='write ! in its place', once=.true.)
+      call count_again(diagnostics, comment_fault//mark, told)
+      if (.not. told) call add_error(diagnostics, card, first, len(content), &
+                     comment_fault//mark, found=content(first:), &
+                     mend='write ! in its place')
       content = content(:len_trim(content(:first - 1)))
    end subroutine cut_comment
 

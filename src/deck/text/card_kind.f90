@@ -1,7 +1,7 @@
 !> What a card is: a keyword card, a data card, or what another program would read as one
 module axijoint_deck_text_card_kind
    use axijoint_base_text, only : upper, nearest_word
-   use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, count_again
    use axijoint_deck_text_foreign, only : comment_mark, heading_mark, heading_word
    use axijoint_deck_text_section, only : section_type, section_named, names_of, first_words, &
       keyword_length
@@ -129,13 +129,16 @@ contains
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
+      character(len=*), parameter :: fault = 'a comment begins with !, not with '
       integer :: first
+      logical :: told
 
       source%cards(card)%kind = card_ignored
       first = verify(card_text(source, card), ' '//tab)
-      call add_error(diagnostics, card, first, first + len(mark) - 1, &
-                     'a comment begins with !, not with '//mark, found=mark, &
-                     mend='write ! in its place', once=.true.)
+      call count_again(diagnostics, fault//mark, told)
+      if (.not. told) call add_error(diagnostics, card, first, first + len(mark) - 1, &
+                     fault//mark, found=mark, &
+                     mend='write ! in its place')
    end subroutine report_comment
 
    !> Report a heading as another program has it and go on as if it had been written rightly

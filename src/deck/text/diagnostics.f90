@@ -4,7 +4,7 @@ module axijoint_deck_text_diagnostics
    use axijoint_deck_text_source, only : source_type, card_text, card_file, card_line, printable
    implicit none
    private
-   public :: diagnostics_type, add_error, add_warning, render, warning_texts
+   public :: diagnostics_type, add_error, count_again, add_warning, render, warning_texts
 
    !> One message
    type :: message_type
@@ -49,7 +49,7 @@ module axijoint_deck_text_diagnostics
 contains
 
    !> Record an error
-   subroutine add_error(diagnostics, card, first, last, text, found, allowed, mend, once)
+   subroutine add_error(diagnostics, card, first, last, text, found, allowed, mend)
       !> The messages
       type(diagnostics_type), intent(inout) :: diagnostics
       !> Index of the card; 0 for the deck as a whole
@@ -60,26 +60,37 @@ contains
       character(len=*), intent(in) :: text
       !> What was found, what is allowed, how to mend it
       character(len=*), intent(in), optional :: found, allowed, mend
-      !> Whether one slip may cause this error on many cards: it is told at the first, and how many
-      !> more there are
-      logical, intent(in), optional :: once
 
       type(message_type) :: message
-      integer :: i
 
       diagnostics%n_errors = diagnostics%n_errors + 1
-      if (present(once)) then
-         do i = 1, merge(diagnostics%n_messages, 0, once)
-            if (diagnostics%messages(i)%text /= text) cycle
-            diagnostics%messages(i)%n_more = diagnostics%messages(i)%n_more + 1
-            diagnostics%n_repeated = diagnostics%n_repeated + 1
-            return
-         end do
-      end if
       if (diagnostics%n_errors > max_kept_errors) return
       call new_message(message, card, first, last, text, found, allowed, mend)
       call add_message(diagnostics, message)
    end subroutine add_error
+
+   !> Count an error that one slip may cause on many cards, if it is not the first: the first alone is
+   !> told, with the number of others
+   subroutine count_again(diagnostics, text, told)
+      !> The messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+      !> What is wrong
+      character(len=*), intent(in) :: text
+      !> Whether it has been told
+      logical, intent(out) :: told
+
+      integer :: i
+
+      told = .false.
+      do i = 1, diagnostics%n_messages
+         told = diagnostics%messages(i)%text == text
+         if (told) exit
+      end do
+      if (.not. told) return
+      diagnostics%messages(i)%n_more = diagnostics%messages(i)%n_more + 1
+      diagnostics%n_repeated = diagnostics%n_repeated + 1
+      diagnostics%n_errors = diagnostics%n_errors + 1
+   end subroutine count_again
 
    !> Record a warning
    subroutine add_warning(diagnostics, card, first, last, text, found, mend)

@@ -2,7 +2,7 @@
 !> these on piece by piece
 module axijoint_deck_text_entry
    use axijoint_base_kinds, only : wp
-   use axijoint_deck_text_diagnostics, only : diagnostics_type
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, count_again
    use axijoint_deck_text_source, only : source_type
    use axijoint_deck_text_table, only : table_type, integer_value, text_value, field_error, &
       field_warning, entry_error
@@ -154,9 +154,11 @@ contains
       !> What is allowed
       character(len=*), intent(in), optional :: allowed
 
+      logical :: told
+
       if (.not. is_good(card)) return
-      call field_error(card%diagnostics, card%source, card%table, card%entry, field, text, &
-                       allowed, once=.true.)
+      call count_again(card%diagnostics, text, told)
+      if (.not. told) call field_fault(card, field, text, allowed)
    end subroutine lack_fault
 
    !> Warn of the value of a field

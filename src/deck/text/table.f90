@@ -329,7 +329,7 @@ contains
    end function text_value
 
    !> Report an error in the value of a field
-   subroutine field_error(diagnostics, source, table, entry, field, text, allowed, mend, once)
+   subroutine field_error(diagnostics, source, table, entry, field, text, allowed, mend)
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
       !> The deck
@@ -342,15 +342,13 @@ contains
       character(len=*), intent(in) :: text
       !> What is allowed, how to mend it
       character(len=*), intent(in), optional :: allowed, mend
-      !> Whether it is told at the first card only
-      logical, intent(in), optional :: once
 
       type(slot_type) :: slot
       integer :: card
 
       call find_slot(source, table, entry, field, card, slot)
       call add_error(diagnostics, card, slot%first, slot%last, text, &
-                     text_value(source, table, entry, field), allowed, mend, once)
+                     text_value(source, table, entry, field), allowed, mend)
    end subroutine field_error
 
    !> Warn of the value of a field
