@@ -148,9 +148,10 @@ class Monopile(unittest.TestCase):
             plot.plt.close(figure)
 
     def test_stresses_that_are_not_kept(self):
-        code, out, said = self.run_command("contours", "--increment", "3", "-o", self.folder.name, "--format", "svg")
+        code, out, said = self.run_command("contours", "deformed", "--increments", "3,4", "-o", self.folder.name, "--format", "svg")
         self.assertEqual(code, 1)
-        self.assertIn("contours_displacement_increment_3.svg", out)
+        for name in ("contours_displacement_increment_3", "contours_displacement_increment_4", "deformed_increment_4"):
+            self.assertIn(f"{name}.svg", out)
         self.assertIn("stresses of increment 3 are not kept", said)
 
     def test_options_of_the_command(self):

@@ -2,6 +2,7 @@
 import argparse
 import pathlib
 import sys
+from dataclasses import replace
 
 from .. import open as open_result
 from ..history import NotKeptError
@@ -103,10 +104,7 @@ def main(arguments=None):
     code = 0
     for path in paths:
         try:
-            write(open_result(path), given.o/path.name.removesuffix(".h5"), kinds, given)
-        except NotKeptError as error:
-            print(f"plot: {path}: {error}", file=sys.stderr)
-            code = 1
+            code = max(code, write(open_result(path), given.o/path.name.removesuffix(".h5"), kinds, given))
         except (OSError, ValueError) as error:
             print(f"plot: {path}: {error}", file=sys.stderr)
             return 2
@@ -114,20 +112,36 @@ def main(arguments=None):
 
 
 def write(result, stem, kinds, given):
-    """Write the figures and tables of a result, and say what is written."""
+    """Write the figures and tables of a result, and say what is written; 1 if something is not kept, else 0."""
     options = options_of(given)
 
     def missing(kind, reason):
         if kinds:
             print(f"plot: {result.path}: no figure of kind {kind}: {reason}", file=sys.stderr)
-    written = set()
+    written, code = set(), 0
     for name, table in tables(result, kinds, options):
         if name not in written:
             written.add(name)
             table.write_csv(f"{stem}_{name}.csv")
             print(f"{stem}_{name}.csv")
-    for name, figure in figures(result, kinds, options, missing):
-        print(" ".join(str(one) for one in save(figure, f"{stem}_{name}", given.format, options)))
+    for kind, chosen in each_of(result, kinds, options):
+        try:
+            for name, figure in figures(result, [kind], chosen, missing):
+                print(" ".join(str(one) for one in save(figure, f"{stem}_{name}", given.format, options)))
+        except NotKeptError as error:
+            print(f"plot: {result.path}: {kind}: {error}", file=sys.stderr)
+            code = 1
+    return code
+
+
+def each_of(result, kinds, options):
+    """Kinds, and the options for one increment after another where each has figures of its own."""
+    for kind in kinds or [name for name, one in KINDS.items() if one.tells(result)]:
+        if KINDS[kind].each_increment and options.increments:
+            for number in options.increments:
+                yield kind, replace(options, increments=(number,))
+        else:
+            yield kind, options
 
 
 if __name__ == "__main__":
