@@ -62,7 +62,7 @@ contains
             json_number(field%high)//', "above_low": '//logic(field%above_low)// &
             ', "below_high": '//logic(field%below_high)
       else if (field%kind == kind_word) then
-         json = json//', "words": '//json_strings(field%words)
+         json = json//', "words": '//json_strings(pack(field%words, field%words /= ''))
       end if
       json = json//'}'
    end function field_json

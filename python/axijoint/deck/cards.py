@@ -500,7 +500,7 @@ class Cards:
         """
         self._entry("CUTS", cut, z, body, last, number)
 
-    def points(self, point: int, place: Reals, *, body: int | None = None, name: str) -> None:
+    def points(self, point: int, place: Reals, *, body: int | None = None, name: str | None = None) -> None:
         """POINTS: points with names whose displacements are followed through the increments.
 
         point: point; allowed: each number once
