@@ -171,7 +171,8 @@ contains
          call check_bonded_joints(draft, diagnostics)
          call bond(deck)
          if (diagnostics%n_errors == 0) then
-            call check_touching(draft, group, diagnostics)
+            ! Bonding has replaced the places, which `group` still stands for
+            call check_touching(draft, deck%group, diagnostics)
             call check_slivers(draft, diagnostics)
             call check_holes(draft, diagnostics)
          end if
