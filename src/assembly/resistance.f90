@@ -33,7 +33,7 @@ contains
       real(wp), intent(in) :: frame(2)
       !> Mode of harmonic 0 or 1
       type(mode_type), intent(in) :: mode
-      !> One column a free motion: shares of the motions of all parts, shape
+      !> One column a free motion: multiples of the motions of all parts, shape
       !> (max_motions parts, free motions)
       real(wp), allocatable, intent(out) :: free(:, :)
 

@@ -8,7 +8,7 @@ module axijoint_joints_approach
    use axijoint_joints_mechanism, only : mechanism_type, find_mechanism
    use axijoint_joints_planes, only : synthesize, analyse
    use axijoint_joints_scene, only : scene_type, evaluate, elastic_stress, motion_of, &
-      share_of_motions
+      multiples_of_motions
    implicit none
    private
    public :: approach
@@ -106,7 +106,7 @@ contains
 
       place = analyse(scene%planes, field%jump - before)
       place = before + jump + synthesize(scene%planes, &
-         motion_of(condensed, scene, share_of_motions(condensed, scene, place)))
+         motion_of(condensed, scene, multiples_of_motions(condensed, scene, place)))
       do j = 1, size(jump, 3)
          do k = 1, size(jump, 2)
             if (any(abs(field%stress(:, k, j)) > 0.0_wp)) cycle

@@ -44,7 +44,7 @@ module axijoint_joints_field
       !> transferred to the structure, and of that which has not yet been, shape
       !> (3, points, modes)
       real(wp), allocatable :: excess(:, :, :), pending(:, :, :)
-      !> Where the parts stand from which displacements and excess stress count: shares of the
+      !> Where the parts stand from which displacements and excess stress count: multiples of the
       !> floating motions, and their jumps, shape (3, points, planes)
       real(wp), allocatable :: offset(:), moved(:, :, :)
       !> Stress that the laws start from, the same that they admit in the end, shape

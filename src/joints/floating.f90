@@ -59,11 +59,11 @@ contains
    end subroutine new_floating_motions
 
    !> Add motions to displacements
-   pure subroutine add_motions(motions, share, displacement)
+   pure subroutine add_motions(motions, multiple, displacement)
       !> The motions
       type(floating_motion_type), intent(in) :: motions(:)
-      !> Share of each
-      real(wp), intent(in) :: share(:)
+      !> Multiple of each
+      real(wp), intent(in) :: multiple(:)
       !> Displacement amplitudes, shape (3, nodes, modes)
       real(wp), intent(inout) :: displacement(:, :, :)
 
@@ -72,21 +72,21 @@ contains
       do k = 1, size(motions)
          associate (motion => motions(k))
             displacement(:, :, motion%mode) = displacement(:, :, motion%mode) + &
-               share(k)*motion%displacement
+               multiple(k)*motion%displacement
          end associate
       end do
    end subroutine add_motions
 
    !> Displacements of a rigid motion
-   pure function displacement_of(mesh, part, mode, share) result(displacement)
+   pure function displacement_of(mesh, part, mode, multiple) result(displacement)
       !> The mesh
       type(mesh_type), intent(in) :: mesh
       !> Part of each node
       integer, intent(in) :: part(:)
       !> The mode
       type(mode_type), intent(in) :: mode
-      !> Shares of the motions of all parts, shape (max_motions parts)
-      real(wp), intent(in) :: share(:)
+      !> Multiples of the motions of all parts, shape (max_motions parts)
+      real(wp), intent(in) :: multiple(:)
       !> u, v, w, shape (3, nodes)
       real(wp), allocatable :: displacement(:, :)
 
@@ -98,7 +98,7 @@ contains
       do node = 1, n_nodes(mesh)
          associate (first => max_motions*(part(node) - 1))
             displacement(:, node) = matmul(rigid_motion(mesh, frame, mode, node), &
-                                           share(first + 1:first + max_motions))
+                                           multiple(first + 1:first + max_motions))
          end associate
       end do
    end function displacement_of

@@ -43,8 +43,8 @@ module axijoint_joints_history
       !> (3, points, modes)
       real(wp), allocatable :: balanced(:, :, :)
       !> Excess stress of joints that ran away, shape (3, points, modes), and the motion that
-      !> nothing resists, in shares of the floating motions; one is allocated if the joints came to
-      !> a mechanism
+      !> nothing resists, in multiples of the floating motions; one is allocated if the joints came
+      !> to a mechanism
       real(wp), allocatable :: runaway(:, :, :), motion(:)
       !> Sum of the load factors of the last step in equilibrium
       real(wp) :: reached = 0.0_wp

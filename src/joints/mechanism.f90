@@ -20,7 +20,7 @@ module axijoint_joints_mechanism
    !> of what joint stresses, of all harmonics together, may leave in it
    real(wp), parameter :: rounding = 1.0e-13_wp, leftover = 1.0e-15_wp
 
-   !> Motions that nothing resists, in shares of the floating motions of a scene
+   !> Motions that nothing resists, in multiples of the floating motions of a scene
    type :: mechanism_type
       !> Whether a load acts on one
       logical :: loaded = .false.
@@ -144,7 +144,7 @@ contains
       type(joint_field_type), intent(in) :: field
       !> Whether points with any friction or cohesion count as sticking where they touch
       logical, intent(in) :: sticking
-      !> The resistance; one column a motion in shares of the floating motions
+      !> The resistance; one column a motion in multiples of the floating motions
       real(wp), intent(out), contiguous :: resistance(:, :), to_unit(:, :)
       !> Singular values of the resistance, descending, and its right singular vectors, one row each
       real(wp), intent(out), contiguous :: value(:), rows(:, :)

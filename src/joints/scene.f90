@@ -15,7 +15,7 @@ module axijoint_joints_scene
    private
    public :: scene_type, new_scene, jumps, own_flexibility, evaluate, views, mismatch_of, &
       elastic_stress
-   public :: motion_of, share_of_motions, stand_where_they_are
+   public :: motion_of, multiples_of_motions, stand_where_they_are
 
    !> Stiffness k h/E of joints that a state is judged by
    real(wp), parameter :: judged_view = 1.0e2_wp
@@ -177,13 +177,13 @@ contains
    end function mismatch_of
 
    !> Jumps of the floating motions
-   pure function motion_of(condensed, scene, share) result(jump)
+   pure function motion_of(condensed, scene, multiple) result(jump)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> Share of each motion
-      real(wp), intent(in) :: share(:)
+      real(wp), intent(in) :: multiple(:)
       !> Amplitudes, shape (3, points, modes)
       real(wp) :: jump(3, size(condensed%points), size(scene%loads%free, 3))
 
@@ -192,7 +192,7 @@ contains
       jump = 0.0_wp
       do z = 1, size(condensed%floating)
          associate (floating => condensed%floating(z))
-            jump(:, :, floating%mode) = jump(:, :, floating%mode) + share(z)*floating%jump
+            jump(:, :, floating%mode) = jump(:, :, floating%mode) + multiple(z)*floating%jump
          end associate
       end do
    end function motion_of
@@ -208,45 +208,46 @@ contains
       type(joint_field_type), intent(inout) :: field
 
       real(wp) :: motion(3, size(condensed%points), size(scene%modes)), &
-         share(size(condensed%floating))
+         multiple(size(condensed%floating))
       integer :: k, z
 
       if (size(condensed%floating) == 0) return
-      share = share_of_motions(condensed, scene, jumps(condensed, scene, field%excess, free=.true.))
-      motion = motion_of(condensed, scene, share)
+      multiple = multiples_of_motions(condensed, scene, &
+         jumps(condensed, scene, field%excess, free=.true.))
+      motion = motion_of(condensed, scene, multiple)
       do k = 1, size(condensed%points)
          do z = 1, 3
             field%excess(z, k, :) = field%excess(z, k, :) - &
                condensed%points(k)%base(z)*motion(z, k, :)
          end do
       end do
-      field%offset = field%offset + share
+      field%offset = field%offset + multiple
    end subroutine stand_where_they_are
 
-   !> Share of the floating motions in jumps: what is left of these does no work on them in elastic
-   !> joints
-   function share_of_motions(condensed, scene, jump) result(share)
+   !> Multiples of the floating motions in jumps: what is left of these does no work on them in
+   !> elastic joints
+   function multiples_of_motions(condensed, scene, jump) result(multiple)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> Amplitudes, shape (3, points, modes)
       real(wp), intent(in) :: jump(:, :, :)
-      !> Share of each motion; zero if joints do not tell them apart
-      real(wp) :: share(size(condensed%floating))
+      !> Multiple of each motion; zero if joints do not tell them apart
+      real(wp) :: multiple(size(condensed%floating))
 
-      real(wp) :: matrix(size(share), size(share)), unit(size(share))
+      real(wp) :: matrix(size(multiple), size(multiple)), unit(size(multiple))
       integer :: info, z
 
-      share = 0.0_wp
-      if (size(share) == 0) return
-      do z = 1, size(share)
+      multiple = 0.0_wp
+      if (size(multiple) == 0) return
+      do z = 1, size(multiple)
          unit = 0.0_wp
          unit(z) = 1.0_wp
          matrix(:, z) = works_of(motion_of(condensed, scene, unit))
       end do
       call invert(matrix, info)
-      if (info == 0) share = matmul(matrix, works_of(jump))
+      if (info == 0) multiple = matmul(matrix, works_of(jump))
 
    contains
 
@@ -270,7 +271,7 @@ contains
          end do
       end function works_of
 
-   end function share_of_motions
+   end function multiples_of_motions
 
    !> Joint stress of the loads if all joints held, with the stress before loading
    function elastic_stress(condensed, scene, field) result(stress)

@@ -16,7 +16,7 @@ module axijoint_joints_settle
 
    !> Stress that may be missing, over what is missing at first: of an error one digit is enough;
    !> over the stress, where nothing is to be left
-   real(wp), parameter :: part = 0.003_wp, strict = 1.0e-10_wp
+   real(wp), parameter :: one_digit = 0.003_wp, strict = 1.0e-10_wp
    !> Tolerance of the linear solutions, and most steps
    real(wp), parameter :: linear_tolerance = 0.01_wp, strict_tolerance = 1.0e-2_wp
    integer, parameter :: most_steps = 12
@@ -68,7 +68,7 @@ contains
       !> Whether a state was found
       logical, intent(out) :: found
 
-      call go_on(condensed, scene, part, linear_tolerance, field, found)
+      call go_on(condensed, scene, one_digit, linear_tolerance, field, found)
    end subroutine settle
 
    !> Go as far as numbers do

@@ -21,7 +21,7 @@ module axijoint_joints_states
       !> Amplitudes of the stress that was not admitted, and of what the last iteration changed of
       !> it, shape (3, points, modes)
       real(wp), allocatable :: excess(:, :, :), pending(:, :, :)
-      !> Where the parts stand from which displacements count: shares of the floating motions
+      !> Where the parts stand from which displacements count: multiples of the floating motions
       real(wp), allocatable :: offset(:)
    end type increment_state_type
 

@@ -46,7 +46,7 @@ contains
 
       integer, parameter :: most_corrections = 4
       !> Part of the tolerance that is no matter
-      real(wp), parameter :: part = 0.1_wp
+      real(wp), parameter :: negligible = 0.1_wp
       real(wp), allocatable :: jump(:, :, :)
       type(strictest_type) :: found
       integer :: k
@@ -58,7 +58,7 @@ contains
                               paper=history%method%accumulates)
             results%mismatch = found%ratio
             if (.not. results%converged .or. history%method%accumulates) return
-            if (results%mismatch <= part*results%tolerance .or. k == most_corrections) return
+            if (results%mismatch <= negligible*results%tolerance .or. k == most_corrections) return
             scene%loads%free = scene%loads%free + jump
             call balance_again(condensed, history)
             results%converged = history%verdict%converged
@@ -104,7 +104,7 @@ contains
 
       integer, parameter :: most_attempts = 3
       !> Part of the tolerance that would do if errors fell with it
-      real(wp), parameter :: part = 0.3_wp
+      real(wp), parameter :: ample = 0.3_wp
       type(error_share_type) :: share
       type(joint_field_type), allocatable :: balanced
       real(wp) :: tolerance, excess
@@ -120,7 +120,7 @@ contains
             excess = excess/claim(condensed, results%tolerance)
             if (excess <= 1.0_wp) return
             if (k == most_attempts) exit
-            tolerance = part*tolerance/excess
+            tolerance = ample*tolerance/excess
             call balance_again(condensed, history, tolerance)
             results%path = history%path
             if (.not. history%verdict%converged) exit

@@ -17,7 +17,7 @@ module axijoint_analysis_fine_singular_places
    !> Angles that differ by less count as the same: curved sides are cut into straight ones [radian]
    real(wp), parameter :: same = 10.0_wp*pi/180.0_wp
    !> Joint stresses are judged farther from such a place than this part of the joints' length
-   real(wp), parameter :: part = 0.1_wp
+   real(wp), parameter :: reach = 0.1_wp
    !> Joints at least as stiff beside the bodies, k/E times that distance, hold them together as
    !> seen from there: their stress grows as if they were bonded, until as near as E/k
    real(wp), parameter :: bonding = 1.0_wp
@@ -86,7 +86,7 @@ contains
       do node = 1, n_nodes(model%mesh)
          if (.not. model%mesh%coordinates(1, node) > 0.0_wp) cycle
          associate (bonded => hold_together(joints, node), &
-                    distance => part*joints%length(node))
+                    distance => reach*joints%length(node))
             if (.not. bonded) then
                exponent = exponent_of(model, fine, &
                   corners%sectors(corners%start(node):corners%start(node + 1) - 1), &
@@ -113,7 +113,7 @@ contains
       !> The node
       integer, intent(in) :: node
 
-      hold_together = joints%stiffness(node)*part*joints%length(node) >= bonding
+      hold_together = joints%stiffness(node)*reach*joints%length(node) >= bonding
    end function hold_together
 
    !> Sectors of all nodes that are together

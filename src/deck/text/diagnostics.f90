@@ -69,8 +69,8 @@ contains
       call add_message(diagnostics, message)
    end subroutine add_error
 
-   !> Count an error that one slip may cause on many cards, if it is not the first: the first alone is
-   !> told, with the number of others
+   !> Count an error that one slip may cause on many cards, if it is not the first: the first alone
+   !> is told, with the number of others
    subroutine count_again(diagnostics, text, told)
       !> The messages
       type(diagnostics_type), intent(inout) :: diagnostics
