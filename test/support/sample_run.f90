@@ -71,6 +71,7 @@ contains
       allocate (results%cut_resultants(6, 0), results%cut_motion(6, 0), results%face_reactions(6, 0))
       results%joint_resultants = reshape(numbers(6, 2.0_wp), [6, 1])
       allocate (results%solves(2), results%path(3), results%states(1))
+      results%states(1)%case_factor = [1.0_wp]
       results%solves%mode%harmonic = harmonics
       results%solves%n_equations = [4, 6]
       results%path%increment = 1

@@ -38,7 +38,7 @@ contains
                         described([length('r', 6, 0.0_wp), length('z', 16)], &
                                   'r z: place [length]', limits='in the mesh'), &
                         described(body(26), 'body', blank='any'), &
-                        described(text_field('the name', 32, 47), 'name', &
+                        described(text_field('the name', 31, 46), 'name', &
                                   blank='point and its number', limits='each once')]
       section%fields(field_name)%required = .false.
    end function points_section

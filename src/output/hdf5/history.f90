@@ -245,12 +245,10 @@ contains
       !> Their numbers
       integer, allocatable :: increments(:)
 
-      integer :: i
+      integer :: all(size(results%states))
 
-      associate (all => results%states%increment)
-         increments = pack(all, [(is_kept(model%keep(what), all(i), all(size(all))), &
-                                  i=1, size(all))])
-      end associate
+      all = results%states%increment
+      increments = pack(all, is_kept(model%keep(what), all, all(size(all))))
    end function kept
 
    !> Group of a section
