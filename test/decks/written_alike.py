@@ -70,8 +70,6 @@ def results(program, deck, folder):
         return None, faults or [ran.err]
     name = os.path.splitext(os.path.basename(deck))[0]
     summary = json.loads(read_text(os.path.join(folder, f'{name}.json')))
-    for interface in summary['interfaces']:
-        del interface['name']  # of a group of a mesh file: the same group may have another
     return (listing.results(read_text(os.path.join(folder, f'{name}.lis'))),
             {key: value for key, value in summary.items() if key not in PASSING}), []
 
