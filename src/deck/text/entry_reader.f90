@@ -18,7 +18,13 @@ module axijoint_deck_text_entry_reader
       integer :: n = 0
       !> Whether the cards that follow belong to another section, whose keyword is lacking
       logical :: left = .false.
+      !> How often it was asked whether a keyword is lacking
+      integer :: asked = 0
    end type begun_type
+
+   !> Below a keyword it is asked so often at most whether another is lacking: each time all cards
+   !> that follow may be looked at
+   integer, parameter :: most_asked = 8
 
 contains
 
@@ -126,7 +132,8 @@ contains
          if (out_of_place) call report_lacking(section, card, 1, diagnostics)
          if (out_of_place) return
       end if
-      if (n_entries == 0) return
+      if (n_entries == 0 .or. begun%asked == most_asked) return
+      begun%asked = begun%asked + 1
       keywords = lacking_keywords(source, owner, card, section)
       begun%left = len(keywords) > 0
       out_of_place = begun%left
