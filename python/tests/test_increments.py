@@ -106,6 +106,7 @@ class History(unittest.TestCase):
 
     def test_stopped(self):
         """Each increment of a monopile is what a run gives that stops there"""
+        # The iteration claims ten times its tolerance of 1e-8; a tenth of the tolerance is asked for
         text = jobs.input_deck("monopile", "KEEP", "  STRESSES       ALL")
         whole = self.run_deck("whole", text)
         history = {key[8:]: value for key, value in whole.items() if key.startswith("history/")}
@@ -154,7 +155,8 @@ class History(unittest.TestCase):
         self.equal(np.abs(found["history/joint_resultants"][1:3, :, 3].sum(1)), torque, 1e-6, "torque")
         self.equal(np.diff(found["history/dissipated"])[:2], torque*turn[:2], 1e-6, "dissipated")
         closure = found["history/work"] - found["history/energy"] - found["history/dissipated"]
-        self.equal(np.diff(closure)[:2], 0.0*turn[:2] + 1e-30, 1e30*1e-6*torque*turn[0], "closure")
+        self.assertLessEqual(np.abs(np.diff(closure)[:2]).max(), 1e-6*torque*turn[0], "closure")
+        # of a bar under constant torque per length; four elements and springs in the joint leave 1e-4
         lag = torque/2.0*2.0**2/8.0/(5.0e3*math.pi*0.5**4/2.0)  # q L^2/8 G J, at half length
         self.equal(found["history/cut_motion"][1:3, 1, 3],
                    0.01*found["history/load_factor"][1:3] - lag, 1e-3, "rotation of the plug")
