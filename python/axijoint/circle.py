@@ -40,6 +40,12 @@ def totals(amplitude, harmonic, family, theta):
                            np.einsum("m...c,...m->...c", amplitude[..., split:], around)], -1)
 
 
+def on_planes(amplitude, harmonic, family, theta):
+    """Sums of the modes, (modes, points, components), at each of some angles: (angles, points, components)."""
+    return np.stack([totals(amplitude, harmonic, family, np.full(amplitude.shape[1], angle))
+                     for angle in theta])
+
+
 def cartesian_displacement(total, theta):
     """u, v, w (along r, z, theta) to x, y, z; x is along theta = 0, y along theta = 90 degrees."""
     u, v, w = np.moveaxis(total, -1, 0)

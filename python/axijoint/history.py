@@ -6,9 +6,11 @@ import numpy as np
 from . import circle
 from .table import Table
 
+# Amplitudes of what /joints/jump has on planes
+JUMPS = "joint_amplitude"
 # Datasets of the end of the run: that of /history with the same by increment, and the numbers of these increments
 KEPT = {"displacement": ("displacement", "displacement_increment"),
-        "joints/jump": ("joint_jump", "joint_increment"),
+        "joints/jump": (JUMPS, "joint_increment"),
         "joints/stress": ("joint_stress", "joint_increment"),
         "joints/state": ("joint_state", "joint_increment"),
         "stress/amplitude": ("stress", "stress_increment"),

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import circle, convert, elements
 from .components import DISPLACEMENTS, STRESSES
-from .history import History, NotKeptError, place_of
+from .history import History, JUMPS, NotKeptError, place_of
 from .interface import read_interfaces
 from .mesh import Mesh
 from .section import Section, line_rows
@@ -98,7 +98,11 @@ class Result:
             place, row = (name, ()) if self._wanted is None else place_of(file, name, self._wanted)
             if place not in file:
                 raise KeyError(f"{self.path} has no {place}")
-            return text_of(file[place][row])
+            value = text_of(file[place][row])
+            if place == f"history/{JUMPS}":
+                value = circle.on_planes(value, file["modes/harmonic"][()], file["modes/family"][()],
+                                         np.degrees(file["joints/planes"][()]))
+            return value
 
     def names_in(self, group):
         """Names of the datasets and groups in a group."""

@@ -88,7 +88,7 @@ class Increments(unittest.TestCase):
         path = f"{self.folder.name}/hollow.h5"
         shutil.copy(self.result.path, path)
         with h5py.File(path, "a") as file:
-            for name in ("joint_stress", "joint_jump", "stress", "cuts"):
+            for name in ("joint_stress", "joint_amplitude", "stress", "cuts"):
                 del file[f"history/{name}"]
         hollow = axijoint.open(path)
         self.close(hollow.at(3).nodal_displacement(), self.result.at(3).nodal_displacement(), 0)

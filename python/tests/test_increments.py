@@ -7,6 +7,8 @@ import h5py
 import jobs
 import numpy as np
 
+from axijoint import circle
+
 TWIST = """TITLE
 A plug that is turned in its hole until it slides
 CONTROL
@@ -113,8 +115,8 @@ class History(unittest.TestCase):
         n = len(history["increment"])
         for k in (1, 2, 5, 7, n):
             one = self.run_deck(f"stop{k}", without_increments(text, k))
-            for name, last in (("displacement", "displacement"), ("joint_jump", "joints/jump"),
-                               ("joint_stress", "joints/stress"), ("stress", "stress/amplitude"),
+            for name, last in (("displacement", "displacement"), ("joint_stress", "joints/stress"),
+                               ("stress", "stress/amplitude"),
                                ("nodal_stress", "stress/nodal"), ("cuts", "cuts/resultants"),
                                ("cut_motion", "cuts/motion"), ("supports", "supports/reacted"),
                                ("sections/1/displacement", "sections/1/displacement"),
@@ -122,6 +124,9 @@ class History(unittest.TestCase):
                 self.equal(history[name][k - 1], one[last], 1e-9, f"{name} of increment {k}")
             for name in ("work", "energy", "dissipated", "joint_resultants", "points/displacement"):
                 self.equal(history[name][:k], one[f"history/{name}"], 1e-9, f"{name} up to {k}")
+            jump = circle.on_planes(history["joint_amplitude"][k - 1], one["modes/harmonic"], one["modes/family"],
+                                    np.degrees(one["joints/planes"]))
+            self.equal(jump, one["joints/jump"], 1e-9, f"jumps of increment {k}")
             self.assertTrue((history["joint_state"][k - 1] == one["joints/state"]).all())
 
     def test_balance(self):

@@ -58,9 +58,6 @@ class Figures(unittest.TestCase):
     def test_chimney(self):
         self.check("chimney.2")
 
-    def test_first(self):
-        self.check("first")
-
     def test_a_linear_job_without_joints(self):
         with tempfile.TemporaryDirectory() as folder:
             result = axijoint.open(self.results(folder, "continuum"))

@@ -6,11 +6,10 @@ import subprocess
 
 import hard_scenes as scenes
 import listing
-from support import HERE, INPUTS, Test, expected, read_text, write
+from support import HERE, INPUTS, Test, expected, python_with, read_text, write
 
 # Digits of the listing, and the interpreter that has h5py where it is installed
 LISTED = 2e-7
-PYTHON = '/usr/bin/python3'
 ONE_CYCLE = [(1, 2), (-1, 2), (-1, 2), (1, 2)]
 
 
@@ -208,9 +207,10 @@ def same_files(folder, one, two):
             '    x, y = a["joints/" + n][()], b["joints/" + n][()]\n'
             '    e = abs(x - y).max()/abs(y).max()\n'
             '    if not e <= 1e-12: print(n, "differs by", e)')
-    if subprocess.run([PYTHON, '-c', 'import numpy, h5py'], capture_output=True, check=False).returncode:
+    python = python_with('numpy, h5py')
+    if python is None:
         return []
-    done = subprocess.run([PYTHON, '-c', code, *(os.path.join(folder, f'{n}.h5') for n in (one, two))],
+    done = subprocess.run([python, '-c', code, *(os.path.join(folder, f'{n}.h5') for n in (one, two))],
                           capture_output=True, text=True, check=False)
     return (done.stdout + done.stderr).splitlines()
 
@@ -230,9 +230,10 @@ def same_in_units(program, folder, make):
         summary, _ = solved(program, folder, units.name, make(units))
         counts.append(summary['iterations'])
     faults += expected('iterations', counts[:1]*len(counts), counts)
-    if subprocess.run([PYTHON, '-c', 'import numpy, h5py'], capture_output=True, check=False).returncode:
+    python = python_with('numpy, h5py')
+    if python is None:
         return faults
-    done = subprocess.run([PYTHON, '-B', os.path.join(HERE, 'hard_units.py'), folder], capture_output=True,
+    done = subprocess.run([python, '-B', os.path.join(HERE, 'hard_units.py'), folder], capture_output=True,
                           text=True, check=False)
     return faults + ([f'{done.stdout}{done.stderr}'] if done.returncode else [])
 

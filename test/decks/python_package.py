@@ -2,33 +2,24 @@
 import os
 import subprocess
 
-from support import HERE, Test
+from support import HERE, Test, python_with
 
 FOLDER = os.path.join(HERE, '..', '..', 'python', 'tests')
-PYTHON = '/usr/bin/python3'
-# With matplotlib, where `scripts/setup plot` has been run, and with pandas, xarray and PyVista after
-# `scripts/setup python`
-PLOT_PYTHON = os.path.join(HERE, '..', '..', '.tools', 'venv', 'bin', 'python3')
+# What draws
+DRAWING = ('test_plot', 'test_gallery')
 
 
 def tests(program):
     """One test for each file of python/tests"""
-    names = sorted(name for name in os.listdir(FOLDER) if name.startswith('test_'))
-    plots = [name for name in names if name.startswith(('test_plot', 'test_report', 'test_convert', 'test_gallery'))]
-    found = [(PYTHON, name) for name in names if name not in plots] if has(PYTHON, 'numpy, h5py') else []
-    if has(PLOT_PYTHON, 'matplotlib, h5py'):
-        found += [(PLOT_PYTHON, name) for name in plots]
-    elif found:
-        found += [(PYTHON, name) for name in ('test_report.py', 'test_convert.py')]  # say what they skip
-    return [Test(f'python/{name[5:-3]}',
-                 lambda folder, python=python, name=name: faults(program, python, name))
-            for python, name in found]
-
-
-def has(python, modules):
-    """Whether a Python has some modules"""
-    return os.access(python, os.X_OK) and not subprocess.run(
-        [python, '-c', f'import {modules}'], capture_output=True, check=False).returncode
+    drawing = python_with('numpy, h5py, matplotlib, plotly')
+    python = drawing or python_with('numpy, h5py')
+    if python is None:
+        return []
+    # test_report and test_convert say what they skip
+    names = sorted(name for name in os.listdir(FOLDER)
+                   if name.startswith('test_') and (drawing or not name.startswith(DRAWING)))
+    return [Test(f'python/{name[5:-3]}', lambda folder, name=name: faults(program, python, name))
+            for name in names]
 
 
 def faults(program, python, name):

@@ -10,8 +10,7 @@ import os
 import subprocess
 
 from hard_scenes import example
-from python_package import PLOT_PYTHON, PYTHON, has
-from support import HERE, INPUTS, Test, read_text, write
+from support import HERE, INPUTS, Test, python_with, read_text, write
 from written_alike import PASSING
 
 RUNS = 30
@@ -50,7 +49,7 @@ def lasting(path):
 def digests(stems):
     """One text for the results of each run"""
     texts = [' '.join(map(lasting, sorted(glob.glob(stem + '*.json')))) for stem in stems]
-    python = next((path for path in (PYTHON, PLOT_PYTHON) if has(path, 'numpy, h5py')), None)
+    python = python_with('numpy, h5py')
     if python is None:
         return texts
     files = [sorted(glob.glob(stem + '*.h5')) for stem in stems]

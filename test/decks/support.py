@@ -1,4 +1,5 @@
 """What all deck tests need: to run the program, and to say what is wrong"""
+import functools
 import os
 import re
 import resource
@@ -7,6 +8,10 @@ import tempfile
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 INPUTS = os.path.join(HERE, '..', '..', 'inputs')
+
+# That of scripts/setup: with VTK after `scripts/setup vtk`, with matplotlib after `scripts/setup plot`, with pandas,
+# xarray and PyVista after `scripts/setup python`; and that of the system
+PYTHONS = (os.path.join(HERE, '..', '..', '.tools', 'venv', 'bin', 'python3'), '/usr/bin/python3')
 
 # Seconds after which a program counts as hanging, and after which one of a long test does
 TIME_LIMIT, LONG_LIMIT = 60, 1200
@@ -84,6 +89,16 @@ class Program:
             subprocess.run(['cp', self.path, path], check=True)
             return self.run(*arguments, folder=folder, path=path, user=NOBODY, group=NOBODY,
                             extra_groups=[])
+
+
+@functools.cache
+def python_with(modules):
+    """A Python that has some modules, 'numpy, h5py'; None if there is none"""
+    for python in PYTHONS:
+        if os.access(python, os.X_OK) and not subprocess.run([python, '-c', f'import {modules}'],
+                                                             capture_output=True, check=False).returncode:
+            return python
+    return None
 
 
 def write(folder, name, content):

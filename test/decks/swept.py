@@ -4,9 +4,9 @@ import os
 import resource
 import subprocess
 
-from support import HERE, INPUTS, EarlierResults, Test, expected, read_text, write
+from support import HERE, INPUTS, EarlierResults, Test, expected, python_with, read_text, write
 
-PYTHON = os.path.join(HERE, '..', '..', '.tools', 'venv', 'bin', 'python3')
+VTK = 'numpy, h5py, vtkmodules.vtkIOHDF'
 GOOD = os.path.join(HERE, 'good')
 # Decks whose swept bodies are checked point by point: all kinds of elements, both families
 # of modes, two materials, curved sides
@@ -92,18 +92,9 @@ INCREMENTS
 INCREMENTS = ('1.0, 1E-9, 500, 1\n', '0.5, 1E-9, 500, 2\n', '0.4, 1E-9, 500, 2\n', '-0.7, 1E-9, 500, 2\n')
 
 
-def has_vtk():
-    """Whether VTK can be used"""
-    if not os.path.exists(PYTHON):
-        return False
-    probe = subprocess.run([PYTHON, '-c', 'import numpy, h5py, vtkmodules.vtkIOHDF'],
-                           capture_output=True, check=False)
-    return probe.returncode == 0
-
-
 def looked_at(check, folder, name):
     """Faults that VTK finds in the files of a run"""
-    done = subprocess.run([PYTHON, '-B', '-W', 'ignore', os.path.join(HERE, 'read_swept.py'), check,
+    done = subprocess.run([python_with(VTK), '-B', '-W', 'ignore', os.path.join(HERE, 'read_swept.py'), check,
                            os.path.join(folder, name)], capture_output=True, text=True, check=False)
     return [f'{done.stdout}{done.stderr}'] if done.returncode else []
 
@@ -213,7 +204,7 @@ def tests(program):
     found = [Test('swept/names', lambda folder: names(program, folder)),
              Test('swept/file size limit', lambda folder: file_size_limit(program, folder)),
              Test('swept/occupied', lambda folder: occupied(program, folder))]
-    if not has_vtk():
+    if not python_with(VTK):
         return found
     found += [Test(f'swept/{name}', lambda folder, name=name: whole_circle(program, folder, name))
               for name in WHOLE]

@@ -3,10 +3,9 @@ NumPy and h5py are installed"""
 import os
 import subprocess
 
-from support import HERE, Test
+from support import HERE, Test, python_with
 
 FOLDER = os.path.join(HERE, '..', '..', 'verification')
-PYTHON = '/usr/bin/python3'
 # A solution with one stress off by a millionth must be refused
 WRONG_SOLUTION = '''
 import dataclasses, sys
@@ -31,8 +30,7 @@ for component in range(6):
 
 def tests(program):
     """A case, and the check of its solution"""
-    probe = subprocess.run([PYTHON, '-c', 'import numpy, h5py'], capture_output=True, check=False)
-    if probe.returncode:
+    if python_with('numpy, h5py') is None:
         return []
     return [Test('verification/shaft', lambda folder: case_faults(program, folder, 'shaft')),
             Test('verification/all cases', lambda folder: case_faults(program, folder), long=True),
@@ -60,5 +58,5 @@ def wrong_solution_faults(folder):
 
 def faults_of(arguments):
     """Faults of a run of Python"""
-    done = subprocess.run([PYTHON, '-B', *arguments], capture_output=True, text=True, check=False)
+    done = subprocess.run([python_with('numpy, h5py'), '-B', *arguments], capture_output=True, text=True, check=False)
     return [f'exit code {done.returncode}\n{done.stdout}{done.stderr}'] if done.returncode else []

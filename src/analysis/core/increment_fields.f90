@@ -113,7 +113,8 @@ contains
          structure%modes, results%displacement, field)
    end subroutine recover_fields
 
-   !> Put bodies that joints alone hold where they have gone to, and see how sections moved
+   !> Put bodies that joints alone hold where they have gone to, and see how joints and sections
+   !> moved
    subroutine move_bodies(model, structure, state, results)
       !> The job
       type(model_type), intent(in) :: model
@@ -124,13 +125,18 @@ contains
       !> Results with displacements
       type(results_type), intent(inout) :: results
 
-      integer :: c
+      integer :: c, k
 
       results%joint_energy = joint_energy(model, structure, state, results%displacement)
       if (allocated(state%offset)) then
          if (size(state%offset) > 0) &
             call add_motions(structure%condensed%floating, state%offset, results%displacement)
       end if
+      allocate (results%joint_amplitude(3, size(structure%joint_points), size(structure%modes)))
+      do k = 1, size(structure%modes)
+         results%joint_amplitude(:, :, k) = joint_jump(structure%joint_points, &
+            results%displacement(:, :, k))
+      end do
       allocate (results%cut_motion(n_resultants, size(model%cuts)))
       do c = 1, size(model%cuts)
          results%cut_motion(:, c) = cut_motion(model%mesh, model%cuts(c), results%modes, &

@@ -190,6 +190,8 @@ module axijoint_analysis_core_results
       real(wp), allocatable :: joint_point_position(:, :)
       !> Relative displacement xi, eta, theta, shape (3, joint points, planes) [length]
       real(wp), allocatable :: joint_jump(:, :, :)
+      !> Its amplitudes, from those of the displacements, shape (3, joint points, modes) [length]
+      real(wp), allocatable :: joint_amplitude(:, :, :)
       !> Joint stress tau_xi, sigma, tau_theta, shape (3, joint points, planes)
       real(wp), allocatable :: joint_stress(:, :, :)
       !> Stick, slip or open, shape (joint points, planes); `state_` parameters

@@ -81,7 +81,7 @@ contains
       space = no_handle; properties = no_handle; dataset = no_handle
       call set_last_error(0)
       call make_space(name, extent, space, failure)
-      call make_properties(name, extent, properties, failure)
+      call make_properties(name, extent, compressed_from, properties, failure)
       if (.not. failure%failed) then
          call h5dcreate_f(file, name, file_type, space, dataset, status, properties)
          call failure%check(status, name)
@@ -171,11 +171,13 @@ contains
 
    !> Storage of an array: chunks with checksums, of large arrays compressed where the library
    !> can. An empty array cannot be cut into chunks.
-   subroutine make_properties(name, extent, properties, failure)
+   subroutine make_properties(name, extent, compressed_from, properties, failure)
       !> Dataset, for the message
       character(len=*), intent(in) :: name
       !> Extents of what is written at once
       integer(hsize_t), intent(in) :: extent(:)
+      !> Values from which it is compressed
+      integer(hsize_t), intent(in) :: compressed_from
       !> The properties
       integer(hid_t), intent(out) :: properties
       !> What failed first; nothing is done after a failure

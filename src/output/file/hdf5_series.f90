@@ -12,6 +12,9 @@ module axijoint_output_file_hdf5_series
    private
    public :: hdf5_series_type, open_series, append_piece, piece_length, close_series
 
+   !> Values from which a series is compressed: there are few, and they are most of a file
+   integer(hsize_t), parameter :: compressed_from = 4096_hsize_t
+
    !> A dataset under way
    type :: hdf5_series_type
       private
@@ -50,7 +53,7 @@ contains
       if (failure%failed) return
       call set_last_error(0)
       call make_space(name, extent, space, failure)
-      call make_properties(name, extent, properties, failure)
+      call make_properties(name, extent, compressed_from, properties, failure)
       if (.not. failure%failed) then
          call h5dcreate_f(file, name, file_type, space, series%dataset, status, properties)
          call failure%check(status, name)

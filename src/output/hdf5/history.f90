@@ -22,7 +22,7 @@ module axijoint_output_hdf5_history
       logical :: wanted = .false.
       !> Whether stresses of more than the last increment are kept: those are in /stress
       logical :: stressed = .false.
-      type(hdf5_series_type) :: displacement, joint_jump, joint_stress, joint_state, stress, nodal
+      type(hdf5_series_type) :: displacement, joint_amplitude, joint_stress, joint_state, stress, nodal
       !> Of the sections
       type(hdf5_series_type), allocatable :: line_displacement(:), line_stress(:)
    end type history_fields_type
@@ -59,9 +59,9 @@ contains
          [shape(results%displacement, i8), size(displaced, kind=i8)], &
          "Amplitudes u, v, w; (3, node, mode, kept) [length]")
       call file%write(group//"/joint_increment", jointed, "Increment; (kept)")
-      call file%begin(fields%joint_jump, group//"/joint_jump", kind_real, &
-         [shape(results%joint_jump, i8), size(jointed, kind=i8)], &
-         "Relative displacement xi, eta, theta; (3, point, plane, kept) [length]")
+      call file%begin(fields%joint_amplitude, group//"/joint_amplitude", kind_real, &
+         [shape(results%joint_amplitude, i8), size(jointed, kind=i8)], &
+         "Amplitudes of the relative displacement xi, eta, theta; (3, point, mode, kept) [length]")
       call file%begin(fields%joint_stress, group//"/joint_stress", kind_real, &
          [shape(results%joint_stress, i8), size(jointed, kind=i8)], &
          "tau_xi, sigma, tau_theta; (3, point, plane, kept) [stress]")
@@ -115,7 +115,7 @@ contains
       if (.not. fields%wanted) return
       if (wants(keep_displacement)) call file%append(fields%displacement, now%displacement)
       if (wants(keep_joints)) then
-         call file%append(fields%joint_jump, now%joint_jump)
+         call file%append(fields%joint_amplitude, now%joint_amplitude)
          call file%append(fields%joint_stress, now%joint_stress)
          call file%append(fields%joint_state, int(now%joint_state, int8))
       end if
@@ -154,7 +154,7 @@ contains
 
       if (.not. fields%wanted) return
       call file%end(fields%displacement)
-      call file%end(fields%joint_jump)
+      call file%end(fields%joint_amplitude)
       call file%end(fields%joint_stress)
       call file%end(fields%joint_state)
       if (fields%stressed) then
