@@ -12,6 +12,7 @@ module axijoint_analysis_static
    use axijoint_analysis_error_budget, only : new_budget
    use axijoint_analysis_error_corrections, only : correct_rounding, keep_claim, solver_keeps_claim
    use axijoint_analysis_error_discretization, only : estimate_discretization
+   use axijoint_analysis_error_largest_values, only : largest_vector
    use axijoint_analysis_error_stiffer_joints, only : compare_stiffer
    use axijoint_analysis_error_yielding_errors, only : estimate_yielding_errors
    use axijoint_analysis_fine_difference, only : difference_type, new_difference
@@ -63,7 +64,8 @@ contains
    end subroutine analyse_model
 
    !> Solve one combination of load cases: displacements and joints, recovery
-   subroutine analyse_combination(model, structure, combination, results, timer, progress, error)
+   subroutine analyse_combination(model, structure, combination, results, timer, progress, error, &
+      estimated)
       !> The job
       type(model_type), intent(in), target :: model
       !> The structure, assembled
@@ -78,11 +80,16 @@ contains
       type(progress_type), intent(inout) :: progress
       !> Singular stiffness, or out of memory
       type(error_type), allocatable, intent(out) :: error
+      !> Whether errors are estimated, and remarks made; true if absent
+      logical, intent(in), optional :: estimated
 
       type(joint_field_type) :: field
       type(history_type) :: history
       type(mesh_error_type) :: mesh_error
+      logical :: estimates
 
+      estimates = .true.
+      if (present(estimated)) estimates = estimated
       results%modes = structure%modes
       results%orderings = structure%orderings
       results%left_out = what_was_left_out(model, structure)
@@ -91,11 +98,11 @@ contains
       results%in_situ = in_situ_balance(model, combination)
       call timer%push(phase_joints)
       if (size(structure%yielding) > 0) then
-         call solve_joints(model, structure, combination, history, mesh_error, results, progress, &
-            error)
+         call solve_joints(model, structure, combination, estimates, history, mesh_error, results, &
+            progress, error)
       else
-         call solve_linear(model, structure, combination, history, mesh_error, results, timer, &
-            error)
+         call solve_linear(model, structure, combination, estimates, history, mesh_error, results, &
+            timer, error)
       end if
       if (allocated(error)) then
          call timer%pop()
@@ -109,32 +116,39 @@ contains
 
       call timer%push(phase_recover)
       call recover_fields(model, structure, history%loading, history%peak, field, results)
-      call estimate_discretization(model, structure, history%loading, field, &
-         history%largest_stress, mesh_error, results)
+      if (estimates) &
+         call estimate_discretization(model, structure, history%loading, field, &
+            history%largest_stress, mesh_error, results)
       call move_bodies(model, structure, results%states(size(results%states)), results)
+      if (.not. estimates) results%discretization%largest_displacement = &
+         largest_vector(results%modes, results%displacement)
       results%converged = results%converged .and. max(results%residual_ratio, results%mismatch) &
          <= results%tolerance
       if (results%converged) then
-         results%budget = new_budget(model, history%loading%case_factor, results)
+         if (estimates) results%budget = new_budget(model, history%loading%case_factor, results)
          results%converged = solver_keeps_claim(results)
       end if
-      call timer%push(phase_joints)
-      call compare_stiffer(model, structure, combination, history, field, results, progress)
-      call timer%pop()
-      results%remarks = remarks_on(model, structure, history, field, results)
+      if (estimates) then
+         call timer%push(phase_joints)
+         call compare_stiffer(model, structure, combination, history, field, results, progress)
+         call timer%pop()
+         results%remarks = remarks_on(model, structure, history, field, results)
+      end if
       call timer%pop()
    end subroutine analyse_combination
 
    !> Joints that yield: the increments on the condensed structure, then the
    !> displacements of the whole
-   subroutine solve_joints(model, structure, combination, history, mesh_error, results, progress, &
-      error)
+   subroutine solve_joints(model, structure, combination, estimates, history, mesh_error, results, &
+      progress, error)
       !> The job
       type(model_type), intent(in), target :: model
       !> The structure, factored and condensed
       type(structure_type), intent(inout), target :: structure
       !> Factors of the load cases
       type(combination_type), intent(in) :: combination
+      !> Whether errors are estimated
+      logical, intent(in) :: estimates
       !> How the increments ended
       type(history_type), intent(out) :: history
       !> Takes what the mesh leaves of the error
@@ -157,7 +171,8 @@ contains
       results%converged = history%verdict%converged
       results%accumulated = history%method%accumulates
       call stand_where_they_are(structure%condensed, history%scene, history%field)
-      call compare_loops(model, structure%condensed, history, results%other_loop, other)
+      if (estimates) &
+         call compare_loops(model, structure%condensed, history, results%other_loop, other)
       results%path = history%path
       results%tolerance = model%increments(size(model%increments))%tolerance
       allocate (results%displacement, mold=history%loading%right)
@@ -185,7 +200,7 @@ contains
       results%residuals = history%residuals
       results%residual_part_node = model%mesh%node_label(structure%condensed%measure%part_node)
       call name_idle_motions(model, structure, history, results)
-      call estimate_yielding_errors(structure, history, other, results, mesh_error)
+      if (estimates) call estimate_yielding_errors(structure, history, other, results, mesh_error)
       results%plane_angles = structure%planes%angle
    end subroutine solve_joints
 
@@ -218,14 +233,16 @@ contains
    end subroutine name_idle_motions
 
    !> Joints that stay elastic: one solution
-   subroutine solve_linear(model, structure, combination, history, mesh_error, results, timer, &
-      error)
+   subroutine solve_linear(model, structure, combination, estimates, history, mesh_error, results, &
+      timer, error)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure, assembled
       type(structure_type), intent(inout) :: structure
       !> Factors of the load cases
       type(combination_type), intent(in) :: combination
+      !> Whether errors are estimated
+      logical, intent(in) :: estimates
       !> Takes the loads
       type(history_type), intent(out) :: history
       !> Takes what the mesh leaves of the error
@@ -246,15 +263,19 @@ contains
       allocate (results%displacement, mold=history%loading%right)
       allocate (results%path(0), results%residuals(0), results%residual_part_node(0))
       results%states = loads_of_increments(model, combination)
-      call new_difference(size(results%displacement, 2), size(structure%joint_points), &
-         size(structure%modes), &
-                          difference)
       call timer%push(phase_joints)
-      call solve_displacements(structure, model, history%loading, results%displacement, &
-         results%solves, error, &
-                               difference=difference)
-      call new_mesh_error(difference, mesh_error)
-      call timer%pop(phase_factor, difference%factor_share)
+      if (estimates) then
+         call new_difference(size(results%displacement, 2), size(structure%joint_points), &
+            size(structure%modes), difference)
+         call solve_displacements(structure, model, history%loading, results%displacement, &
+            results%solves, error, difference=difference)
+         call new_mesh_error(difference, mesh_error)
+         call timer%pop(phase_factor, difference%factor_share)
+      else
+         call solve_displacements(structure, model, history%loading, results%displacement, &
+            results%solves, error)
+         call timer%pop()
+      end if
       if (allocated(error)) return
       results%converged = .true.  ! if the residual says so, too
       results%tolerance = linear_tolerance

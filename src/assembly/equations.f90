@@ -20,7 +20,7 @@ module axijoint_assembly_equations
    private
    public :: equations_type, system_type, plan_equations, assemble_equations
    public :: solve_mode, backward_error, on_equations
-   public :: plan_solver, worth_threads, planned_seconds, refine_mode, condition_estimate
+   public :: plan_solver, worth_threads, planned_seconds, refine_mode, find_condition
 
    !> With fewer equations in all, threads cost more than they save
    integer, parameter :: least_equations = 5000
@@ -41,6 +41,8 @@ module axijoint_assembly_equations
       !> Factor while it is there, and pivots once it was
       class(factor_type), allocatable :: factor
       type(pivot_report_type) :: pivots
+      !> Estimate of the condition number in the 1-norm, once asked for; negative before
+      real(wp) :: condition = -1.0_wp
       !> Whether it cannot be factored, and the words if a pivot is not the reason
       logical :: failed = .false.
       type(error_type), allocatable :: failure
@@ -274,17 +276,17 @@ contains
       end associate
    end subroutine refine_mode
 
-   !> Estimate of the condition number of one system in the 1-norm
-   function condition_estimate(equations, k) result(condition)
+   !> Estimate of the condition number of one system in the 1-norm, found when it is first asked for
+   subroutine find_condition(equations, k)
       !> The equations, factored
-      type(equations_type), intent(in) :: equations
-      !> Place of the system
+      type(equations_type), intent(inout) :: equations
+      !> Place of the system; its condition is zero without equations
       integer, intent(in) :: k
-      !> The estimate; zero without equations
-      real(wp) :: condition
 
-      condition = inverse_norm(equations%systems(k)%factor)*equations%systems(k)%norm
-   end function condition_estimate
+      associate (system => equations%systems(k))
+         if (system%condition < 0.0_wp) system%condition = inverse_norm(system%factor)*system%norm
+      end associate
+   end subroutine find_condition
 
    !> Forces on the equations of one mode, from forces on components
    function on_equations(equations, k, force) result(vector)

@@ -7,7 +7,7 @@ module axijoint_base_system
    public :: path_kind, target_kind, is_directory, same_file, rename_path, unlink_path, sync_path
    public :: peak_memory_mb, process_id, error_output_is_terminal
    public :: return_freed_memory, ignore_file_size_signal, last_error, set_last_error, error_text
-   public :: make_directories, read_standard_input
+   public :: make_directories, read_standard_input, append_to_file
    public :: path_absent, path_file, path_directory, path_link, path_other
 
    !> Nothing has this name
@@ -78,6 +78,15 @@ module axijoint_base_system
          integer(c_size_t), value :: count
          integer(c_size_t) :: c_read
       end function c_read
+
+      !> Append to a file; system_shim.c
+      function c_append(path, bytes, size, durable) bind(c, name="axijoint_append")
+         import :: c_char, c_int, c_size_t
+         character(kind=c_char), intent(in) :: path(*), bytes(*)
+         integer(c_size_t), value :: size
+         integer(c_int), value :: durable
+         integer(c_int) :: c_append
+      end function c_append
 
       !> POSIX unlink
       function c_unlink(path) bind(c, name="unlink")
@@ -230,6 +239,22 @@ contains
       end do
       bytes = bytes(:used)
    end subroutine read_standard_input
+
+   !> Append to a file, which is made if it is not there
+   subroutine append_to_file(path, bytes, durable, errno)
+      !> The file
+      character(len=*), intent(in) :: path
+      !> The bytes
+      character(len=*), intent(in) :: bytes
+      !> Whether they are to be on the disk then
+      logical, intent(in) :: durable
+      !> Zero, or the system's error
+      integer, intent(out) :: errno
+
+      call ignore_file_size_signal()
+      errno = int(c_append(path//c_null_char, bytes, int(len(bytes), c_size_t), &
+                           merge(1_c_int, 0_c_int, durable)))
+   end subroutine append_to_file
 
    !> Remove a file
    subroutine unlink_path(path, errno)

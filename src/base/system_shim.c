@@ -157,3 +157,25 @@ void axijoint_zero_large_pages(double *array, int64_t count)
 #endif
    memset(from, 0, (size_t)(to - from));
 }
+
+/* Append bytes to a file, which is made if it is not there, and bring them to the disk if they
+   are to be durable. */
+int axijoint_append(const char *path, const char *bytes, size_t size, int durable)
+{
+   int cause = 0;
+   int descriptor = open(path, O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+   if (descriptor < 0) return errno;
+   while (size > 0 && cause == 0) {
+      ssize_t written = write(descriptor, bytes, size);
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) cause = errno;
+      if (written == 0) cause = ENOSPC;
+      if (written > 0) {
+         bytes += written;
+         size -= (size_t)written;
+      }
+   }
+   if (cause == 0 && durable && fdatasync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP) cause = errno;
+   if (close(descriptor) != 0 && cause == 0) cause = errno;
+   return cause;
+}

@@ -38,6 +38,9 @@ module axijoint_command_line
       integer :: threads = 0
       !> Whether nothing but errors and warnings is to be told; whether a log is to say what is done
       logical :: quiet = .false., verbose = .false.
+      !> Of a study: whether errors are estimated; the part to solve, of how many (0: all of it)
+      logical :: estimates = .false.
+      integer :: part = 0, n_parts = 0
       !> Help or version, where these were asked for
       character(len=:), allocatable :: text
    end type command_type
@@ -69,7 +72,7 @@ contains
       if (size(words) == 0) return
 
       select case (words(1)%text)
-      case ('run', 'check', 'estimate')
+      case ('run', 'check', 'estimate', 'study')
          call read_arguments(words(2:), topics(topic_named(topics, words(1)%text)), command, error)
       case ('compare')
          call read_compare_words(words(2:), topics, command)
@@ -205,7 +208,10 @@ contains
       if (command%quiet .and. command%verbose) call fatal_error(error, exit_deck, &
          'only one of --quiet and --verbose can be had')
       if (size(command%decks) == 0) call fatal_error(error, exit_deck, &
-         'no deck given; use: '//program_name//' '//command%name//' DECK...')
+         'no '//merge('table', 'deck ', command%name == 'study')//' given; use: '// &
+         program_name//' '//command%name//' '//trim(topic%arguments))
+      if (command%name == 'study' .and. size(command%decks) > 2) call fatal_error(error, exit_deck, &
+         'a study has one table and one deck; use: '//program_name//' study TABLE [DECK]')
    end subroutine read_arguments
 
    !> Set an option without a value
@@ -218,6 +224,8 @@ contains
       select case (option)
       case ('--vtk')
          command%options%swept = .true.
+      case ('--estimates')
+         command%estimates = .true.
       case ('--quiet')
          command%quiet = .true.
       case default
@@ -246,6 +254,8 @@ contains
             command%options%solver_given)
          if (.not. command%options%solver_given) &
             call unknown('solver', value, lower_all(solver_words(command%solvers)), error)
+      case ('--part')
+         call read_part(value, command, error)
       case ('--memory')
          call read_memory(value, command%options%memory_limit, error)
       case default
@@ -258,6 +268,30 @@ contains
                           "', allowed is a number from 1 to 9999")
       end select
    end subroutine read_option
+
+   !> A part of a study
+   subroutine read_part(value, command, error)
+      !> K/N
+      character(len=*), intent(in) :: value
+      !> What the user asked for
+      type(command_type), intent(inout) :: command
+      !> Value that is not allowed
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: slash, stat
+
+      stat = 1
+      slash = index(value, '/')
+      if (slash > 1 .and. len(value) <= 13) then
+         if (verify(value(:slash - 1)//value(slash + 1:), '0123456789') == 0) then
+            read (value(:slash - 1), *, iostat=stat) command%part
+            if (stat == 0) read (value(slash + 1:), *, iostat=stat) command%n_parts
+         end if
+      end if
+      if (stat == 0 .and. command%n_parts > 0 .and. command%part <= command%n_parts) return
+      call fatal_error(error, exit_deck, "option --part: found '"//value// &
+                       "', allowed is K/N with K from 0 to N")
+   end subroutine read_part
 
    !> A limit on memory
    subroutine read_memory(value, bytes, error)

@@ -58,7 +58,7 @@ contains
       memory = option_type('--memory', 'MIB', 'memory that the process may take: fewer factors '// &
          'at once then (default: what the machine, its control group and limits leave)')
       quiet = option_type('--quiet', '', 'nothing but errors and warnings')
-      allocate (topics(5))
+      allocate (topics(6))
       topics(1) = topic_type('run', 'DECK...', 'solve decks', &
          'Solves each deck and writes NAME.lis (listing), NAME.json (summary) and NAME.h5 '// &
          '(results), NAME being the name of the deck without its ending. The deck - is read '// &
@@ -86,13 +86,31 @@ contains
          'factors, operations, memory and time, with the threads and in the memory that the '// &
          'run would have. Nothing is solved. The deck - is read from the standard input.', &
          [threads, memory])
-      topics(4) = topic_type('compare', 'A B', 'compare two listings or result files', &
+      topics(4) = topic_type('study', 'TABLE [DECK]', 'solve many states of a deck', &
+         'Solves the deck (NAME.dat beside TABLE unless it is given) for each row of a table, '// &
+         'and writes NAME.study.csv, a line a row, and NAME.study.h5, with all increments. '// &
+         'The head of the table names what varies: `LAWS 1 PHI, RESULTANTS 2 VALUE`. Cells hold '// &
+         'values, lists (1; 2; 5), ranges (0:40:2 or 0:40/21) and distributions (NORMAL 30 2); '// &
+         'a line stands for all their combinations. Rows of one structure share its '// &
+         'condensation. A study that was ended goes on where it was.', &
+         [option_type('-o', 'DIR', 'directory for the results', takes_folder), &
+          option_type('--solver', 'NAME', alternatives(solvers)//' (default: as the deck says)', &
+                      takes_word, joined(solvers)), &
+          threads, memory, &
+          option_type('--estimates', '', 'estimates of errors of each row, too: slower'), &
+          option_type('--part', 'K/N', 'only part K of N; `--part 0/N` gathers the parts, solves '// &
+                      'what they lack and writes the files'), &
+          quiet, &
+          option_type('--verbose', '', 'lines on the standard error output that say what is '// &
+                      'being done, for logs')], &
+         'The largest of the rows'', as of run.')
+      topics(5) = topic_type('compare', 'A B', 'compare two listings or result files', &
          'Compares two listings, two HDF5 result files, or one of each, table by table and '// &
          'column by column. Rows are matched by their places (r, z, theta), whatever the '// &
          'numbers of the nodes. Values are the same if they differ by no more than the largest '// &
          'of the tolerances, and the rounding of the digits printed.', compare_options(), &
          '0 same; 1 different; 2 a file that cannot be read, or usage.')
-      topics(5) = topic_type('help', '[COMMAND]', 'help on a command', &
+      topics(6) = topic_type('help', '[COMMAND]', 'help on a command', &
          'Without COMMAND, what commands there are. `help card` prints an index of all cards '// &
          'of a deck, `help card NAME` the fields of one.', &
          [option_type('--markdown', '', 'of cards: as they stand in doc/deck.md'), &

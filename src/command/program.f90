@@ -7,6 +7,7 @@ module axijoint_command_program
    use axijoint_command_compare, only : compare_files
    use axijoint_command_estimate, only : estimate_decks
    use axijoint_command_line, only : command_type, read_command
+   use axijoint_command_study, only : run_study
    use axijoint_command_run, only : run_decks, print_error
    use axijoint_solver_entry, only : solver_entry_type
    implicit none
@@ -47,6 +48,8 @@ contains
          call check_decks(command, exit_code)
       case ('estimate')
          call estimate_decks(command, exit_code)
+      case ('study')
+         call run_study(command, exit_code)
       case ('compare')
          call compare_files(command%decks, exit_code)
       case default

@@ -21,7 +21,7 @@ module axijoint_deck_reader
    use axijoint_deck_mesh_arrange, only : sort_nodes_and_elements, sort_joints
    use axijoint_deck_mesh_bonds, only : merge_bonded, check_bonded_joints
    use axijoint_deck_mesh_draft, only : draft_type, new_draft, corners_known
-   use axijoint_deck_mesh_edges, only : new_edge_table, check_edges
+   use axijoint_deck_mesh_edges, only : edge_table_type, new_edge_table, check_edges
    use axijoint_deck_mesh_places, only : group_places, new_point_tree, point_tree_type, same_place
    use axijoint_deck_property_properties, only : properties_type, new_properties
    use axijoint_deck_registry, only : all_sections, without_readers
@@ -39,7 +39,7 @@ module axijoint_deck_reader
    use axijoint_deck_section_joints, only : keyword_joints
    use axijoint_deck_section_sections, only : place_lines
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
-   use axijoint_deck_text_sections, only : read_sections, table_of
+   use axijoint_deck_text_sections, only : sections_type, read_sections, table_of
    use axijoint_deck_text_source, only : source_type
    use axijoint_deck_text_source_reader, only : read_source
    use axijoint_deck_text_table, only : table_type
@@ -47,7 +47,16 @@ module axijoint_deck_reader
    use axijoint_model_request, only : refinement_type
    implicit none
    private
-   public :: read_deck
+   public :: read_deck, open_deck, make_model, kept_mesh_type
+
+   !> What a deck says of its mesh, made: for decks that say the same of it
+   type :: kept_mesh_type
+      !> Nodes, elements, faces, joints
+      type(draft_type), allocatable :: draft
+      !> Edges of the elements, and number of each node's place
+      type(edge_table_type) :: edges
+      integer, allocatable :: group(:)
+   end type kept_mesh_type
 
 contains
 
@@ -67,15 +76,52 @@ contains
       !> What the deck says, if it is not to be read from its file
       character(len=*), intent(in), optional :: bytes
 
+      type(sections_type) :: sections
+
+      call open_deck(path, source, sections, diagnostics, bytes)
+      if (source%n_cards == 0) return
+      if (.not. sections%complete) return
+      if (present(refinement)) call refine_sections(refinement, sections)
+      call make_model(source, sections, model, diagnostics)
+   end subroutine read_deck
+
+   !> Read the cards of a deck with all that it includes, and nothing more
+   subroutine open_deck(path, source, sections, diagnostics, bytes)
+      !> The deck
+      character(len=*), intent(in) :: path
+      !> Its cards, for the echo and the messages
+      type(source_type), intent(out) :: source
+      !> What they say, section by section; of use if it is complete
+      type(sections_type), intent(out) :: sections
+      !> Errors and warnings
+      type(diagnostics_type), intent(inout) :: diagnostics
+      !> What the deck says, if it is not to be read from its file
+      character(len=*), intent(in), optional :: bytes
+
+      sections%complete = .false.
+      call read_source(path, without_readers(all_sections()), source, diagnostics, bytes)
+      if (source%n_cards > 0) call read_sections(source, sections, diagnostics)
+   end subroutine open_deck
+
+   !> From the entries of the sections to a model, valid only if there are no errors among the
+   !> messages
+   subroutine make_model(source, entries, model, diagnostics, kept)
+      !> The cards
+      type(source_type), intent(in), target :: source
+      !> What they say
+      type(sections_type), intent(in) :: entries
+      !> The job
+      type(model_type), intent(out), target :: model
+      !> Errors and warnings
+      type(diagnostics_type), intent(inout), target :: diagnostics
+      !> The mesh: taken if it is there, which is right if all cards say the same of it; else kept
+      type(kept_mesh_type), intent(inout), optional :: kept
+
       type(deck_type), target :: deck
       type(read_section_type), allocatable :: sections(:)
 
       sections = all_sections()
-      call read_source(path, without_readers(sections), source, diagnostics, bytes)
-      if (source%n_cards == 0) return
-      call read_sections(source, deck%sections, diagnostics)
-      if (.not. deck%sections%complete) return
-      if (present(refinement)) call refine_sections(refinement, deck%sections)
+      deck%sections = entries
       deck%source => source
       deck%model => model
       deck%diagnostics => diagnostics
@@ -84,8 +130,7 @@ contains
 
       call read_stage(deck, sections, stage_job)
       call read_stage(deck, sections, stage_properties)
-      call make_solids(deck, sections)
-      call make_faces_and_joints(deck, sections)
+      call make_mesh(deck, sections, kept)
       call make_loads(deck, sections)
       call read_stage(deck, sections, stage_requests)
       call place_requests(deck)
@@ -95,7 +140,32 @@ contains
       call warn_of_locking(deck%properties, model, diagnostics)
       call warn_of_unused(deck)
       call check_planes(deck)
-   end subroutine read_deck
+   end subroutine make_model
+
+   !> Make nodes, elements, faces and joints, or take those that are kept
+   subroutine make_mesh(deck, sections, kept)
+      !> The deck
+      type(deck_type), intent(inout), target :: deck
+      !> All sections
+      type(read_section_type), intent(in) :: sections(:)
+      !> The mesh, if it is to be taken or kept
+      type(kept_mesh_type), intent(inout), optional :: kept
+
+      if (present(kept)) then
+         if (allocated(kept%draft)) then
+            deck%draft = kept%draft
+            deck%edges = kept%edges
+            if (allocated(kept%group)) deck%group = kept%group
+            return
+         end if
+      end if
+      call make_solids(deck, sections)
+      call make_faces_and_joints(deck, sections)
+      if (.not. present(kept) .or. deck%diagnostics%n_errors > 0) return
+      kept%draft = deck%draft
+      kept%edges = deck%edges
+      if (allocated(deck%group)) kept%group = deck%group
+   end subroutine make_mesh
 
    !> Read the sections of a stage, in the order of the registry
    subroutine read_stage(deck, sections, stage)

@@ -6,7 +6,7 @@ module axijoint_analysis_core_solution
    use axijoint_analysis_fine_difference, only : difference_type, find_difference
    use axijoint_analysis_fine_level, only : fine_load_type, new_fine_load
    use axijoint_assembly_equations, only : equations_type, solve_mode, refine_mode, &
-                                           backward_error, condition_estimate
+                                           backward_error, find_condition
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
                                          release_factor, report_failure
    use axijoint_assembly_force, only : joint_force
@@ -66,7 +66,8 @@ contains
             times(2, s) = omp_get_wtime()
             if (.not. equations%systems(s)%failed) then
                associate (modes => equations%systems(s)%modes)
-                  solves(modes)%condition = condition_estimate(equations, s)
+                  call find_condition(equations, s)
+                  solves(modes)%condition = equations%systems(s)%condition
                   do i = 1, size(modes)
                      k = modes(i)
                      force = loading%right(:, :, k) + &

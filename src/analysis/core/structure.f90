@@ -2,7 +2,7 @@
 module axijoint_analysis_core_structure
    use axijoint_analysis_core_footprint, only : footprint_type, data_footprint
    use axijoint_analysis_core_results, only : ordering_type
-   use axijoint_analysis_fine_level, only : fine_level_type, new_fine_level
+   use axijoint_analysis_fine_level, only : fine_level_type, new_fine_level, take_fine_model
    use axijoint_analysis_fine_singular_places, only : singular_place_type, find_singular_places, &
       judged_points
    use axijoint_assembly_equations, only : equations_type, plan_equations, assemble_equations
@@ -26,7 +26,7 @@ module axijoint_analysis_core_structure
    use axijoint_order_orders, only : orders_type, new_orders
    implicit none
    private
-   public :: structure_type, build_structure, reuses_factors
+   public :: structure_type, build_structure, take_loads_of, reuses_factors
 
    !> A structure ready to be loaded
    type :: structure_type
@@ -107,6 +107,16 @@ contains
       end if
       call timer%pop()
    end subroutine build_structure
+
+   !> Let a structure serve another job that has the same: the fine level knows its loads and laws
+   subroutine take_loads_of(model, structure)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(inout) :: structure
+
+      call take_fine_model(model, structure%fine)
+   end subroutine take_loads_of
 
    !> Assemble the equations of all modes
    subroutine assemble(model, structure, progress, error)

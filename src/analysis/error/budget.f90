@@ -11,7 +11,7 @@ module axijoint_analysis_error_budget
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: new_budget, sum_of_shares, is_known
+   public :: new_budget, solver_error, sum_of_shares, is_known
 
 contains
 

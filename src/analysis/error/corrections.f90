@@ -5,6 +5,7 @@ module axijoint_analysis_error_corrections
    use axijoint_analysis_core_results, only : results_type, error_share_type
    use axijoint_analysis_core_solution, only : solve_displacements
    use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_analysis_error_budget, only : solver_error
    use axijoint_analysis_error_yielding_errors, only : iteration_error
    use axijoint_assembly_force, only : elastic_joint_stress
    use axijoint_base_error, only : error_type
@@ -146,10 +147,10 @@ contains
 
    !> Whether the error that the solver leaves is what the tolerance claims
    pure logical function solver_keeps_claim(results) result(keeps)
-      !> Results with their budget
+      !> Results with their largest displacement
       type(results_type), intent(in) :: results
 
-      keeps = results%budget(size(results%budget))%displacement <= claimed*results%tolerance
+      keeps = solver_error(results) <= claimed*results%tolerance
    end function solver_keeps_claim
 
 end module axijoint_analysis_error_corrections

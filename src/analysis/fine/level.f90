@@ -21,7 +21,7 @@ module axijoint_analysis_fine_level
    use axijoint_order_graph, only : graph_type
    implicit none
    private
-   public :: fine_level_type, fine_load_type, new_fine_level, new_fine_load
+   public :: fine_level_type, fine_load_type, new_fine_level, take_fine_model, new_fine_load
 
    !> The fine level
    type :: fine_level_type
@@ -94,6 +94,16 @@ contains
       call assemble_blocks(level%stiffness, level%model, level%joint_points, level%support_points)
       level%seconds = omp_get_wtime() - start
    end subroutine new_fine_level
+
+   !> Take loads and laws of another job with the same mesh
+   subroutine take_fine_model(model, level)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The fine level
+      type(fine_level_type), intent(inout) :: level
+
+      call new_fine_model(model, level%mesh, level%model)
+   end subroutine take_fine_model
 
    !> Loads of a combination on the fine mesh
    function new_fine_load(level, modes, loading) result(load)

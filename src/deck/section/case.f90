@@ -28,6 +28,7 @@ contains
 
       section%name = keyword_case
       section%purpose = 'begins a load case: the loads below it, up to the next CASE, belong to it'
+      section%numbered = .true.
       section%stage = stage_loads
       section%read => read_cases
       section%fields = [described(number('the load case', 1), 'load case', &

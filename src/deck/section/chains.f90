@@ -28,6 +28,7 @@ contains
 
       section%name = keyword_chains
       section%purpose = 'faces along chains of corner nodes'
+      section%numbered = .true.
       section%stage = stage_faces
       section%read => read_chains
       section%fields = [number('the face', 1), &

@@ -32,6 +32,7 @@ contains
 
       section%name = keyword_cuts
       section%purpose = 'resultants on cuts z = const.'
+      section%numbered = .true.
       section%stage = stage_requests
       section%read => read_cuts
       section%fields = &

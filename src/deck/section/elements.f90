@@ -34,6 +34,7 @@ contains
 
       section%name = keyword_elements
       section%purpose = 'elements one by one'
+      section%numbered = .true.
       section%stage = stage_elements
       section%read => read_elements
       section%fields = [number('the element', 1), &

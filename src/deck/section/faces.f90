@@ -32,6 +32,7 @@ contains
 
       section%name = keyword_faces
       section%purpose = 'faces of all outer edges of a body on a straight line'
+      section%numbered = .true.
       section%stage = stage_faces
       section%read => read_faces
       section%fields = [number('the face', 1), body(6), &

@@ -29,6 +29,7 @@ contains
 
       section%name = keyword_joints
       section%purpose = 'joints one by one'
+      section%numbered = .true.
       section%stage = stage_joints
       section%read => read_joints
       section%fields = [number('the joint', 1), &

@@ -32,6 +32,7 @@ contains
       section%name = keyword_law_details
       section%purpose = 'slip by resultant, bonds, residual strength, dilation, gap, initial '// &
          'stress of a law'
+      section%numbered = .true.
       section%stage = stage_properties
       section%read => read_law_details
       section%fields = [number('the law', 1), kind_fields(), strength_fields()]

@@ -34,6 +34,7 @@ contains
 
       section%name = keyword_laws
       section%purpose = 'joint laws: relative displacements to stresses'
+      section%numbered = .true.
       section%stage = stage_properties
       section%read => read_laws
       section%fields = &

@@ -27,6 +27,7 @@ contains
 
       section%name = keyword_materials
       section%purpose = 'isotropic solids'
+      section%numbered = .true.
       section%stage = stage_properties
       section%read => read_materials
       section%fields = &

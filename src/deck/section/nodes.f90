@@ -27,6 +27,7 @@ contains
 
       section%name = keyword_nodes
       section%purpose = 'nodes one by one'
+      section%numbered = .true.
       section%stage = stage_elements
       section%read => read_nodes
       section%fields = [node(name_node, 1), described(length('r', 6, 0.0_wp), 'r [length]'), &

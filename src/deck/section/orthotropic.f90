@@ -31,6 +31,7 @@ contains
 
       section%name = keyword_orthotropic
       section%purpose = 'solids with three moduli, along 1 and 2 in the r-z plane and along θ'
+      section%numbered = .true.
       section%entry = 'material'
       section%cards(:2) = [character(len=40) :: 'E, angle, density', 'nu and G']
       section%stage = stage_properties

@@ -32,6 +32,7 @@ contains
 
       section%name = keyword_points
       section%purpose = 'points with names whose displacements are followed through the increments'
+      section%numbered = .true.
       section%stage = stage_requests
       section%read => read_points
       section%fields = [described(number('the point', 1), 'point', limits='each number once'), &

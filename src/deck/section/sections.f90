@@ -35,6 +35,7 @@ contains
 
       section%name = keyword_sections
       section%purpose = 'results along straight lines in the r-z plane'
+      section%numbered = .true.
       section%stage = stage_requests
       section%read => read_lines
       section%fields = &

@@ -34,6 +34,7 @@ contains
 
       section%name = keyword_shapes
       section%purpose = 'functions f(θ) by which loads go round the circle'
+      section%numbered = .true.
       section%stage = stage_loads
       section%read => read_shapes
       section%fields = &

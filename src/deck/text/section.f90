@@ -51,6 +51,8 @@ module axijoint_deck_text_section
       integer :: form = form_entries
       !> Whether the section is there once at most, with one entry; whether it must be there
       logical :: once = .false., required = .false.
+      !> Whether the first field is the entry's own number, by which others may call it
+      logical :: numbered = .false.
       !> Whether the keyword without entries means something, too
       logical :: alone = .false.
       !> Whether its entries are loads, which belong to a load case

@@ -12,7 +12,7 @@ module axijoint_deck_text_table
       token_too_large, token_too_small, token_not_finite, token_asterisks
    implicit none
    private
-   public :: table_type, new_table, read_entry, card_faults, integer_value, text_value, &
+   public :: table_type, new_table, read_entry, card_faults, read_value, integer_value, text_value, &
       entry_error, field_error, field_warning
 
    !> Entries of a section
@@ -153,7 +153,7 @@ contains
          if (.not. field%required) return
          fault = 'is blank'
       else
-         call convert(field, token, value, fault, mend)
+         call read_value(field, token, value, fault, mend)
       end if
       given = len(fault) == 0
       if (given) return
@@ -163,7 +163,7 @@ contains
    end subroutine read_field
 
    !> From a text to the value of a field
-   pure subroutine convert(field, token, value, fault, mend)
+   pure subroutine read_value(field, token, value, fault, mend)
       !> The field
       type(field_type), intent(in) :: field
       !> The text
@@ -216,7 +216,7 @@ contains
       if (len(fault) == 0 .and. .not. in_range(field, value)) then
          call explain_range(field, value, fault, mend)
       end if
-   end subroutine convert
+   end subroutine read_value
 
    !> Words for a text that is not the number wanted
    pure subroutine explain(field, code, fault, mend)

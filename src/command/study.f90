@@ -1,0 +1,294 @@
+!> `axijoint study`: many states of a deck, as a table says
+module axijoint_command_study
+   use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
+   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck
+   use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_progress, only : show_progress, clear_progress
+   use axijoint_base_system, only : error_output_is_terminal, path_kind, path_absent, &
+      make_directories, is_directory, error_text
+   use axijoint_base_text, only : to_text, count_of
+   use axijoint_base_version, only : program_version
+   use axijoint_command_line, only : command_type
+   use axijoint_command_run, only : print_error
+   use axijoint_deck_reader, only : open_deck, make_model
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, render, add_error
+   use axijoint_deck_text_sections, only : sections_type
+   use axijoint_deck_text_source, only : source_type
+   use axijoint_job_job, only : job_name, take_options
+   use axijoint_model_model, only : model_type
+   use axijoint_output_file_echo, only : deck_text
+   use axijoint_output_file_pending, only : join_path, io_error
+   use axijoint_study_files, only : write_study
+   use axijoint_study_journal, only : journal_type, open_journal, append_row, close_journal
+   use axijoint_study_quantities, only : quantity_names, name_length
+   use axijoint_study_rows, only : rows_type, row_type, new_rows, solve_row, row_order
+   use axijoint_study_statistics, only : new_statistics
+   use axijoint_study_table, only : study_table_type, read_study_table, value_text
+   use omp_lib, only : omp_set_num_threads
+   implicit none
+   private
+   public :: run_study
+
+   !> Messages of rows that are shown
+   integer, parameter :: most_messages = 10
+
+   !> A study
+   type :: study_type
+      !> The table
+      type(study_table_type) :: table
+      !> What its rows share
+      type(rows_type) :: rows
+      !> Names of the quantities
+      character(len=name_length), allocatable :: names(:)
+      !> Path of its files without ending, and what tells it from others
+      character(len=:), allocatable :: stem, key
+   end type study_type
+
+contains
+
+   !> Run a study
+   subroutine run_study(command, exit_code)
+      !> Table, deck and options
+      type(command_type), intent(in) :: command
+      !> Largest exit code of all rows
+      integer, intent(out) :: exit_code
+
+      type(study_type), target :: study
+      type(row_type), allocatable :: done(:)
+      type(error_type), allocatable :: error
+
+      if (command%threads > 0) call omp_set_num_threads(command%threads)
+      call begin_study(command, study, error)
+      if (.not. allocated(error)) call solve_rows(command, study, done, error)
+      call clear_progress(study%rows%progress)
+      if (allocated(error)) then
+         call print_error(command%decks(1)%text, error)
+         exit_code = error%code
+         return
+      end if
+      exit_code = max(exit_ok, maxval(done%code, mask=done%number > 0))
+   end subroutine run_study
+
+   !> Read deck and table
+   subroutine begin_study(command, study, error)
+      !> Table, deck and options
+      type(command_type), intent(in) :: command
+      !> The study
+      type(study_type), intent(out), target :: study
+      !> Errors of the deck or the table
+      type(error_type), allocatable, intent(out) :: error
+
+      type(source_type), target :: source
+      type(sections_type) :: entries
+      type(model_type), target :: model
+      type(diagnostics_type), target :: diagnostics, faults
+      character(len=:), allocatable :: path, deck
+      integer :: errno
+
+      path = command%decks(1)%text
+      deck = job_name(path)//'.dat'
+      if (index(path, '/') > 0) deck = path(:index(path, '/', back=.true.))//deck
+      if (size(command%decks) > 1) deck = command%decks(2)%text
+      call open_deck(deck, source, entries, diagnostics)
+      if (source%n_cards > 0 .and. entries%complete) &
+         call make_model(source, entries, model, diagnostics)
+      if (diagnostics%n_errors == 0) then
+         if (size(model%combinations) > 1) call add_error(diagnostics, 0, 0, 0, &
+            'the deck of a study has one combination of load cases', &
+            mend='let the table vary factors: COMBINE 1 FACTOR 1')
+         if (model%error_goal%wanted) call add_error(diagnostics, 0, 0, 0, &
+            'the deck of a study has no section ERROR', &
+            mend='refine the deck first, with axijoint run; --estimates gives estimates of rows')
+      end if
+      if (diagnostics%n_errors > 0) then
+         call fatal_error(error, exit_deck, render(diagnostics, source))
+         return
+      end if
+      call read_study_table(path, source, entries, study%table, faults)
+      if (faults%n_errors > 0) then
+         call fatal_error(error, exit_deck, render(faults, study%table%source))
+         return
+      end if
+      call take_options(command%options, model)
+      study%names = quantity_names(model)
+      study%stem = join_path(command%options%directory, job_name(path)//'.study')
+      study%key = program_version//new_line('a')//deck_text(source)//new_line('a')// &
+         deck_text(study%table%source)//merge('estimates', '         ', command%estimates)
+      if (command%options%solver_given) study%key = study%key//command%options%solver%name
+      if (.not. is_directory(join_path(command%options%directory, '.'))) then
+         call make_directories(command%options%directory, errno)
+         if (errno /= 0) call io_error(error, 'make', command%options%directory, errno)
+      end if
+      call new_rows(source, entries, command%options, study%table, command%estimates, study%rows)
+      study%rows%progress%logged = command%verbose
+      study%rows%progress%enabled = error_output_is_terminal() .and. &
+                                    .not. (command%quiet .or. command%verbose)
+   end subroutine begin_study
+
+   !> Solve the rows that are not done, and write the files
+   subroutine solve_rows(command, study, done, error)
+      !> Options
+      type(command_type), intent(in) :: command
+      !> The study
+      type(study_type), intent(inout), target :: study
+      !> What came of each row
+      type(row_type), allocatable, intent(out) :: done(:)
+      !> A file cannot be written
+      type(error_type), allocatable, intent(out) :: error
+
+      type(journal_type) :: journal
+      integer, allocatable :: order(:)
+      integer(i8) :: start, now, rate
+      integer :: i, n_before, first, last, n_shown
+
+      call system_clock(start, rate)
+      order = row_order(study%table, study%rows%keeps_structure)
+      first = 1
+      last = size(order)
+      if (command%n_parts > 0 .and. command%part > 0) then
+         first = part_end(command%part - 1) + 1
+         last = part_end(command%part)
+      end if
+      call open_journal(journal_path(command%part), study%key, size(study%names), size(order), &
+         journal, done, n_before, error)
+      if (allocated(error)) return
+      if (command%part == 0) call gather_parts()
+      if (n_before > 0 .and. .not. command%quiet) write (error_unit, '(a)') &
+         'axijoint: '//count_of(n_before, 'row')//' of '//to_text(size(order))// &
+         ' stand in '//journal_path(command%part)//' from before'
+      n_shown = 0
+      do i = first, last
+         if (done(order(i))%number > 0) cycle
+         call show_progress(study%rows%progress, 'row '//to_text(i)//' of '//to_text(last))
+         call solve_row(study%table, order(i), study%rows, done(order(i)))
+         call append_row(journal, done(order(i)), error)
+         if (allocated(error)) return
+         call tell(done(order(i)))
+      end do
+      call system_clock(now)
+      if (command%part == 0) then
+         call write_study(study%stem, study%table, study%names, done, &
+            new_statistics(done, size(study%names)), error)
+         if (allocated(error)) return
+         call remove_journals()
+      end if
+      call clear_progress(study%rows%progress)
+      if (.not. command%quiet) call tell_end(real(now - start, wp)/rate)
+
+   contains
+
+      !> Last place in the order of a part
+      integer function part_end(part)
+         !> Its number
+         integer, intent(in) :: part
+
+         part_end = int(int(size(order), i8)*part/command%n_parts)
+      end function part_end
+
+      !> Path of the journal of a part; 0 for the whole
+      function journal_path(part) result(path)
+         !> The part
+         integer, intent(in) :: part
+         !> The path
+         character(len=:), allocatable :: path
+
+         path = study%stem//'.rows'
+         if (part > 0) path = study%stem//'.'//to_text(part)//'of'// &
+            to_text(command%n_parts)//'.rows'
+      end function journal_path
+
+      !> Take the rows that parts have done
+      subroutine gather_parts()
+         type(journal_type) :: other
+         type(row_type), allocatable :: theirs(:)
+         integer :: part, n, k
+
+         do part = 1, command%n_parts
+            if (path_kind(journal_path(part)) == path_absent) cycle
+            call open_journal(journal_path(part), study%key, size(study%names), size(order), &
+               other, theirs, n, error)
+            do k = 1, size(theirs)
+               if (theirs(k)%number == 0 .or. done(k)%number > 0) cycle
+               done(k) = theirs(k)
+               n_before = n_before + 1
+            end do
+         end do
+      end subroutine gather_parts
+
+      !> Remove the journals, once the files are there
+      subroutine remove_journals()
+         type(journal_type) :: other
+         type(row_type), allocatable :: theirs(:)
+         integer :: part, n
+
+         call close_journal(journal)
+         do part = 1, command%n_parts
+            if (path_kind(journal_path(part)) == path_absent) cycle
+            call open_journal(journal_path(part), study%key, size(study%names), size(order), &
+               other, theirs, n, error)
+            call close_journal(other)
+         end do
+      end subroutine remove_journals
+
+      !> Tell what there is to say of a row, if not too many had something
+      subroutine tell(row)
+         !> The row
+         type(row_type), intent(in) :: row
+
+         if (command%quiet .or. len(row%message) == 0 .or. size(row%values) > 0) return
+         n_shown = n_shown + 1
+         if (n_shown > most_messages) return
+         call clear_progress(study%rows%progress)
+         write (error_unit, '(a)') 'axijoint: row '//to_text(row%number)//' ('// &
+            varied(row%number)//'):', row%message
+         if (n_shown == most_messages) write (error_unit, '(a)') &
+            'axijoint: messages of further rows stand in the table of results'
+      end subroutine tell
+
+      !> What a row varies
+      function varied(number) result(text)
+         !> Its number
+         integer, intent(in) :: number
+         !> In words
+         character(len=:), allocatable :: text
+
+         integer :: k
+
+         text = ''
+         do k = 1, size(study%table%columns)
+            if (.not. study%table%given(k, number)) cycle
+            if (len(text) > 0) text = text//', '
+            text = text//trim(study%table%columns(k)%name)//' = '// &
+               to_text(study%table%values(k, number))
+         end do
+      end function varied
+
+      !> Tell what was done
+      subroutine tell_end(seconds)
+         !> Time of the rows
+         real(wp), intent(in) :: seconds
+
+         integer :: n
+
+         n = count(done%number > 0)
+         write (output_unit, '(a)') 'study                 '//count_of(n, 'row')//', '// &
+            to_text(n - n_before)//' solved now with '// &
+            count_of(study%rows%n_structures, 'structure'), &
+            'status                '//to_text(count(done%number > 0 .and. done%code == 0))// &
+            ' converged, '//to_text(count(done%code == 3 .and. done%number > 0))// &
+            ' not converged, '//to_text(count(done%code == 4 .and. done%number > 0))// &
+            ' mechanisms, '//to_text(count(done%number > 0 .and. done%code /= 0 &
+               .and. done%code /= 3 .and. done%code /= 4))//' with errors', &
+            'time                  '//to_text(seconds)//' s'
+         if (n > n_before) write (output_unit, '(a)') 'time of a row         '// &
+            to_text(seconds/(n - n_before))//' s'
+         if (command%part > 0) then
+            write (output_unit, '(a)') 'file                  '//journal_path(command%part)
+         else
+            write (output_unit, '(a)') 'files                 '//study%stem//'.csv .h5'
+         end if
+      end subroutine tell_end
+
+   end subroutine solve_rows
+
+end module axijoint_command_study

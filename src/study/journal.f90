@@ -1,0 +1,228 @@
+!> Rows of a study that are done, in the file of a study under way: a line a row, with a checksum,
+!> so that a study that was ended at any moment goes on where it was
+module axijoint_study_journal
+   use axijoint_base_error, only : error_type
+   use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_sha256, only : sha256
+   use axijoint_base_system, only : append_to_file, path_kind, path_absent, unlink_path
+   use axijoint_base_text, only : to_text
+   use axijoint_deck_text_file_bytes, only : read_bytes, line_end, next_line
+   use axijoint_output_file_pending, only : io_error
+   use axijoint_study_rows, only : row_type
+   implicit none
+   private
+   public :: journal_type, open_journal, append_row, close_journal
+
+   !> Letters of a checksum
+   integer, parameter :: sum_length = 16
+   !> What a journal begins with
+   character(len=*), parameter :: opening = 'axijoint study, rows that are done; of '
+
+   !> Rows are brought to the disk so often at least, if the machine fails [second]; a program that
+   !> is killed loses none
+   integer(i8), parameter :: most_apart = 5
+
+   !> A journal
+   type :: journal_type
+      private
+      !> The file
+      character(len=:), allocatable :: path
+      !> Clock when it was last brought to the disk
+      integer(i8) :: synced = 0
+   end type journal_type
+
+contains
+
+   !> Open a journal, with the rows that stand in it if it is of the same study; else it begins anew
+   subroutine open_journal(path, key, n_quantities, n_rows, journal, rows, n_done, error)
+      !> The file
+      character(len=*), intent(in) :: path
+      !> What tells one study from another
+      character(len=*), intent(in) :: key
+      !> Quantities of a row, rows of the table
+      integer, intent(in) :: n_quantities, n_rows
+      !> The journal
+      type(journal_type), intent(out) :: journal
+      !> Rows by number; of those that are not done the number is 0
+      type(row_type), allocatable, intent(out) :: rows(:)
+      !> How many are done
+      integer, intent(out) :: n_done
+      !> The file cannot be written
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: bytes, failure, head
+      type(row_type) :: row
+      integer :: first, last, errno, k
+      logical :: torn
+
+      journal%path = path
+      allocate (rows(n_rows))
+      n_done = 0
+      head = opening//sha256(key)
+      torn = .false.
+      errno = 0
+      if (path_kind(path) /= path_absent) then
+         call read_bytes(path, bytes, failure)
+         last = line_end(bytes, 1)
+         if (bytes(:last) == head) then
+            first = next_line(bytes, last)
+            do while (first <= len(bytes))
+               last = line_end(bytes, first)
+               call read_row(bytes(first:last), n_quantities, row)
+               k = row%number
+               if (k >= 1 .and. k <= n_rows) then
+                  if (rows(k)%number == 0) n_done = n_done + 1
+                  rows(k) = row
+               end if
+               first = next_line(bytes, last)
+            end do
+            torn = bytes(len(bytes):) /= new_line('a')
+            if (torn) call append_to_file(path, new_line('a'), .true., errno)
+            if (errno /= 0) call io_error(error, 'write', path, errno)
+            return
+         end if
+         call unlink_path(path, errno)
+      end if
+      call append_to_file(path, head//new_line('a'), .true., errno)
+      if (errno /= 0) call io_error(error, 'write', path, errno)
+   end subroutine open_journal
+
+   !> Append a row
+   subroutine append_row(journal, row, error)
+      !> The journal
+      type(journal_type), intent(inout) :: journal
+      !> The row
+      type(row_type), intent(in) :: row
+      !> The file cannot be written
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: line
+      character(len=24) :: digits
+      integer(i8) :: now, rate
+      logical :: durable
+      integer :: i, k, errno
+
+      line = to_text(row%number)//','//to_text(row%code)//','//to_text(size(row%values, 2))
+      write (digits, '(es24.16e3)') row%seconds
+      line = line//','//trim(adjustl(digits))
+      do k = 1, size(row%values, 2)
+         do i = 1, size(row%values, 1)
+            write (digits, '(es24.16e3)') row%values(i, k)
+            line = line//','//trim(adjustl(digits))
+         end do
+      end do
+      line = line//','//on_a_line(row%message)
+      line = checksum(line)//','//line//new_line('a')
+      call system_clock(now, rate)
+      durable = now - journal%synced > most_apart*rate
+      if (durable) journal%synced = now
+      call append_to_file(journal%path, line, durable, errno)
+      if (errno /= 0) call io_error(error, 'write', journal%path, errno)
+   end subroutine append_row
+
+   !> Remove the journal: its rows stand in the files of the study
+   subroutine close_journal(journal)
+      !> The journal
+      type(journal_type), intent(in) :: journal
+
+      integer :: errno
+
+      call unlink_path(journal%path, errno)
+   end subroutine close_journal
+
+   !> Read a line; the number of a row that is not whole is 0
+   subroutine read_row(line, n_quantities, row)
+      !> The line
+      character(len=*), intent(in) :: line
+      !> Quantities of a row
+      integer, intent(in) :: n_quantities
+      !> The row
+      type(row_type), intent(out) :: row
+
+      integer :: n, i, k, first, last, status(4)
+
+      if (len(line) <= sum_length + 1) return
+      if (line(:sum_length) /= checksum(line(sum_length + 2:))) return
+      first = sum_length + 2
+      status = 0
+      n = 0
+      do i = 1, 4
+         last = index(line(first:), ',') + first - 2
+         if (i == 1) read (line(first:last), *, iostat=status(i)) row%number
+         if (i == 2) read (line(first:last), *, iostat=status(i)) row%code
+         if (i == 3) read (line(first:last), *, iostat=status(i)) n
+         if (i == 4) read (line(first:last), *, iostat=status(i)) row%seconds
+         first = last + 2
+      end do
+      allocate (row%values(merge(n_quantities, 0, n > 0), n))
+      do k = 1, n
+         do i = 1, n_quantities
+            last = index(line(first:), ',') + first - 2
+            if (last < first) status(1) = 1
+            if (any(status /= 0)) exit
+            read (line(first:last), *, iostat=status(1)) row%values(i, k)
+            first = last + 2
+         end do
+      end do
+      row%message = in_lines(line(first:))
+      if (any(status /= 0)) row%number = 0
+   end subroutine read_row
+
+   !> Checksum of a line
+   pure function checksum(line) result(sum)
+      !> The line
+      character(len=*), intent(in) :: line
+      !> The checksum
+      character(len=sum_length) :: sum
+
+      character(len=:), allocatable :: hash
+
+      hash = sha256(line)
+      sum = hash(:sum_length)
+   end function checksum
+
+   !> A text of several lines on one
+   pure function on_a_line(text) result(line)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> The line: ends of lines are \n, and \ is \\
+      character(len=:), allocatable :: line
+
+      integer :: k
+
+      line = ''
+      do k = 1, len(text)
+         if (text(k:k) == new_line('a')) then
+            line = line//'\n'
+         else if (text(k:k) == '\') then
+            line = line//'\\'
+         else
+            line = line//text(k:k)
+         end if
+      end do
+   end function on_a_line
+
+   !> The text again
+   pure function in_lines(line) result(text)
+      !> The line
+      character(len=*), intent(in) :: line
+      !> The text
+      character(len=:), allocatable :: text
+
+      integer :: k
+
+      text = ''
+      k = 1
+      do while (k <= len(line))
+         if (line(k:k) == '\' .and. k < len(line)) then
+            k = k + 1
+            if (line(k:k) == 'n') text = text//new_line('a')
+            if (line(k:k) == '\') text = text//'\'
+         else
+            text = text//line(k:k)
+         end if
+         k = k + 1
+      end do
+   end function in_lines
+
+end module axijoint_study_journal

@@ -1,0 +1,149 @@
+!> What a study keeps of a row: numbers with names, increment by increment
+module axijoint_study_quantities
+   use axijoint_analysis_core_results, only : results_type, n_resultants
+   use axijoint_analysis_core_series, only : series_type
+   use axijoint_analysis_error_budget, only : sum_of_shares
+   use axijoint_base_kinds, only : wp, pi
+   use axijoint_base_text, only : to_text
+   use axijoint_fe_mode, only : meridional, circumferential
+   use axijoint_model_model, only : model_type
+   implicit none
+   private
+   public :: name_length, quantity_names, quantity_values
+
+   !> Letters of a name
+   integer, parameter :: name_length = 48
+   !> What is always kept
+   character(len=20), parameter :: general(12) = [character(len=20) :: &
+      'increment', 'load_factor', 'iterations', 'residual', 'n_slip', 'n_open', &
+      'largest_displacement', 'largest_pressure', 'largest_shear', 'work', 'energy', 'dissipated']
+   !> Estimates of errors over the largest value, of the last increment; negative if not known
+   character(len=20), parameter :: estimates(2) = [character(len=20) :: &
+      'error_displacement', 'error_joint_stress']
+   !> Resultants, and components of a displacement: u and v at theta = 0, w at 90 degrees
+   character(len=10), parameter :: resultants(n_resultants) = [character(len=10) :: &
+      'axial', 'lateral', 'moment', 'torque', 'lateral_90', 'moment_90']
+   character(len=1), parameter :: components(3) = ['u', 'v', 'w']
+
+contains
+
+   !> Names of the quantities
+   function quantity_names(model) result(names)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The names
+      character(len=name_length), allocatable :: names(:)
+
+      character(len=:), allocatable :: thing
+      integer :: k, i, n
+
+      allocate (names(size(general) + size(estimates) + 1 + 3*size(model%points) &
+                      + n_resultants*(size(model%supported_faces) + size(model%cuts))))
+      names(:size(general)) = general
+      n = size(general)
+      names(n + 1:n + 2) = estimates
+      names(n + 3) = 'largest_mises'
+      n = n + 3
+      do k = 1, size(model%points)
+         thing = trim(model%points(k)%name)
+         if (thing == '') thing = 'point '//to_text(model%points(k)%label)
+         names(n + 1:n + 3) = [(thing//' '//components(i), i=1, 3)]
+         n = n + 3
+      end do
+      do k = 1, size(model%supported_faces)
+         names(n + 1:n + n_resultants) = [('face '//to_text(model%supported_faces(k)%label)//' '// &
+                                           resultants(i), i=1, n_resultants)]
+         n = n + n_resultants
+      end do
+      do k = 1, size(model%cuts)
+         names(n + 1:n + n_resultants) = [('cut '//to_text(model%cuts(k)%label)//' '// &
+                                           resultants(i), i=1, n_resultants)]
+         n = n + n_resultants
+      end do
+   end function quantity_names
+
+   !> Their values
+   function quantity_values(series, results) result(values)
+      !> What was followed from increment to increment
+      type(series_type), intent(in) :: series
+      !> Results at the end
+      type(results_type), intent(in) :: results
+      !> Shape (quantities, increments)
+      real(wp), allocatable :: values(:, :)
+
+      integer :: i, n
+
+      n = size(general) + size(estimates) + 1
+      allocate (values(n + 3*size(series%points, 2) + size(series%faces(:, :, 1)) + &
+                       size(series%cuts(:, :, 1)), series%n))
+      values(size(general) + 1:n, :) = -1.0_wp
+      do i = 1, series%n
+         values(:size(general), i) = &
+            [real(series%increment(i), wp), series%load_factor(i), real(series%iterations(i), wp), &
+             series%residual(i), real(series%n_slip(i), wp), real(series%n_open(i), wp), &
+             series%displacement(i), series%pressure(i), series%shear(i), &
+             series%work(i), series%energy(i), series%dissipated(i)]
+         values(n + 1:, i) = [totals(i), series%faces(:, :, i), series%cuts(:, :, i)]
+      end do
+      if (allocated(results%budget)) then
+         associate (total => sum_of_shares(results%budget))
+            values(size(general) + 1:size(general) + 2, series%n) = &
+               [total%displacement, total%joint_stress]
+         end associate
+      end if
+      values(n, series%n) = largest_mises(results)
+
+   contains
+
+      !> Displacements of the points: u and v at theta = 0, w at 90 degrees
+      function totals(i)
+         !> Place of the increment
+         integer, intent(in) :: i
+         !> Shape (3 points)
+         real(wp), allocatable :: totals(:)
+
+         integer :: k
+
+         allocate (totals(3*size(series%points, 2)), source=0.0_wp)
+         do k = 1, size(results%modes)
+            associate (mode => results%modes(k))
+               totals = totals + reshape(spread([meridional(mode, 0.0_wp), &
+                  meridional(mode, 0.0_wp), circumferential(mode, 0.5_wp*pi)], 2, &
+                  size(series%points, 2))*series%points(:, :, k, i), [size(totals)])
+            end associate
+         end do
+      end function totals
+
+   end function quantity_values
+
+   !> Largest stress of von Mises at a Gauss point and any of the angles 0, 15, ... degrees
+   pure real(wp) function largest_mises(results) result(largest)
+      !> Results with stresses
+      type(results_type), intent(in) :: results
+
+      real(wp), parameter :: step = pi/12.0_wp
+      real(wp), allocatable :: stress(:, :)
+      real(wp) :: angle
+      integer :: j, k, n
+
+      n = 12
+      if (any(results%modes%family /= results%modes(1)%family)) n = 23
+      largest = 0.0_wp
+      allocate (stress(6, size(results%stress, 2)))
+      do j = 0, n
+         angle = j*step
+         stress = 0.0_wp
+         do k = 1, size(results%modes)
+            stress(:4, :) = stress(:4, :) + meridional(results%modes(k), angle) &
+               *results%stress(:4, :, k)
+            stress(5:, :) = stress(5:, :) + circumferential(results%modes(k), angle) &
+               *results%stress(5:, :, k)
+         end do
+         largest = max(largest, maxval(0.5_wp*((stress(1, :) - stress(2, :))**2 + &
+            (stress(2, :) - stress(3, :))**2 + (stress(3, :) - stress(1, :))**2) + &
+            3.0_wp*sum(stress(4:, :)**2, 1)))
+      end do
+      largest = sqrt(largest)
+   end function largest_mises
+
+end module axijoint_study_quantities

@@ -1,0 +1,320 @@
+!> The rows of a study, solved one after the other: those that share a structure share one
+!> condensation
+module axijoint_study_rows
+   use axijoint_analysis_core_increment_fields, only : solve_increment
+   use axijoint_analysis_core_results, only : results_type
+   use axijoint_analysis_core_same_structure, only : same_structure
+   use axijoint_analysis_core_series, only : series_type, new_series, append_increment
+   use axijoint_analysis_core_structure, only : structure_type, build_structure, take_loads_of
+   use axijoint_analysis_static, only : analyse_combination
+   use axijoint_base_error, only : error_type, exit_deck, exit_internal
+   use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_text, only : to_text
+   use axijoint_base_timer, only : timer_type
+   use axijoint_base_progress, only : progress_type
+   use axijoint_deck_job_deck, only : stage_properties, stage_loads, stage_requests
+   use axijoint_deck_reader, only : make_model, kept_mesh_type
+   use axijoint_deck_registry, only : all_sections
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, render
+   use axijoint_deck_text_field, only : kind_real
+   use axijoint_deck_text_sections, only : sections_type
+   use axijoint_deck_text_source, only : source_type
+   use axijoint_job_in_situ_messages, only : judge_in_situ
+   use axijoint_job_job, only : options_type, take_options
+   use axijoint_model_model, only : model_type
+   use axijoint_output_file_run, only : exit_code_of
+   use axijoint_study_quantities, only : quantity_values
+   use axijoint_study_table, only : study_table_type, change_entries
+   implicit none
+   private
+   public :: rows_type, row_type, new_rows, solve_row, row_order, free_columns
+
+   !> What is shared by the rows that are solved
+   type :: rows_type
+      !> The deck's cards, and what they say
+      type(source_type) :: source
+      type(sections_type) :: entries
+      !> What is asked for beside the deck
+      type(options_type) :: options
+      !> Columns that leave the mesh alone, and those that leave the structure alone
+      logical, allocatable :: keeps_mesh(:), keeps_structure(:)
+      !> The deck's mesh, for rows that leave it alone
+      type(kept_mesh_type) :: mesh
+      !> The job that the structure is built for, and the structure
+      type(model_type), allocatable :: built_for
+      type(structure_type), allocatable :: structure
+      !> Structures that were built
+      integer :: n_structures = 0
+      !> Whether errors are estimated
+      logical :: estimated = .false.
+      !> Times of the phases, and where progress is shown
+      type(timer_type) :: timer
+      type(progress_type) :: progress
+   end type rows_type
+
+   !> What came of a row
+   type :: row_type
+      !> Its number
+      integer :: number = 0
+      !> Exit code that its job ends with
+      integer :: code = exit_internal
+      !> Time [second]
+      real(wp) :: seconds = 0.0_wp
+      !> Quantities, shape (quantities, increments); none if it could not be solved
+      real(wp), allocatable :: values(:, :)
+      !> What is to be said; empty if nothing
+      character(len=:), allocatable :: message
+   end type row_type
+
+contains
+
+   !> Nothing is solved
+   subroutine new_rows(source, entries, options, table, estimated, rows)
+      !> The deck's cards
+      type(source_type), intent(in) :: source
+      !> What they say
+      type(sections_type), intent(in) :: entries
+      !> What is asked for beside the deck
+      type(options_type), intent(in) :: options
+      !> The table
+      type(study_table_type), intent(in) :: table
+      !> Whether errors are estimated
+      logical, intent(in) :: estimated
+      !> What rows share
+      type(rows_type), intent(out) :: rows
+
+      rows%source = source
+      rows%entries = entries
+      rows%options = options
+      rows%estimated = estimated
+      call free_columns(table, source, rows%keeps_mesh, rows%keeps_structure)
+      call rows%timer%start()
+   end subroutine new_rows
+
+   !> Which columns leave the mesh alone: numbers of materials and laws, and what is read when the
+   !> mesh is there; and which leave the structure alone, as far as their cards tell: so rows are
+   !> put in order. What a row shares is found by looking at it
+   subroutine free_columns(table, source, keeps_mesh, keeps_structure)
+      !> The table
+      type(study_table_type), intent(in) :: table
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> Shape (columns)
+      logical, allocatable, intent(out) :: keeps_mesh(:), keeps_structure(:)
+
+      integer :: k, stage
+
+      allocate (keeps_mesh(size(table%columns)), keeps_structure(size(table%columns)))
+      associate (sections => all_sections())
+         do k = 1, size(table%columns)
+            associate (column => table%columns(k))
+               stage = sections(column%section)%stage
+               keeps_mesh(k) = any(stage == [stage_loads, stage_requests]) .or. &
+                  (stage == stage_properties .and. column%kind%kind == kind_real)
+               select case (source%sections(column%section)%name)
+               case ('MATERIALS')
+                  keeps_structure(k) = index(column%kind%name, 'modulus') == 0 .and. &
+                     index(column%kind%name, 'ratio') == 0
+               case ('LAWS')
+                  keeps_structure(k) = index(column%kind%name, 'k_') == 0
+               case ('ORTHOTROPIC', 'SPRINGS')
+                  keeps_structure(k) = .false.
+               case default
+                  keeps_structure(k) = .true.
+               end select
+               keeps_structure(k) = keeps_structure(k) .and. keeps_mesh(k)
+            end associate
+         end do
+      end associate
+   end subroutine free_columns
+
+   !> Order of the rows: those that may share a structure follow each other, else as in the table
+   pure function row_order(table, keeps_structure) result(order)
+      !> The table
+      type(study_table_type), intent(in) :: table
+      !> Columns that leave the structure alone
+      logical, intent(in) :: keeps_structure(:)
+      !> Numbers of the rows
+      integer, allocatable :: order(:)
+
+      integer, allocatable :: columns(:), other(:)
+      integer :: width, first, middle, last, a, b, k, n
+
+      n = size(table%values, 2)
+      columns = pack([(k, k=1, size(keeps_structure))], .not. keeps_structure)
+      order = [(k, k=1, n)]
+      if (size(columns) == 0) return
+      allocate (other(n))
+      width = 1
+      do while (width < n)
+         do first = 1, n, 2*width
+            middle = min(first + width, n + 1)
+            last = min(first + 2*width, n + 1)
+            a = first
+            b = middle
+            do k = first, last - 1
+               if (b >= last) then
+                  other(k) = order(a)
+                  a = a + 1
+               else if (a >= middle) then
+                  other(k) = order(b)
+                  b = b + 1
+               else if (comes_first(order(b), order(a))) then
+                  other(k) = order(b)
+                  b = b + 1
+               else
+                  other(k) = order(a)
+                  a = a + 1
+               end if
+            end do
+         end do
+         order = other
+         width = 2*width
+      end do
+
+   contains
+
+      !> Whether a row comes before another by the values that make the structure
+      pure logical function comes_first(row, other_row)
+         !> The rows
+         integer, intent(in) :: row, other_row
+
+         integer :: i
+
+         comes_first = .false.
+         do i = 1, size(columns)
+            associate (mine => table%values(columns(i), row), &
+                       theirs => table%values(columns(i), other_row))
+               if (abs(mine - theirs) > 0.0_wp) then
+                  comes_first = mine < theirs
+                  return
+               end if
+            end associate
+         end do
+      end function comes_first
+
+   end function row_order
+
+   !> Solve a row
+   subroutine solve_row(table, number, rows, row)
+      !> The table
+      type(study_table_type), intent(in) :: table
+      !> Number of the row
+      integer, intent(in) :: number
+      !> What rows share
+      type(rows_type), intent(inout), target :: rows
+      !> What came of it
+      type(row_type), intent(out) :: row
+
+      type(model_type), target :: model
+      type(error_type), allocatable :: error
+      integer(i8) :: start, now, rate
+
+      call system_clock(start, rate)
+      row%number = number
+      row%message = ''
+      allocate (row%values(0, 0))
+      call make_row(table, number, rows, model, row)
+      if (len(row%message) == 0) then
+         call find_structure(model, rows, error)
+         if (.not. allocated(error)) call solve_state(model, rows, row, error)
+         if (allocated(error)) then
+            row%code = error%code
+            row%message = error%message
+         end if
+      end if
+      call system_clock(now)
+      row%seconds = real(now - start, wp)/rate
+   end subroutine solve_row
+
+   !> The job of a row
+   subroutine make_row(table, number, rows, model, row)
+      !> The table
+      type(study_table_type), intent(in) :: table
+      !> Number of the row
+      integer, intent(in) :: number
+      !> What rows share
+      type(rows_type), intent(inout), target :: rows
+      !> The job
+      type(model_type), intent(out), target :: model
+      !> Takes the message if the deck is wrong with these values
+      type(row_type), intent(inout) :: row
+
+      type(sections_type), target :: entries
+      type(diagnostics_type), target :: diagnostics
+
+      entries = rows%entries
+      call change_entries(table, number, entries)
+      if (all(rows%keeps_mesh .or. .not. table%given(:, number))) then
+         call make_model(rows%source, entries, model, diagnostics, rows%mesh)
+      else
+         call make_model(rows%source, entries, model, diagnostics)
+      end if
+      if (diagnostics%n_errors == 0) then
+         if (size(model%initial_stresses) > 0) call judge_in_situ(model, diagnostics)
+      end if
+      if (diagnostics%n_errors > 0) then
+         row%code = exit_deck
+         row%message = render(diagnostics, rows%source)
+         return
+      end if
+      call take_options(rows%options, model)
+   end subroutine make_row
+
+   !> See that there is the structure of a job
+   subroutine find_structure(model, rows, error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> What rows share
+      type(rows_type), intent(inout) :: rows
+      !> Singular stiffness, or out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      if (allocated(rows%structure)) then
+         if (same_structure(model, rows%built_for, rows%structure)) then
+            call take_loads_of(model, rows%structure)
+            return
+         end if
+         deallocate (rows%structure, rows%built_for)
+      end if
+      allocate (rows%structure)
+      call build_structure(model, rows%structure, rows%timer, rows%progress, error)
+      if (allocated(error)) then
+         deallocate (rows%structure)
+         return
+      end if
+      rows%built_for = model
+      rows%n_structures = rows%n_structures + 1
+   end subroutine find_structure
+
+   !> Solve the job of a row, and take its quantities
+   subroutine solve_state(model, rows, row, error)
+      !> The job
+      type(model_type), intent(in), target :: model
+      !> What rows share
+      type(rows_type), intent(inout), target :: rows
+      !> Takes what comes of it
+      type(row_type), intent(inout) :: row
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(results_type) :: results, earlier
+      type(series_type) :: series
+      integer :: i
+
+      call analyse_combination(model, rows%structure, model%combinations(1), results, rows%timer, &
+         rows%progress, error, rows%estimated)
+      if (allocated(error)) return
+      row%code = exit_code_of(results)
+      if (allocated(results%mechanism)) row%message = results%mechanism
+      series = new_series(model, results, size(results%states))
+      do i = 1, size(results%states) - 1
+         call solve_increment(model, rows%structure, results%states(i), results, earlier, error)
+         if (allocated(error)) return
+         call append_increment(model, rows%structure, results, i, earlier, series)
+      end do
+      call append_increment(model, rows%structure, results, size(results%states), results, series)
+      row%values = quantity_values(series, results)
+   end subroutine solve_state
+
+end module axijoint_study_rows

@@ -1,0 +1,143 @@
+!> Statistics of the quantities of a study, over its rows
+module axijoint_study_statistics
+   use axijoint_base_kinds, only : wp
+   use axijoint_study_draw, only : generator_type, new_generator, next_uniform
+   use axijoint_study_rows, only : row_type
+   implicit none
+   private
+   public :: statistics_type, new_statistics, statistic_names
+
+   !> The statistics: of a sample, the mean with the ends of its interval of 95 % confidence
+   character(len=16), parameter :: statistic_names(10) = [character(len=16) :: 'count', 'mean', &
+      'deviation', 'least', 'percent 5', 'median', 'percent 95', 'greatest', 'mean from', 'mean to']
+   !> Samples with replacement that the interval is found by
+   integer, parameter :: n_resamples = 1000
+
+   !> Statistics
+   type :: statistics_type
+      !> Shape (statistics, quantities)
+      real(wp), allocatable :: values(:, :)
+   end type statistics_type
+
+contains
+
+   !> Statistics of the quantities at the end of rows that are in equilibrium
+   function new_statistics(rows, n_quantities) result(statistics)
+      !> The rows
+      type(row_type), intent(in) :: rows(:)
+      !> Quantities of each
+      integer, intent(in) :: n_quantities
+      !> The statistics; of no rows zeros
+      type(statistics_type) :: statistics
+
+      real(wp), allocatable :: sample(:)
+      integer, allocatable :: good(:)
+      integer :: q, k
+
+      allocate (statistics%values(size(statistic_names), n_quantities), source=0.0_wp)
+      good = pack([(k, k=1, size(rows))], &
+                  [(rows(k)%number > 0 .and. rows(k)%code == 0, k=1, size(rows))])
+      if (size(good) == 0) return
+      allocate (sample(size(good)))
+      do q = 1, n_quantities
+         do k = 1, size(good)
+            associate (values => rows(good(k))%values)
+               sample(k) = values(q, size(values, 2))
+            end associate
+         end do
+         statistics%values(:, q) = of_sample(sample)
+      end do
+   end function new_statistics
+
+   !> Statistics of a sample
+   function of_sample(sample) result(values)
+      !> The sample
+      real(wp), intent(inout) :: sample(:)
+      !> The statistics
+      real(wp) :: values(size(statistic_names))
+
+      real(wp) :: mean, deviation
+
+      call sort(sample)
+      mean = sum(sample)/size(sample)
+      deviation = sqrt(sum((sample - mean)**2)/max(1, size(sample) - 1))
+      values(:8) = [real(size(sample), wp), mean, deviation, sample(1), at_share(0.05_wp), &
+                    at_share(0.5_wp), at_share(0.95_wp), sample(size(sample))]
+      values(9:) = interval_of_mean(sample)
+
+   contains
+
+      !> Value that a share of the sample lies below, between two of them
+      pure real(wp) function at_share(share)
+         !> The share
+         real(wp), intent(in) :: share
+
+         real(wp) :: place
+         integer :: k
+
+         place = 1.0_wp + share*(size(sample) - 1)
+         k = min(int(place), size(sample) - 1)
+         at_share = sample(size(sample))
+         if (k > 0) at_share = sample(k) + (place - k)*(sample(k + 1) - sample(k))
+      end function at_share
+
+   end function of_sample
+
+   !> Interval of 95 % confidence of the mean, by samples with replacement (Efron, Ann. Statist. 7,
+   !> 1979)
+   function interval_of_mean(sample) result(ends)
+      !> The sample
+      real(wp), intent(in) :: sample(:)
+      !> The ends
+      real(wp) :: ends(2)
+
+      type(generator_type) :: generator
+      real(wp) :: means(n_resamples), share
+      integer :: i, k
+
+      generator = new_generator(1, size(sample))
+      means = 0.0_wp
+      do k = 1, n_resamples
+         do i = 1, size(sample)
+            call next_uniform(generator, share)
+            means(k) = means(k) + sample(min(size(sample), 1 + int(share*size(sample))))
+         end do
+      end do
+      means = means/size(sample)
+      call sort(means)
+      ends = means([nint(0.025_wp*n_resamples), nint(0.975_wp*n_resamples)])
+   end function interval_of_mean
+
+   !> Sort ascending
+   pure recursive subroutine sort(values)
+      !> The values
+      real(wp), intent(inout) :: values(:)
+
+      real(wp) :: pivot, kept
+      integer :: i, j
+
+      if (size(values) < 2) return
+      pivot = values((size(values) + 1)/2)
+      i = 1
+      j = size(values)
+      do
+         do while (values(i) < pivot)
+            i = i + 1
+         end do
+         do while (values(j) > pivot)
+            j = j - 1
+         end do
+         if (i <= j) then
+            kept = values(i)
+            values(i) = values(j)
+            values(j) = kept
+            i = i + 1
+            j = j - 1
+         end if
+         if (i > j) exit
+      end do
+      call sort(values(:j))
+      call sort(values(i:))
+   end subroutine sort
+
+end module axijoint_study_statistics

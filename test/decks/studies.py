@@ -1,0 +1,312 @@
+"""Studies: rows against runs of decks with the same values, tables with faults, studies that are killed, parts"""
+import csv
+import json
+import os
+import random
+import signal
+import subprocess
+import time
+
+from support import HERE, INPUTS, Test, expected, input_deck, python_with, read_text, write
+
+# Decks whose fields are varied one by one, and what of the summary a row must agree with
+VARIED = ('first', 'monopile', 'chimney')
+# What a row is compared by: name in the table of results, path in the summary of a run
+LARGEST = (('largest_displacement', 'largest_displacement'), ('largest_pressure', 'largest_pressure'),
+           ('largest_shear', 'largest_shear'), ('work', 'work'), ('energy', 'energy'), ('dissipated', 'dissipated'),
+           ('n_slip', 'slip'), ('n_open', 'open'))
+
+CASE3 = """LAWS 1 PHI, LAWS 1 C, RESULTANTS 1 VALUE
+{lines}
+"""
+
+
+def rows_of(path):
+    """Rows of a table of results"""
+    with open(path, encoding='utf-8') as file:
+        return list(csv.DictReader(file))
+
+
+def study(program, folder, table, deck, *options, code=0, name='table'):
+    """Run a study; its rows, and faults"""
+    path = write(folder, f'{name}.csv', table)
+    ran = program.run('study', path, deck, '-o', folder, '--quiet', *options, folder=folder, time_limit=300)
+    faults = ran.ended_with(code)
+    results = os.path.join(folder, f'{name}.study.csv')
+    return (rows_of(results) if os.path.exists(results) else []), faults
+
+
+def changed(text, section, card, first, last, value):
+    """The text of a deck with another value in columns of a card (counted from 0 in its section)"""
+    lines, where, count = text.split('\n'), None, 0
+    for k, line in enumerate(lines):
+        if line[:1].isalpha():
+            where = line.split()[0]
+        elif where == section and line.strip() and line.lstrip()[0] not in '!$':
+            if count == card:
+                line = line.split('!')[0].ljust(last)
+                lines[k] = line[:first - 1] + value.rjust(last - first + 1) + line[last:]
+                return '\n'.join(lines)
+            count += 1
+    raise LookupError(f'{section} has no card {card}')
+
+
+def cards_of(program):
+    """What the program says of its cards"""
+    return {card['card']: card for card in json.loads(program.run('help', 'card', '--json').out)}
+
+
+def fields_of(program, deck):
+    """Fields of the cards of a deck that can be varied: section, entry, field, card, columns, value, another"""
+    cards, text = cards_of(program), input_deck(f'{deck}.dat')
+    where, entry, seen = None, 0, set()
+    for line in text.split('\n'):
+        if line[:1].isalpha():
+            where, entry = line.split()[0], 0
+            continue
+        if where not in cards or not line.strip() or line.lstrip()[0] in '!$':
+            continue
+        entry += 1
+        fields = cards[where]['fields']
+        if not fields or max(field['card'] for field in fields) > 1:
+            continue
+        for field in fields:
+            first, last = field['columns']
+            value = line.split('!')[0][first - 1:last].strip()
+            if field['kind'] != 'real' or not value or (where, field['name']) in seen:
+                continue
+            seen.add((where, field['name']))
+            other = float(value)*1.01 if float(value) else 0.01
+            yield where, entry, field, value, f'{other:.6g}'
+
+
+def number_of(program, deck, section, entry):
+    """How a table calls an entry"""
+    numbered = {'MATERIALS', 'LAWS', 'LAWDETAILS', 'FACES', 'POINTS', 'CUTS', 'SECTIONS', 'CASE', 'SHAPES'}
+    if section not in numbered:
+        return entry
+    where, count = None, 0
+    for line in input_deck(f'{deck}.dat').split('\n'):
+        if line[:1].isalpha():
+            where = line.split()[0]
+        elif where == section and line.strip() and line.lstrip()[0] not in '!$':
+            count += 1
+            if count == entry:
+                return int(line[:5])
+    raise LookupError(section)
+
+
+def compared(row, run, what):
+    """Faults of a row beside the summary of a run"""
+    faults = expected(f'{what}: exit code', str(run['exit_code']), row['exit_code'])
+    if faults or run['exit_code'] not in (0, 3, 4):
+        return faults
+    last = run['increments'][-1]
+    for name, key in LARGEST:
+        wanted, found = float(last[key]), float(row[name])
+        if abs(found - wanted) > 1e-6*max(abs(wanted), abs(float(last['energy'])) if key in (
+                'work', 'energy', 'dissipated') else 0.0) + 1e-12*abs(wanted):
+            faults.append(f'{what}: {name} is {found}, of a run by itself {wanted}')
+    return faults
+
+
+def every_field(program, folder, deck):
+    """A row for each real on the cards of a deck, against a run of the deck with that value"""
+    text, faults, head, lines, runs = input_deck(f'{deck}.dat'), [], [], [], []
+    if 'COMBINE' in text or text.count('\nCASE') > 1:
+        text = text.split('\nCASE')[0] + '\nCASE' + text.split('\nCASE')[1] + '\nEND\n'
+    path = write(folder, f'{deck}.dat', text)
+    for section, entry, field, _, other in fields_of(program, deck):
+        name = f"{section} {number_of(program, deck, section, entry)} {field['name']}"
+        try:
+            one = changed(text, section, entry - 1, *field['columns'], other)
+        except LookupError:
+            continue
+        head.append(name)
+        runs.append((name, other, write(folder, f'one{len(runs)}.dat', one)))
+    for k, (_, other, _) in enumerate(runs):
+        lines.append(','.join(other if i == k else '' for i in range(len(runs))))
+    table = write(folder, 'fields.csv', '\n'.join([', '.join(head), *lines, '']))
+    ran = program.run('study', table, path, '-o', folder, '--quiet', folder=folder, time_limit=300)
+    faults += ran.crash()
+    rows = rows_of(os.path.join(folder, 'fields.study.csv'))
+    faults += expected('rows', len(runs), len(rows))
+    for row, (name, other, one) in zip(rows, runs):
+        program.run('run', one, '-o', folder, '--quiet', folder=folder)
+        summary = json.loads(read_text(one[:-4] + '.json'))
+        faults += compared(row, summary, f'{name} = {other}')
+    if not runs:
+        faults.append('no field was varied')
+    return faults
+
+
+def order_does_not_matter(program, folder):
+    """The same rows in another order, in parts, and after a kill give the same digits"""
+    deck = os.path.join(INPUTS, 'case3_balanced.dat')
+    values = [f'{phi}, {c}, {h}' for phi in (0, 20, 35) for c in (0, 0.2) for h in (0.2, 0.4)]
+    one, faults = study(program, folder, CASE3.format(lines='\n'.join(values)), deck, name='one')
+    values.reverse()
+    other, more = study(program, folder, CASE3.format(lines='\n'.join(values)), deck, name='other')
+    faults += more
+    bare = [{key: value for key, value in row.items() if key not in ('row', 'seconds')} for row in one]
+    back = [{key: value for key, value in row.items() if key not in ('row', 'seconds')} for row in reversed(other)]
+    if bare != back:
+        faults.append('the order of the rows changes their digits')
+    table = write(folder, 'parts.csv', CASE3.format(lines='0;20;35, 0;0.2, 0.2;0.4'))
+    for part in (3, 1):
+        faults += program.run('study', table, deck, '-o', folder, '--part', f'{part}/3', '--quiet', folder=folder).ended_with(0)
+    if os.path.exists(os.path.join(folder, 'parts.study.csv')):
+        faults.append('a part has written the files of the whole')
+    faults += program.run('study', table, deck, '-o', folder, '--part', '0/3', '--quiet', folder=folder).ended_with(0)
+    parts = [{key: value for key, value in row.items() if key not in ('row', 'seconds')}
+             for row in rows_of(os.path.join(folder, 'parts.study.csv'))]
+    if parts != bare:
+        faults.append('parts give other digits than the whole')
+    left = [name for name in os.listdir(folder) if name.endswith('.rows')]
+    return faults + expected('journals that are left', [], left)
+
+
+def killed(program, folder, rounds, lines='0:38/20, 0:0.4/5, 0.2;0.4'):
+    """Kill a study at random moments: what was done stays, and the end is the same to the last digit"""
+    deck = os.path.join(INPUTS, 'case3_balanced.dat')
+    table = CASE3.format(lines=lines)
+    whole, faults = study(program, folder, table, deck, name='whole')
+    path = write(folder, 'killed.csv', table)
+    journal = os.path.join(folder, 'killed.study.rows')
+    command = [program.path, 'study', path, deck, '-o', folder, '--quiet']
+    start = time.time()
+    subprocess.run([*command[:-3], '-o', os.path.join(folder, 'timed'), '--quiet'], env=program.environment, check=True)
+    length, chance = time.time() - start, random.Random(1)
+    kills = done = 0
+    while kills < rounds:
+        process = subprocess.Popen(command, env=program.environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        try:
+            process.wait(chance.uniform(0.0, 1.2*length*min(1.0, 20/rounds)))
+        except subprocess.TimeoutExpired:
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+        kills += 1
+        if process.returncode == 0:
+            faults += same_rows(whole, rows_of(os.path.join(folder, 'killed.study.csv')))
+            os.remove(os.path.join(folder, 'killed.study.csv'))
+            done = 0
+            continue
+        now = read_text(journal).count('\n') - 1 if os.path.exists(journal) else done
+        if now < done:
+            faults.append(f'{done} rows were done, {now} are left')
+        done = max(done, now)
+    faults += program.run(*command[1:], folder=folder, time_limit=300).ended_with(0)
+    faults += same_rows(whole, rows_of(os.path.join(folder, 'killed.study.csv')))
+    left = [name for name in os.listdir(folder) if name.startswith('killed') and name.endswith('.rows')]
+    return faults + expected('journals that are left', [], left)
+
+
+def same_rows(wanted, found):
+    """Faults if rows differ but for their times"""
+    one, other = ([{key: value for key, value in row.items() if key != 'seconds'} for row in rows]
+                  for rows in (wanted, found))
+    return [] if one == other else ['a study that was killed ends with other digits']
+
+
+# Tables with a fault: what is said, and the columns that the caret points at
+FAULTS = (
+    ('LAWS 1 PHY\n10\n', 'no field of LAWS has this name', 'friction angle (phi)'),
+    ('LAW 1 PHI\n10\n', 'the column names no section of a deck', 'did you mean LAWS?'),
+    ('LAWS 7 PHI\n10\n', 'the deck has no such card of LAWS', 'LAWS 1, 2'),
+    ('RESULTANTS 3 VALUE\n10\n', 'the deck has no such card of RESULTANTS', 'RESULTANTS 1 to 2, by their order'),
+    ('LAWS 1 PHI\n95\n', 'the friction angle is not below 90', '0 <= phi < 90'),
+    ('LAWS 1 PHI\n10, 20\n', 'the line has 2 cells, the head of the table 1', 'divide cells by commas'),
+    ('LAWS 1 PHI\n0:40\n', 'the range is not complete', 'FIRST : LAST : STEP'),
+    ('LAWS 1 PHI\n0:40:-1\n', 'the step does not lead', 'FIRST : LAST : STEP'),
+    ('LAWS 1 PHI\n0:100:10\n', 'the friction angle leaves its range', '0 <= phi < 90'),
+    ('LAWS 1 PHI\nNORMAL 30\n', 'NORMAL takes 2 numbers', 'UNIFORM low high'),
+    ('LAWS 1 PHI\nNORMAL 30 2\n', 'nothing says how many rows are drawn', 'add a column SAMPLES'),
+    ('LAWS 1 PHI, SAMPLES\nNORMAL 30 2, 0\n', 'the number of SAMPLES is too small', '1 to 999999999'),
+    ('LAWS 1 PHI, SAMPLES\nNORMAL 60 20, 500\n', 'a value is drawn that the card does not take', 'TRUNCATED'),
+    ('LAWS 1 PHI, LAWS 1 phi\n1, 2\n', 'this column is there before', ''),
+    ('LAWS 1 law\nELASTI\n', 'the law is not an integer', ''),
+    ('LAWS 1 kind of law\nELASTI\n', 'is unknown', 'did you mean ELASTIC?'),
+    ('LAWS 1 PHI\n', 'the table has no rows', 'the first line names what varies'),
+    ('LAWS 1 PHI\n10;;20\n', 'a value of the list is blank', ''),
+    ('LAWS 1 PHI\n1O\n', 'is not a number', ''),
+)
+
+
+def wrong_tables(program, folder):
+    """Each fault in a table is placed and told in words, and nothing is written"""
+    deck, faults = os.path.join(INPUTS, 'case3_balanced.dat'), []
+    for k, (table, *said) in enumerate(FAULTS):
+        path = write(folder, f'wrong{k}.csv', table)
+        ran = program.run('study', path, deck, '-o', folder, folder=folder)
+        faults += [f'{table!r}: {fault}' for fault in ran.ended_with(2)]
+        faults += [f'{table!r}: {part!r} is not said in\n{ran.err}' for part in said if part not in ran.err]
+        if 'rows' not in said[0] and '^' not in ran.err and 'drawn that' not in said[0]:
+            faults.append(f'{table!r}: no place is pointed at in\n{ran.err}')
+    left = [name for name in os.listdir(folder) if 'study' in name]
+    return faults + expected('files', [], left)
+
+
+def bad_rows(program, folder):
+    """Values that a deck cannot have together: the row says so, the others are solved"""
+    table = 'MATERIALS 1 E, LAWS 1 kind of law, LAWS 1 phi\n2E4,,\n2E4,ELASTIC,20\n1E4,,\n'
+    path = write(folder, 'rows.csv', table)
+    ran = program.run('study', path, os.path.join(INPUTS, 'case3_balanced.dat'), '-o', folder, folder=folder)
+    faults = ran.ended_with(2)
+    rows = rows_of(os.path.join(folder, 'rows.study.csv'))
+    faults += expected('exit codes', ['0', '2', '0'], [row['exit_code'] for row in rows])
+    if 'row 2' not in ran.err or not rows[1]['message']:
+        faults.append(f'nothing is said of row 2: {ran.err}')
+    return faults
+
+
+def samples(program, folder):
+    """Samples are those of their distributions: one in each part of a Latin hypercube, means, ends, the same again"""
+    table = ('SAMPLES, SEED, SAMPLER, LAWS 1 PHI, LAWS 1 C, RESULTANTS 1 VALUE, MATERIALS 1 E, MATERIALS 2 E\n'
+             '8, 3, LHS, UNIFORM 10 30, LOGNORMAL 0.2 0.05, NORMAL 0.4 0.02, TRUNCATED 2E4 4E3 1.5E4 2.5E4, '
+             'WEIBULL 5 1E4 1E4\n')
+    deck = os.path.join(INPUTS, 'case3_balanced.dat')
+    path = write(folder, 'few.csv', table)
+    # what rows end with is not looked at: some find no equilibrium
+    faults = program.run('study', path, deck, '-o', folder, '--quiet', folder=folder, time_limit=300).crash()
+    rows = rows_of(os.path.join(folder, 'few.study.csv'))
+    phi = sorted(float(row['LAWS 1 PHI']) for row in rows)
+    for k, value in enumerate(phi):
+        if not 10 + 20*k/8 <= value <= 10 + 20*(k + 1)/8:
+            faults.append(f'no Latin hypercube: {value} is not in part {k + 1} of 8')
+    for name, low, high in (('MATERIALS 1 E', 1.5e4, 2.5e4), ('MATERIALS 2 E', 1e4, 9e9), ('LAWS 1 C', 0, 9e9)):
+        values = [float(row[name]) for row in rows]
+        if not low <= min(values) <= max(values) <= high:
+            faults.append(f'{name} is drawn outside its ends: {values}')
+    for name, mean, spread in (('RESULTANTS 1 VALUE', 0.4, 0.02), ('LAWS 1 C', 0.2, 0.05)):
+        values = [float(row[name]) for row in rows]
+        if abs(sum(values)/8 - mean) > spread/4:
+            faults.append(f'{name} has the mean {sum(values)/8}')
+    program.run('study', path, deck, '-o', os.path.join(folder, 'again'), '--quiet', folder=folder, time_limit=300)
+    again = rows_of(os.path.join(folder, 'again', 'few.study.csv'))
+    return faults + same_rows(rows, again)
+
+
+def arrays(program, folder):
+    """The HDF5 file has what the table has, all increments, and statistics that NumPy finds, too"""
+    python = python_with('numpy, h5py')
+    if python is None:
+        return []
+    rows, faults = study(program, folder, 'POINTS 1 R, LAWS 1 PHI\n,20;25;30\n', os.path.join(INPUTS, 'monopile.dat'))
+    faults += expected('rows', 3, len(rows))
+    done = subprocess.run([python, '-B', os.path.join(HERE, 'read_study.py'), os.path.join(folder, 'table.study')],
+                          capture_output=True, text=True, check=False)
+    return faults + ([f'{done.stdout}{done.stderr}'] if done.returncode else [])
+
+
+def tests(program):
+    """All of them"""
+    found = [Test(f'studies/every field of {deck}', lambda folder, deck=deck: every_field(program, folder, deck))
+             for deck in VARIED]
+    return found + [
+        Test('studies/order and parts', lambda folder: order_does_not_matter(program, folder)),
+        Test('studies/wrong tables', lambda folder: wrong_tables(program, folder)),
+        Test('studies/bad rows', lambda folder: bad_rows(program, folder)),
+        Test('studies/samples', lambda folder: samples(program, folder)),
+        Test('studies/arrays', lambda folder: arrays(program, folder)),
+        Test('studies/killed', lambda folder: killed(program, folder, 8, '0:38/5, 0;0.2, 0.2;0.4')),
+        Test('studies/killed 250 times', lambda folder: killed(program, folder, 250), long=True)]
