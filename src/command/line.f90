@@ -208,7 +208,7 @@ contains
       if (command%quiet .and. command%verbose) call fatal_error(error, exit_deck, &
          'only one of --quiet and --verbose can be had')
       if (size(command%decks) == 0) call fatal_error(error, exit_deck, &
-         'no '//merge('table', 'deck ', command%name == 'study')//' given; use: '// &
+         'no '//trim(merge('table', 'deck ', command%name == 'study'))//' given; use: '// &
          program_name//' '//command%name//' '//trim(topic%arguments))
       if (command%name == 'study' .and. size(command%decks) > 2) call fatal_error(error, exit_deck, &
          'a study has one table and one deck; use: '//program_name//' study TABLE [DECK]')
