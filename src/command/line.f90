@@ -1,7 +1,7 @@
 !> Command line: words to a configuration
 module axijoint_command_line
    use axijoint_base_error, only : error_type, fatal_error, exit_deck
-   use axijoint_base_kinds, only : i8
+   use axijoint_base_kinds, only : wp, i8
    use axijoint_base_text, only : upper, lower
    use axijoint_base_version, only : program_name, program_version
    use axijoint_command_card_help, only : card_help, names_of_cards
@@ -11,6 +11,7 @@ module axijoint_command_line
    use axijoint_command_manual, only : topic_type, all_topics, topic_named, option_named, &
       names_of_topics, names_of_options
    use axijoint_command_unknown_word, only : unknown
+   use axijoint_deck_text_token, only : read_integer, read_real, token_good
    use axijoint_job_job, only : options_type
    use axijoint_solver_entry, only : solver_entry_type
    use axijoint_solver_registry, only : find_solver, solver_words
@@ -41,6 +42,11 @@ module axijoint_command_line
       !> Of a study: whether errors are estimated; the part to solve, of how many (0: all of it)
       logical :: estimates = .false.
       integer :: part = 0, n_parts = 0
+      !> Of an envelope: load cases as given, number of directions, part of a capacity that is left
+      !> open
+      character(len=:), allocatable :: cases
+      integer :: n_directions = 24
+      real(wp) :: tolerance = 0.01_wp
       !> Help or version, where these were asked for
       character(len=:), allocatable :: text
    end type command_type
@@ -72,7 +78,7 @@ contains
       if (size(words) == 0) return
 
       select case (words(1)%text)
-      case ('run', 'check', 'estimate', 'study')
+      case ('run', 'check', 'estimate', 'study', 'envelope')
          call read_arguments(words(2:), topics(topic_named(topics, words(1)%text)), command, error)
       case ('compare')
          call read_compare_words(words(2:), topics, command)
@@ -210,6 +216,11 @@ contains
       if (size(command%decks) == 0) call fatal_error(error, exit_deck, &
          'no '//trim(merge('table', 'deck ', command%name == 'study'))//' given; use: '// &
          program_name//' '//command%name//' '//trim(topic%arguments))
+      if (command%name == 'envelope' .and. size(command%decks) > 1) call fatal_error(error, &
+         exit_deck, 'an envelope has one deck; use: '//program_name//' envelope DECK --cases 1,2')
+      if (command%name == 'envelope' .and. .not. allocated(command%cases)) call fatal_error(error, &
+         exit_deck, 'an envelope needs --cases: the load cases whose factors span it, such as '// &
+         '--cases 1,2, or 1+,2 if the first acts with positive factors alone')
       if (command%name == 'study' .and. size(command%decks) > 2) call fatal_error(error, exit_deck, &
          'a study has one table and one deck; use: '//program_name//' study TABLE [DECK]')
    end subroutine read_arguments
@@ -254,6 +265,19 @@ contains
             command%options%solver_given)
          if (.not. command%options%solver_given) &
             call unknown('solver', value, lower_all(solver_words(command%solvers)), error)
+      case ('--cases')
+         command%cases = value
+      case ('--directions')
+         call read_integer(value, command%n_directions, stat)
+         if (stat == token_good .and. command%n_directions > 0) return
+         call fatal_error(error, exit_deck, "option --directions: found '"//value// &
+                          "', allowed is a number from 1 on")
+      case ('--tolerance')
+         call read_real(value, command%tolerance, stat)
+         if (stat == token_good .and. command%tolerance > 0.0_wp &
+             .and. command%tolerance < 1.0_wp) return
+         call fatal_error(error, exit_deck, "option --tolerance: found '"//value// &
+                          "', allowed is a number between 0 and 1")
       case ('--part')
          call read_part(value, command, error)
       case ('--memory')

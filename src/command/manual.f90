@@ -58,7 +58,7 @@ contains
       memory = option_type('--memory', 'MIB', 'memory that the process may take: fewer factors '// &
          'at once then (default: what the machine, its control group and limits leave)')
       quiet = option_type('--quiet', '', 'nothing but errors and warnings')
-      allocate (topics(6))
+      allocate (topics(7))
       topics(1) = topic_type('run', 'DECK...', 'solve decks', &
          'Solves each deck and writes NAME.lis (listing), NAME.json (summary) and NAME.h5 '// &
          '(results), NAME being the name of the deck without its ending. The deck - is read '// &
@@ -104,13 +104,32 @@ contains
           option_type('--verbose', '', 'lines on the standard error output that say what is '// &
                       'being done, for logs')], &
          'The largest of the rows'', as of run.')
-      topics(5) = topic_type('compare', 'A B', 'compare two listings or result files', &
+      topics(5) = topic_type('envelope', 'DECK', 'find what loads joints can carry, by direction', &
+         'Finds the largest factor with equilibrium in directions of the space of some load '// &
+         'cases, and the mechanism beyond it. Increments of other load cases come first (a card '// &
+         'of INCREMENTS with the number of a case); then the load of a direction grows. Writes '// &
+         'NAME.envelope.csv, a line a direction, and NAME.envelope.h5. A search that was ended '// &
+         'goes on where it was.', &
+         [option_type('--cases', 'LIST', 'load cases, divided by commas; 1+ with positive '// &
+                      'factors alone'), &
+          option_type('--directions', 'N', 'directions (default: 24)'), &
+          option_type('--tolerance', 'T', 'part of a capacity that may be left open (default: '// &
+                      '0.01)'), &
+          option_type('-o', 'DIR', 'directory for the results', takes_folder), &
+          option_type('--solver', 'NAME', alternatives(solvers)//' (default: as the deck says)', &
+                      takes_word, joined(solvers)), &
+          threads, memory, quiet, &
+          option_type('--verbose', '', 'lines on the standard error output that say what is '// &
+                      'being done, for logs')], &
+         '0 if every direction ends in a mechanism or in none up to very large factors; 3 if '// &
+         'an iteration found no equilibrium; else as of run.')
+      topics(6) = topic_type('compare', 'A B', 'compare two listings or result files', &
          'Compares two listings, two HDF5 result files, or one of each, table by table and '// &
          'column by column. Rows are matched by their places (r, z, theta), whatever the '// &
          'numbers of the nodes. Values are the same if they differ by no more than the largest '// &
          'of the tolerances, and the rounding of the digits printed.', compare_options(), &
          '0 same; 1 different; 2 a file that cannot be read, or usage.')
-      topics(6) = topic_type('help', '[COMMAND]', 'help on a command', &
+      topics(7) = topic_type('help', '[COMMAND]', 'help on a command', &
          'Without COMMAND, what commands there are. `help card` prints an index of all cards '// &
          'of a deck, `help card NAME` the fields of one.', &
          [option_type('--markdown', '', 'of cards: as they stand in doc/deck.md'), &

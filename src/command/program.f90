@@ -5,6 +5,7 @@ module axijoint_command_program
    use axijoint_base_system, only : return_freed_memory
    use axijoint_command_check, only : check_decks
    use axijoint_command_compare, only : compare_files
+   use axijoint_command_envelope, only : run_envelope
    use axijoint_command_estimate, only : estimate_decks
    use axijoint_command_line, only : command_type, read_command
    use axijoint_command_study, only : run_study
@@ -48,6 +49,8 @@ contains
          call check_decks(command, exit_code)
       case ('estimate')
          call estimate_decks(command, exit_code)
+      case ('envelope')
+         call run_envelope(command, exit_code)
       case ('study')
          call run_study(command, exit_code)
       case ('compare')

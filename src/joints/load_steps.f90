@@ -41,7 +41,9 @@ contains
 
       next = step
       next%load_factor = step%load_factor + increment%factor
-      if (increment%case == 0) then
+      if (allocated(increment%direction)) then
+         next%case_factor = step%case_factor + increment%factor*increment%direction
+      else if (increment%case == 0) then
          next%case_factor = step%case_factor + increment%factor*combination%factor
       else
          associate (case => increment%case)

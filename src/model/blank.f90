@@ -1,7 +1,7 @@
 !> An empty job, to which bodies, joints and loads are added
 module axijoint_model_blank
    use axijoint_base_kinds, only : wp, pi
-   use axijoint_model_load, only : increment_type, combination_type, load_case_type
+   use axijoint_model_load, only : combination_type, load_case_type
    use axijoint_model_mesh, only : mesh_type, max_element_nodes
    use axijoint_model_model, only : model_type
    use axijoint_model_request, only : default_keep
@@ -33,7 +33,8 @@ contains
       model%output_angles = [0.0_wp, 0.5_wp*pi, pi]
       model%load_cases = [load_case_type(label=1, name='')]
       model%combinations = [combination_type(label=1, factor=[1.0_wp])]
-      model%increments = [increment_type(max_iterations=most_iterations)]
+      allocate (model%increments(1))
+      model%increments(1)%max_iterations = most_iterations
       model%keep = default_keep()
       call make_empty(model%mesh)
       allocate (model%materials(0), model%joint_materials(0), model%interfaces(0), &

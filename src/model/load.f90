@@ -135,6 +135,9 @@ module axijoint_model_load
       integer :: max_iterations = 200
       !> Load case (index) that the factor belongs to; 0 for all
       integer :: case = 0
+      !> Multiple of each load case that the factor belongs to, shape (cases); those of the
+      !> combination if not allocated
+      real(wp), allocatable :: direction(:)
    end type increment_type
 
 contains

@@ -14,7 +14,7 @@ module axijoint_study_files
    use axijoint_study_table, only : study_table_type, value_text
    implicit none
    private
-   public :: write_study
+   public :: write_study, quoted
 
 contains
 

@@ -1,6 +1,7 @@
 """Studies: rows against runs of decks with the same values, tables with faults, studies that are killed, parts"""
 import csv
 import json
+import math
 import os
 import random
 import signal
@@ -298,6 +299,86 @@ def arrays(program, folder):
     return faults + ([f'{done.stdout}{done.stderr}'] if done.returncode else [])
 
 
+BLOCK = """TITLE
+A stiff block that stands on its base: weight, then a load
+CONTROL
+    {m}   33
+MATERIALS
+    1     1.0E8       0.0
+    2     1.0E8       0.0
+LAWS
+    1     1.0E3     1.0E3     1.0E3       0.0      30.0
+LAWDETAILS
+    1 RESULTANT
+BLOCKS
+    1    1    4    8    2
+       0.0       0.0       1.0       1.0
+    2    2    4   10    2
+       0.0      -1.0      1.25       0.0
+FACES
+    1    1       0.0       0.0       1.0       0.0
+    2    2       0.0       0.0       1.0       0.0
+    3    1       0.0       1.0       1.0       1.0
+    4    2       0.0      -1.0      1.25      -1.0
+INTERFACES
+    1    1    2
+FIXEDFACES
+    4  111
+CASE
+    1  weight
+RESULTANTS
+    3     AXIAL      -2.0
+CASE
+    2  at the base
+RESULTANTS
+    1   LATERAL       1.0
+CASE
+    3  moment
+RESULTANTS
+    1    MOMENT       1.0
+CASE
+    4  torque
+RESULTANTS
+    1    TORQUE       1.0
+INCREMENTS
+       1.0    1.0E-6  200    1
+END
+"""
+
+
+def envelope(program, folder, deck, *options, code=0):
+    """Find an envelope; its rows, and faults"""
+    ran = program.run('envelope', deck, '-o', folder, '--quiet', *options, folder=folder, time_limit=300)
+    name = os.path.splitext(os.path.basename(deck))[0]
+    return rows_of(os.path.join(folder, f'{name}.envelope.csv')), ran.ended_with(code)
+
+
+def capacities(program, folder):
+    """A stiff block under its weight V: it slides at V tan(phi), turns at 2/3 V R tan(phi) of even pressure, and its
+    moment is below V R, by less with more harmonics; a search that is killed ends alike"""
+    weight, slope = 2.0, math.tan(math.radians(30))
+    deck = write(folder, 'block.dat', BLOCK.format(m=4))
+    rows, faults = envelope(program, folder, deck, '--cases', '2', '--directions', '2', '--tolerance', '0.002')
+    for row in rows:
+        found = float(row['capacity'])
+        if not -0.003 <= found/(weight*slope) - 1 <= 1e-6 or row['exit_code'] != '4':
+            faults.append(f'slides at {found}, not at {weight*slope}: {row}')
+    (row,), more = envelope(program, folder, deck, '--cases', '4+', '--directions', '1', '--tolerance', '0.002')
+    faults += more
+    exact = 2/3*weight*slope
+    if abs(float(row['capacity'])/exact - 1) > 0.01:
+        faults.append(f"turns at {row['capacity']}, not at {exact}")
+    (row,), more = envelope(program, folder, deck, '--cases', '3+', '--directions', '1', '--tolerance', '0.002')
+    faults += more
+    if not 0.9 <= float(row['capacity'])/weight <= 1:
+        faults.append(f"tips over at {row['capacity']}, not a little below {weight}")
+    wrong = program.run('envelope', deck, '--cases', '5', '-o', folder, folder=folder)
+    faults += wrong.ended_with(2)
+    if 'allowed are load cases of the deck, each once: 1, 2, 3, 4' not in wrong.err:
+        faults.append(wrong.err)
+    return faults
+
+
 def tests(program):
     """All of them"""
     found = [Test(f'studies/every field of {deck}', lambda folder, deck=deck: every_field(program, folder, deck))
@@ -308,5 +389,6 @@ def tests(program):
         Test('studies/bad rows', lambda folder: bad_rows(program, folder)),
         Test('studies/samples', lambda folder: samples(program, folder)),
         Test('studies/arrays', lambda folder: arrays(program, folder)),
+        Test('studies/envelope of a block', lambda folder: capacities(program, folder)),
         Test('studies/killed', lambda folder: killed(program, folder, 8, '0:38/5, 0;0.2, 0.2;0.4')),
         Test('studies/killed 250 times', lambda folder: killed(program, folder, 250), long=True)]

@@ -57,10 +57,13 @@ contains
 
       card = cards_of(deck, keyword_increments)
       allocate (deck%model%increments(max(1, card%table%n)))
-      deck%model%increments(1) = increment_type(max_iterations=default_iterations)
+      deck%model%increments(1)%max_iterations = default_iterations
       do while (next_card(card))
-         deck%model%increments(card%entry) = increment_type(real_of(card, field_factor), &
-            real_of(card, field_tolerance), integer_of(card, field_iterations))
+         associate (increment => deck%model%increments(card%entry))
+            increment%factor = real_of(card, field_factor)
+            increment%tolerance = real_of(card, field_tolerance)
+            increment%max_iterations = integer_of(card, field_iterations)
+         end associate
       end do
    end subroutine read_increments
 
