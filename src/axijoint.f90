@@ -16,6 +16,7 @@ module axijoint
       add_traction, node_at
    use axijoint_model_material, only : solid_material_type, rule_centroid, rule_gauss, rule_lobatto
    use axijoint_model_model, only : model_type
+   use axijoint_output_claim, only : claim_type, claim_output, release_output
    use axijoint_output_output, only : check_output, write_output
    implicit none
    private
@@ -40,13 +41,17 @@ contains
       !> A file cannot be written
       type(error_type), allocatable, intent(out) :: error
 
+      type(claim_type) :: claim
+      character(len=:), allocatable :: notes
       integer :: k
 
       call check_output(job, error)
+      if (.not. allocated(error)) call claim_output(job, claim, notes, error)
       do k = 1, size(results)
-         if (allocated(error)) return
+         if (allocated(error)) exit
          call write_output(job, results(k), error)
       end do
+      call release_output(claim)
    end subroutine write_results
 
 end module axijoint

@@ -4,7 +4,7 @@ module axijoint_base_error
    private
    public :: error_type, fatal_error
    public :: exit_ok, exit_deck, exit_not_converged, exit_singular
-   public :: exit_io, exit_memory, exit_internal
+   public :: exit_io, exit_memory, exit_in_use, exit_state, exit_internal, exit_stopped
 
    !> Success
    integer, parameter :: exit_ok = 0
@@ -18,8 +18,14 @@ module axijoint_base_error
    integer, parameter :: exit_io = 5
    !> Out of memory
    integer, parameter :: exit_memory = 6
+   !> Another run uses the name of the results
+   integer, parameter :: exit_in_use = 7
+   !> A state file that cannot be gone on from
+   integer, parameter :: exit_state = 8
    !> A state that the program should never reach
    integer, parameter :: exit_internal = 70
+   !> Asked to end before it was done; it can be gone on with
+   integer, parameter :: exit_stopped = 75
 
    !> An error on its way to the caller
    type :: error_type

@@ -2,7 +2,7 @@
 module axijoint_command_run
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit, compiler_options
    use axijoint_analysis_core_results, only : results_type
-   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck
+   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_in_use
    use axijoint_base_progress, only : show_progress, clear_progress
    use axijoint_base_system, only : error_output_is_terminal, target_kind, path_file
    use axijoint_base_timer, only : phase_write
@@ -12,6 +12,7 @@ module axijoint_command_run
    use axijoint_job_goal, only : refine_to_goal
    use axijoint_job_job, only : job_type, job_name, deck_name, standard_input
    use axijoint_job_read, only : read_job
+   use axijoint_output_claim, only : claim_type, claim_output, release_output
    use axijoint_output_brief, only : brief_text, status_text
    use axijoint_output_file_run, only : exit_code_of
    use axijoint_output_output, only : check_output, write_output, write_error_summary
@@ -30,7 +31,7 @@ contains
       integer, intent(out) :: exit_code
 
       type(error_type), allocatable :: error
-      logical :: there
+      type(claim_type) :: claim
       integer :: k, code
 
       exit_code = exit_ok
@@ -44,27 +45,44 @@ contains
       end if
       do k = 1, size(command%decks)
          associate (deck => command%decks(k)%text)
-            call run_deck(deck, command, code, error)
+            call run_deck(deck, command, claim, code, error)
             if (allocated(error)) then
                call print_error(deck, error)
-               ! a name that was mistyped leaves nothing
-               there = target_kind(deck) == path_file
-               if (there .or. deck == standard_input) &
-                  call write_error_summary(command%options%directory, job_name(deck), &
-                                           deck_name(deck), error%code, [error%message])
+               call leave_summary(deck, command%options%directory, claim, error)
                code = error%code
             end if
          end associate
+         call release_output(claim)
          exit_code = max(exit_code, code)
       end do
    end subroutine run_decks
 
+   !> A summary of an error, unless the deck is not there – a name that was mistyped leaves nothing –
+   !> or another run writes these files
+   subroutine leave_summary(deck, directory, claim, error)
+      !> The deck, and the directory for results
+      character(len=*), intent(in) :: deck, directory
+      !> Names that this run holds
+      type(claim_type), intent(in) :: claim
+      !> The error
+      type(error_type), intent(in) :: error
+
+      logical :: there
+
+      there = target_kind(deck) == path_file
+      if (error%code == exit_in_use .or. .not. (there .or. deck == standard_input)) return
+      call write_error_summary(directory, job_name(deck), deck_name(deck), error%code, &
+         [error%message], claim%held())
+   end subroutine leave_summary
+
    !> One deck, told in order
-   subroutine run_deck(deck, command, exit_code, error)
+   subroutine run_deck(deck, command, claim, exit_code, error)
       !> The deck
       character(len=*), intent(in) :: deck
       !> Directory for results and other options
       type(command_type), intent(in) :: command
+      !> Takes the names of its results
+      type(claim_type), intent(out) :: claim
       !> 0, 3 if the results are not converged, 4 if they end in a mechanism
       integer, intent(out) :: exit_code
       !> Anything else that went wrong
@@ -72,11 +90,16 @@ contains
 
       type(job_type), target :: job
       type(results_type), allocatable :: results(:)
+      character(len=:), allocatable :: notes
       integer :: k
 
       exit_code = exit_ok
       call begin(deck, command, job, error)
       if (.not. allocated(error)) call check_output(job, error)
+      if (.not. allocated(error)) then
+         call claim_output(job, claim, notes, error)
+         if (len(notes) > 0) write (error_unit, '(a)') notes
+      end if
       if (allocated(error)) return
       if (job%model%error_goal%wanted) then
          call refine_to_goal(job, results, error)

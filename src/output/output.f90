@@ -3,6 +3,7 @@ module axijoint_output_output
    use axijoint_analysis_core_results, only : results_type, remark_type
    use axijoint_analysis_core_series, only : series_type
    use axijoint_base_error, only : error_type, fatal_error, exit_io, exit_internal
+   use axijoint_base_lock, only : lock_type, take_lock, release_lock
    use axijoint_base_system, only : path_kind, is_directory, same_file, path_absent, path_file, &
       path_directory, path_link, error_text, make_directories
    use axijoint_deck_text_source, only : source_type, card_file
@@ -12,8 +13,11 @@ module axijoint_output_output
    use axijoint_model_model, only : model_type
    use axijoint_output_file_echo, only : deck_path
    use axijoint_output_file_hdf5, only : hdf5_file_type
-   use axijoint_output_file_pending, only : join_path, sync_names
+   use axijoint_output_file_names, only : endings, file_arrays, file_listing, file_summary, &
+      file_bodies, file_joints, final_path, journal_ending, lock_ending
+   use axijoint_output_file_pending, only : join_path
    use axijoint_output_file_run, only : run_type, new_run, exit_code_of
+   use axijoint_output_file_set, only : commit_set
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_increments, only : write_increments
    use axijoint_output_hdf5_results, only : write_results
@@ -27,12 +31,6 @@ module axijoint_output_output
    implicit none
    private
    public :: check_output, write_output, write_error_summary
-
-   !> Endings of the files
-   character(len=14), parameter :: endings(5) = [character(len=14) :: &
-      ".h5", ".lis", ".json", ".vtkhdf", ".joints.vtkhdf"]
-   integer, parameter :: file_arrays = 1, file_listing = 2, file_summary = 3, file_bodies = 4, &
-      file_joints = 5
 
 contains
 
@@ -127,7 +125,7 @@ contains
 
    !> Write results, swept bodies, listing and summary. Nothing changes under a final
    !> name before all are complete on the disk; after an error the temporary files are
-   !> gone and earlier files stand. The summary gets its name last: it speaks for all.
+   !> gone and earlier files stand, all of them. The summary gets its name last: it speaks for all.
    subroutine write_output(job, results, error)
       !> The job; its factors are used again for the fields of earlier increments
       type(job_type), intent(inout), target :: job
@@ -144,6 +142,7 @@ contains
       type(picture_type), allocatable :: pictures(:)
       type(text_file_type) :: listing, summary
       character(len=:), allocatable :: directory, name, warnings(:), messages(:)
+      logical :: halfway
 
       call check_results(results, error)
       if (allocated(error)) return
@@ -176,12 +175,10 @@ contains
       end if
 
       if (.not. allocated(error)) call check_names(directory, name, n_files(job%model), error)
-      if (.not. allocated(error)) call arrays%commit(error)
-      if (.not. allocated(error)) call bodies%file%commit(error)
-      if (.not. allocated(error)) call surfaces%file%commit(error)
-      if (.not. allocated(error)) call listing%commit(error)
-      if (.not. allocated(error)) call summary%commit(error)
-      call sync_names(directory)
+      halfway = .false.
+      if (.not. allocated(error)) call commit_set(directory, name//journal_ending, &
+         names_of_files(name, n_files(job%model)), halfway, error)
+      if (halfway) return
       call arrays%abandon()
       call bodies%file%abandon()
       call surfaces%file%abandon()
@@ -259,6 +256,23 @@ contains
       texts(2:) = others
    end function with_first
 
+   !> Names of the files of a run, the summary last
+   pure function names_of_files(name, n) result(names)
+      !> Name of the job
+      character(len=*), intent(in) :: name
+      !> Number of files, by their endings
+      integer, intent(in) :: n
+      !> The names
+      character(len=len(name) + len(endings)) :: names(n)
+
+      integer :: k
+
+      do k = 1, n - 1
+         names(k) = name//endings(merge(k, k + 1, k < file_summary))
+      end do
+      names(n) = name//endings(file_summary)
+   end function names_of_files
+
    !> Number of files that a job writes, by their endings
    pure integer function n_files(model)
       !> The job
@@ -269,9 +283,9 @@ contains
    end function n_files
 
    !> Summary of a run that failed. Results of an earlier run stay untouched:
-   !> nothing is written where its listing or arrays stand. A failure to write
-   !> is passed over, since the error itself is on its way to the user.
-   subroutine write_error_summary(directory, name, deck, exit_code, messages)
+   !> nothing is written where its listing or arrays stand, or where another run is at work. A
+   !> failure to write is passed over, since the error itself is on its way to the user.
+   subroutine write_error_summary(directory, name, deck, exit_code, messages, claimed)
       !> Directory of the files; empty for the current one
       character(len=*), intent(in) :: directory
       !> Name of the job
@@ -282,8 +296,11 @@ contains
       integer, intent(in) :: exit_code
       !> Causes
       character(len=*), intent(in) :: messages(:)
+      !> Whether this run holds the lock of the name
+      logical, intent(in) :: claimed
 
       type(text_file_type) :: summary
+      type(lock_type) :: lock
       type(error_type), allocatable :: error
 
       if (path_kind(final_path(directory, name, file_arrays)) /= path_absent) return
@@ -293,12 +310,17 @@ contains
       if (allocated(error)) return
       call check_names(directory, name, file_summary, error)
       if (allocated(error)) return
-      call summary%open(final_path(directory, name, file_summary), error)
+      if (.not. claimed) call take_lock(join_path(directory, name//lock_ending), 'run '//deck, &
+         lock, error)
       if (allocated(error)) return
-      call write_failure_summary(summary, new_run(deck, exit_code), messages)
-      call summary%finish(error)
-      if (.not. allocated(error)) call summary%commit(error)
-      call summary%abandon()
+      call summary%open(final_path(directory, name, file_summary), error)
+      if (.not. allocated(error)) then
+         call write_failure_summary(summary, new_run(deck, exit_code), messages)
+         call summary%finish(error)
+         if (.not. allocated(error)) call summary%commit(error)
+         call summary%abandon()
+      end if
+      call release_lock(lock)
    end subroutine write_error_summary
 
    !> The final names are free or regular files: a link might lead anywhere,
@@ -328,20 +350,6 @@ contains
          return
       end do
    end subroutine check_names
-
-   !> Path of one of the files
-   pure function final_path(directory, name, ending) result(path)
-      !> Directory of the files
-      character(len=*), intent(in) :: directory
-      !> Name of the job
-      character(len=*), intent(in) :: name
-      !> Index into `endings`
-      integer, intent(in) :: ending
-      !> The path
-      character(len=:), allocatable :: path
-
-      path = join_path(directory, name//trim(endings(ending)))
-   end function final_path
 
    !> Every array is there, if only with size zero
    subroutine check_results(results, error)

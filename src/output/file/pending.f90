@@ -2,14 +2,16 @@
 !> temporary name in the same directory, then one rename
 module axijoint_output_file_pending
    use axijoint_base_error, only : error_type, fatal_error, exit_io
+   use axijoint_base_process, only : host_name
    use axijoint_base_system, only : process_id, rename_path, sync_path, unlink_path, error_text
+   use axijoint_base_text, only : to_text
    implicit none
    private
-   public :: temporary_path, publish, discard, sync_names, join_path, io_error
+   public :: temporary_path, backup_path, publish, discard, sync_names, join_path, io_error
 
 contains
 
-   !> Name under which a file is written until it is complete. It holds the
+   !> Name under which a file is written until it is complete. It holds the host and the
    !> number of the process, so two runs never write the same file.
    function temporary_path(path) result(temporary)
       !> Final path
@@ -17,11 +19,18 @@ contains
       !> Path in the same directory
       character(len=:), allocatable :: temporary
 
-      character(len=12) :: process
-
-      write (process, '(i0)') process_id()
-      temporary = path//"."//trim(process)//".tmp"
+      temporary = path//"."//host_name()//"."//to_text(process_id())//".tmp"
    end function temporary_path
+
+   !> Name under which an earlier file is kept while others are put in the place of it and its like
+   function backup_path(path) result(backup)
+      !> Final path
+      character(len=*), intent(in) :: path
+      !> Path in the same directory
+      character(len=:), allocatable :: backup
+
+      backup = path//".earlier."//host_name()//"."//to_text(process_id())//".tmp"
+   end function backup_path
 
    !> Give the complete file its final name, replacing an earlier file
    subroutine publish(path, error)

@@ -1,0 +1,175 @@
+!> Who may write the files of a name: locks, and what runs that died left there
+module axijoint_output_claim
+   use axijoint_base_error, only : error_type
+   use axijoint_base_lock, only : lock_type, take_lock, release_lock
+   use axijoint_base_process, only : host_name, runs_here
+   use axijoint_base_system, only : process_id, unlink_path
+   use axijoint_base_text, only : to_text, count_of
+   use axijoint_base_whole_file, only : names_in
+   use axijoint_job_combination, only : combination_label
+   use axijoint_job_job, only : job_type, job_name, deck_name, result_name
+   use axijoint_output_file_names, only : endings, lock_ending, journal_ending, state_ending
+   use axijoint_output_file_pending, only : join_path
+   use axijoint_output_file_set, only : finish_set
+   implicit none
+   private
+   public :: claim_type, claim_output, release_output
+
+   !> Ending of files that are not complete
+   character(len=*), parameter :: temporary_ending = '.tmp'
+
+   !> The names of a job, which no other run may write meanwhile
+   type :: claim_type
+      private
+      !> The name of the job, and those of its combinations if they are others
+      type(lock_type), allocatable :: locks(:)
+   contains
+      !> Whether they are held
+      procedure :: held
+   end type claim_type
+
+contains
+
+   !> Take the names of a job, bring to its end what a run that died began to rename, and remove
+   !> what it did not complete
+   subroutine claim_output(job, claim, notes, error)
+      !> The job
+      type(job_type), intent(in) :: job
+      !> Its names
+      type(claim_type), intent(out) :: claim
+      !> What was found and done, a line each
+      character(len=:), allocatable, intent(out) :: notes
+      !> Another run has one of them, or something cannot be written
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: names(:), name, directory
+      integer :: k, removed
+      logical :: finished
+
+      notes = ''
+      removed = 0
+      directory = job%options%directory
+      names = names_of(job)
+      allocate (claim%locks(size(names)))
+      do k = 1, size(names)
+         name = trim(names(k))
+         call take_lock(join_path(directory, name//lock_ending), 'run '//deck_name(job%deck), &
+            claim%locks(k), error)
+         if (allocated(error)) exit
+         if (claim%locks(k)%inherited) call add('the lock of a run that did not end was '// &
+            'taken over: '//join_path(directory, name//lock_ending))
+         call finish_set(directory, name//journal_ending, finished, error)
+         if (allocated(error)) exit
+         if (finished) call add('the files of an earlier run that died while it gave them '// &
+            'their names have them now: '//join_path(directory, name)//'.*')
+         call remove_leftovers(directory, name, removed)
+      end do
+      if (removed > 0) call add(count_of(removed, 'file')//' that earlier runs did not '// &
+         'complete '//trim(merge('was ', 'were', removed == 1))//' removed')
+      if (allocated(error)) call release_output(claim)
+
+   contains
+
+      !> Add a line to the notes
+      subroutine add(line)
+         !> The line
+         character(len=*), intent(in) :: line
+
+         if (len(notes) > 0) notes = notes//new_line('a')
+         notes = notes//'axijoint: '//line
+      end subroutine add
+
+   end subroutine claim_output
+
+   !> Whether the names are held
+   pure logical function held(self)
+      !> The names
+      class(claim_type), intent(in) :: self
+
+      held = allocated(self%locks)
+   end function held
+
+   !> Give the names back
+   subroutine release_output(claim)
+      !> Names of a job, or none
+      type(claim_type), intent(inout) :: claim
+
+      integer :: k
+
+      if (.not. allocated(claim%locks)) return
+      do k = size(claim%locks), 1, -1
+         call release_lock(claim%locks(k))
+      end do
+      deallocate (claim%locks)
+   end subroutine release_output
+
+   !> The name of a job, and those of its results if they are others
+   function names_of(job) result(names)
+      !> The job
+      type(job_type), intent(in) :: job
+      !> The names
+      character(len=:), allocatable :: names(:)
+
+      integer :: k, n
+
+      n = size(job%model%combinations)
+      if (n == 1) then
+         allocate (character(len=len(job_name(job%deck))) :: names(1))
+         names(1) = job_name(job%deck)
+         return
+      end if
+      allocate (character(len=len(job_name(job%deck)) + 12) :: names(n + 1))
+      names(1) = job_name(job%deck)
+      do k = 1, n
+         names(k + 1) = result_name(job, combination_label(job, k))
+      end do
+   end function names_of
+
+   !> Remove the temporary files of a name, which nobody else may write now. Those of a
+   !> process that runs are left alone all the same: somebody may have removed its lock
+   subroutine remove_leftovers(directory, name, removed)
+      !> Directory of the files
+      character(len=*), intent(in) :: directory
+      !> The name
+      character(len=*), intent(in) :: name
+      !> Counts them
+      integer, intent(inout) :: removed
+
+      character(len=:), allocatable :: names
+      integer :: first, last, errno
+
+      names = names_in(join_path(directory, '.'), name//'.', temporary_ending)
+      first = 1
+      do while (first <= len(names))
+         last = first + index(names(first:), new_line('a')) - 2
+         if (is_leftover(names(first + len(name):last))) then
+            call unlink_path(join_path(directory, names(first:last)), errno)
+            if (errno == 0) removed = removed + 1
+         end if
+         first = last + 2
+      end do
+   end subroutine remove_leftovers
+
+   !> Whether a temporary file is of a process that has ended
+   logical function is_leftover(rest)
+      !> What follows the name of the job: ending, host, process
+      character(len=*), intent(in) :: rest
+
+      integer :: dot, last, process, stat
+      logical :: ours
+
+      ours = index(rest, state_ending//'.') == 1 .or. index(rest, journal_ending//'.') == 1
+      do dot = 1, size(endings)
+         ours = ours .or. index(rest, trim(endings(dot))//'.') == 1
+      end do
+      is_leftover = .false.
+      if (.not. ours) return
+      last = len(rest) - len(temporary_ending)
+      dot = index(rest(:last), '.', back=.true.)
+      read (rest(dot + 1:last), *, iostat=stat) process
+      if (stat /= 0) return
+      is_leftover = .not. (index(rest(:dot), '.'//host_name()//'.') > 0 .and. &
+                           process /= process_id() .and. runs_here(process))
+   end function is_leftover
+
+end module axijoint_output_claim
