@@ -21,11 +21,13 @@ module axijoint_analysis_static
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : progress_type
+   use axijoint_base_stop, only : check_stop
    use axijoint_base_timer, only : timer_type, phase_factor, phase_joints, phase_recover
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_history, only : history_type, state_of
    use axijoint_joints_increments, only : run_increments, compare_loops
+   use axijoint_joints_keeper, only : keeper_type
    use axijoint_joints_load_steps, only : final_factors, loads_of_increments
    use axijoint_joints_scene, only : stand_where_they_are
    use axijoint_joints_states, only : increment_state_type
@@ -65,7 +67,7 @@ contains
 
    !> Solve one combination of load cases: displacements and joints, recovery
    subroutine analyse_combination(model, structure, combination, results, timer, progress, error, &
-      estimated)
+      estimated, keeper)
       !> The job
       type(model_type), intent(in), target :: model
       !> The structure, assembled
@@ -82,6 +84,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Whether errors are estimated, and remarks made; true if absent
       logical, intent(in), optional :: estimated
+      !> Who keeps what the increments come to
+      class(keeper_type), intent(inout), optional :: keeper
 
       type(joint_field_type) :: field
       type(history_type) :: history
@@ -99,7 +103,7 @@ contains
       call timer%push(phase_joints)
       if (size(structure%yielding) > 0) then
          call solve_joints(model, structure, combination, estimates, history, mesh_error, results, &
-            progress, error)
+            progress, error, keeper)
       else
          call solve_linear(model, structure, combination, estimates, history, mesh_error, results, &
             timer, error)
@@ -128,19 +132,22 @@ contains
          if (estimates) results%budget = new_budget(model, history%loading%case_factor, results)
          results%converged = solver_keeps_claim(results)
       end if
-      if (estimates) then
+      call check_stop(error)
+      if (estimates .and. .not. allocated(error)) then
          call timer%push(phase_joints)
          call compare_stiffer(model, structure, combination, history, field, results, progress)
          call timer%pop()
-         results%remarks = remarks_on(model, structure, history, field, results)
+         call check_stop(error)
       end if
+      if (estimates .and. .not. allocated(error)) &
+         results%remarks = remarks_on(model, structure, history, field, results)
       call timer%pop()
    end subroutine analyse_combination
 
    !> Joints that yield: the increments on the condensed structure, then the
    !> displacements of the whole
    subroutine solve_joints(model, structure, combination, estimates, history, mesh_error, results, &
-      progress, error)
+      progress, error, keeper)
       !> The job
       type(model_type), intent(in), target :: model
       !> The structure, factored and condensed
@@ -159,11 +166,13 @@ contains
       type(progress_type), intent(inout) :: progress
       !> Singular stiffness, or out of memory
       type(error_type), allocatable, intent(out) :: error
+      !> Who keeps what the increments come to
+      class(keeper_type), intent(inout), optional :: keeper
 
       type(joint_field_type), allocatable :: other
 
       call run_increments(model, structure%equations, structure%condensed, structure%joint_points, &
-                          structure%support_points, combination, history, progress)
+                          structure%support_points, combination, history, progress, keeper)
       if (allocated(history%failure)) then
          error = history%failure
          return
@@ -195,6 +204,7 @@ contains
       call correct_rounding(model, structure, history, results, error)
       if (allocated(error)) return
       call keep_claim(model, structure, history, results, error)
+      call check_stop(error)  ! iterations may have ended for it
       if (allocated(error)) return
       results%states = [history%states, last_state(history)]
       results%residuals = history%residuals

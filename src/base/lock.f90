@@ -4,7 +4,8 @@
 module axijoint_base_lock
    use, intrinsic :: iso_c_binding, only : c_int
    use axijoint_base_error, only : error_type, fatal_error, exit_io, exit_in_use
-   use axijoint_base_process, only : process_type, this_process, is_dead, same_process
+   use axijoint_base_process, only : process_type, this_process, is_dead, &
+      same_process, same_machine
    use axijoint_base_system, only : error_text, rename_path, unlink_path
    use axijoint_base_text, only : to_text
    use axijoint_base_whole_file, only : write_new_file, read_whole_file, link_path, &
@@ -70,7 +71,7 @@ contains
       lock%path = path
       beside = path//'.'//own%process%host//'.'//to_text(own%process%id)//'.tmp'
       call unlink_path(beside, errno)
-      call write_new_file(beside, text_of(own), errno)
+      call write_new_file(beside, text_of(own), errno, lasting=.false.)
       if (errno == 0) then
          call claim(path, beside, own, lock%inherited, error)
          call unlink_path(beside, errno)
@@ -118,7 +119,7 @@ contains
       inherited = .false.
       do k = 1, most_tries
          call link_path(beside, path, errno)
-         if (knows_no_links(errno)) call write_new_file(path, text_of(own), errno)
+         if (knows_no_links(errno)) call write_new_file(path, text_of(own), errno, lasting=.false.)
          if (errno == 0) return
          if (.not. is_there(errno)) exit
          call read_owner(path, owner, known)
@@ -162,7 +163,7 @@ contains
       call read_owner(path, now, known)
       if (known) known = same_process(now%process, owner%process)
       if (known) then
-         call write_new_file(beside//'.tmp', text_of(own), errno)
+         call write_new_file(beside//'.tmp', text_of(own), errno, lasting=.false.)
          if (errno == 0) call rename_path(beside//'.tmp', path, errno)
          inherited = errno == 0
          if (.not. inherited) call cannot_make(path, errno, error)
@@ -294,20 +295,19 @@ contains
       !> The error
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=*), parameter :: wait = new_line('a')//'mend: wait until it ends, or choose '// &
-         'another directory with -o'
+      character(len=*), parameter :: wait = new_line('a')// &
+         'mend: wait until it ends, or choose another directory with -o'
 
       if (.not. known) then
          call fatal_error(error, exit_in_use, 'another run uses this name, but its lock '//path// &
             ' does not say which'//new_line('a')//'mend: remove '//path//' if no run is under way')
-      else if (owner%process%host == own%process%host .and. &
-               owner%process%space == own%process%space) then
+      else if (same_machine(owner%process, own%process)) then
          call fatal_error(error, exit_in_use, 'another run uses this name: process '// &
             to_text(owner%process%id)//' on this host, '//owner%process%host//', since '// &
             owner%since//' ('//owner%purpose//')'//wait)
       else
          call fatal_error(error, exit_in_use, 'another run uses this name: process '// &
-            to_text(owner%process%id)//' on host '//owner%process%host//', since '// &
+            to_text(owner%process%id)//' on another host, '//owner%process%host//', since '// &
             owner%since//' ('//owner%purpose//'); whether it still runs cannot be seen from '// &
             own%process%host//wait//'; if it is no more, remove '//path)
       end if

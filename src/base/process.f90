@@ -5,7 +5,7 @@ module axijoint_base_process
    use axijoint_base_system, only : process_id
    implicit none
    private
-   public :: process_type, this_process, is_dead, same_process, host_name, runs_here
+   public :: process_type, this_process, is_dead, same_process, same_machine, host_name, runs_here
 
    !> Longest name of a machine
    integer, parameter :: longest = 256
@@ -86,9 +86,18 @@ contains
       !> The descriptions
       type(process_type), intent(in) :: a, b
 
-      same_process = a%host == b%host .and. a%installation == b%installation .and. &
-         a%boot == b%boot .and. a%space == b%space .and. a%id == b%id .and. a%start == b%start
+      same_process = same_machine(a, b) .and. a%boot == b%boot .and. a%id == b%id .and. &
+         a%start == b%start
    end function same_process
+
+   !> Whether two processes are of one machine and one space of numbers: they can see each other
+   pure logical function same_machine(a, b)
+      !> The processes
+      type(process_type), intent(in) :: a, b
+
+      same_machine = a%host == b%host .and. a%installation == b%installation .and. &
+         a%space == b%space
+   end function same_machine
 
    !> Whether a process of some number runs on this host
    logical function runs_here(id)

@@ -9,10 +9,11 @@ module axijoint_base_whole_file
 
    interface
       !> Make a file of some bytes; whole_file_shim.c
-      function c_write_new(path, bytes, count) bind(c, name='axijoint_write_new')
+      function c_write_new(path, bytes, count, lasting) bind(c, name='axijoint_write_new')
          import :: c_char, c_int, c_int64_t
          character(kind=c_char), intent(in) :: path(*), bytes(*)
          integer(c_int64_t), value :: count
+         integer(c_int), value :: lasting
          integer(c_int) :: c_write_new
       end function c_write_new
 
@@ -69,15 +70,21 @@ module axijoint_base_whole_file
 contains
 
    !> Make a file that is not there and bring it to the disk. Nothing stays of one that fails
-   subroutine write_new_file(path, bytes, errno)
+   subroutine write_new_file(path, bytes, errno, lasting)
       !> The file
       character(len=*), intent(in) :: path
       !> What it holds
       character(len=*), intent(in) :: bytes
       !> Zero, or the system's error
       integer, intent(out) :: errno
+      !> Whether to wait until it is on the disk; true if absent
+      logical, intent(in), optional :: lasting
 
-      errno = int(c_write_new(path//c_null_char, bytes, len(bytes, c_int64_t)))
+      integer(c_int) :: waits
+
+      waits = 1_c_int
+      if (present(lasting)) waits = merge(1_c_int, 0_c_int, lasting)
+      errno = int(c_write_new(path//c_null_char, bytes, len(bytes, c_int64_t), waits))
    end subroutine write_new_file
 
    !> Bytes of a regular file; negative if there is none

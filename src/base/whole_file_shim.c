@@ -8,9 +8,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Make a file that is not there, of some bytes, and bring it to the disk; nothing stays of one that
-   could not be written. */
-int axijoint_write_new(const char *path, const char *bytes, int64_t count)
+/* Make a file that is not there, of some bytes, and bring it to the disk if that is asked for;
+   nothing stays of one that could not be written. */
+int axijoint_write_new(const char *path, const char *bytes, int64_t count, int lasting)
 {
    int cause = 0, descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
    if (descriptor < 0) return errno;
@@ -22,7 +22,8 @@ int axijoint_write_new(const char *path, const char *bytes, int64_t count)
          count -= n;
       }
    }
-   if (cause == 0 && fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP) cause = errno;
+   if (lasting && cause == 0 && fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP)
+      cause = errno;
    if (close(descriptor) != 0 && cause == 0) cause = errno;
    if (cause != 0) unlink(path);
    return cause;

@@ -12,6 +12,7 @@ module axijoint_command_line
       names_of_topics, names_of_options
    use axijoint_command_unknown_word, only : unknown
    use axijoint_deck_text_token, only : read_integer, read_real, token_good
+   use axijoint_job_checkpoint, only : whenever_cheap
    use axijoint_job_job, only : options_type
    use axijoint_solver_entry, only : solver_entry_type
    use axijoint_solver_registry, only : find_solver, solver_words
@@ -37,6 +38,10 @@ module axijoint_command_line
       type(options_type) :: options
       !> Threads asked for; 0: as the environment says
       integer :: threads = 0
+      !> Least time between two states that are kept [second], or `whenever_cheap`
+      real(wp) :: interval = whenever_cheap
+      !> Whether to go on from the state that an earlier run left
+      logical :: resume = .false.
       !> Whether nothing but errors and warnings is to be told; whether a log is to say what is done
       logical :: quiet = .false., verbose = .false.
       !> Of a study: whether errors are estimated; the part to solve, of how many (0: all of it)
@@ -237,6 +242,8 @@ contains
          command%options%swept = .true.
       case ('--estimates')
          command%estimates = .true.
+      case ('--resume')
+         command%resume = .true.
       case ('--quiet')
          command%quiet = .true.
       case default
@@ -280,6 +287,8 @@ contains
                           "', allowed is a number between 0 and 1")
       case ('--part')
          call read_part(value, command, error)
+      case ('--checkpoint')
+         call read_interval(value, command%interval, error)
       case ('--memory')
          call read_memory(value, command%options%memory_limit, error)
       case default
@@ -316,6 +325,30 @@ contains
       call fatal_error(error, exit_deck, "option --part: found '"//value// &
                        "', allowed is K/N with K from 0 to N")
    end subroutine read_part
+
+   !> A time between two states
+   subroutine read_interval(value, seconds, error)
+      !> Number of minutes
+      character(len=*), intent(in) :: value
+      !> The time
+      real(wp), intent(inout) :: seconds
+      !> Value that is not allowed
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp) :: minutes
+      integer :: stat
+
+      stat = 1
+      if (verify(value, '0123456789.') == 0 .and. len(value) > 0 .and. len(value) <= 9) then
+         read (value, *, iostat=stat) minutes
+      end if
+      if (stat == 0) then
+         seconds = 60.0_wp*minutes
+      else
+         call fatal_error(error, exit_deck, "option --checkpoint: found '"//value// &
+                          "', allowed is a number of minutes from 0")
+      end if
+   end subroutine read_interval
 
    !> A limit on memory
    subroutine read_memory(value, bytes, error)

@@ -39,7 +39,7 @@ module axijoint_command_manual
       !> Options
       type(option_type), allocatable :: options(:)
       !> Exit codes; blank if they are the usual ones
-      character(len=200) :: exit_codes = ''
+      character(len=240) :: exit_codes = ''
    end type topic_type
 
 contains
@@ -71,12 +71,18 @@ contains
           threads, memory, &
           option_type('--vtk', '', 'NAME.vtkhdf for ParaView, too (whole circle; SWEEP of the '// &
                       'deck says more)'), &
+          option_type('--resume', '', 'go on from NAME.state, which a run that was stopped or died '// &
+                      'left beside its results'), &
+          option_type('--checkpoint', 'MINUTES', 'keep NAME.state up to date every so many '// &
+                      'minutes; 0: after each load step (default: as often as takes 2 % of the '// &
+                      'time)'), &
           quiet, &
           option_type('--verbose', '', 'lines on the standard error output that say what is '// &
                       'being done, for logs: at each stage, and then at most one a minute'), &
           option_type('--', '', 'everything that follows is a deck')], &
          '0 ok; 2 deck or usage; 3 not converged; 4 singular or mechanism; 5 input or output; '// &
-         '6 memory; 70 internal. Of several decks, the largest.')
+         '6 memory; 7 another run writes these results; 8 a state that cannot be gone on from; '// &
+         '70 internal; 75 stopped, --resume goes on. Of several decks, the largest.')
       topics(2) = topic_type('check', 'DECK...', 'read and check decks only', &
          'Reads and checks each deck, prints all its errors and what it describes, and solves '// &
          'nothing. The deck - is read from the standard input.', &

@@ -2,13 +2,16 @@
 module axijoint_command_run
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit, compiler_options
    use axijoint_analysis_core_results, only : results_type
-   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_in_use
+   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_in_use, &
+      exit_state, exit_stopped
    use axijoint_base_progress, only : show_progress, clear_progress
+   use axijoint_base_stop, only : heed_signals, check_stop
    use axijoint_base_system, only : error_output_is_terminal, target_kind, path_file
+   use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : phase_write
    use axijoint_command_line, only : command_type, word_type
    use axijoint_deck_text_diagnostics, only : diagnostics_type, render
-   use axijoint_job_combination, only : solve_combination
+   use axijoint_job_combination, only : solve_combination, combination_label
    use axijoint_job_goal, only : refine_to_goal
    use axijoint_job_job, only : job_type, job_name, deck_name, standard_input
    use axijoint_job_read, only : read_job
@@ -16,6 +19,7 @@ module axijoint_command_run
    use axijoint_output_brief, only : brief_text, status_text
    use axijoint_output_file_run, only : exit_code_of
    use axijoint_output_output, only : check_output, write_output, write_error_summary
+   use axijoint_output_state, only : begin_state, end_state, stopped_text, note_written, is_written
    use omp_lib, only : omp_set_num_threads
    implicit none
    private
@@ -37,6 +41,7 @@ contains
       exit_code = exit_ok
       call warn_if_slow()
       if (command%threads > 0) call omp_set_num_threads(command%threads)
+      call heed_signals()
       call check_names(command%decks, error)
       if (allocated(error)) then
          call print_error('', error)
@@ -54,11 +59,12 @@ contains
          end associate
          call release_output(claim)
          exit_code = max(exit_code, code)
+         if (code == exit_stopped) exit
       end do
    end subroutine run_decks
 
-   !> A summary of an error, unless the deck is not there – a name that was mistyped leaves nothing –
-   !> or another run writes these files
+   !> A summary of an error, unless the deck is not there – a name that was mistyped leaves
+   !> nothing – or another run writes these files
    subroutine leave_summary(deck, directory, claim, error)
       !> The deck, and the directory for results
       character(len=*), intent(in) :: deck, directory
@@ -70,7 +76,8 @@ contains
       logical :: there
 
       there = target_kind(deck) == path_file
-      if (error%code == exit_in_use .or. .not. (there .or. deck == standard_input)) return
+      if (any(error%code == [exit_in_use, exit_state, exit_stopped])) return
+      if (.not. (there .or. deck == standard_input)) return
       call write_error_summary(directory, job_name(deck), deck_name(deck), error%code, &
          [error%message], claim%held())
    end subroutine leave_summary
@@ -89,36 +96,74 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(job_type), target :: job
-      type(results_type), allocatable :: results(:)
       character(len=:), allocatable :: notes
-      integer :: k
 
       exit_code = exit_ok
       call begin(deck, command, job, error)
+      call check_stop(error)
       if (.not. allocated(error)) call check_output(job, error)
       if (.not. allocated(error)) then
          call claim_output(job, claim, notes, error)
-         if (len(notes) > 0) write (error_unit, '(a)') notes
+         call tell(notes)
       end if
-      if (allocated(error)) return
+      if (.not. allocated(error)) then
+         call begin_state(job, command%interval, command%resume, notes, error)
+         call tell(notes)
+      end if
+      if (.not. allocated(error)) call solve_and_write(job, command%quiet, exit_code, error)
+      call clear_progress(job%progress)
+      if (.not. allocated(error)) then
+         call end_state(job)
+      else if (error%code == exit_stopped) then
+         error%message = stopped_text(job, error%message)
+      end if
+   end subroutine run_deck
+
+   !> Solve a job and write its results, those of each combination before the next is begun
+   subroutine solve_and_write(job, quiet, exit_code, error)
+      !> The job
+      type(job_type), intent(inout), target :: job
+      !> Whether the screen is to stay empty
+      logical, intent(in) :: quiet
+      !> Largest of the combinations
+      integer, intent(inout) :: exit_code
+      !> What went wrong
+      type(error_type), allocatable, intent(out) :: error
+
+      type(results_type), allocatable :: results(:)
+      integer :: k
+
       if (job%model%error_goal%wanted) then
          call refine_to_goal(job, results, error)
          do k = 1, size(job%model%combinations)
             if (allocated(error)) exit
-            call write_combination(job, results(k), command%quiet, exit_code, error)
+            call write_combination(job, results(k), quiet, exit_code, error)
          end do
-      else
-         allocate (results(1))
-         ! the results of each are written before the next is begun
-         do k = 1, size(job%model%combinations)
-            call solve_combination(job, k, results(1), error)
-            if (.not. allocated(error)) &
-               call write_combination(job, results(1), command%quiet, exit_code, error)
-            if (allocated(error)) exit
-         end do
+         return
       end if
-      call clear_progress(job%progress)
-   end subroutine run_deck
+      allocate (results(1))
+      do k = 1, size(job%model%combinations)
+         if (is_written(job, k)) then
+            exit_code = max(exit_code, job%checkpoint%parts(k)%exit_code)
+            call tell('axijoint: the results of combination '//to_text(combination_label(job, k))// &
+               ' are written already')
+            cycle
+         end if
+         call solve_combination(job, k, results(1), error)
+         if (.not. allocated(error)) &
+            call write_combination(job, results(1), quiet, exit_code, error)
+         if (allocated(error)) exit
+         call note_written(job, k, exit_code_of(results(1)))
+      end do
+   end subroutine solve_and_write
+
+   !> Tell what is no result
+   subroutine tell(notes)
+      !> Lines, or nothing
+      character(len=*), intent(in) :: notes
+
+      if (len(notes) > 0) write (error_unit, '(a)') notes
+   end subroutine tell
 
    !> Read the deck, and tell what is wrong with it
    subroutine begin(deck, command, job, error)

@@ -4,6 +4,7 @@ module axijoint_job_combination
    use axijoint_analysis_core_structure, only : build_structure
    use axijoint_analysis_static, only : analyse_combination
    use axijoint_base_error, only : error_type
+   use axijoint_base_stop, only : check_stop
    use axijoint_job_job, only : job_type
    implicit none
    private
@@ -22,6 +23,8 @@ contains
       !> Singular stiffness, or out of memory
       type(error_type), allocatable, intent(out) :: error
 
+      call check_stop(error)
+      if (allocated(error)) return
       if (.not. allocated(job%structure)) then
          allocate (job%structure)
          call build_structure(job%model, job%structure, job%timer, job%progress, error)
@@ -30,9 +33,9 @@ contains
             return
          end if
       end if
+      job%checkpoint%at = k
       call analyse_combination(job%model, job%structure, job%model%combinations(k), results, &
-         job%timer, &
-                               job%progress, error)
+         job%timer, job%progress, error, keeper=job%checkpoint)
       results%combination = combination_label(job, k)
    end subroutine solve_combination
 

@@ -5,7 +5,7 @@ module axijoint_job_goal
    use axijoint_analysis_core_results, only : results_type, round_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_error_goal, only : goal_error, refine_further, too_large
-   use axijoint_base_error, only : error_type, fatal_error, exit_deck
+   use axijoint_base_error, only : error_type, fatal_error, exit_deck, exit_state, exit_stopped
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : show_progress
    use axijoint_base_text, only : to_text
@@ -13,6 +13,7 @@ module axijoint_job_goal
    use axijoint_job_combination, only : solve_combination
    use axijoint_job_job, only : job_type
    use axijoint_job_read, only : read_job
+   use axijoint_job_round_record, only : round_bytes, restore_round
    use axijoint_model_request, only : refinement_type
    implicit none
    private
@@ -59,8 +60,16 @@ contains
 
       allocate (rounds(0))
       back = .false.
+      if (allocated(job%checkpoint%round)) &
+         call restore_round(job%checkpoint%round, rounds, refinement, before, back)
+      if (size(rounds) > 0) call read_refined(job, refinement, error)
+      if (allocated(error)) return
       do
+         call job%checkpoint%begin_round(round_bytes(rounds, refinement, before, back))
          call solve_round(job, refinement, results, rounds, worst, error)
+         if (allocated(error)) then
+            if (any(error%code == [exit_stopped, exit_state])) return
+         end if
          if (back) then
             rounds = rounds(:size(rounds) - 1)  ! this one stands there already
             return

@@ -7,6 +7,7 @@ module axijoint_job_job
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type
    use axijoint_deck_text_source, only : source_type, add_file, add_card
+   use axijoint_job_checkpoint, only : checkpoint_type
    use axijoint_model_model, only : model_type
    use axijoint_solver_entry, only : solver_entry_type
    implicit none
@@ -45,6 +46,8 @@ module axijoint_job_job
       type(model_type) :: model
       !> Equations and joints, factored and condensed; there once something was solved
       type(structure_type), allocatable :: structure
+      !> How far it is, for a later run to go on from
+      type(checkpoint_type) :: checkpoint
       !> Times of the phases
       type(timer_type) :: timer
       !> Where to show progress

@@ -6,6 +6,7 @@ module axijoint_joints_history
    use axijoint_element_joint_law, only : memory_type
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, new_joint_field
+   use axijoint_joints_load_steps, only : step_type
    use axijoint_joints_method, only : method_type, control_type, verdict_type
    use axijoint_joints_methods, only : new_method
    use axijoint_joints_path, only : iteration_type
@@ -16,12 +17,25 @@ module axijoint_joints_history
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: history_type, new_history, new_state, state_of, keep_state, note_failure, &
+   public :: history_type, target_type, new_history, new_state, state_of, keep_state, note_failure, &
       forget_failure, &
       note_residual
 
+   !> Loads that are to be reached
+   type :: target_type
+      !> The loads
+      type(step_type) :: step
+      !> Halvings that are left on the way there
+      integer :: halvings = 0
+   end type target_type
+
    !> What the increments came to
    type :: history_type
+      !> The increment at work, or the last one if nothing lies ahead; loads of the last step in
+      !> equilibrium; what is to be reached before the increment is done, the next one last
+      integer :: increment = 0
+      type(step_type) :: at
+      type(target_type), allocatable :: ahead(:)
       !> How joints are brought to equilibrium, and when the last step ended
       class(method_type), allocatable :: method
       type(control_type) :: control
@@ -85,7 +99,7 @@ contains
       history%method = new_method(model%method)
       history%scene = new_scene(model, condensed)
       history%field = new_state(condensed, history%scene)
-      allocate (history%path(0), history%states(0), history%residuals(0))
+      allocate (history%path(0), history%states(0), history%residuals(0), history%ahead(0))
       allocate (history%largest_stress(size(condensed%points)), source=0.0_wp)
       allocate (history%balanced, source=history%field%excess)  ! zero
    end subroutine new_history

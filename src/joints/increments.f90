@@ -2,19 +2,21 @@
 module axijoint_joints_increments
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_factors, only : report_failure
-   use axijoint_assembly_loading, only : new_loading
+   use axijoint_assembly_loading, only : loading_type, new_loading
    use axijoint_assembly_support, only : support_point_type
    use axijoint_base_error, only : fatal_error, exit_deck
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : progress_type, show_progress
+   use axijoint_base_stop, only : check_stop
    use axijoint_base_text, only : to_text
    use axijoint_element_joint_law, only : memory_type, cuts_back
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, commit_field, judge_states, &
       set_initial_stress
-   use axijoint_joints_history, only : history_type, new_history, new_state, keep_state, &
+   use axijoint_joints_history, only : history_type, target_type, new_history, new_state, keep_state, &
       note_failure, forget_failure, &
                                        note_residual
+   use axijoint_joints_keeper, only : keeper_type
    use axijoint_joints_load_steps, only : step_type, first_step, next_step, halfway
    use axijoint_joints_loads, only : put_loads
    use axijoint_joints_method, only : method_type, control_type, verdict_type
@@ -38,7 +40,7 @@ contains
    !> slip is kept; one that finds none is halved (not if stress is accumulated, which
    !> is all the memory then).
    subroutine run_increments(model, equations, condensed, joint_points, supports, combination, &
-      history, progress)
+      history, progress, keeper)
       !> The job
       type(model_type), intent(in) :: model
       !> Equations of all modes, assembled
@@ -54,9 +56,8 @@ contains
       type(history_type), intent(out) :: history
       !> Where to show progress
       type(progress_type), intent(inout) :: progress
-
-      type(step_type) :: start, goal
-      integer :: i
+      !> Who may know how far an earlier run came, and is told of every step in equilibrium
+      class(keeper_type), intent(inout), optional :: keeper
 
       call new_history(model, condensed, history)
       if (history%method%accumulates .and. .not. all(cuts_back(history%scene%laws))) then
@@ -65,75 +66,137 @@ contains
                           ' does not follow from: METHOD may be NEWTON, ANDERSON or TOTAL')
          return
       end if
-      goal = first_step(combination)
-      do i = 1, size(model%increments)
-         start = goal
-         goal = next_step(goal, model%increments(i), combination)
-         call show_progress(progress, 'increment '//to_text(i)//' of '// &
-            to_text(size(model%increments)))
-         call reach(i, start, goal, most_halvings)
-         if (.not. history%verdict%converged) return
-         call forget_failure(history)
-         if (i < size(model%increments)) then
-            call keep_state(condensed, i, goal%load_factor, goal%case_factor, history)
+      history%at = first_step(combination)
+      if (present(keeper)) call go_on_from(keeper)
+      do while (history%increment < size(model%increments) .or. size(history%ahead) > 0)
+         call check_stop(history%failure)
+         if (allocated(history%failure)) return
+         if (size(history%ahead) == 0) call begin_increment()
+         call reach_next()
+         if (.not. history%verdict%converged) then
+            if (size(history%ahead) == 0 .or. allocated(history%failure)) return
+            cycle  ! in smaller steps
          end if
+         if (size(history%ahead) == 0) call end_increment()
+         if (present(keeper)) call keeper%keep(history)
       end do
 
    contains
 
-      !> Go from one load to another, by halves if need be
-      recursive subroutine reach(increment, from, to, halvings)
-         !> Increment
-         integer, intent(in) :: increment
-         !> Loads in equilibrium, and loads to reach
-         type(step_type), intent(in) :: from, to
-         !> Halvings that are left
-         integer, intent(in) :: halvings
+      !> Go on from where an earlier run was
+      subroutine go_on_from(keeper)
+         !> Who knows
+         class(keeper_type), intent(inout) :: keeper
 
+         real(wp), allocatable :: factor(:)
+         logical :: restored
+
+         call keeper%restore(history, restored, history%failure)
+         if (.not. restored) return
+         factor = history%loading%case_factor
+         call put_on_nodes(factor, history%loading)
+         factor = history%peak%case_factor
+         call put_on_nodes(factor, history%peak)
+      end subroutine go_on_from
+
+      !> The loads of the next increment lie ahead
+      subroutine begin_increment()
+         history%increment = history%increment + 1
+         history%ahead = [target_type(next_step(history%at, &
+            model%increments(history%increment), combination), most_halvings)]
+         call show_progress(progress, 'increment '//to_text(history%increment)//' of '// &
+            to_text(size(model%increments)))
+      end subroutine begin_increment
+
+      !> The loads of the increment are reached
+      subroutine end_increment()
+         call forget_failure(history)
+         if (history%increment < size(model%increments)) then
+            call keep_state(condensed, history%increment, history%at%load_factor, &
+               history%at%case_factor, history)
+         end if
+      end subroutine end_increment
+
+      !> Go to the loads that lie ahead next. If that finds no equilibrium, half the way there lies
+      !> ahead then, or nothing any more: the history has ended
+      subroutine reach_next()
+         type(target_type) :: target
          type(joint_field_type), allocatable :: before
          class(method_type), allocatable :: second
 
+         target = history%ahead(size(history%ahead))
          before = history%field
-         call put(to)
-         call balance_step(condensed, model%increments(increment), increment, to%load_factor, &
-            history%method, history)
-         if (ends(history)) return
-         call note_failure(history)
-         if (halvings > 0 .and. .not. history%method%accumulates) then
-            history%field = before
-            deallocate (before)
-            call reach(increment, from, halfway(from, to), halvings - 1)
-            if (.not. history%verdict%converged) return
-            call reach(increment, halfway(from, to), to, halvings - 1)
+         call put(target%step)
+         call balance(history%method, target%step)
+         if (history%verdict%converged) return
+         if (ends(history)) then
+            history%ahead = history%ahead(:0)
             return
          end if
-         if (.not. (allocated(history%runaway) .or. allocated(history%motion))) return
-         if (.not. history%verdict%mechanism%loaded) call second_opinion(history%method, second)
-         if (allocated(second)) then
+         call note_failure(history)
+         if (target%halvings > 0 .and. .not. history%method%accumulates) then
             history%field = before
-            call put(to)
-            call balance_step(condensed, model%increments(increment), increment, to%load_factor, &
-               second, history)
-            if (history%verdict%converged .or. allocated(history%failure)) return
+            target%halvings = target%halvings - 1
+            history%ahead = [history%ahead(:size(history%ahead) - 1), target, &
+               target_type(halfway(history%at, target%step), target%halvings)]
+            return
          end if
-         history%field = before  ! what ran away is no state to show
-         call put(from)
-         call judge_states(history%scene%laws, history%field)  ! none was, before the first load
-      end subroutine reach
+         if (allocated(history%runaway) .or. allocated(history%motion)) then
+            if (.not. history%verdict%mechanism%loaded) &
+               call second_opinion(history%method, second)
+            if (allocated(second)) then
+               history%field = before
+               call put(target%step)
+               call balance(second, target%step)
+               if (history%verdict%converged .or. allocated(history%failure)) return
+            end if
+            history%field = before  ! what ran away is no state to show
+            call put(history%at)
+            call judge_states(history%scene%laws, history%field)  ! none was, before the first load
+         end if
+         history%ahead = history%ahead(:0)
+      end subroutine reach_next
+
+      !> Iterate the step to the loads that were put on. If it is in equilibrium, they lie behind
+      subroutine balance(method, step)
+         !> How joints are brought to equilibrium
+         class(method_type), intent(in) :: method
+         !> The loads
+         type(step_type), intent(in) :: step
+
+         call balance_step(condensed, model%increments(history%increment), history%increment, &
+            step%load_factor, method, history)
+         if (.not. history%verdict%converged) then
+            call check_stop(history%failure)  ! the iterations may have ended for it
+            return
+         end if
+         history%at = step
+         history%ahead = history%ahead(:size(history%ahead) - 1)
+      end subroutine balance
 
       !> Load the structure
       subroutine put(step)
          !> Loads
          type(step_type), intent(in) :: step
 
-         call new_loading(model, joint_points, supports, equations%modes, &
-                          combination_type(combination%label, step%case_factor), history%loading)
+         call put_on_nodes(step%case_factor, history%loading)
          call put_loads(equations, condensed, history%loading, history%scene%loads)
          history%largest_elastic = maxval([history%largest_elastic, history%scene%loads%largest])
          history%load_norm = load_norm(equations, history%loading)
          call report_failure(equations, model, history%failure)
          call set_initial_stress(model, condensed%points, step%case_factor, history%field)
       end subroutine put
+
+      !> Loads on the nodes
+      subroutine put_on_nodes(case_factor, loading)
+         !> Factor of each load case
+         real(wp), intent(in) :: case_factor(:)
+         !> The loads
+         type(loading_type), intent(out) :: loading
+
+         call new_loading(model, joint_points, supports, equations%modes, &
+                          combination_type(combination%label, case_factor), loading)
+      end subroutine put_on_nodes
 
    end subroutine run_increments
 

@@ -3,6 +3,7 @@
 module axijoint_joints_newton_method
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use axijoint_base_kinds, only : wp
+   use axijoint_base_stop, only : stop_wished
    use axijoint_joints_approach, only : approach
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, break_bonds
@@ -111,6 +112,7 @@ contains
       do while (course%watch%k < control%most)
          call note(course%watch, condensed, scene, control%now, self%accumulates, course%residual, &
             field, verdict)
+         if (stop_wished()) exit  ! nobody uses what was reached
          verdict%ran_away = verdict%ran_away .or. course%ran
          verdict%stalled = ieee_is_finite(verdict%residual%ratio) .and. .not. course%ran &
             .and. course%watch%k > course%watch%best_at + patience

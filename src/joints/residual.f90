@@ -48,7 +48,6 @@ module axijoint_joints_residual
 
    !> What residual forces are held against
    type :: reference_type
-      private
       !> Norm of the loads so far (Psi_f)
       real(wp) :: loads = 0.0_wp
       !> Norm of forces of the increment, shape (parts, modes); zero for none

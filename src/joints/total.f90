@@ -3,6 +3,7 @@
 !> of earlier sweeps (Anderson)
 module axijoint_joints_total
    use axijoint_base_kinds, only : wp
+   use axijoint_base_stop, only : stop_wished
    use axijoint_element_joint_law, only : opening_bond
    use axijoint_joints_anderson, only : anderson_type, new_anderson, anderson_step
    use axijoint_joints_approach, only : approach
@@ -65,6 +66,7 @@ contains
       moves = self%depth == 0
       do
          call note(watch, condensed, scene, control%now, self%accumulates, residual, field, verdict)
+         if (stop_wished()) exit  ! nobody uses what was reached
          if (verdict%ran_away) exit
          moves = moves .and. watch%k <= watch%best_at + most_moves
          call pass_on(self, condensed, scene, control%tolerance, field, residual, verdict, again)

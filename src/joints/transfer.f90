@@ -2,6 +2,7 @@
 !> with the initial stiffness throughout
 module axijoint_joints_transfer
    use axijoint_base_kinds, only : wp
+   use axijoint_base_stop, only : stop_wished
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, admit_trial
    use axijoint_joints_method, only : method_type, control_type, verdict_type
@@ -58,6 +59,7 @@ contains
       do
          ! step 5, Eq. 17
          call note(watch, condensed, scene, control%now, self%accumulates, residual, field, verdict)
+         if (stop_wished()) exit  ! nobody uses what was reached
          if (verdict%ran_away) exit
          call pass_on(self, condensed, scene, control%tolerance, field, residual, verdict, again)
          if (verdict%converged .or. verdict%mechanism%loaded .or. watch%k >= control%most) exit

@@ -158,7 +158,8 @@ contains
       integer :: dot, last, process, stat
       logical :: ours
 
-      ours = index(rest, state_ending//'.') == 1 .or. index(rest, journal_ending//'.') == 1
+      ours = index(rest, state_ending//'.') == 1 .or. index(rest, journal_ending//'.') == 1 &
+         .or. index(rest, lock_ending//'.') == 1
       do dot = 1, size(endings)
          ours = ours .or. index(rest, trim(endings(dot))//'.') == 1
       end do
@@ -168,8 +169,11 @@ contains
       dot = index(rest(:last), '.', back=.true.)
       read (rest(dot + 1:last), *, iostat=stat) process
       if (stat /= 0) return
-      is_leftover = .not. (index(rest(:dot), '.'//host_name()//'.') > 0 .and. &
-                           process /= process_id() .and. runs_here(process))
+      if (index(rest(:dot), '.'//host_name()//'.') > 0) then
+         is_leftover = process == process_id() .or. .not. runs_here(process)
+      else  ! of another host, that may just be asking for the lock
+         is_leftover = index(rest, lock_ending) /= 1
+      end if
    end function is_leftover
 
 end module axijoint_output_claim

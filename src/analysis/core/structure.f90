@@ -15,6 +15,7 @@ module axijoint_analysis_core_structure
    use axijoint_base_memory, only : require_memory
    use axijoint_base_progress, only : progress_type, show_progress
    use axijoint_base_text, only : to_text
+   use axijoint_base_stop, only : check_stop
    use axijoint_base_timer, only : timer_type, phase_assemble, phase_factor, phase_joints
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_condensed, only : condensed_type, new_condensed
@@ -82,6 +83,7 @@ contains
       end if
       call factorize_equations(structure%equations, model, error)
       call timer%pop()
+      call check_stop(error)
       if (allocated(error)) return
       call timer%push(phase_assemble)
       call new_fine_level(model, structure%equations, structure%fine)
@@ -145,6 +147,8 @@ contains
       if (allocated(error)) return
       structure%orderings = compare_orders(orders)
       call plan_equations(structure%equations, model, structure%modes, orders, error)
+      if (allocated(error)) return
+      call check_stop(error)
       if (allocated(error)) return
       others = data_footprint(model, size(structure%modes), size(structure%equations%systems), &
                               structure%joint_points)

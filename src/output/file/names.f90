@@ -11,8 +11,8 @@ module axijoint_output_file_names
       ".h5", ".lis", ".json", ".vtkhdf", ".joints.vtkhdf"]
    integer, parameter :: file_arrays = 1, file_listing = 2, file_summary = 3, file_bodies = 4, &
       file_joints = 5
-   !> Endings of what is there only while a run is under way, or was not ended: who writes these files,
-   !> which of them are about to get their names, how far it is
+   !> Endings of what is there only while a run is under way, or was not ended: who writes these
+   !> files, which of them are about to get their names, how far it is
    character(len=*), parameter :: lock_ending = ".lock", journal_ending = ".commit", &
       state_ending = ".state"
 

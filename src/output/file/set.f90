@@ -86,7 +86,8 @@ contains
       call read_whole_file(path, text, errno)
       if (index(text, first_line//nl) /= 1 .or. index(text, nl//last_line//nl) == 0) then
          call fatal_error(error, exit_io, path//' does not say which files were about to get '// &
-            'their names'//nl//'mend: remove it; then look whether the results there are of one run')
+            'their names'//nl// &
+            'mend: remove it; then look whether the results there are of one run')
          return
       end if
       first = len(first_line) + 2

@@ -1,0 +1,243 @@
+!> How far a run has come, beside its results: where the state is kept, what an earlier run left there,
+!> and the file by which somebody asks the run to end
+module axijoint_output_state
+   use axijoint_base_error, only : error_type, fatal_error, exit_state
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_sha256, only : sha256
+   use axijoint_base_state_file, only : state_mark_type, read_state_file
+   use axijoint_base_stop, only : heed_file
+   use axijoint_base_system, only : path_kind, path_absent, rename_path, unlink_path
+   use axijoint_base_text, only : to_text
+   use axijoint_base_version, only : program_name, program_version
+   use axijoint_base_whole_file, only : file_size, read_whole_file
+   use axijoint_deck_text_source, only : source_type
+   use axijoint_job_combination, only : combination_label
+   use axijoint_job_job, only : job_type, job_name, result_name
+   use axijoint_output_file_names, only : endings, final_path, file_summary, state_ending
+   use axijoint_output_file_pending, only : join_path
+   implicit none
+   private
+   public :: begin_state, end_state, stopped_text, note_written, is_written
+
+   !> Ending of a file that asks a run to end, and of a state that a run did not go on from
+   character(len=*), parameter :: stop_ending = '.STOP', put_aside = '.old'
+
+contains
+
+   !> Begin to keep the state of a job, from where an earlier run was if that is asked for
+   subroutine begin_state(job, interval, resume, notes, error)
+      !> The job, read
+      type(job_type), intent(inout) :: job
+      !> Least time between two states that are kept [second]
+      real(wp), intent(in) :: interval
+      !> Whether to go on from the state that is there
+      logical, intent(in) :: resume
+      !> What was found, a line each
+      character(len=:), allocatable, intent(out) :: notes
+      !> The state cannot be gone on from
+      type(error_type), allocatable, intent(out) :: error
+
+      type(state_mark_type) :: mark, found
+      character(len=:), allocatable :: path, body, failure, stop_file
+      integer :: errno
+      logical :: there
+
+      notes = ''
+      path = join_path(job%options%directory, job_name(job%deck)//state_ending)
+      stop_file = join_path(job%options%directory, job_name(job%deck)//stop_ending)
+      if (path_kind(stop_file) /= path_absent) then
+         call unlink_path(stop_file, errno)
+         call add('a STOP file from before this run was removed: '//stop_file)
+      end if
+      call heed_file(stop_file)
+      mark = mark_of(job)
+      call job%checkpoint%begin(path, mark, interval, size(job%model%combinations), &
+         size(job%model%increments))
+      call read_state_file(path, found, body, there, failure)
+      if (resume .and. .not. there) call add('there is no state '//path// &
+         ' to go on from: the run begins anew')
+      if (.not. there) return
+      if (resume) then
+         call go_on()
+      else
+         call put_state_aside()
+      end if
+
+   contains
+
+      !> Go on from the state
+      subroutine go_on()
+         logical :: taken
+
+         if (.not. allocated(failure)) call compare_marks(mark, found, failure)
+         if (.not. allocated(failure)) then
+            call job%checkpoint%take(body, found%place, taken)
+            if (.not. taken) failure = 'is of another job'
+         end if
+         if (allocated(failure)) then
+            call fatal_error(error, exit_state, 'the state '//path//' '//failure//new_line('a')// &
+               'mend: run without --resume, which begins anew')
+            return
+         end if
+         call add('goes on from '//path//', '//found%place//' of '//found%date)
+      end subroutine go_on
+
+      !> Keep the state under another name: somebody may have forgotten to go on from it
+      subroutine put_state_aside()
+         character(len=:), allocatable :: what
+
+         what = ''
+         if (.not. allocated(failure)) what = ' ('//found%place//', '//found%date//')'
+         call rename_path(path, path//put_aside, errno)
+         if (errno == 0) call add('a run that was not ended left its state'//what//', now '// &
+            path//put_aside//'; --resume would have gone on from it, this run begins anew')
+      end subroutine put_state_aside
+
+      !> Add a line to the notes
+      subroutine add(line)
+         !> The line
+         character(len=*), intent(in) :: line
+
+         if (len(notes) > 0) notes = notes//new_line('a')
+         notes = notes//'axijoint: '//line
+      end subroutine add
+
+   end subroutine begin_state
+
+   !> What a state must be of, to be gone on from
+   subroutine compare_marks(mark, found, failure)
+      !> This job, and that of the state
+      type(state_mark_type), intent(in) :: mark, found
+      !> What differs; not allocated if nothing does
+      character(len=:), allocatable, intent(out) :: failure
+
+      if (found%program /= mark%program) then
+         failure = 'is of '//found%program//', and this is '//mark%program
+      else if (found%deck /= mark%deck) then
+         failure = 'is of another deck: the cards, an included file or the mesh changed since'
+      else if (found%options /= mark%options) then
+         failure = 'is of a run with the solver '//found%options//', not '//mark%options
+      end if
+   end subroutine compare_marks
+
+   !> What the state of a job is of
+   function mark_of(job) result(mark)
+      !> The job
+      type(job_type), intent(in) :: job
+      !> What it is of
+      type(state_mark_type) :: mark
+
+      mark%program = program_name//' '//program_version
+      mark%deck = hash_of(job%source)
+      mark%options = 'of the deck'
+      if (job%options%solver_given) then
+         mark%options = 'of the program''s choice'
+         if (allocated(job%options%solver)) mark%options = trim(job%options%solver%name)
+      end if
+      mark%place = ''
+   end function mark_of
+
+   !> Hash of all files of a deck
+   function hash_of(source) result(hash)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> The hash
+      character(len=64) :: hash
+
+      character(len=:), allocatable :: hashes
+      integer :: k
+
+      hashes = ''
+      do k = 1, source%n_files
+         hashes = hashes//sha256(source%files(k)%bytes)
+      end do
+      hash = sha256(hashes)
+   end function hash_of
+
+   !> The job is done: there is nothing to go on from
+   subroutine end_state(job)
+      !> The job
+      type(job_type), intent(inout) :: job
+
+      integer :: errno
+
+      call heed_file('')
+      if (.not. allocated(job%checkpoint%path)) return
+      call unlink_path(job%checkpoint%path, errno)
+      call unlink_path(job%checkpoint%path//put_aside, errno)
+   end subroutine end_state
+
+   !> How a run was stopped, and how to go on. What is pending is written
+   function stopped_text(job, cause) result(text)
+      !> The job
+      type(job_type), intent(inout) :: job
+      !> What stopped it, in words
+      character(len=*), intent(in) :: cause
+      !> A line
+      character(len=:), allocatable :: text
+
+      integer :: errno
+
+      if (allocated(job%checkpoint%path)) then
+         call unlink_path(join_path(job%options%directory, job_name(job%deck)//stop_ending), errno)
+         call job%checkpoint%flush()
+      end if
+      text = cause//' before anything was done'
+      if (allocated(job%checkpoint%failure)) then
+         text = cause//'; the state cannot be kept: '//job%checkpoint%failure
+      else if (job%checkpoint%there) then
+         text = cause//' after '//job%checkpoint%place//'; --resume goes on from '// &
+            job%checkpoint%path
+      end if
+   end function stopped_text
+
+   !> Note in the state that the results of a combination are written
+   subroutine note_written(job, k, exit_code)
+      !> The job
+      type(job_type), intent(inout) :: job
+      !> The combination
+      integer, intent(in) :: k
+      !> How it ended
+      integer, intent(in) :: exit_code
+
+      job%checkpoint%at = k
+      call job%checkpoint%note_done(exit_code, digest_of(job, k))
+   end subroutine note_written
+
+   !> Whether the run that is gone on with wrote the results of a combination, and they are there
+   logical function is_written(job, k)
+      !> The job
+      type(job_type), intent(in) :: job
+      !> The combination
+      integer, intent(in) :: k
+
+      is_written = job%checkpoint%parts(k)%done
+      if (is_written) is_written = job%checkpoint%parts(k)%digest == digest_of(job, k)
+   end function is_written
+
+   !> What tells the results of a combination from others: the hash of the summary, which holds the
+   !> stamp of the run, and the sizes of all files
+   function digest_of(job, k) result(digest)
+      !> The job
+      type(job_type), intent(in) :: job
+      !> The combination
+      integer, intent(in) :: k
+      !> The digest
+      character(len=:), allocatable :: digest
+
+      character(len=:), allocatable :: summary
+      integer :: ending, errno
+
+      associate (directory => job%options%directory, &
+                 label => combination_label(job, k))
+         call read_whole_file(final_path(directory, result_name(job, label), file_summary), &
+            summary, errno)
+         digest = sha256(summary)
+         do ending = 1, merge(size(endings), file_summary, job%model%sweep%wanted)
+            digest = digest//' '//to_text(file_size(final_path(directory, &
+               result_name(job, label), ending)))
+         end do
+      end associate
+   end function digest_of
+
+end module axijoint_output_state
