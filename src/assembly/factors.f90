@@ -7,6 +7,7 @@ module axijoint_assembly_factors
    use axijoint_assembly_stiffness, only : stiffness_type, n_parts
    use axijoint_base_error, only : error_type, fatal_error, exit_singular
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_stop, only : stop_wished, check_stop
    use axijoint_base_large_pages, only : use_large_pages
    use axijoint_base_memory, only : require_memory, free_memory
    use axijoint_base_text, only : to_text
@@ -178,10 +179,12 @@ contains
       call new_workspaces(equations, spaces)
       !$omp parallel do schedule(dynamic) num_threads(size(spaces))
       do s = 1, equations%n_kept
+         if (stop_wished()) cycle
          call hold_factor(equations, s, spaces(own()))
       end do
       !$omp end parallel do
       call report_failure(equations, model, error)
+      call check_stop(error)
    end subroutine factorize_equations
 
    !> Make sure that the factor of a system is there. If it cannot be, the system has failed;

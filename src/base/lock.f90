@@ -154,7 +154,7 @@ contains
       integer :: errno
 
       inherited = .false.
-      guard = path//'.'//to_text(owner%process%id)//'-'//to_text(owner%process%start)
+      guard = path//'.'//to_text(owner%process%id)//'-'//to_text(owner%process%start)//'.tmp'
       call claim(guard, beside, own, unused, error)
       if (allocated(error)) then
          if (error%code == exit_in_use) deallocate (error)  ! another one is at it

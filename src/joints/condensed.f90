@@ -10,6 +10,7 @@ module axijoint_joints_condensed
    use axijoint_assembly_support, only : support_point_type
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
+   use axijoint_base_stop, only : stop_wished, check_stop
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_floating, only : floating_motion_type, new_floating_motions
@@ -95,6 +96,7 @@ contains
       call new_workspaces(equations, spaces)
       !$omp parallel do schedule(dynamic) private(failure) num_threads(size(spaces))
       do s = 1, size(equations%systems)
+         if (stop_wished()) cycle
          call hold_factor(equations, s, spaces(own()))
          if (equations%systems(s)%failed) cycle
          call condense(equations, s, points, flexibilities(s)%matrix, failure)
@@ -104,6 +106,7 @@ contains
          !$omp end critical
       end do
       !$omp end parallel do
+      call check_stop(error)
    end subroutine condense_all
 
    !> Flexibility of one harmonic

@@ -167,6 +167,9 @@ contains
       if (.not. ours) return
       last = len(rest) - len(temporary_ending)
       dot = index(rest(:last), '.', back=.true.)
+      ! what stands for a dead owner of the lock while it is taken over; nobody needs it any more
+      is_leftover = index(rest, lock_ending) == 1 .and. index(rest(dot:last), '-') > 0
+      if (is_leftover) return
       read (rest(dot + 1:last), *, iostat=stat) process
       if (stat /= 0) return
       if (index(rest(:dot), '.'//host_name()//'.') > 0) then

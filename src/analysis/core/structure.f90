@@ -83,7 +83,6 @@ contains
       end if
       call factorize_equations(structure%equations, model, error)
       call timer%pop()
-      call check_stop(error)
       if (allocated(error)) return
       call timer%push(phase_assemble)
       call new_fine_level(model, structure%equations, structure%fine)

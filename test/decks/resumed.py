@@ -1,0 +1,397 @@
+"""Runs that are stopped or die, and go on: a signal, a file, kill -9 at chance and at every state that is
+written. The results are those of an uninterrupted run, to the last bit, and nothing that was done is lost"""
+import hashlib
+import os
+import random
+import re
+import signal
+import subprocess
+import time
+
+from commits import Place
+from same_bits import digests
+from support import HERE, INPUTS, Test, expected, input_deck, read_bytes, read_text, write
+
+FACTORS = (0.3, 0.2, 0.2, 0.1, 0.1, 0.1, -0.3, -0.3, -0.4, -0.3, -0.3, -0.4, 0.3, 0.4, 0.5, 0.3, 0.2, 0.1, 0.1, 0.1)
+SHORT = (0.5, 0.5, -1.5, 1.0)
+CONTROL = 'CONTROL                         ! highest harmonic M\n    4\n'
+DETAILS = '{:5d}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n'
+
+
+def history(factors=FACTORS, method='NEWTON', details=None, lines=''):
+    """The peg of first.dat, pushed to and fro"""
+    deck = input_deck('first.dat').replace(CONTROL, f'CONTROL\n    2{"":35}{method:>10}\n')
+    if details:
+        lines += 'LAWDETAILS\n' + DETAILS.format(1, *details)
+    lines += 'INCREMENTS\n' + ''.join(f'{factor:10}{"1.0E-7":>10}{400:5d}\n' for factor in factors)
+    return deck.replace('\nEND', '\n' + lines + 'END')
+
+
+JOBS = {
+    'history': history(),
+    'TRANSFER': history(SHORT, 'TRANSFER').replace('1.0E-7', '1.0E-3'),
+    'ANDERSON': history(SHORT, 'ANDERSON'),
+    'softening': history(SHORT, details=('RESULTANT', 'BOND', '0.1', '20.0', '', '', '')).replace(
+        '       0.0      30.0', '       1.0      30.0'),
+    'bonds': history(SHORT, details=('RESULTANT', 'BOND', '', '', '', '', '')).replace('       0.0      30.0',
+                                                                                   '       1.0      30.0'),
+    'gap': history(SHORT, details=('RESULTANT', '', '', '', '', '1.0E-5', '')),
+    'two combinations': history(SHORT, lines='COMBINE\n    1    1       1.0\n    2    1       0.7\n'),
+    'rounds': history(SHORT[:3], lines='ERROR\n2.0, DISPL\n'),
+}
+
+
+class Runs:
+    """Runs of one deck in a folder"""
+
+    def __init__(self, program, folder, deck, *options):
+        self.program = program
+        self.folder = folder
+        self.deck = write(folder, 'job.dat', deck)
+        self.options = options
+        self.whole = self.stems('whole')
+        ran = self.run('whole')
+        if ran.returncode not in (0, 3):
+            raise AssertionError(ran.stderr)
+        self.whole = self.stems('whole')
+        self.code = ran.returncode
+
+    def stems(self, output):
+        """Paths of the results without their endings"""
+        folder = os.path.join(self.folder, output)
+        names = sorted(os.listdir(folder)) if os.path.isdir(folder) else []
+        return [os.path.join(folder, name[:-3]) for name in names if name.endswith('.h5')]
+
+    def start(self, output, *options, **environment):
+        """Begin a run that keeps every step"""
+        return subprocess.Popen(
+            [self.program.path, 'run', self.deck, '-o', os.path.join(self.folder, output), '--quiet',
+             '--checkpoint', '0', *self.options, *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+            text=True, env=dict(self.program.environment, OMP_NUM_THREADS='1', **environment))
+
+    def run(self, output, *options, **environment):
+        """Run to its end"""
+        process = self.start(output, *options, **environment)
+        out, err = process.communicate(timeout=120)
+        return subprocess.CompletedProcess(process.args, process.returncode, out, err)
+
+    def interrupted(self, output, seconds, number, *options):
+        """Run, with a signal after some time"""
+        process = self.start(output, *options)
+        time.sleep(seconds)
+        process.send_signal(number)
+        out, err = process.communicate(timeout=120)
+        return subprocess.CompletedProcess(process.args, process.returncode, out, err)
+
+    def same(self, output):
+        """Faults, unless the results are those of the run that was not interrupted, and nothing else is there"""
+        stems = self.stems(output)
+        faults = expected('results', [os.path.basename(stem) for stem in self.whole],
+                          [os.path.basename(stem) for stem in stems])
+        if faults:
+            return faults
+        for whole, stem in zip(self.whole, stems):
+            texts = digests([whole, stem])
+            if texts[0] != texts[1]:
+                faults.append(f'{stem}: others than without interruption')
+        return faults + expected('files', sorted(os.listdir(os.path.join(self.folder, 'whole'))),
+                                 sorted(os.listdir(os.path.join(self.folder, output))))
+
+    def state(self, output):
+        """How far a state is, in words; empty if there is none"""
+        path = os.path.join(self.folder, output, 'job.state')
+        if not os.path.exists(path):
+            return ''
+        return re.search(rb'\nplace (.*)\n', read_bytes(path)).group(1).decode()
+
+
+def increments_of(place):
+    """Increments that are done at a place"""
+    found = re.match(r'(a part of )?increment (\d+) of', place)
+    return 0 if not found else int(found.group(2)) - bool(found.group(1))
+
+
+def killed(program, folder, kills):
+    """kill -9 at random moments: the next run goes on from where it was, and the end is the same"""
+    runs = Runs(program, folder, JOBS['history'])
+    begun = time.monotonic()
+    runs.run('timed')
+    length = time.monotonic() - begun
+    chance = random.Random(1)
+    faults, done, going_on = [], 0, 0
+    while done < kills:
+        output, far = f'killed{done}', 0
+        for _ in range(4):  # the last one may come to its end
+            process = runs.start(output, '--resume')
+            time.sleep(chance.uniform(0.1, 1.0)*length)
+            seen = increments_of(runs.state(output))  # reported before the end
+            process.kill()
+            err = process.communicate()[1]
+            found = re.search(r'goes on from \S+, (.*) of \d+-', err)
+            if found:
+                going_on += 1
+                if increments_of(found.group(1)) < far:
+                    faults.append(f'went on from increment {found.group(1)}, {far} were done')
+            if process.returncode == 0:
+                break
+            done += 1
+            far = increments_of(runs.state(output))
+            if far < seen:
+                faults.append(f'{seen} increments were kept, {far} after the end')
+        ran = runs.run(output, '--resume')
+        faults += expected('exit code', runs.code, ran.returncode) + runs.same(output)
+        if faults:
+            return faults + [ran.stderr]
+    return faults if 3*going_on > done else [f'{going_on} of {done} killed runs were gone on with']
+
+
+def every_state(program, folder, deck, step):
+    """A run dies where it writes or removes the n-th name, for every n or some: the next goes on"""
+    runs = Runs(program, folder, deck)
+    library = os.path.join(folder, 'failing.so')
+    subprocess.run(['gcc', '-O2', '-shared', '-fPIC', '-o', library, os.path.join(HERE, 'failing_names.c'), '-ldl'],
+                   check=True)
+    faults, places = [], set()
+    n = 3
+    while True:
+        output = f'n{n}'
+        ran = runs.run(output, LD_PRELOAD=library, NAMES_KILL=str(n), NAMES_IN=folder)
+        if ran.returncode != -9:
+            break
+        places.add(runs.state(output))
+        ran = runs.run(output, '--resume')
+        found = expected('exit code', runs.code, ran.returncode) + runs.same(output)
+        faults += [f'killed at {n}: {fault}\n{ran.stderr}' for fault in found]
+        n += step
+    return faults if len(places) > 2 else [f'killed at {places} only']
+
+
+def signals(program, folder):
+    """SIGTERM, SIGUSR1, SIGINT: exit code 75, one line that says how to go on, earlier results stay"""
+    runs = Runs(program, folder, JOBS['history'])
+    faults = []
+    for number in (signal.SIGTERM, signal.SIGUSR1, signal.SIGINT):
+        output = number.name
+        runs.run(output)
+        earlier = {name: read_bytes(os.path.join(folder, output, name)) for name in os.listdir(os.path.join(folder, output))}
+        process = runs.start(output)
+        wait_for(lambda output=output: increments_of(runs.state(output)) > 2)
+        process.send_signal(number)
+        err = process.communicate(timeout=60)[1]
+        found = expected('exit code', 75, process.returncode)
+        place = runs.state(output)
+        line = f'axijoint: {runs.deck}: stopped by {number.name} after {place}; --resume goes on from ' \
+            f'{folder}/{output}/job.state\n'
+        found += expected('message', line, err)
+        for name, content in earlier.items():
+            if read_bytes(os.path.join(folder, output, name)) != content:
+                found.append(f'{name} was changed')
+        found += expected('files', sorted([*earlier, 'job.state']), sorted(os.listdir(os.path.join(folder, output))))
+        ran = runs.run(output, '--resume')
+        found += expected('exit code', 0, ran.returncode) + runs.same(output)
+        if f'goes on from {folder}/{output}/job.state, {place} of' not in ran.stderr:
+            found.append(ran.stderr)
+        faults += [f'{number.name}: {fault}' for fault in found]
+    return faults
+
+
+def wait_for(condition):
+    """Wait until something is so, a minute at most"""
+    end = time.monotonic() + 60
+    while not condition():
+        if time.monotonic() > end:
+            raise AssertionError('nothing happened for a minute')
+        time.sleep(0.002)
+
+
+def interrupted_twice(program, folder):
+    """A second SIGINT ends the run at once; one that the process was told to ignore is ignored; the next run
+    takes over the lock of the dead"""
+    runs = Runs(program, folder, JOBS['history'])
+    process = runs.start('twice')
+    wait_for(lambda: increments_of(runs.state('twice')) > 1)
+    process.send_signal(signal.SIGSTOP)  # so that the first is not heeded before the second
+    process.send_signal(signal.SIGINT)
+    process.send_signal(signal.SIGCONT)
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=60)
+    faults = [] if process.returncode in (-signal.SIGINT, 75) else [f'exit code {process.returncode}']
+    ran = runs.run('twice', '--resume')
+    faults += expected('exit code', 0, ran.returncode) + runs.same('twice')
+    ignoring = subprocess.Popen(['sh', '-c', 'trap "" INT; exec "$@"', 'sh', *runs.start('none').args],
+                                stderr=subprocess.DEVNULL, env=program.environment)
+    time.sleep(0.1)
+    ignoring.send_signal(signal.SIGINT)
+    return faults + [] if ignoring.wait(60) in (0, 7) else faults + [f'ignoring: {ignoring.returncode}']
+
+
+def while_reading(program, folder):
+    """SIGTERM while the deck comes from the standard input: exit code 75, and nothing is left"""
+    with subprocess.Popen([program.path, 'run', '-', '-o', 'out'], cwd=folder, stdin=subprocess.PIPE,
+                          stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+                          env=dict(program.environment, OMP_WAIT_POLICY='PASSIVE')) as process:
+        process.stdin.write('TITLE\n')
+        process.stdin.flush()
+        time.sleep(1.0)
+        process.send_signal(signal.SIGTERM)
+        time.sleep(0.1)
+        _, err = process.communicate(input_deck('first.dat').split('\n', 1)[1], timeout=60)
+    return expected('exit code', 75, process.returncode) + expected('files', [], os.listdir(folder)) + expected(
+        'message', 'axijoint: stdin: stopped by SIGTERM before anything was done\n', err)
+
+
+def stop_file(program, folder):
+    """A file NAME.STOP ends the run, and is gone then; one from before the run is removed and told"""
+    runs = Runs(program, folder, JOBS['history'])
+    os.mkdir(os.path.join(folder, 'out'))
+    write(folder, 'out/job.STOP', '')
+    process = runs.start('out', '--threads', '1')
+    wait_for(lambda: increments_of(runs.state('out')) > 1)
+    process.send_signal(signal.SIGSTOP)
+    write(folder, 'out/job.STOP', '')
+    time.sleep(1.1)  # it is looked for once a second
+    process.send_signal(signal.SIGCONT)
+    err = process.communicate(timeout=60)[1]
+    faults = expected('exit code', 75, process.returncode) + expected(
+        'files', ['job.state'], sorted(os.listdir(os.path.join(folder, 'out'))))
+    for words in ('stopped by a STOP file after increment', 'a STOP file from before this run was removed'):
+        if words not in err:
+            faults.append(f'expected {words!r}, found {err}')
+    ran = runs.run('out', '--resume')
+    return faults + expected('exit code', 0, ran.returncode) + runs.same('out')
+
+
+def stopped(program, folder, deck=JOBS['history']):
+    """A run that was stopped somewhere, and the path of its state"""
+    runs = Runs(program, folder, deck)
+    process = runs.start('out')
+    wait_for(lambda: increments_of(runs.state('out')) > 2)
+    process.terminate()
+    process.communicate(timeout=60)
+    return runs, os.path.join(folder, 'out', 'job.state')
+
+
+def signed(content):
+    """A state whose hash is right whatever was changed"""
+    return content[:-65] + hashlib.sha256(content[:-65]).hexdigest().encode() + b'\n'
+
+
+def refused(program, folder):
+    """States that are damaged, cut, of another deck, solver, version: exit code 8, and they stay as they are"""
+    runs, path = stopped(program, folder)
+    state = read_bytes(path)
+    deck = read_text(runs.deck)
+    chance = random.Random(3)
+    spots = [0, 20, len(state) - 1, *(chance.randrange(len(state)) for _ in range(20))]
+    cases = [(f'byte {spot}', state[:spot] + bytes([state[spot] ^ 1]) + state[spot + 1:], deck, (), 'state')
+             for spot in spots]
+    cases += [(f'cut at {length}', state[:length], deck, (), 'state')
+              for length in (0, 1, 64, 100, len(state) - 1)]
+    version = re.search(rb'\nprogram axijoint (.*)\n', state).group(1)
+    cases += [
+        ('another deck', state, deck.replace('0.4', '0.5', 1), (), 'is of another deck: the cards'),
+        ('a comment more', state, '! new\n' + deck, (), 'is of another deck'),
+        ('another solver', state, deck, ('--solver', 'band'), 'with the solver of the deck, not BAND'),
+        ('another version', signed(state.replace(b'axijoint ' + version, b'axijoint 0.0.1', 1)), deck, (),
+         'is of axijoint 0.0.1, and this is axijoint'),
+        ('another format', signed(b'axijoint state 9' + state[16:]), deck, (), 'of another version of axijoint'),
+        ('other bytes', signed(state[:-200] + state[-65:]), deck, (), 'is of another'),
+    ]
+    faults = []
+    for what, content, text, options, words in cases:
+        write(folder, 'out/job.state', content)
+        write(folder, 'job.dat', text)
+        ran = runs.run('out', '--resume', *options)
+        found = expected('exit code', 8, ran.returncode)
+        if words not in ran.stderr or 'mend: run without --resume' not in ran.stderr:
+            found.append(f'expected {words!r}, found {ran.stderr}')
+        if read_bytes(path) != content or os.listdir(os.path.join(folder, 'out')) != ['job.state']:
+            found.append('the state did not stay alone')
+        faults += [f'{what}: {fault}' for fault in found]
+    return faults
+
+
+def forgotten(program, folder):
+    """A run without --resume that finds a state puts it aside and says so; when it is done both are gone. A run
+    with --resume that finds none begins anew and says so"""
+    runs, path = stopped(program, folder)
+    place, state = runs.state('out'), read_bytes(path)
+    process = runs.start('out')
+    wait_for(lambda: os.path.exists(path) and os.path.exists(path + '.old'))
+    process.terminate()
+    err = process.communicate(timeout=60)[1]
+    faults = expected('the earlier state', state, read_bytes(path + '.old'))
+    if f'left its state ({place}, 20' not in err or f'now {path}.old; --resume would have gone on' not in err:
+        faults.append(err)
+    os.replace(path + '.old', path)  # as the message suggests
+    ran = runs.run('out', '--resume')
+    faults += expected('exit code', 0, ran.returncode) + runs.same('out')
+    write(folder, 'anew/job.state', state)
+    faults += expected('exit code', 0, runs.run('anew').returncode) + runs.same('anew')
+    ran = runs.run('none', '--resume')
+    if f'there is no state {folder}/none/job.state to go on from: the run begins anew' not in ran.stderr:
+        faults.append(ran.stderr)
+    return faults + expected('exit code', 0, ran.returncode) + runs.same('none')
+
+
+def written_already(program, folder):
+    """Of two combinations the first is not solved again, unless its results are not there as they were"""
+    runs = Runs(program, folder, JOBS['two combinations'])
+    faults = []
+    for change, words in ((False, 'the results of combination 1 are written already'), (True, '')):
+        output = f'out{change}'
+        process = runs.start(output)
+        wait_for(lambda output=output: 'combination 2' in runs.state(output))
+        process.terminate()
+        process.communicate(timeout=60)
+        first = os.path.join(folder, output, 'job.1.json')
+        if change:
+            write(folder, f'{output}/job.1.json', '{}')
+        before = os.stat(first).st_ino
+        ran = runs.run(output, '--resume')
+        faults += expected('exit code', 0, ran.returncode) + runs.same(output)
+        faults += expected('written again', change, os.stat(first).st_ino != before)
+        if words not in ran.stderr or bool(words) != ('already' in ran.stderr):
+            faults.append(ran.stderr)
+    return faults
+
+
+def disk_full(program, folder):
+    """A state that cannot be written does not end the run"""
+    place = Place(program, folder, 1, False)
+    place.deck = write(folder, 'job.dat', JOBS['gap'])
+    place.run('--checkpoint', '0')
+    earlier = place.contents()
+    faults = []
+    for n in (2, 3, 4):  # the lock is the first name
+        ran = place.run('--checkpoint', '0', NAMES_FAIL=str(n))
+        faults += expected('exit code', 0, ran.returncode) + expected(
+            'files', sorted(earlier), sorted(place.contents()))
+    return faults
+
+
+def option_faults(program, folder):
+    """Values of --checkpoint that are none"""
+    faults = []
+    for value in ('x', '-1', '', '1e'):
+        ran = program.run('run', os.path.join(INPUTS, 'first.dat'), '--checkpoint', value, folder=folder)
+        faults += ran.ended_with(2)
+        if f"option --checkpoint: found '{value}', allowed is a number of minutes from 0" not in ran.err:
+            faults.append(ran.err)
+    return faults
+
+
+def tests(program):
+    """One test a way to be stopped"""
+    functions = {'signals': signals, 'interrupted twice': interrupted_twice, 'while reading': while_reading,
+                 'STOP file': stop_file, 'states that are refused': refused, 'states that are forgotten': forgotten,
+                 'written already': written_already, 'states that cannot be written': disk_full,
+                 '--checkpoint': option_faults}
+    found = [Test(f'resumed: {what}', lambda folder, check=check: check(program, folder))
+             for what, check in functions.items()]
+    for what, deck in JOBS.items():
+        found.append(Test(f'resumed: {what}', lambda folder, deck=deck: every_state(program, folder, deck, 11)))
+        found.append(Test(f'resumed: {what}, at every name', lambda folder, deck=deck: every_state(
+            program, folder, deck, 1), long=True))
+    return found + [Test('resumed: killed', lambda folder: killed(program, folder, 12)),
+                    Test('resumed: killed 500 times', lambda folder: killed(program, folder, 500), long=True)]
