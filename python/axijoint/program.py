@@ -16,13 +16,15 @@ from .result import Result, open_combinations
 # Exit codes with which results are written, though the job did not come to its end
 NO_RESULTS, NOT_CONVERGED, MECHANISM = {}, 3, 4
 MEANINGS = {2: "the deck has errors", NOT_CONVERGED: "not converged", MECHANISM: "singular or a mechanism",
-            5: "input or output failed", 6: "not enough memory", 70: "internal error"}
+            5: "input or output failed", 6: "not enough memory", 7: "another run writes these results",
+            8: "a state that cannot be gone on from", 70: "internal error", 75: "stopped"}
 
 
 class RunError(RuntimeError):
     """A job that did not come to its end.
 
-    exit_code   of the program: 2 deck, 3 not converged, 4 singular or a mechanism, 5 input or output, 6 memory
+    exit_code   of the program: 2 deck, 3 not converged, 4 singular or a mechanism, 5 input or output, 6 memory,
+                75 stopped by a signal
     messages    what the program said, with cards and carets
     results     results that it wrote by combination: of a job that did not converge, and the last equilibrium
                 before a mechanism; mostly empty else

@@ -390,7 +390,9 @@ def tests(program):
     found = [Test(f'resumed: {what}', lambda folder, check=check: check(program, folder))
              for what, check in functions.items()]
     for what, deck in JOBS.items():
-        found.append(Test(f'resumed: {what}', lambda folder, deck=deck: every_state(program, folder, deck, 11)))
+        step = 11 if what in ('history', 'rounds') else 5
+        found.append(Test(f'resumed: {what}', lambda folder, deck=deck, step=step: every_state(
+            program, folder, deck, step)))
         found.append(Test(f'resumed: {what}, at every name', lambda folder, deck=deck: every_state(
             program, folder, deck, 1), long=True))
     return found + [Test('resumed: killed', lambda folder: killed(program, folder, 12)),
