@@ -1,5 +1,5 @@
-!> Files that hold how far a program has come: a few lines that say what of, then bytes, then a hash of
-!> all that stands before it. A file appears when it is complete, in the place of an earlier one
+!> Files that hold how far a program has come: a few lines that say what of, then bytes, then a hash
+!> of all that stands before it. A file appears when it is complete, in the place of an earlier one
 module axijoint_base_state_file
    use axijoint_base_kinds, only : i8
    use axijoint_base_process, only : host_name

@@ -39,7 +39,7 @@ module axijoint_command_manual
       !> Options
       type(option_type), allocatable :: options(:)
       !> Exit codes; blank if they are the usual ones
-      character(len=240) :: exit_codes = ''
+      character(len=300) :: exit_codes = ''
    end type topic_type
 
 contains
@@ -71,8 +71,8 @@ contains
           threads, memory, &
           option_type('--vtk', '', 'NAME.vtkhdf for ParaView, too (whole circle; SWEEP of the '// &
                       'deck says more)'), &
-          option_type('--resume', '', 'go on from NAME.state, which a run that was stopped or died '// &
-                      'left beside its results'), &
+          option_type('--resume', '', 'go on from NAME.state, which a run that was stopped or '// &
+                      'died left beside its results'), &
           option_type('--checkpoint', 'MINUTES', 'keep NAME.state up to date every so many '// &
                       'minutes; 0: after each load step (default: as often as takes 2 % of the '// &
                       'time)'), &

@@ -145,8 +145,8 @@ contains
       do k = 1, size(job%model%combinations)
          if (is_written(job, k)) then
             exit_code = max(exit_code, job%checkpoint%parts(k)%exit_code)
-            call tell('axijoint: the results of combination '//to_text(combination_label(job, k))// &
-               ' are written already')
+            call tell('axijoint: the results of combination '// &
+               to_text(combination_label(job, k))//' are written already')
             cycle
          end if
          call solve_combination(job, k, results(1), error)

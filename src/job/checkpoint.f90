@@ -1,5 +1,6 @@
-!> How far a job has come, in a file that a later run goes on from: the histories of the combinations
-!> that are not written yet, which of them are, and the rounds of a job with an error target
+!> How far a job has come, in a file that a later run goes on from: the histories of the
+!> combinations that are not written yet, which of them are, and the rounds of a job with an error
+!> target
 module axijoint_job_checkpoint
    use axijoint_base_error, only : error_type, fatal_error, exit_state
    use axijoint_base_kinds, only : wp, i8

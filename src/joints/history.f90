@@ -17,9 +17,8 @@ module axijoint_joints_history
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: history_type, target_type, new_history, new_state, state_of, keep_state, note_failure, &
-      forget_failure, &
-      note_residual
+   public :: history_type, target_type, new_history, new_state, state_of, keep_state, &
+      note_failure, forget_failure, note_residual
 
    !> Loads that are to be reached
    type :: target_type

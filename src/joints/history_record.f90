@@ -1,6 +1,6 @@
 !> A history as bytes, and back: all that the next step starts from and that results are read from.
-!> What follows from the job alone – laws, planes, the method – is not there, nor what loads do to the
-!> nodes, which follows from the factors of the load cases.
+!> What follows from the job alone – laws, planes, the method – is not there, nor what loads do to
+!> the nodes, which follows from the factors of the load cases.
 module axijoint_joints_history_record
    use axijoint_base_kinds, only : wp
    use axijoint_base_stream, only : writer_type, reader_type

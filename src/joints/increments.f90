@@ -13,8 +13,8 @@ module axijoint_joints_increments
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, commit_field, judge_states, &
       set_initial_stress
-   use axijoint_joints_history, only : history_type, target_type, new_history, new_state, keep_state, &
-      note_failure, forget_failure, &
+   use axijoint_joints_history, only : history_type, target_type, new_history, new_state, &
+      keep_state, note_failure, forget_failure, &
                                        note_residual
    use axijoint_joints_keeper, only : keeper_type
    use axijoint_joints_load_steps, only : step_type, first_step, next_step, halfway

@@ -173,7 +173,8 @@ contains
       read (rest(dot + 1:last), *, iostat=stat) process
       if (stat /= 0) return
       if (index(rest(:dot), '.'//host_name()//'.') > 0) then
-         is_leftover = process == process_id() .or. .not. runs_here(process)
+         is_leftover = process == process_id()  ! the number was given anew
+         if (.not. is_leftover) is_leftover = .not. runs_here(process)
       else  ! of another host, that may just be asking for the lock
          is_leftover = index(rest, lock_ending) /= 1
       end if

@@ -296,12 +296,13 @@ contains
       integer, intent(in) :: exit_code
       !> Causes
       character(len=*), intent(in) :: messages(:)
-      !> Whether this run holds the lock of the name
-      logical, intent(in) :: claimed
+      !> Whether this run holds the lock of the name; false if absent
+      logical, intent(in), optional :: claimed
 
       type(text_file_type) :: summary
       type(lock_type) :: lock
       type(error_type), allocatable :: error
+      logical :: locked
 
       if (path_kind(final_path(directory, name, file_arrays)) /= path_absent) return
       if (path_kind(final_path(directory, name, file_listing)) /= path_absent) return
@@ -310,7 +311,9 @@ contains
       if (allocated(error)) return
       call check_names(directory, name, file_summary, error)
       if (allocated(error)) return
-      if (.not. claimed) call take_lock(join_path(directory, name//lock_ending), 'run '//deck, &
+      locked = .false.
+      if (present(claimed)) locked = claimed
+      if (.not. locked) call take_lock(join_path(directory, name//lock_ending), 'run '//deck, &
          lock, error)
       if (allocated(error)) return
       call summary%open(final_path(directory, name, file_summary), error)

@@ -1,5 +1,5 @@
-!> How far a run has come, beside its results: where the state is kept, what an earlier run left there,
-!> and the file by which somebody asks the run to end
+!> How far a run has come, beside its results: where the state is kept, what an earlier run left
+!> there, and the file by which somebody asks the run to end
 module axijoint_output_state
    use axijoint_base_error, only : error_type, fatal_error, exit_state
    use axijoint_base_kinds, only : wp
