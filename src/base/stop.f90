@@ -35,7 +35,8 @@ module axijoint_base_stop
 
 contains
 
-   !> From now on SIGTERM, SIGINT and SIGUSR1 are wishes; a second SIGINT ends the program at once
+   !> From now on SIGTERM, SIGINT and SIGUSR1 are wishes; a second SIGINT ends the program at once,
+   !> and SIGPIPE, of an output that nobody reads any more, does not
    subroutine heed_signals()
       call c_heed_signals()
    end subroutine heed_signals
