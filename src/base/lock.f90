@@ -149,7 +149,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(owner_type) :: now
-      character(len=:), allocatable :: guard
+      character(len=:), allocatable :: guard, next
       logical :: known, unused
       integer :: errno
 
@@ -163,8 +163,9 @@ contains
       call read_owner(path, now, known)
       if (known) known = same_process(now%process, owner%process)
       if (known) then
-         call write_new_file(beside//'.tmp', text_of(own), errno, lasting=.false.)
-         if (errno == 0) call rename_path(beside//'.tmp', path, errno)
+         next = path//'.next.'//own%process%host//'.'//to_text(own%process%id)//'.tmp'
+         call write_new_file(next, text_of(own), errno, lasting=.false.)
+         if (errno == 0) call rename_path(next, path, errno)
          inherited = errno == 0
          if (.not. inherited) call cannot_make(path, errno, error)
       end if
