@@ -224,6 +224,24 @@ def taken_over_together(program, folder):
     return faults
 
 
+def dying_heirs(program, folder):
+    """A run dies while it takes over the lock of a dead one, and the next while it takes over that: in the end
+    nothing is left of either"""
+    place = Place(program, folder, 1, False)
+    faults = []
+    for first in range(1, 10):
+        for second in range(1, 10):
+            place.put_back()
+            write(place.results, 'job.lock', lock_text())
+            codes = [place.run('--memory', '1', NAMES_KILL=str(n)).returncode for n in (first, second)]
+            ran = place.run('--memory', '1')
+            found = expected('exit code', 6, ran.returncode) + place.mixed()
+            if codes[0] != -9:
+                found.append(f'exit codes {codes}')
+            faults += [f'killed at {first}, {second}: {fault}' for fault in found]
+    return faults
+
+
 def leftovers(program, folder):
     """Files that dead runs did not complete are removed and told; those of other names, of a process that runs
     and of the user stay"""
@@ -254,6 +272,6 @@ def tests(program):
                    lambda folder, check=check: check(program, folder, 1, False, False))
               for check, what in ((failing, 'cannot be given'), (dying, 'a run dies'))]
     functions = {'several runs': together, 'locks left behind': left_behind,
-                 'one lock, several runs': taken_over_together, 'files left behind': leftovers}
+                 'one lock, several runs': taken_over_together, 'heirs that die': dying_heirs, 'files left behind': leftovers}
     return found + [Test(f'names: {what}', lambda folder, check=check: check(program, folder))
                     for what, check in functions.items()]
