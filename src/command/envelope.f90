@@ -6,7 +6,8 @@ module axijoint_command_envelope
       exit_not_converged
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : show_progress, clear_progress
-   use axijoint_base_system, only : error_output_is_terminal, make_directories
+   use axijoint_base_stop, only : check_stop
+   use axijoint_base_system, only : error_output_is_terminal
    use axijoint_base_text, only : to_text, count_of
    use axijoint_base_version, only : program_version
    use axijoint_command_line, only : command_type
@@ -18,12 +19,12 @@ module axijoint_command_envelope
    use axijoint_model_load, only : increment_type, combination_type
    use axijoint_model_model, only : model_type, can_yield
    use axijoint_output_file_echo, only : deck_text
-   use axijoint_output_file_pending, only : join_path, io_error
    use axijoint_study_directions, only : spread_directions
    use axijoint_study_envelope, only : capacity_type, search_direction
    use axijoint_study_envelope_files, only : write_envelope
    use axijoint_study_journal, only : journal_type, open_journal, append_row, close_journal
    use axijoint_study_rows, only : row_type
+   use axijoint_study_undertaking, only : undertaking_type, begin_undertaking, end_undertaking
    use omp_lib, only : omp_set_num_threads
    implicit none
    private
@@ -49,7 +50,8 @@ contains
       type(capacity_type), allocatable :: found(:)
       real(wp), allocatable :: directions(:, :)
       type(increment_type) :: control
-      integer :: errno
+      character(len=:), allocatable :: notes, name
+      type(undertaking_type) :: undertaking
 
       exit_code = exit_ok
       if (command%threads > 0) call omp_set_num_threads(command%threads)
@@ -63,17 +65,19 @@ contains
       if (.not. allocated(error) .and. .not. can_yield(job%model)) call fatal_error(error, &
          exit_deck, 'no joint can open or slip: there is equilibrium at any load')
       if (.not. allocated(error)) then
-         call make_directories(command%options%directory, errno)
-         if (errno /= 0) call io_error(error, 'make', command%options%directory, errno)
-      end if
-      if (.not. allocated(error)) then
          call prepare(job%model, cases, control)
          directions = spread_directions(positive, command%n_directions)
          job%progress%logged = command%verbose
          job%progress%enabled = error_output_is_terminal() .and. &
                                 .not. (command%quiet .or. command%verbose)
          call job%timer%start()
-         call search_all(command, job, control, cases, directions, found, error)
+         name = job_name(command%decks(1)%text)//'.envelope'
+         call begin_undertaking(command%options%directory, name, name, &
+            'envelope '//command%decks(1)%text, undertaking, notes, error)
+         if (len(notes) > 0) write (error_unit, '(a)') notes
+         if (.not. allocated(error)) &
+            call search_all(command, job, control, cases, directions, undertaking, found, error)
+         call end_undertaking(undertaking, error)
          call clear_progress(job%progress)
       end if
       if (allocated(error)) then
@@ -166,7 +170,7 @@ contains
    end subroutine prepare
 
    !> Search all directions
-   subroutine search_all(command, job, control, cases, directions, found, error)
+   subroutine search_all(command, job, control, cases, directions, undertaking, found, error)
       !> Options
       type(command_type), intent(in) :: command
       !> The job
@@ -177,6 +181,8 @@ contains
       integer, intent(in) :: cases(:)
       !> Unit vectors, shape (cases, directions)
       real(wp), intent(in) :: directions(:, :)
+      !> What holds the name of the files
+      type(undertaking_type), intent(in) :: undertaking
       !> What is found
       type(capacity_type), allocatable, intent(out) :: found(:)
       !> Singular stiffness, out of memory, a file that cannot be written
@@ -184,17 +190,17 @@ contains
 
       type(journal_type) :: journal
       type(row_type), allocatable :: rows(:)
-      character(len=:), allocatable :: stem
       real(wp) :: direction(size(job%model%load_cases)), first
       integer :: k, n_before
 
-      stem = join_path(command%options%directory, job_name(command%decks(1)%text)//'.envelope')
-      call open_journal(stem//'.rows', program_version//deck_text(job%source)//command%cases//' '// &
+      call open_journal(undertaking%stem//'.rows', program_version//deck_text(job%source)// &
+         command%cases//' '// &
          to_text(command%n_directions)//' '//to_text(command%tolerance), n_kept, &
          size(directions, 2), journal, rows, n_before, error)
       if (allocated(error)) return
       if (n_before > 0 .and. .not. command%quiet) write (error_unit, '(a)') 'axijoint: '// &
-         count_of(n_before, 'direction')//' of '//to_text(size(rows))//' stand in '//stem// &
+         count_of(n_before, 'direction')//' of '//to_text(size(rows))//' stand in '// &
+         undertaking%stem// &
          '.rows from before'
       allocate (job%structure)
       call build_structure(job%model, job%structure, job%timer, job%progress, error)
@@ -202,6 +208,8 @@ contains
       allocate (found(size(rows)))
       do k = 1, size(rows)
          if (rows(k)%number == 0) then
+            call check_stop(error)
+            if (allocated(error)) return
             call show_progress(job%progress, 'direction '//to_text(k)//' of '// &
                to_text(size(rows)))
             direction = 0.0_wp
@@ -228,7 +236,7 @@ contains
             found(k)%n_increments = nint(rows(k)%values(3, 1))
          end if
       end do
-      call write_envelope(stem, job%model%load_cases(cases)%label, directions, found, error)
+      call write_envelope(undertaking, job%model%load_cases(cases)%label, directions, found, error)
       if (allocated(error)) return
       call close_journal(journal)
       call clear_progress(job%progress)
@@ -239,7 +247,7 @@ contains
          to_text(count(found%code == exit_ok))//' without end, '// &
          to_text(count(found%code == exit_not_converged))//' without equilibrium found', &
          'time                  '//to_text(sum(found%seconds))//' s', &
-         'files                 '//stem//'.csv .h5'
+         'files                 '//undertaking%stem//'.csv .h5'
    end subroutine search_all
 
 end module axijoint_command_envelope

@@ -226,7 +226,8 @@ contains
       if (command%name == 'envelope' .and. .not. allocated(command%cases)) call fatal_error(error, &
          exit_deck, 'an envelope needs --cases: the load cases whose factors span it, such as '// &
          '--cases 1,2, or 1+,2 if the first acts with positive factors alone')
-      if (command%name == 'study' .and. size(command%decks) > 2) call fatal_error(error, exit_deck, &
+      if (command%name == 'study' .and. size(command%decks) > 2) &
+         call fatal_error(error, exit_deck, &
          'a study has one table and one deck; use: '//program_name//' study TABLE [DECK]')
    end subroutine read_arguments
 

@@ -95,7 +95,8 @@ contains
       topics(4) = topic_type('study', 'TABLE [DECK]', 'solve many states of a deck', &
          'Solves the deck (NAME.dat beside TABLE unless it is given) for each row of a table, '// &
          'and writes NAME.study.csv, a line a row, and NAME.study.h5, with all increments. '// &
-         'The head of the table names what varies: `LAWS 1 PHI, RESULTANTS 2 VALUE`. Cells hold '// &
+         'The head of the table names what varies: `LAWS 1 PHI, RESULTANTS 2 VALUE`. Cells '// &
+         'hold '// &
          'values, lists (1; 2; 5), ranges (0:40:2 or 0:40/21) and distributions (NORMAL 30 2); '// &
          'a line stands for all their combinations. Rows of one structure share its '// &
          'condensation. A study that was ended goes on where it was.', &
@@ -104,7 +105,8 @@ contains
                       takes_word, joined(solvers)), &
           threads, memory, &
           option_type('--estimates', '', 'estimates of errors of each row, too: slower'), &
-          option_type('--part', 'K/N', 'only part K of N; `--part 0/N` gathers the parts, solves '// &
+          option_type('--part', 'K/N', 'only part K of N; `--part 0/N` gathers the parts, '// &
+          'solves '// &
                       'what they lack and writes the files'), &
           quiet, &
           option_type('--verbose', '', 'lines on the standard error output that say what is '// &
@@ -112,7 +114,8 @@ contains
          'The largest of the rows'', as of run.')
       topics(5) = topic_type('envelope', 'DECK', 'find what loads joints can carry, by direction', &
          'Finds the largest factor with equilibrium in directions of the space of some load '// &
-         'cases, and the mechanism beyond it. Increments of other load cases come first (a card '// &
+         'cases, and the mechanism beyond it. Increments of other load cases come first (a '// &
+         'card '// &
          'of INCREMENTS with the number of a case); then the load of a direction grows. Writes '// &
          'NAME.envelope.csv, a line a direction, and NAME.envelope.h5. A search that was ended '// &
          'goes on where it was.', &

@@ -4,8 +4,8 @@ module axijoint_command_study
    use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_progress, only : show_progress, clear_progress
-   use axijoint_base_system, only : error_output_is_terminal, path_kind, path_absent, &
-      make_directories, is_directory, error_text
+   use axijoint_base_stop, only : check_stop
+   use axijoint_base_system, only : error_output_is_terminal, path_kind, path_absent
    use axijoint_base_text, only : to_text, count_of
    use axijoint_base_version, only : program_version
    use axijoint_command_line, only : command_type
@@ -17,13 +17,13 @@ module axijoint_command_study
    use axijoint_job_job, only : job_name, take_options
    use axijoint_model_model, only : model_type
    use axijoint_output_file_echo, only : deck_text
-   use axijoint_output_file_pending, only : join_path, io_error
    use axijoint_study_files, only : write_study
    use axijoint_study_journal, only : journal_type, open_journal, append_row, close_journal
    use axijoint_study_quantities, only : quantity_names, name_length
    use axijoint_study_rows, only : rows_type, row_type, new_rows, solve_row, row_order
    use axijoint_study_statistics, only : new_statistics
    use axijoint_study_table, only : study_table_type, read_study_table, value_text
+   use axijoint_study_undertaking, only : undertaking_type, begin_undertaking, end_undertaking
    use omp_lib, only : omp_set_num_threads
    implicit none
    private
@@ -40,8 +40,10 @@ module axijoint_command_study
       type(rows_type) :: rows
       !> Names of the quantities
       character(len=name_length), allocatable :: names(:)
-      !> Path of its files without ending, and what tells it from others
-      character(len=:), allocatable :: stem, key
+      !> Name of its files without ending, and what tells it from others
+      character(len=:), allocatable :: name, key
+      !> What holds that name
+      type(undertaking_type) :: undertaking
    end type study_type
 
 contains
@@ -56,10 +58,20 @@ contains
       type(study_type), target :: study
       type(row_type), allocatable :: done(:)
       type(error_type), allocatable :: error
+      character(len=:), allocatable :: lock_name, notes
 
       if (command%threads > 0) call omp_set_num_threads(command%threads)
       call begin_study(command, study, error)
-      if (.not. allocated(error)) call solve_rows(command, study, done, error)
+      if (.not. allocated(error)) then
+         lock_name = study%name
+         if (command%part > 0) lock_name = study%name//'.'//to_text(command%part)//'of'// &
+            to_text(command%n_parts)
+         call begin_undertaking(command%options%directory, study%name, lock_name, &
+            'study '//command%decks(1)%text, study%undertaking, notes, error)
+         if (len(notes) > 0) write (error_unit, '(a)') notes
+         if (.not. allocated(error)) call solve_rows(command, study, done, error)
+         call end_undertaking(study%undertaking, error)
+      end if
       call clear_progress(study%rows%progress)
       if (allocated(error)) then
          call print_error(command%decks(1)%text, error)
@@ -83,7 +95,6 @@ contains
       type(model_type), target :: model
       type(diagnostics_type), target :: diagnostics, faults
       character(len=:), allocatable :: path, deck
-      integer :: errno
 
       path = command%decks(1)%text
       deck = job_name(path)//'.dat'
@@ -111,14 +122,10 @@ contains
       end if
       call take_options(command%options, model)
       study%names = quantity_names(model)
-      study%stem = join_path(command%options%directory, job_name(path)//'.study')
+      study%name = job_name(path)//'.study'
       study%key = program_version//new_line('a')//deck_text(source)//new_line('a')// &
          deck_text(study%table%source)//merge('estimates', '         ', command%estimates)
       if (command%options%solver_given) study%key = study%key//command%options%solver%name
-      if (.not. is_directory(join_path(command%options%directory, '.'))) then
-         call make_directories(command%options%directory, errno)
-         if (errno /= 0) call io_error(error, 'make', command%options%directory, errno)
-      end if
       call new_rows(source, entries, command%options, study%table, command%estimates, study%rows)
       study%rows%progress%logged = command%verbose
       study%rows%progress%enabled = error_output_is_terminal() .and. &
@@ -160,14 +167,17 @@ contains
       do i = first, last
          if (done(order(i))%number > 0) cycle
          call show_progress(study%rows%progress, 'row '//to_text(i)//' of '//to_text(last))
-         call solve_row(study%table, order(i), study%rows, done(order(i)))
+         call check_stop(error)
+         if (.not. allocated(error)) &
+            call solve_row(study%table, order(i), study%rows, done(order(i)), error)
+         if (allocated(error)) return
          call append_row(journal, done(order(i)), error)
          if (allocated(error)) return
          call tell(done(order(i)))
       end do
       call system_clock(now)
       if (command%part == 0) then
-         call write_study(study%stem, study%table, study%names, done, &
+         call write_study(study%undertaking, study%table, study%names, done, &
             new_statistics(done, size(study%names)), error)
          if (allocated(error)) return
          call remove_journals()
@@ -192,8 +202,8 @@ contains
          !> The path
          character(len=:), allocatable :: path
 
-         path = study%stem//'.rows'
-         if (part > 0) path = study%stem//'.'//to_text(part)//'of'// &
+         path = study%undertaking%stem//'.rows'
+         if (part > 0) path = study%undertaking%stem//'.'//to_text(part)//'of'// &
             to_text(command%n_parts)//'.rows'
       end function journal_path
 
@@ -285,7 +295,7 @@ contains
          if (command%part > 0) then
             write (output_unit, '(a)') 'file                  '//journal_path(command%part)
          else
-            write (output_unit, '(a)') 'files                 '//study%stem//'.csv .h5'
+            write (output_unit, '(a)') 'files                 '//study%undertaking%stem//'.csv .h5'
          end if
       end subroutine tell_end
 

@@ -8,12 +8,13 @@ module axijoint_output_claim
    use axijoint_base_whole_file, only : names_in
    use axijoint_job_combination, only : combination_label
    use axijoint_job_job, only : job_type, job_name, deck_name, result_name
-   use axijoint_output_file_names, only : endings, lock_ending, journal_ending, state_ending
+   use axijoint_output_file_names, only : endings, lock_ending, journal_ending, state_ending, &
+      table_ending
    use axijoint_output_file_pending, only : join_path
    use axijoint_output_file_set, only : finish_set
    implicit none
    private
-   public :: claim_type, claim_output, release_output
+   public :: claim_type, claim_output, claim_names, release_output
 
    !> Ending of files that are not complete
    character(len=*), parameter :: temporary_ending = '.tmp'
@@ -42,19 +43,35 @@ contains
       !> Another run has one of them, or something cannot be written
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: names(:), name, directory
+      call claim_names(job%options%directory, names_of(job), 'run '//deck_name(job%deck), claim, &
+         notes, error)
+   end subroutine claim_output
+
+   !> Take names in a directory
+   subroutine claim_names(directory, names, purpose, claim, notes, error)
+      !> The directory, which is there
+      character(len=*), intent(in) :: directory
+      !> Names of files without their endings
+      character(len=*), intent(in) :: names(:)
+      !> What they are taken for, a line that others are told
+      character(len=*), intent(in) :: purpose
+      !> The names
+      type(claim_type), intent(out) :: claim
+      !> What was found and done, a line each
+      character(len=:), allocatable, intent(out) :: notes
+      !> Another process has one of them, or something cannot be written
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: name
       integer :: k, removed
       logical :: finished
 
       notes = ''
       removed = 0
-      directory = job%options%directory
-      names = names_of(job)
       allocate (claim%locks(size(names)))
       do k = 1, size(names)
          name = trim(names(k))
-         call take_lock(join_path(directory, name//lock_ending), 'run '//deck_name(job%deck), &
-            claim%locks(k), error)
+         call take_lock(join_path(directory, name//lock_ending), purpose, claim%locks(k), error)
          if (allocated(error)) exit
          if (claim%locks(k)%inherited) call add('the lock of a run that did not end was '// &
             'taken over: '//join_path(directory, name//lock_ending))
@@ -79,7 +96,7 @@ contains
          notes = notes//'axijoint: '//line
       end subroutine add
 
-   end subroutine claim_output
+   end subroutine claim_names
 
    !> Whether the names are held
    pure logical function held(self)
@@ -160,6 +177,7 @@ contains
 
       ours = index(rest, state_ending//'.') == 1 .or. index(rest, journal_ending//'.') == 1 &
          .or. index(rest, lock_ending//'.') == 1
+      ours = ours .or. index(rest, table_ending//'.') == 1
       do dot = 1, size(endings)
          ours = ours .or. index(rest, trim(endings(dot))//'.') == 1
       end do

@@ -95,7 +95,8 @@ contains
       !> Takes the values
       type(cell_type), intent(inout) :: cell
 
-      character(len=*), parameter :: forms = 'a range is FIRST : LAST : STEP, or FIRST : LAST / '// &
+      character(len=*), parameter :: forms = &
+         'a range is FIRST : LAST : STEP, or FIRST : LAST / '// &
          'NUMBER OF VALUES'
       real(wp) :: first, last, step
       integer :: colon, mark, n, i, code(3)

@@ -10,7 +10,8 @@ module axijoint_study_directions
 contains
 
    !> Unit vectors: of two cases at equal angles, the first along the first case; of three on a
-   !> spiral round the sphere (Swinbank and Purser, Q. J. R. Meteorol. Soc. 132, 2006); of more drawn
+   !> spiral round the sphere (Swinbank and Purser, Q. J. R. Meteorol. Soc. 132, 2006); of more
+   !> drawn
    function spread_directions(positive, n) result(directions)
       !> Whether a case acts with positive factors alone, shape (cases)
       logical, intent(in) :: positive(:)

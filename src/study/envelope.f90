@@ -1,5 +1,5 @@
-!> How much of a load in some direction joints can carry: the largest factor that there is equilibrium
-!> for, on a path of growing load
+!> How much of a load in some direction joints can carry: the largest factor that there is
+!> equilibrium for, on a path of growing load
 module axijoint_study_envelope
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_structure, only : structure_type
@@ -128,7 +128,8 @@ contains
          loaded%increments(n_base + k) = increment
          loaded%increments(n_base + k)%factor = factors(k)
       end do
-      call analyse_combination(loaded, structure, loaded%combinations(1), results, timer, progress, &
+      call analyse_combination(loaded, structure, loaded%combinations(1), results, timer, &
+         progress, &
          error, estimated=.false.)
       if (allocated(error)) return
       capacity%code = exit_code_of(results)

@@ -8,6 +8,7 @@ module axijoint_study_envelope_files
    use axijoint_output_file_text, only : text_file_type
    use axijoint_study_envelope, only : capacity_type
    use axijoint_study_files, only : quoted
+   use axijoint_study_undertaking, only : undertaking_type, commit_pair
    implicit none
    private
    public :: write_envelope
@@ -15,9 +16,9 @@ module axijoint_study_envelope_files
 contains
 
    !> Write the files
-   subroutine write_envelope(stem, cases, directions, found, error)
-      !> Path without ending
-      character(len=*), intent(in) :: stem
+   subroutine write_envelope(undertaking, cases, directions, found, error)
+      !> What is under way: where the files go
+      type(undertaking_type), intent(in) :: undertaking
       !> Numbers of the load cases
       integer, intent(in) :: cases(:)
       !> Unit vectors, shape (cases, directions)
@@ -29,10 +30,11 @@ contains
 
       type(text_file_type) :: csv
       type(hdf5_file_type) :: arrays
+      logical :: halfway
       character(len=:), allocatable :: line
       integer :: i, k
 
-      call csv%open(stem//'.csv', error)
+      call csv%open(undertaking%stem//'.csv', error)
       if (allocated(error)) return
       line = 'direction'
       do i = 1, size(cases)
@@ -56,7 +58,7 @@ contains
             ','//all_digits(found(k)%seconds)//','//quoted(found(k)%message))
       end do
       call csv%finish(error)
-      if (.not. allocated(error)) call arrays%create(stem//'.h5', error)
+      if (.not. allocated(error)) call arrays%create(undertaking%stem//'.h5', error)
       if (.not. allocated(error)) then
          call arrays%attribute('/', 'program', program_name)
          call arrays%attribute('/', 'version', program_version)
@@ -72,8 +74,9 @@ contains
          call arrays%write('/seconds', (found%seconds), 'Time; (direction) [second]')
          call arrays%finish(error)
       end if
-      if (.not. allocated(error)) call arrays%commit(error)
-      if (.not. allocated(error)) call csv%commit(error)
+      halfway = .false.
+      if (.not. allocated(error)) call commit_pair(undertaking, halfway, error)
+      if (halfway) return
       call arrays%abandon()
       call csv%abandon()
    end subroutine write_envelope

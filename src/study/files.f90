@@ -12,6 +12,7 @@ module axijoint_study_files
    use axijoint_study_rows, only : row_type
    use axijoint_study_statistics, only : statistics_type, new_statistics, statistic_names
    use axijoint_study_table, only : study_table_type, value_text
+   use axijoint_study_undertaking, only : undertaking_type, commit_pair
    implicit none
    private
    public :: write_study, quoted
@@ -19,9 +20,9 @@ module axijoint_study_files
 contains
 
    !> Write the files
-   subroutine write_study(stem, table, names, rows, statistics, error)
-      !> Path without ending
-      character(len=*), intent(in) :: stem
+   subroutine write_study(undertaking, table, names, rows, statistics, error)
+      !> What is under way: where the files go
+      type(undertaking_type), intent(in) :: undertaking
       !> The table
       type(study_table_type), intent(in) :: table
       !> Names of the quantities
@@ -35,18 +36,20 @@ contains
 
       type(text_file_type) :: csv
       type(hdf5_file_type) :: arrays
+      logical :: halfway
 
-      call csv%open(stem//'.csv', error)
+      call csv%open(undertaking%stem//'.csv', error)
       if (allocated(error)) return
       call write_csv(csv, table, names, rows)
       call csv%finish(error)
-      if (.not. allocated(error)) call arrays%create(stem//'.h5', error)
+      if (.not. allocated(error)) call arrays%create(undertaking%stem//'.h5', error)
       if (.not. allocated(error)) then
          call write_arrays(arrays, table, names, rows, statistics)
          call arrays%finish(error)
       end if
-      if (.not. allocated(error)) call arrays%commit(error)
-      if (.not. allocated(error)) call csv%commit(error)
+      halfway = .false.
+      if (.not. allocated(error)) call commit_pair(undertaking, halfway, error)
+      if (halfway) return
       call arrays%abandon()
       call csv%abandon()
    end subroutine write_study

@@ -7,7 +7,7 @@ module axijoint_study_rows
    use axijoint_analysis_core_series, only : series_type, new_series, append_increment
    use axijoint_analysis_core_structure, only : structure_type, build_structure, take_loads_of
    use axijoint_analysis_static, only : analyse_combination
-   use axijoint_base_error, only : error_type, exit_deck, exit_internal
+   use axijoint_base_error, only : error_type, exit_deck, exit_internal, exit_stopped
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type
@@ -196,15 +196,17 @@ contains
    end function row_order
 
    !> Solve a row
-   subroutine solve_row(table, number, rows, row)
+   subroutine solve_row(table, number, rows, row, stopped)
       !> The table
       type(study_table_type), intent(in) :: table
       !> Number of the row
       integer, intent(in) :: number
       !> What rows share
       type(rows_type), intent(inout), target :: rows
-      !> What came of it
+      !> What came of it; nothing if the program is to end
       type(row_type), intent(out) :: row
+      !> The wish that the program ends
+      type(error_type), allocatable, intent(out) :: stopped
 
       type(model_type), target :: model
       type(error_type), allocatable :: error
@@ -219,6 +221,11 @@ contains
          call find_structure(model, rows, error)
          if (.not. allocated(error)) call solve_state(model, rows, row, error)
          if (allocated(error)) then
+            if (error%code == exit_stopped) then
+               call move_alloc(error, stopped)
+               row%number = 0
+               return
+            end if
             row%code = error%code
             row%message = error%message
          end if

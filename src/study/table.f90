@@ -298,7 +298,8 @@ contains
       place = 0
       if (len(name) == 0) return
       do k = 1, size(fields)
-         if (name == upper(short_name(fields(k))) .or. name == upper(trim(fields(k)%name))) place = k
+         if (name == upper(short_name(fields(k))) .or. name == upper(trim(fields(k)%name))) &
+            place = k
          if (name == upper(trim(fields(k)%symbol)) .and. fields(k)%symbol /= 'x' &
              .and. place == 0) place = k
       end do
@@ -433,7 +434,8 @@ contains
       if (any(cells%distribution > 0)) then
          rows = rows*own_value(columns, cells, own_samples, 0)
          if (present(diagnostics) .and. own_value(columns, cells, own_samples, 0) == 0) &
-            call add_error(diagnostics, line, 1, len(text), 'nothing says how many rows are drawn', &
+            call add_error(diagnostics, line, 1, len(text), &
+            'nothing says how many rows are drawn', &
                mend='add a column SAMPLES with the number')
       end if
       if (present(n_rows)) n_rows = int(min(rows, real(most_rows + 1, wp)))
@@ -535,7 +537,8 @@ contains
             values(i) = quantile(cell%distribution, cell%parameters, values(i))
          end do
          if (any(values < column%kind%low .or. values > column%kind%high)) &
-            call add_error(diagnostics, line, 0, 0, trim(column%name)//': a value is drawn that '// &
+            call add_error(diagnostics, line, 0, 0, trim(column%name)// &
+            ': a value is drawn that '// &
                'the card does not take', found=to_text(minval(values))//' to '// &
                to_text(maxval(values)), allowed=cell%allowed, &
                mend='TRUNCATED mean deviation low high stays between two ends')

@@ -4,13 +4,15 @@ module axijoint_output_file_names
    implicit none
    private
    public :: endings, file_arrays, file_listing, file_summary, file_bodies, file_joints
-   public :: final_path, journal_ending, lock_ending, state_ending
+   public :: final_path, journal_ending, lock_ending, state_ending, table_ending
 
    !> Endings of the files
    character(len=14), parameter :: endings(5) = [character(len=14) :: &
       ".h5", ".lis", ".json", ".vtkhdf", ".joints.vtkhdf"]
    integer, parameter :: file_arrays = 1, file_listing = 2, file_summary = 3, file_bodies = 4, &
       file_joints = 5
+   !> Ending of the table of a study
+   character(len=*), parameter :: table_ending = ".csv"
    !> Endings of what is there only while a run is under way, or was not ended: who writes these
    !> files, which of them are about to get their names, how far it is
    character(len=*), parameter :: lock_ending = ".lock", journal_ending = ".commit", &

@@ -1,0 +1,96 @@
+!> A study or an envelope under way: the name of its files, which nobody else may write meanwhile,
+!> and files that get that name as one
+module axijoint_study_undertaking
+   use axijoint_base_error, only : error_type, exit_stopped
+   use axijoint_base_stop, only : heed_signals, heed_file
+   use axijoint_base_system, only : make_directories, unlink_path
+   use axijoint_output_claim, only : claim_type, claim_names, release_output
+   use axijoint_output_file_names, only : journal_ending, table_ending
+   use axijoint_output_file_pending, only : join_path, io_error
+   use axijoint_output_file_set, only : commit_set
+   implicit none
+   private
+   public :: undertaking_type, begin_undertaking, end_undertaking, commit_pair
+
+   !> What is under way
+   type :: undertaking_type
+      !> Directory and name of its files, and both together
+      character(len=:), allocatable :: directory, name, stem
+      !> The name is taken
+      type(claim_type) :: claim
+   end type undertaking_type
+
+   !> Ending of the file that ends it
+   character(len=*), parameter :: stop_ending = '.STOP'
+
+contains
+
+   !> Take a name, and heed signals and its STOP file from now on
+   subroutine begin_undertaking(directory, name, lock_name, purpose, undertaking, notes, error)
+      !> Directory, made if it is not there
+      character(len=*), intent(in) :: directory
+      !> Name of the files without ending, and the name that is taken: of a part of a study another
+      character(len=*), intent(in) :: name, lock_name
+      !> What it is, a line that others are told
+      character(len=*), intent(in) :: purpose
+      !> What is under way
+      type(undertaking_type), intent(out) :: undertaking
+      !> What was found and done, a line each; may be empty
+      character(len=:), allocatable, intent(out) :: notes
+      !> Another process has the name, or something cannot be written
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: errno
+
+      notes = ''
+      undertaking%directory = directory
+      undertaking%name = name
+      undertaking%stem = join_path(directory, name)
+      call heed_signals()
+      call make_directories(directory, errno)
+      if (errno /= 0) then
+         call io_error(error, 'make', directory, errno)
+         return
+      end if
+      call claim_names(directory, [lock_name], purpose, undertaking%claim, notes, error)
+      if (allocated(error)) return
+      call unlink_path(undertaking%stem//stop_ending, errno)  ! of an earlier one
+      call heed_file(undertaking%stem//stop_ending)
+   end subroutine begin_undertaking
+
+   !> Give the name back; an end before its time says how to go on
+   subroutine end_undertaking(undertaking, error)
+      !> What was under way
+      type(undertaking_type), intent(inout) :: undertaking
+      !> How it ended, if not well
+      type(error_type), allocatable, intent(inout) :: error
+
+      integer :: errno
+
+      call release_output(undertaking%claim)
+      call heed_file('')
+      if (.not. allocated(error)) return
+      if (error%code /= exit_stopped) return
+      call unlink_path(undertaking%stem//stop_ending, errno)
+      error%message = error%message//new_line('a')//'what is done stands in '// &
+         undertaking%stem//'*.rows; the same command goes on from there'
+   end subroutine end_undertaking
+
+   !> Give the table and the HDF5 file their names as one
+   subroutine commit_pair(undertaking, halfway, error)
+      !> What is under way; both are complete under their temporary names
+      type(undertaking_type), intent(in) :: undertaking
+      !> Whether the files must stay for the next run
+      logical, intent(out) :: halfway
+      !> A name could not be given
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=len(undertaking%name) + len(table_ending)) :: names(2)
+
+      names(1) = undertaking%name//'.h5'
+      names(2) = undertaking%name//table_ending
+      call commit_set(undertaking%directory, undertaking%name//journal_ending, names, halfway, &
+         error)
+   end subroutine commit_pair
+
+end module axijoint_study_undertaking
