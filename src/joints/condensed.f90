@@ -9,7 +9,8 @@ module axijoint_joints_condensed
                                          report_failure
    use axijoint_assembly_support, only : support_point_type
    use axijoint_base_error, only : error_type
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_team, only : team_type
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_floating, only : floating_motion_type, new_floating_motions
@@ -35,8 +36,14 @@ module axijoint_joints_condensed
       !> Modes of the job, and the system of equations of each
       type(mode_type), allocatable :: modes(:)
       integer, allocatable :: system(:)
-      !> Flexibilities, one a system
+      !> Flexibilities, one a system; allocated are those of this rank
       type(flexibility_type), allocatable :: flexibilities(:)
+      !> Jumps of each point from its own excess stress, of all systems, shape (components,
+      !> components, points, systems)
+      real(wp), allocatable :: own(:, :, :, :)
+      !> Processes that share the systems; last system and last mode of each, shape (0:ranks)
+      class(team_type), allocatable :: team
+      integer, allocatable :: last_system(:), last_mode(:)
       !> Rigid motions that only these points resist
       type(floating_motion_type), allocatable :: floating(:)
       !> How stress at the points acts on the parts
@@ -67,16 +74,40 @@ contains
       condensed%points = pack(joint_points, yields)
       condensed%modes = equations%modes
       condensed%system = equations%system
+      allocate (condensed%team, source=equations%team)
+      condensed%last_system = equations%last_system
+      condensed%last_mode = equations%last_mode
       condensed%proportion = stiffness_ratio(condensed%points)
       call new_floating_motions(model, pack(joint_points, .not. yields), supports, &
          condensed%modes, condensed%points, &
                                 condensed%floating)
       call new_measure(model%mesh, equations, condensed%points, condensed%measure)
       call condense_all(equations, condensed%points, condensed%flexibilities, error)
+      call condensed%team%agree(error)
       if (.not. allocated(error)) call report_failure(equations, model, error)
+      if (.not. allocated(error)) call share_own_flexibilities(condensed)
    end subroutine new_condensed
 
-   !> Condense every harmonic to the joint points
+   !> Let all ranks know what each point does to itself
+   subroutine share_own_flexibilities(condensed)
+      !> The condensed structure
+      type(condensed_type), intent(inout) :: condensed
+
+      integer :: s, k
+
+      allocate (condensed%own(3, 3, size(condensed%points), size(condensed%flexibilities)))
+      do s = 1, size(condensed%flexibilities)
+         if (.not. allocated(condensed%flexibilities(s)%matrix)) cycle
+         do k = 1, size(condensed%points)
+            condensed%own(:, :, k, s) = &
+               condensed%flexibilities(s)%matrix(3*k - 2:3*k, 3*k - 2:3*k)
+         end do
+      end do
+      call condensed%team%gather(condensed%own, size(condensed%own, kind=i8), &
+                                 condensed%last_system)
+   end subroutine share_own_flexibilities
+
+   !> Condense every harmonic of this rank to the joint points
    subroutine condense_all(equations, points, flexibilities, error)
       !> Equations of all modes, assembled; systems that cannot be factored are marked there
       type(equations_type), intent(inout) :: equations
@@ -94,7 +125,7 @@ contains
       allocate (flexibilities(size(equations%systems)))
       call new_workspaces(equations, spaces)
       !$omp parallel do schedule(dynamic) private(failure) num_threads(size(spaces))
-      do s = 1, size(equations%systems)
+      do s = equations%first, equations%last
          call hold_factor(equations, s, spaces(own()))
          if (equations%systems(s)%failed) cycle
          call condense(equations, s, points, flexibilities(s)%matrix, failure)
