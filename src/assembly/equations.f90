@@ -21,7 +21,7 @@ module axijoint_assembly_equations
    private
    public :: equations_type, system_type, plan_equations, assemble_equations
    public :: solve_mode, backward_error, on_equations
-   public :: plan_solver, worth_threads, planned_seconds, refine_mode, find_condition
+   public :: own_modes, plan_solver, worth_threads, planned_seconds, refine_mode, find_condition
 
    !> With fewer equations in all, threads cost more than they save
    integer, parameter :: least_equations = 5000
@@ -193,6 +193,18 @@ contains
          equations%last = equations%last_system(team%rank + 1)
       end associate
    end subroutine share_systems
+
+   !> First and last mode of this rank
+   pure function own_modes(equations) result(places)
+      !> The equations, planned
+      type(equations_type), intent(in) :: equations
+      !> Places of the modes
+      integer :: places(2)
+
+      associate (rank => equations%team%rank)
+         places = equations%last_mode(rank:rank + 1) + [1, 0]
+      end associate
+   end function own_modes
 
    !> Divide the modes into systems
    subroutine divide_modes(modes, class, system, systems)

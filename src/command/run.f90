@@ -49,7 +49,7 @@ contains
                call print_error(deck, error)
                ! a name that was mistyped leaves nothing
                there = target_kind(deck) == path_file
-               if (there .or. deck == standard_input) &
+               if ((there .or. deck == standard_input) .and. speaks(command)) &
                   call write_error_summary(command%options%directory, job_name(deck), &
                                            deck_name(deck), error%code, [error%message])
                code = error%code
@@ -76,7 +76,8 @@ contains
 
       exit_code = exit_ok
       call begin(deck, command, job, error)
-      if (.not. allocated(error)) call check_output(job, error)
+      if (.not. allocated(error) .and. speaks(command)) call check_output(job, error)
+      if (allocated(job%options%team)) call job%options%team%agree(error)
       if (allocated(error)) return
       if (job%model%error_goal%wanted) then
          call refine_to_goal(job, results, error)
@@ -96,6 +97,15 @@ contains
       end if
       call clear_progress(job%progress)
    end subroutine run_deck
+
+   !> Whether this process writes and tells: one of those that share the work does
+   pure logical function speaks(command)
+      !> The command
+      type(command_type), intent(in) :: command
+
+      speaks = .true.
+      if (allocated(command%options%team)) speaks = command%options%team%rank == 0
+   end function speaks
 
    !> Read the deck, and tell what is wrong with it
    subroutine begin(deck, command, job, error)

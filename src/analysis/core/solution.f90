@@ -6,7 +6,7 @@ module axijoint_analysis_core_solution
    use axijoint_analysis_fine_difference, only : difference_type, find_difference, &
                                                 share_difference
    use axijoint_analysis_fine_level, only : fine_load_type, new_fine_load
-   use axijoint_assembly_equations, only : equations_type, solve_mode, refine_mode, &
+   use axijoint_assembly_equations, only : equations_type, own_modes, solve_mode, refine_mode, &
                                            backward_error, find_condition
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
                                          release_factor, report_failure
@@ -117,11 +117,11 @@ contains
       type(mode_solve_type), intent(inout) :: solves(:)
 
       real(wp) :: found(4, size(solves))
-      integer :: k
+      integer :: k, own(2)
 
       found = 0.0_wp
-      do k = equations%last_mode(equations%team%rank) + 1, &
-         equations%last_mode(equations%team%rank + 1)
+      own = own_modes(equations)
+      do k = own(1), own(2)
          found(:, k) = [solves(k)%smallest_pivot, solves(k)%backward_error, &
                         solves(k)%correction, solves(k)%condition]
       end do
