@@ -2,9 +2,11 @@
 module axijoint_command_run
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit, compiler_options
    use axijoint_analysis_core_results, only : results_type
-   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck
+   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_io
    use axijoint_base_progress, only : show_progress, clear_progress
    use axijoint_base_system, only : error_output_is_terminal, target_kind, path_file
+   use axijoint_base_sha256, only : sha256
+   use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : phase_write
    use axijoint_command_line, only : command_type, word_type
    use axijoint_deck_text_diagnostics, only : diagnostics_type, render
@@ -13,6 +15,7 @@ module axijoint_command_run
    use axijoint_job_job, only : job_type, job_name, deck_name, standard_input
    use axijoint_job_read, only : read_job
    use axijoint_output_brief, only : brief_text, status_text
+   use axijoint_output_file_echo, only : deck_text
    use axijoint_output_file_run, only : exit_code_of
    use axijoint_output_output, only : check_output, write_output, write_error_summary
    use omp_lib, only : omp_set_num_threads
@@ -77,7 +80,7 @@ contains
       exit_code = exit_ok
       call begin(deck, command, job, error)
       if (.not. allocated(error) .and. speaks(command)) call check_output(job, error)
-      if (allocated(job%options%team)) call job%options%team%agree(error)
+      if (allocated(job%options%team)) call agree_on_deck(job, error)
       if (allocated(error)) return
       if (job%model%error_goal%wanted) then
          call refine_to_goal(job, results, error)
@@ -97,6 +100,26 @@ contains
       end if
       call clear_progress(job%progress)
    end subroutine run_deck
+
+   !> Make sure that all processes that share the work read the same deck without errors
+   subroutine agree_on_deck(job, error)
+      !> The job, read
+      type(job_type), intent(in) :: job
+      !> Error of one, then of all
+      type(error_type), allocatable, intent(inout) :: error
+
+      character(len=:), allocatable :: here, there
+
+      call job%options%team%agree(error)
+      if (allocated(error)) return
+      here = sha256(deck_text(job%source))
+      there = here
+      call job%options%team%tell(there)
+      if (here /= there) call fatal_error(error, exit_io, 'process '// &
+         to_text(job%options%team%rank)//' reads another deck under this name than the first'// &
+         new_line('a')//'mend: put the deck where all machines see the same file')
+      call job%options%team%agree(error)
+   end subroutine agree_on_deck
 
    !> Whether this process writes and tells: one of those that share the work does
    pure logical function speaks(command)

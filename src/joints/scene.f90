@@ -5,7 +5,7 @@ module axijoint_joints_scene
    use axijoint_base_kinds, only : wp, i8
    use axijoint_element_joint_law, only : joint_law_type
    use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
-   use axijoint_joints_condensed, only : condensed_type
+   use axijoint_joints_condensed, only : condensed_type, rank_of
    use axijoint_joints_field, only : joint_field_type, admit_jump
    use axijoint_joints_loads, only : joint_loads_type, new_joint_loads
    use axijoint_joints_planes, only : planes_type, new_planes, synthesize, analyse
@@ -83,9 +83,10 @@ contains
             if (k > n) jump(:, :, k) = scene%scale(k)*jump(:, :, k)
          end do
          !$omp end parallel do
-         call condensed%team%gather(jump, size(jump(:, :, :n), kind=i8), condensed%last_mode)
+         if (condensed%shared) call condensed%team%gather(jump, size(jump(:, :, :n), kind=i8), &
+            condensed%last_mode)
          ! all that follow take the flexibility of one system
-         if (size(jump, 3) > n) call condensed%team%broadcast(jump(:, :, n + 1:), &
+         if (condensed%shared .and. size(jump, 3) > n) call condensed%team%broadcast(jump(:, :, n + 1:), &
             size(jump(:, :, n + 1:), kind=i8), rank_of(condensed, scene%system(n + 1)))
       end associate
       if (free) jump = jump + scene%loads%free
@@ -107,19 +108,9 @@ contains
       associate (flexibility => condensed%flexibilities(scene%system(mode)))
          if (allocated(flexibility%matrix)) call matrix_vector(flexibility%matrix, excess, jump)
       end associate
-      call condensed%team%broadcast(jump, size(jump, kind=i8), &
-                                    rank_of(condensed, scene%system(mode)))
+      if (condensed%shared) call condensed%team%broadcast(jump, size(jump, kind=i8), &
+         rank_of(condensed, scene%system(mode)))
    end function jumps_of_mode
-
-   !> Rank that has the flexibility of a system
-   pure integer function rank_of(condensed, system)
-      !> The condensed structure
-      type(condensed_type), intent(in) :: condensed
-      !> Place of the system
-      integer, intent(in) :: system
-
-      rank_of = count(condensed%last_system < system) - 1
-   end function rank_of
 
    !> Jumps of a point from unit amplitudes of its own excess stress
    pure function own_flexibility(condensed, scene, mode, k) result(flexibility)
