@@ -134,6 +134,7 @@ contains
          call timer%pop()
          results%remarks = remarks_on(model, structure, history, field, results)
       end if
+      results%exchanged(2) = structure%equations%team%exchanged()
       call timer%pop()
    end subroutine analyse_combination
 
@@ -174,6 +175,7 @@ contains
       if (estimates) &
          call compare_loops(model, structure%condensed, history, results%other_loop, other)
       results%path = history%path
+      results%exchanged(1) = history%exchanged
       results%tolerance = model%increments(size(model%increments))%tolerance
       allocate (results%displacement, mold=history%loading%right)
       if (allocated(history%runaway)) then
