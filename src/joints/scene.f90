@@ -13,8 +13,8 @@ module axijoint_joints_scene
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: scene_type, new_scene, jumps, jumps_of_mode, own_flexibility, evaluate, views, mismatch_of, &
-      elastic_stress
+   public :: scene_type, new_scene, jumps, jumps_of_mode, own_flexibility, evaluate, views, &
+      mismatch_of, elastic_stress
    public :: motion_of, multiples_of_motions, stand_where_they_are
 
    !> Stiffness k h/E of joints that a state is judged by
@@ -83,11 +83,12 @@ contains
             if (k > n) jump(:, :, k) = scene%scale(k)*jump(:, :, k)
          end do
          !$omp end parallel do
-         if (condensed%shared) call condensed%team%gather(jump, size(jump(:, :, :n), kind=i8), &
-            condensed%last_mode)
-         ! all that follow take the flexibility of one system
-         if (condensed%shared .and. size(jump, 3) > n) call condensed%team%broadcast(jump(:, :, n + 1:), &
-            size(jump(:, :, n + 1:), kind=i8), rank_of(condensed, scene%system(n + 1)))
+         if (condensed%shared) then
+            call condensed%team%gather(jump, size(jump(:, :, :n), kind=i8), condensed%last_mode)
+            ! all that follow take the flexibility of one system
+            if (size(jump, 3) > n) call condensed%team%broadcast(jump(:, :, n + 1:), &
+               size(jump(:, :, n + 1:), kind=i8), rank_of(condensed, scene%system(n + 1)))
+         end if
       end associate
       if (free) jump = jump + scene%loads%free
    end function jumps
