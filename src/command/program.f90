@@ -1,7 +1,7 @@
 !> The program: words of the command line to a command and an exit code
 module axijoint_command_program
    use, intrinsic :: iso_fortran_env, only : output_unit
-   use axijoint_base_error, only : error_type, exit_ok
+   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck
    use axijoint_base_system, only : return_freed_memory
    use axijoint_base_team, only : team_type
    use axijoint_command_check, only : check_decks
@@ -45,7 +45,16 @@ contains
          exit_code = error%code
          return
       end if
-      if (present(team)) allocate (command%options%team, source=team)
+      if (present(team)) then
+         allocate (command%options%team, source=team)
+         if (team%size > 1 .and. command%name /= 'run') then
+            call fatal_error(error, exit_deck, 'only `run` works in several processes'// &
+                             new_line('a')//'mend: one process for `'//command%name//'`')
+            call print_error('', error)
+            exit_code = error%code
+            return
+         end if
+      end if
       select case (command%name)
       case ('run')
          call run_decks(command, exit_code)
