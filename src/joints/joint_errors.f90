@@ -315,7 +315,7 @@ contains
       !> Place of the mode
       integer, intent(in) :: place
       !> The stress, shape (3, points)
-      real(wp), intent(in) :: excess(:, :)
+      real(wp), intent(in), contiguous :: excess(:, :)
       !> The ratio
       real(wp) :: stiffness
 
