@@ -141,6 +141,7 @@ contains
       end if
       if (estimates .and. .not. allocated(error)) &
          results%remarks = remarks_on(model, structure, history, field, results)
+      results%exchanged(2) = structure%equations%team%exchanged()
       call timer%pop()
    end subroutine analyse_combination
 
@@ -183,6 +184,7 @@ contains
       if (estimates) &
          call compare_loops(model, structure%condensed, history, results%other_loop, other)
       results%path = history%path
+      results%exchanged(1) = history%exchanged
       results%tolerance = model%increments(size(model%increments))%tolerance
       allocate (results%displacement, mold=history%loading%right)
       if (allocated(history%runaway)) then

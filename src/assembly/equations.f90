@@ -7,6 +7,7 @@ module axijoint_assembly_equations
    use axijoint_assembly_support, only : support_point_type
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
+   use axijoint_base_team, only : team_type, take_team, equal_shares
    use axijoint_fe_mode, only : mode_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type
@@ -20,12 +21,14 @@ module axijoint_assembly_equations
    private
    public :: equations_type, system_type, plan_equations, assemble_equations
    public :: solve_mode, backward_error, on_equations
-   public :: plan_solver, worth_threads, planned_seconds, refine_mode, find_condition
+   public :: own_modes, plan_solver, worth_threads, planned_seconds, refine_mode, find_condition
 
    !> With fewer equations in all, threads cost more than they save
    integer, parameter :: least_equations = 5000
    !> Rate of matrix products that solvers are chosen by [operations/second]
    real(wp), parameter :: nominal_rate = 5.0e10_wp
+   !> Time of all that a mode takes besides, solutions, estimates and stresses, an equation [second]
+   real(wp), parameter :: seconds_of_equation = 8.0e-6_wp
 
    !> K_m of one harmonic: both families of it share the matrix unless restraints tell them apart;
    !> m = 0 has one for the symmetric family and one for torsion
@@ -68,10 +71,16 @@ module axijoint_assembly_equations
       type(stiffness_type), allocatable :: classes(:)
       !> Plans of the solver, one a class
       type(plan_slot_type), allocatable :: plans(:)
-      !> So many systems, the first ones, keep their factors
+      !> So many systems, the first ones of this rank, keep their factors
       integer :: n_kept = 0
       !> Systems that are worked on at once
       integer :: n_workers = 1
+      !> Processes that share the work
+      class(team_type), allocatable :: team
+      !> Last system and last mode of each rank, shape (0:ranks)
+      integer, allocatable :: last_system(:), last_mode(:)
+      !> Systems of this rank: first and last
+      integer :: first = 1, last = 0
    end type equations_type
 
 contains
@@ -155,7 +164,47 @@ contains
          call equations%plans(k)%solver%analyse(equations%classes(k)%pattern, error)
          if (allocated(error)) return
       end do
+      call take_team(model%team, equations%team)
+      call share_systems(equations)
    end subroutine plan_solver
+
+   !> Give each rank a range of systems, of costs as equal as may be
+   subroutine share_systems(equations)
+      !> The equations, planned
+      type(equations_type), intent(inout) :: equations
+
+      real(wp) :: cost(size(equations%systems))
+      integer :: s, rank
+
+      do s = 1, size(cost)
+         associate (system => equations%systems(s))
+            cost(s) = system_seconds(equations, s, .true., nominal_rate) &
+               + seconds_of_equation*size(system%modes) &
+               *equations%classes(system%class)%dofs%n_equations
+         end associate
+      end do
+      associate (team => equations%team)
+         allocate (equations%last_system(0:team%size), equations%last_mode(0:team%size))
+         equations%last_system(:) = equal_shares(cost, team%size)
+         do rank = 0, team%size
+            equations%last_mode(rank) = count(equations%system <= equations%last_system(rank))
+         end do
+         equations%first = equations%last_system(team%rank) + 1
+         equations%last = equations%last_system(team%rank + 1)
+      end associate
+   end subroutine share_systems
+
+   !> First and last mode of this rank
+   pure function own_modes(equations) result(places)
+      !> The equations, planned
+      type(equations_type), intent(in) :: equations
+      !> Places of the modes
+      integer :: places(2)
+
+      associate (rank => equations%team%rank)
+         places = equations%last_mode(rank:rank + 1) + [1, 0]
+      end associate
+   end function own_modes
 
    !> Divide the modes into systems
    subroutine divide_modes(modes, class, system, systems)
@@ -212,11 +261,24 @@ contains
       if (present(rate)) speed = rate
       seconds = 0.0_wp
       do k = 1, size(equations%systems)
-         seconds = seconds + &
-            equations%solver%seconds(equations%plans(equations%systems(k)%class)%solver, &
-                                                      speed, kept)
+         seconds = seconds + system_seconds(equations, k, kept, speed)
       end do
    end function planned_seconds
+
+   !> Expected time of the factorization of one system
+   pure real(wp) function system_seconds(equations, s, kept, rate) result(seconds)
+      !> The equations, planned
+      type(equations_type), intent(in) :: equations
+      !> Place of the system
+      integer, intent(in) :: s
+      !> Whether factors are kept
+      logical, intent(in) :: kept
+      !> Operations a second of a large matrix product
+      real(wp), intent(in) :: rate
+
+      seconds = equations%solver%seconds(equations%plans(equations%systems(s)%class)%solver, &
+                                         rate, kept)
+   end function system_seconds
 
    !> Assemble the stiffness of all classes
    subroutine assemble_equations(equations, model, joint_points, support_points)

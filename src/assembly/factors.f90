@@ -53,14 +53,14 @@ contains
 
       integer(i8) :: room
 
-      associate (n => size(equations%systems))
+      associate (n => equations%last - equations%first + 1)
          equations%n_workers = 1
          if (worth_threads(equations) .and. equations%solver%concurrent) then
             equations%n_workers = max(1, min(omp_get_max_threads(), n))
          end if
          equations%n_kept = merge(n, 0, keep)
       end associate
-      room = free_memory(limit) - other_bytes
+      room = free_memory(limit, equations%team%sharers) - other_bytes
       do while (coming_bytes(equations) > room)
          if (equations%n_kept > 0) then
             equations%n_kept = equations%n_kept - 1
@@ -71,7 +71,8 @@ contains
          end if
       end do
       call require_memory(coming_bytes(equations) + other_bytes, &
-                          'the factor of one harmonic and the results', limit, error)
+                          'the factor of one harmonic and the results', limit, error, &
+                          equations%team%sharers)
    end subroutine plan_factors
 
    !> Bytes that assembling and factoring will take
@@ -119,7 +120,7 @@ contains
       integer :: s
 
       bytes = 0
-      do s = 1, equations%n_kept
+      do s = equations%first, equations%first + equations%n_kept - 1
          bytes = bytes + equations%plans(equations%systems(s)%class)%solver%factor_bytes
       end do
    end function kept_bytes
@@ -135,18 +136,29 @@ contains
 
       work = 0
       largest = 0
-      do s = 1, size(equations%systems)
+      do s = equations%first, equations%last
          associate (class => equations%systems(s)%class)
             associate (solver => equations%plans(class)%solver)
                work = max(work, solver%work_bytes &
                           + value_bytes*size(equations%classes(class)%pattern%column, kind=i8))
-               if (s > equations%n_kept) largest = max(largest, solver%factor_bytes)
+               if (.not. is_kept(equations, s)) largest = max(largest, solver%factor_bytes)
             end associate
          end associate
       end do
       bytes = work*equations%n_workers &
-         + largest*min(equations%n_workers, size(equations%systems) - equations%n_kept)
+         + largest*min(equations%n_workers, &
+                       equations%last - equations%first + 1 - equations%n_kept)
    end function passing_bytes
+
+   !> Whether a system keeps its factor
+   pure logical function is_kept(equations, s)
+      !> The equations, planned
+      type(equations_type), intent(in) :: equations
+      !> Place of the system
+      integer, intent(in) :: s
+
+      is_kept = s < equations%first + equations%n_kept
+   end function is_kept
 
    !> Memory for all threads of a loop over systems
    subroutine new_workspaces(equations, spaces)
@@ -178,7 +190,7 @@ contains
       call use_one_blas_thread()
       call new_workspaces(equations, spaces)
       !$omp parallel do schedule(dynamic) num_threads(size(spaces))
-      do s = 1, equations%n_kept
+      do s = equations%first, equations%first + equations%n_kept - 1
          if (stop_wished()) cycle
          call hold_factor(equations, s, spaces(own()))
       end do
@@ -206,7 +218,7 @@ contains
                deallocate (space%spare)
             end if
          end if
-         call factorize_system(equations, system, s > equations%n_kept, space%value)
+         call factorize_system(equations, system, .not. is_kept(equations, s), space%value)
          system%failed = allocated(system%failure) .or. system%pivots%equation > 0
          if (system%failed .and. allocated(system%factor)) deallocate (system%factor)
       end associate
@@ -222,7 +234,7 @@ contains
       type(workspace_type), intent(inout) :: space
 
       associate (system => equations%systems(s))
-         if (s <= equations%n_kept .or. .not. allocated(system%factor)) return
+         if (is_kept(equations, s) .or. .not. allocated(system%factor)) return
          space%class = system%class
          call move_alloc(system%factor, space%spare)
       end associate
@@ -254,7 +266,7 @@ contains
       end associate
    end subroutine factorize_system
 
-   !> The failure of the lowest harmonic that has one: the same with any number of threads
+   !> The failure of the lowest harmonic that has one: the same with any number of threads and ranks
    subroutine report_failure(equations, model, error)
       !> The equations
       type(equations_type), intent(in) :: equations
@@ -266,12 +278,14 @@ contains
       integer :: s
 
       s = findloc(equations%systems%failed, .true., 1)
-      if (s == 0) return
-      if (allocated(equations%systems(s)%failure)) then
-         error = equations%systems(s)%failure
-      else
-         call fatal_error(error, exit_singular, pivot_message(equations, s, model))
+      if (s > 0) then
+         if (allocated(equations%systems(s)%failure)) then
+            error = equations%systems(s)%failure
+         else
+            call fatal_error(error, exit_singular, pivot_message(equations, s, model))
+         end if
       end if
+      call equations%team%agree(error)
    end subroutine report_failure
 
    !> A pivot that is not positive, in words

@@ -21,7 +21,7 @@ contains
 
    !> Make sure that memory is there before it is allocated: a system that
    !> promises more than it has would kill the process later without a word
-   subroutine require_memory(bytes, purpose, limit, error)
+   subroutine require_memory(bytes, purpose, limit, error, sharers)
       !> Bytes needed, without the head-room of the libraries
       integer(i8), intent(in) :: bytes
       !> What for
@@ -30,8 +30,10 @@ contains
       integer(i8), intent(in) :: limit
       !> Too little memory, with the bytes
       type(error_type), allocatable, intent(out) :: error
+      !> Processes that share the machine for the same work; 1 if absent
+      integer, intent(in), optional :: sharers
 
-      if (bytes <= free_memory(limit)) return
+      if (bytes <= free_memory(limit, sharers)) return
       if (bytes > left_of(limit)) then
          call fatal_error(error, exit_memory, 'out of memory: '//purpose//' need '// &
                           in_mebibytes(bytes)//', the limit given leaves '// &
@@ -41,18 +43,20 @@ contains
       end if
       call fatal_error(error, exit_memory, 'out of memory: '//purpose//' need '// &
                        in_mebibytes(bytes + head_room)//', available are '// &
-                       in_mebibytes(available_memory())//new_line('a')// &
+                       in_mebibytes(available_memory(sharers))//new_line('a')// &
                        'mend: a coarser mesh, fewer harmonics, or a larger memory limit')
    end subroutine require_memory
 
    !> Bytes that data of this process may still take, by what is found and what the user allows
-   function free_memory(limit) result(bytes)
+   function free_memory(limit, sharers) result(bytes)
       !> Bytes that the user lets the process take in all
       integer(i8), intent(in) :: limit
+      !> Processes that share the machine for the same work; 1 if absent
+      integer, intent(in), optional :: sharers
       !> Bytes
       integer(i8) :: bytes
 
-      bytes = min(available_memory() - head_room, left_of(limit))
+      bytes = min(available_memory(sharers) - head_room, left_of(limit))
    end function free_memory
 
    !> Bytes that a limit on the whole process leaves
@@ -72,7 +76,9 @@ contains
 
    !> Bytes that this process may still take: the least of what the machine has
    !> free, what its control group leaves and what its address space leaves
-   function available_memory() result(bytes)
+   function available_memory(sharers) result(bytes)
+      !> Processes that share the first two for the same work; 1 if absent
+      integer, intent(in), optional :: sharers
       !> Bytes; very large if nothing is known
       integer(i8) :: bytes
 
@@ -82,6 +88,7 @@ contains
       limit = number_after('/sys/fs/cgroup/memory.max', '')
       used = number_after('/sys/fs/cgroup/memory.current', '')
       if (limit /= unknown .and. used /= unknown) bytes = min(bytes, max(limit - used, 0_i8))
+      if (present(sharers)) bytes = bytes/sharers
       limit = number_after('/proc/self/limits', 'Max address space')
       used = scaled(number_after('/proc/self/status', 'VmSize:'), 1024_i8)
       if (limit /= unknown .and. used /= unknown) bytes = min(bytes, max(limit - used, 0_i8))

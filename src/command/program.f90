@@ -1,8 +1,9 @@
 !> The program: words of the command line to a command and an exit code
 module axijoint_command_program
    use, intrinsic :: iso_fortran_env, only : output_unit
-   use axijoint_base_error, only : error_type, exit_ok
+   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck
    use axijoint_base_system, only : return_freed_memory
+   use axijoint_base_team, only : team_type
    use axijoint_command_check, only : check_decks
    use axijoint_command_compare, only : compare_files
    use axijoint_command_envelope, only : run_envelope
@@ -24,11 +25,13 @@ module axijoint_command_program
 contains
 
    !> Do what the command line says
-   subroutine run_program(solvers, exit_code)
+   subroutine run_program(solvers, exit_code, team)
       !> Solvers that there are
       type(solver_entry_type), intent(in) :: solvers(:)
       !> Exit code of the process
       integer, intent(out) :: exit_code
+      !> Processes that share the work; this one alone if absent
+      class(team_type), intent(in), optional :: team
 
       type(command_type) :: command
       type(error_type), allocatable :: error
@@ -41,6 +44,16 @@ contains
          call print_error('', error)
          exit_code = error%code
          return
+      end if
+      if (present(team)) then
+         allocate (command%options%team, source=team)
+         if (team%size > 1 .and. command%name /= 'run') then
+            call fatal_error(error, exit_deck, 'only `run` works in several processes'// &
+                             new_line('a')//'mend: one process for `'//command%name//'`')
+            call print_error('', error)
+            exit_code = error%code
+            return
+         end if
       end if
       select case (command%name)
       case ('run')

@@ -2,11 +2,12 @@
 module axijoint_command_run
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit, compiler_options
    use axijoint_analysis_core_results, only : results_type
-   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_in_use, &
-      exit_state, exit_stopped
+   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_io, &
+      exit_in_use, exit_state, exit_stopped
    use axijoint_base_progress, only : show_progress, clear_progress
    use axijoint_base_stop, only : heed_signals, check_stop
    use axijoint_base_system, only : error_output_is_terminal, target_kind, path_file
+   use axijoint_base_sha256, only : sha256
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : phase_write
    use axijoint_command_line, only : command_type, word_type
@@ -17,6 +18,7 @@ module axijoint_command_run
    use axijoint_job_read, only : read_job
    use axijoint_output_claim, only : claim_type, claim_output, release_output
    use axijoint_output_brief, only : brief_text, status_text
+   use axijoint_output_file_echo, only : deck_text
    use axijoint_output_file_run, only : exit_code_of
    use axijoint_output_output, only : check_output, write_output, write_error_summary
    use axijoint_output_state, only : begin_state, end_state, stopped_text, note_written, is_written
@@ -41,8 +43,12 @@ contains
       exit_code = exit_ok
       call warn_if_slow()
       if (command%threads > 0) call omp_set_num_threads(command%threads)
-      call heed_signals()
+      ! a signal comes to one of several processes, and the others would wait for it
+      if (.not. allocated(command%options%team)) call heed_signals()
       call check_names(command%decks, error)
+      if (.not. allocated(error) .and. command%resume .and. allocated(command%options%team)) &
+         call fatal_error(error, exit_deck, 'option --resume: several processes keep no state'// &
+         new_line('a')//'mend: run anew, or go on with one process')
       if (allocated(error)) then
          call print_error('', error)
          exit_code = error%code
@@ -53,7 +59,8 @@ contains
             call run_deck(deck, command, claim, code, error)
             if (allocated(error)) then
                call print_error(deck, error)
-               call leave_summary(deck, command%options%directory, claim, error)
+               if (speaks(command)) &
+                  call leave_summary(deck, command%options%directory, claim, error)
                code = error%code
             end if
          end associate
@@ -101,17 +108,22 @@ contains
       exit_code = exit_ok
       call begin(deck, command, job, error)
       call check_stop(error)
-      if (.not. allocated(error)) call check_output(job, error)
-      if (.not. allocated(error)) then
-         call claim_output(job, claim, notes, error)
-         call tell(notes)
+      if (.not. allocated(error) .and. speaks(command)) then
+         call check_output(job, error)
+         if (.not. allocated(error)) then
+            call claim_output(job, claim, notes, error)
+            call tell(notes)
+         end if
       end if
-      if (.not. allocated(error)) then
+      if (allocated(job%options%team)) then
+         call agree_on_deck(job, error)
+      else if (.not. allocated(error)) then
          call begin_state(job, command%interval, command%resume, notes, error)
          call tell(notes)
       end if
       if (.not. allocated(error)) call solve_and_write(job, command%quiet, exit_code, error)
       call clear_progress(job%progress)
+      if (allocated(job%options%team)) return
       if (.not. allocated(error)) then
          call end_state(job)
       else if (error%code == exit_stopped) then
@@ -164,6 +176,35 @@ contains
 
       if (len(notes) > 0) write (error_unit, '(a)') notes
    end subroutine tell
+
+   !> Make sure that all processes that share the work read the same deck without errors
+   subroutine agree_on_deck(job, error)
+      !> The job, read
+      type(job_type), intent(in) :: job
+      !> Error of one, then of all
+      type(error_type), allocatable, intent(inout) :: error
+
+      character(len=:), allocatable :: here, there
+
+      call job%options%team%agree(error)
+      if (allocated(error)) return
+      here = sha256(deck_text(job%source))
+      there = here
+      call job%options%team%tell(there)
+      if (here /= there) call fatal_error(error, exit_io, 'process '// &
+         to_text(job%options%team%rank)//' reads another deck under this name than the first'// &
+         new_line('a')//'mend: put the deck where all machines see the same file')
+      call job%options%team%agree(error)
+   end subroutine agree_on_deck
+
+   !> Whether this process writes and tells: one of those that share the work does
+   pure logical function speaks(command)
+      !> The command
+      type(command_type), intent(in) :: command
+
+      speaks = .true.
+      if (allocated(command%options%team)) speaks = command%options%team%rank == 0
+   end function speaks
 
    !> Read the deck, and tell what is wrong with it
    subroutine begin(deck, command, job, error)

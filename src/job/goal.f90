@@ -120,10 +120,11 @@ contains
          refinement%mesh = ceiling(refinement%mesh)
          call read_job(job%deck, job, diagnostics, refinement)
       end if
-      if (diagnostics%n_errors == 0) return
-      call fatal_error(error, exit_deck, 'the refined job (elements of BLOCKS times '// &
-                       to_text(refinement%mesh)//') has faults:'//new_line('a')// &
-                       render(diagnostics, job%source))
+      if (diagnostics%n_errors > 0) &
+         call fatal_error(error, exit_deck, 'the refined job (elements of BLOCKS times '// &
+                          to_text(refinement%mesh)//') has faults:'//new_line('a')// &
+                          render(diagnostics, job%source))
+      if (allocated(job%options%team)) call job%options%team%agree(error)
    end subroutine read_refined
 
    !> Solve all combinations, and note what the round came to

@@ -4,6 +4,7 @@ module axijoint_job_job
    use axijoint_base_kinds, only : i8
    use axijoint_base_memory, only : no_limit
    use axijoint_base_progress, only : progress_type
+   use axijoint_base_team, only : team_type
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type
    use axijoint_deck_text_source, only : source_type, add_file, add_card
@@ -29,6 +30,8 @@ module axijoint_job_job
       integer(i8) :: memory_limit = no_limit
       !> Whether the bodies are to be swept through theta, whatever the deck says
       logical :: swept = .false.
+      !> Processes that share the work; this one alone if there is none
+      class(team_type), allocatable :: team
    end type options_type
 
    !> A job
@@ -87,6 +90,8 @@ contains
          if (allocated(model%solver)) deallocate (model%solver)
          if (allocated(options%solver)) model%solver = options%solver
       end if
+      if (allocated(model%team)) deallocate (model%team)
+      if (allocated(options%team)) allocate (model%team, source=options%team)
       model%memory_limit = options%memory_limit
       model%sweep%wanted = model%sweep%wanted .or. options%swept
    end subroutine take_options

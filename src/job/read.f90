@@ -55,7 +55,7 @@ contains
       character(len=:), allocatable :: failure
 
       if (.not. allocated(job%input)) then
-         call read_input_bytes(job%input, failure)
+         call read_once(job, failure)
          if (len(failure) > 0) then
             job%source = source_type()
             call add_file(job%source, deck_name(standard_input), job%input, 0)
@@ -66,5 +66,28 @@ contains
       call read_deck(deck_name(standard_input), job%source, job%model, diagnostics, refinement, &
                      job%input)
    end subroutine read_input
+
+   !> Read the standard input, which of processes that share the work the first one has
+   subroutine read_once(job, failure)
+      !> Takes what came
+      type(job_type), intent(inout) :: job
+      !> The error, empty if there is none
+      character(len=:), allocatable, intent(out) :: failure
+
+      if (.not. allocated(job%options%team)) then
+         call read_input_bytes(job%input, failure)
+         return
+      end if
+      associate (team => job%options%team)
+         if (team%rank == 0) then
+            call read_input_bytes(job%input, failure)
+         else
+            job%input = ''
+            failure = ''
+         end if
+         call team%tell(job%input)
+         call team%tell(failure)
+      end associate
+   end subroutine read_once
 
 end module axijoint_job_read

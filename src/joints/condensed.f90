@@ -9,8 +9,9 @@ module axijoint_joints_condensed
                                          report_failure
    use axijoint_assembly_support, only : support_point_type
    use axijoint_base_error, only : error_type
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, i8
    use axijoint_base_stop, only : stop_wished, check_stop
+   use axijoint_base_team, only : team_type
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_floating, only : floating_motion_type, new_floating_motions
@@ -20,7 +21,11 @@ module axijoint_joints_condensed
    use axijoint_model_model, only : model_type, can_yield_at
    implicit none
    private
-   public :: condensed_type, new_condensed
+   public :: condensed_type, new_condensed, rank_of
+
+   !> Numbers of all flexibilities below which every rank has all of them and multiplies by itself:
+   !> that takes less time than to tell each other the products (some 0.05 ms)
+   real(wp), parameter :: worth_sharing = 5.0e5_wp
 
    !> Flexibility of one harmonic
    type :: flexibility_type
@@ -36,8 +41,16 @@ module axijoint_joints_condensed
       !> Modes of the job, and the system of equations of each
       type(mode_type), allocatable :: modes(:)
       integer, allocatable :: system(:)
-      !> Flexibilities, one a system
+      !> Flexibilities, one a system; allocated are all if they are small, else those of this rank
       type(flexibility_type), allocatable :: flexibilities(:)
+      !> Jumps of each point from its own excess stress, of all systems, shape (components,
+      !> components, points, systems)
+      real(wp), allocatable :: own(:, :, :, :)
+      !> Processes that share the systems; last system and last mode of each, shape (0:ranks)
+      class(team_type), allocatable :: team
+      integer, allocatable :: last_system(:), last_mode(:)
+      !> Whether products with flexibilities are shared among ranks
+      logical :: shared = .false.
       !> Rigid motions that only these points resist
       type(floating_motion_type), allocatable :: floating(:)
       !> How stress at the points acts on the parts
@@ -68,16 +81,61 @@ contains
       condensed%points = pack(joint_points, yields)
       condensed%modes = equations%modes
       condensed%system = equations%system
+      allocate (condensed%team, source=equations%team)
+      condensed%last_system = equations%last_system
+      condensed%last_mode = equations%last_mode
       condensed%proportion = stiffness_ratio(condensed%points)
       call new_floating_motions(model, pack(joint_points, .not. yields), supports, &
          condensed%modes, condensed%points, &
                                 condensed%floating)
       call new_measure(model%mesh, equations, condensed%points, condensed%measure)
       call condense_all(equations, condensed%points, condensed%flexibilities, error)
+      call condensed%team%agree(error)
       if (.not. allocated(error)) call report_failure(equations, model, error)
+      if (.not. allocated(error)) call share_flexibilities(condensed)
    end subroutine new_condensed
 
-   !> Condense every harmonic to the joint points
+   !> Let all ranks know what each point does to itself, and all of the flexibilities if these are
+   !> small
+   subroutine share_flexibilities(condensed)
+      !> The condensed structure
+      type(condensed_type), intent(inout) :: condensed
+
+      integer :: s, k, n
+
+      n = 3*size(condensed%points)
+      condensed%shared = condensed%team%size > 1 &
+         .and. real(n, wp)**2*size(condensed%flexibilities) > worth_sharing
+      do s = 1, size(condensed%flexibilities)
+         if (condensed%shared) exit
+         associate (flexibility => condensed%flexibilities(s))
+            if (.not. allocated(flexibility%matrix)) allocate (flexibility%matrix(n, n))
+            call condensed%team%broadcast(flexibility%matrix, int(n, i8)**2, rank_of(condensed, s))
+         end associate
+      end do
+      allocate (condensed%own(3, 3, size(condensed%points), size(condensed%flexibilities)))
+      do s = 1, size(condensed%flexibilities)
+         if (.not. allocated(condensed%flexibilities(s)%matrix)) cycle
+         do k = 1, size(condensed%points)
+            condensed%own(:, :, k, s) = &
+               condensed%flexibilities(s)%matrix(3*k - 2:3*k, 3*k - 2:3*k)
+         end do
+      end do
+      call condensed%team%gather(condensed%own, size(condensed%own, kind=i8), &
+                                 condensed%last_system)
+   end subroutine share_flexibilities
+
+   !> Rank that a system belongs to
+   pure integer function rank_of(condensed, system)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Place of the system
+      integer, intent(in) :: system
+
+      rank_of = count(condensed%last_system < system) - 1
+   end function rank_of
+
+   !> Condense every harmonic of this rank to the joint points
    subroutine condense_all(equations, points, flexibilities, error)
       !> Equations of all modes, assembled; systems that cannot be factored are marked there
       type(equations_type), intent(inout) :: equations
@@ -95,7 +153,7 @@ contains
       allocate (flexibilities(size(equations%systems)))
       call new_workspaces(equations, spaces)
       !$omp parallel do schedule(dynamic) private(failure) num_threads(size(spaces))
-      do s = 1, size(equations%systems)
+      do s = equations%first, equations%last
          if (stop_wished()) cycle
          call hold_factor(equations, s, spaces(own()))
          if (equations%systems(s)%failed) cycle

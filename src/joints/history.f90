@@ -2,7 +2,7 @@
 module axijoint_joints_history
    use axijoint_assembly_loading, only : loading_type
    use axijoint_base_error, only : error_type
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, i8
    use axijoint_element_joint_law, only : memory_type
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, new_joint_field
@@ -63,6 +63,8 @@ module axijoint_joints_history
       real(wp) :: reached = 0.0_wp
       !> Largest displacement that the loads of a step would give if all joints held
       real(wp) :: largest_elastic = 0.0_wp
+      !> Bytes that this process sent and received in the iterations, where several share the work
+      integer(i8) :: exchanged = 0
       !> Largest joint stress at the end of a step, of each point: what errors are measured by, for
       !> joints that were unloaded have none at the end
       real(wp), allocatable :: largest_stress(:)

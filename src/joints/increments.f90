@@ -247,8 +247,10 @@ contains
             if (last%increment == number) history%control%now%iteration = last%iteration
          end associate
       end if
+      history%exchanged = history%exchanged - condensed%team%exchanged()
       call method%balance(condensed, history%scene, history%control, history%field, history%path, &
          history%verdict)
+      history%exchanged = history%exchanged + condensed%team%exchanged()
       call note_residual(condensed, number, load_factor, history)
       if (.not. history%verdict%converged) return
       call move_alloc(stress, history%balanced)

@@ -8,9 +8,8 @@ module axijoint_joints_joint_errors
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, trial_of
    use axijoint_joints_planes, only : new_planes, synthesize
-   use axijoint_joints_scene, only : scene_type, jumps
+   use axijoint_joints_scene, only : scene_type, jumps, jumps_of_mode
    use axijoint_joints_settle, only : find_again
-   use axijoint_linalg_lapack, only : matrix_vector
    implicit none
    private
    public :: joint_change_type, joint_changes_type, find_joint_changes, change_between, &
@@ -316,14 +315,14 @@ contains
       !> Place of the mode
       integer, intent(in) :: place
       !> The stress, shape (3, points)
-      real(wp), intent(in) :: excess(:, :)
+      real(wp), intent(in), contiguous :: excess(:, :)
       !> The ratio
       real(wp) :: stiffness
 
       real(wp) :: jump(3, size(excess, 2)), work(2)
       integer :: k
 
-      call matrix_vector(condensed%flexibilities(scene%system(place))%matrix, excess, jump)
+      jump = jumps_of_mode(condensed, scene, place, excess)
       work = tiny(1.0_wp)
       do k = 1, size(excess, 2)
          associate (point => condensed%points(k))

@@ -5,7 +5,7 @@ module axijoint_joints_loads
       release_factor
    use axijoint_assembly_force, only : joint_jump
    use axijoint_assembly_loading, only : loading_type
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, i8
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_floating, only : floating_motion_type
    use axijoint_joints_residual, only : reference_type
@@ -77,7 +77,7 @@ contains
 
       call new_workspaces(equations, spaces)
       !$omp parallel do schedule(dynamic) private(i, k, displacement) num_threads(size(spaces))
-      do s = 1, size(equations%systems)
+      do s = equations%first, equations%last
          call hold_factor(equations, s, spaces(own()))
          if (equations%systems(s)%failed) cycle
          do i = 1, size(equations%systems(s)%modes)
@@ -93,6 +93,8 @@ contains
          call release_factor(equations, s, spaces(own()))
       end do
       !$omp end parallel do
+      call equations%team%gather(loads%free, size(loads%free, kind=i8), equations%last_mode)
+      call equations%team%gather(loads%largest, size(loads%largest, kind=i8), equations%last_mode)
    end subroutine put_jumps
 
    !> Put external forces on the motions

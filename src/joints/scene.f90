@@ -2,10 +2,10 @@
 !> leaves without equilibrium then
 module axijoint_joints_scene
    use axijoint_assembly_force, only : joint_jump
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, i8
    use axijoint_element_joint_law, only : joint_law_type
    use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
-   use axijoint_joints_condensed, only : condensed_type
+   use axijoint_joints_condensed, only : condensed_type, rank_of
    use axijoint_joints_field, only : joint_field_type, admit_jump
    use axijoint_joints_loads, only : joint_loads_type, new_joint_loads
    use axijoint_joints_planes, only : planes_type, new_planes, synthesize, analyse
@@ -13,8 +13,8 @@ module axijoint_joints_scene
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: scene_type, new_scene, jumps, own_flexibility, evaluate, views, mismatch_of, &
-      elastic_stress
+   public :: scene_type, new_scene, jumps, jumps_of_mode, own_flexibility, evaluate, views, &
+      mismatch_of, elastic_stress
    public :: motion_of, multiples_of_motions, stand_where_they_are
 
    !> Stiffness k h/E of joints that a state is judged by
@@ -57,7 +57,8 @@ contains
       scene%loads = new_joint_loads(condensed)
    end function new_scene
 
-   !> Jumps d_m = d0_m + F_m e_m from loads and excess stress, or from the latter alone
+   !> Jumps d_m = d0_m + F_m e_m from loads and excess stress, or from the latter alone. Each rank
+   !> multiplies with the flexibilities that it has
    function jumps(condensed, scene, excess, free) result(jump)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
@@ -72,15 +73,45 @@ contains
 
       integer :: k
 
-      !$omp parallel do schedule(static, 1) if (size(excess, 2) >= worth_points)
-      do k = 1, size(excess, 3)
-         call matrix_vector(condensed%flexibilities(scene%system(k))%matrix, excess(:, :, k), &
-            jump(:, :, k))
-         if (k > size(condensed%modes)) jump(:, :, k) = scene%scale(k)*jump(:, :, k)
-      end do
-      !$omp end parallel do
+      associate (n => size(condensed%modes))
+         !$omp parallel do schedule(static, 1) if (size(excess, 2) >= worth_points)
+         do k = 1, size(excess, 3)
+            associate (flexibility => condensed%flexibilities(scene%system(k)))
+               if (.not. allocated(flexibility%matrix)) cycle
+               call matrix_vector(flexibility%matrix, excess(:, :, k), jump(:, :, k))
+            end associate
+            if (k > n) jump(:, :, k) = scene%scale(k)*jump(:, :, k)
+         end do
+         !$omp end parallel do
+         if (condensed%shared) then
+            call condensed%team%gather(jump, size(jump(:, :, :n), kind=i8), condensed%last_mode)
+            ! all that follow take the flexibility of one system
+            if (size(jump, 3) > n) call condensed%team%broadcast(jump(:, :, n + 1:), &
+               size(jump(:, :, n + 1:), kind=i8), rank_of(condensed, scene%system(n + 1)))
+         end if
+      end associate
       if (free) jump = jump + scene%loads%free
    end function jumps
+
+   !> Jumps of one mode from excess stress
+   function jumps_of_mode(condensed, scene, mode, excess) result(jump)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Modes
+      type(scene_type), intent(in) :: scene
+      !> Place of the mode
+      integer, intent(in) :: mode
+      !> Amplitudes of the excess stress, shape (components, points)
+      real(wp), intent(in), contiguous :: excess(:, :)
+      !> Amplitudes of the jumps, same shape
+      real(wp) :: jump(size(excess, 1), size(excess, 2))
+
+      associate (flexibility => condensed%flexibilities(scene%system(mode)))
+         if (allocated(flexibility%matrix)) call matrix_vector(flexibility%matrix, excess, jump)
+      end associate
+      if (condensed%shared) call condensed%team%broadcast(jump, size(jump, kind=i8), &
+         rank_of(condensed, scene%system(mode)))
+   end function jumps_of_mode
 
    !> Jumps of a point from unit amplitudes of its own excess stress
    pure function own_flexibility(condensed, scene, mode, k) result(flexibility)
@@ -93,7 +124,7 @@ contains
       !> The jumps, one column a component of stress
       real(wp) :: flexibility(3, 3)
 
-      flexibility = condensed%flexibilities(scene%system(mode))%matrix(3*k - 2:3*k, 3*k - 2:3*k)
+      flexibility = condensed%own(:, :, k, scene%system(mode))
    end function own_flexibility
 
    !> Excess stress that is not yet transferred, from the jumps that loads and

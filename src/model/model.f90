@@ -2,6 +2,7 @@
 module axijoint_model_model
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_memory, only : no_limit
+   use axijoint_base_team, only : team_type
    use axijoint_element_joint_law, only : law_elastic
    use axijoint_fe_mode, only : mode_type
    use axijoint_model_interface, only : interface_type
@@ -84,6 +85,8 @@ module axijoint_model_model
       type(solver_entry_type), allocatable :: solver
       !> Bytes that the process may take; more than there are if the user gave no limit
       integer(i8) :: memory_limit = no_limit
+      !> Processes that share the work; this one alone if there is none
+      class(team_type), allocatable :: team
       !> Angles at which totals are listed [radian]
       real(wp), allocatable :: output_angles(:)
       !> Lines along which results are listed

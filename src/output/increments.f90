@@ -8,6 +8,8 @@ module axijoint_output_increments
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : phase_recover
    use axijoint_job_job, only : job_type
+   use axijoint_joints_states, only : increment_state_type
+   use axijoint_model_model, only : model_type
    use axijoint_model_request, only : is_kept, keep_series
    use axijoint_output_file_hdf5, only : hdf5_file_type
    use axijoint_output_hdf5_history, only : history_fields_type, begin_history, put_history, &
@@ -16,7 +18,7 @@ module axijoint_output_increments
    use axijoint_output_vtkhdf_joints, only : surfaces_type, put_surfaces
    implicit none
    private
-   public :: write_increments
+   public :: write_increments, help_with_increments
 
 contains
 
@@ -49,8 +51,7 @@ contains
                             states(last)%increment), i=1, last)]))
          call job%timer%push(phase_recover)
          do i = 1, last - 1
-            if (.not. any(is_kept(model%keep, states(i)%increment, states(last)%increment)) &
-                .and. .not. bodies%wanted) cycle
+            if (.not. is_shown(model, states(i), states(last))) cycle
             call show_progress(job%progress, 'fields of increment '//to_text(i)//' of '// &
                to_text(last))
             call solve_increment(model, structure, states(i), results, earlier, error)
@@ -81,5 +82,35 @@ contains
       end subroutine put
 
    end subroutine write_increments
+
+   !> Take part in finding the fields that another process writes
+   subroutine help_with_increments(job, results, error)
+      !> The job; its factors are used again
+      type(job_type), intent(inout), target :: job
+      !> Results of a combination
+      type(results_type), intent(in) :: results
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(results_type) :: earlier
+      integer :: i, last
+
+      last = size(results%states)
+      do i = 1, last - 1
+         if (.not. is_shown(job%model, results%states(i), results%states(last))) cycle
+         call solve_increment(job%model, job%structure, results%states(i), results, earlier, error)
+         if (allocated(error)) return
+      end do
+   end subroutine help_with_increments
+
+   !> Whether a file shows fields of an increment before the last
+   pure logical function is_shown(model, state, last)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The end of the increment, and of the last
+      type(increment_state_type), intent(in) :: state, last
+
+      is_shown = any(is_kept(model%keep, state%increment, last%increment)) .or. model%sweep%wanted
+   end function is_shown
 
 end module axijoint_output_increments

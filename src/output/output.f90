@@ -6,6 +6,7 @@ module axijoint_output_output
    use axijoint_base_lock, only : lock_type, take_lock, release_lock
    use axijoint_base_system, only : path_kind, is_directory, same_file, path_absent, path_file, &
       path_directory, path_link, error_text, make_directories
+   use axijoint_base_team, only : team_type, take_team
    use axijoint_deck_text_source, only : source_type, card_file
    use axijoint_job_combination, only : combination_label
    use axijoint_job_job, only : job_type, result_name
@@ -19,7 +20,7 @@ module axijoint_output_output
    use axijoint_output_file_run, only : run_type, new_run, exit_code_of
    use axijoint_output_file_set, only : commit_set
    use axijoint_output_file_text, only : text_file_type
-   use axijoint_output_increments, only : write_increments
+   use axijoint_output_increments, only : write_increments, help_with_increments
    use axijoint_output_hdf5_results, only : write_results
    use axijoint_output_listing_contents, only : write_listing
    use axijoint_output_listing_solution, only : convergence_text
@@ -123,14 +124,40 @@ contains
       end do
    end subroutine spare_sources
 
-   !> Write results, swept bodies, listing and summary. Nothing changes under a final
-   !> name before all are complete on the disk; after an error the temporary files are
-   !> gone and earlier files stand, all of them. The summary gets its name last: it speaks for all.
+   !> Write results, swept bodies, listing and summary. Of processes that share the work the first
+   !> one writes, and the others help to find what is written.
    subroutine write_output(job, results, error)
       !> The job; its factors are used again for the fields of earlier increments
       type(job_type), intent(inout), target :: job
       !> Results of a combination
       type(results_type), intent(in) :: results
+      !> A file could not be written
+      type(error_type), allocatable, intent(out) :: error
+
+      class(team_type), allocatable :: team
+
+      call check_results(results, error)
+      if (allocated(error)) return
+      call take_team(job%options%team, team)
+      if (team%rank == 0) then
+         call write_files(job, results, team, error)
+      else
+         call team%agree(error)
+         if (.not. allocated(error)) call help_with_increments(job, results, error)
+      end if
+      call team%agree(error)
+   end subroutine write_output
+
+   !> Write all files. Nothing changes under a final name before all are complete on the disk; after
+   !> an error the temporary files are gone and earlier files stand. The summary gets its name last:
+   !> it speaks for all.
+   subroutine write_files(job, results, team, error)
+      !> The job; its factors are used again for the fields of earlier increments
+      type(job_type), intent(inout), target :: job
+      !> Results of a combination
+      type(results_type), intent(in) :: results
+      !> Who helps to find the fields of earlier increments
+      class(team_type), intent(in) :: team
       !> A file could not be written
       type(error_type), allocatable, intent(out) :: error
 
@@ -144,8 +171,6 @@ contains
       character(len=:), allocatable :: directory, name, warnings(:), messages(:)
       logical :: halfway
 
-      call check_results(results, error)
-      if (allocated(error)) return
       directory = job%options%directory
       name = result_name(job, results%combination)
       run = new_run(deck_path(job%source), exit_code_of(results))
@@ -154,6 +179,7 @@ contains
       if (.not. results%converged) messages = with_first(convergence_text(results), warnings)
 
       call begin_arrays()
+      call team%agree(error)
       if (.not. allocated(error)) then
          call write_increments(job, results, arrays, bodies, surfaces, series, error)
       end if
@@ -202,7 +228,7 @@ contains
                job%structure, results, surfaces, error)
       end subroutine begin_arrays
 
-   end subroutine write_output
+   end subroutine write_files
 
    !> Sizes of the files of swept bodies and joints
    function pictures_of(name, bodies, surfaces) result(pictures)

@@ -106,7 +106,7 @@ contains
 
       call take_joint_results(structure%joint_points, field, results)
       call recover(model, structure, loading, peak, field, results)
-      call smooth_stress(model, results)
+      call smooth_stress(model, structure%equations, results)
       call cut_resultants(model, structure, loading, field, results)
       results%face_reactions = face_reactions(model, results)
       results%joint_resultants = joint_resultants(model%mesh, structure%joint_points, &

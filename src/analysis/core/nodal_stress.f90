@@ -1,7 +1,8 @@
 !> Stresses of the integration points smoothed to the nodes
 module axijoint_analysis_core_nodal_stress
    use axijoint_analysis_core_results, only : results_type, nodal_stress_type
-   use axijoint_base_kinds, only : wp
+   use axijoint_assembly_equations, only : equations_type, own_modes
+   use axijoint_base_kinds, only : wp, i8
    use axijoint_fe_extrapolation, only : extrapolation_matrix
    use axijoint_fe_quadrature, only : max_element_points
    use axijoint_fe_reference, only : reference_type
@@ -19,14 +20,16 @@ contains
    !> points of each element; its values at a node averaged over the elements of
    !> one material. An element counts by the inverse of its area: on a rectangular
    !> grid that interpolates between the middles of the elements.
-   subroutine smooth_stress(model, results)
+   subroutine smooth_stress(model, equations, results)
       !> The job
       type(model_type), intent(in) :: model
+      !> Its equations, for the modes of each rank
+      type(equations_type), intent(in) :: equations
       !> Results; stresses at the integration points are there already
       type(results_type), intent(inout) :: results
 
       real(wp), allocatable :: weight(:), weight_sum(:)
-      integer :: element, k, n
+      integer :: element, k, n, own(2)
 
       call number_values(model%mesh, results%nodal)
       associate (mesh => model%mesh, nodal => results%nodal)
@@ -40,11 +43,14 @@ contains
             end associate
          end do
          allocate (nodal%amplitude(6, size(nodal%node), size(results%modes)))
+         own = own_modes(equations)
          !$omp parallel do schedule(dynamic)
-         do k = 1, size(results%modes)
+         do k = own(1), own(2)
             call smooth_mode(model, results, k, weight, weight_sum, nodal%amplitude(:, :, k))
          end do
          !$omp end parallel do
+         call equations%team%gather(nodal%amplitude, size(nodal%amplitude, kind=i8), &
+                                    equations%last_mode)
       end associate
    end subroutine smooth_stress
 

@@ -4,13 +4,13 @@ module axijoint_analysis_core_recovery
                                          lateral_90, moment_90, n_resultants
    use axijoint_analysis_core_rigid, only : rigid_resultants
    use axijoint_analysis_core_structure, only : structure_type
-   use axijoint_assembly_equations, only : on_equations, worth_threads
+   use axijoint_assembly_equations, only : on_equations, worth_threads, own_modes
    use axijoint_assembly_force, only : joint_force
    use axijoint_assembly_loading, only : loading_type
    use axijoint_assembly_rigid_motion, only : solid_parts
    use axijoint_assembly_solid_force, only : solid_force
    use axijoint_assembly_support, only : add_support_force
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, i8
    use axijoint_element_solid_point, only : solid_point_type, solid_points
    use axijoint_fe_mode, only : mode_type, same_mode, mode_integral, is_torsion, family_symmetric
    use axijoint_fe_quadrature, only : max_element_points
@@ -47,15 +47,16 @@ contains
       ! threads' stacks are small
       real(wp), allocatable :: internal(:, :), force(:, :), spring(:, :)
       integer, allocatable :: part(:)
-      integer :: k
+      integer :: k, own(2)
 
       call new_points(model, results)
       call solid_parts(model%mesh, part)
+      own = own_modes(structure%equations)
       allocate (unbalance(n_resultants, maxval(part), size(results%modes)))
       allocate (results%reaction, results%acting, results%taken, mold=results%displacement)
       !$omp parallel do schedule(dynamic) private(internal, force, spring) &
       !$omp if (worth_threads(structure%equations))
-      do k = 1, size(results%modes)
+      do k = own(1), own(2)
          associate (mode => results%modes(k), reaction => results%reaction(:, :, k))
             force = loading%external(:, :, k)
             internal = internal_force(k)
@@ -76,6 +77,16 @@ contains
          end associate
       end do
       !$omp end parallel do
+      call share(results%reaction, size(results%reaction, kind=i8))
+      call share(results%acting, size(results%acting, kind=i8))
+      call share(results%taken, size(results%taken, kind=i8))
+      call share(results%stress, size(results%stress, kind=i8))
+      call share(unbalanced, size(unbalanced, kind=i8))
+      call share(scale, size(scale, kind=i8))
+      call share(applied, size(applied, kind=i8))
+      call share(resultant, size(resultant, kind=i8))
+      call share(reacted, size(reacted, kind=i8))
+      call share(unbalance, size(unbalance, kind=i8))
       results%applied = sum(applied, 2)
       results%reacted = sum(reacted, 2)
       results%part_unbalance = sum(unbalance, 3)
@@ -89,6 +100,17 @@ contains
       end associate
 
    contains
+
+      !> Let all ranks know what was found mode by mode
+      subroutine share(values, n)
+         !> Values of the modes, one mode after the other
+         integer(i8), intent(in) :: n
+         real(wp), intent(inout) :: values(n)
+
+         associate (equations => structure%equations)
+            call equations%team%gather(values, n, equations%last_mode)
+         end associate
+      end subroutine share
 
       !> Nodal forces of solids, springs and joints in one mode; fills the stress
       function internal_force(k) result(internal)

@@ -216,6 +216,9 @@ module axijoint_analysis_core_results
       real(wp) :: mismatch = 0.0_wp
       !> Tolerance on the residual-force ratio
       real(wp) :: tolerance = 0.0_wp
+      !> Bytes that this process sent and received: in the iterations on the joints, and in all;
+      !> zero if it is alone
+      integer(i8) :: exchanged(2) = 0
       !> Resultants of the applied loads and of the reactions
       real(wp) :: applied(n_resultants) = 0.0_wp, reacted(n_resultants) = 0.0_wp
       !> Resultants of the stresses on the cuts of the deck, shape (n_resultants, cuts): of

@@ -3,16 +3,17 @@ module axijoint_analysis_core_solution
    use omp_lib, only : omp_get_wtime
    use axijoint_analysis_core_results, only : mode_solve_type
    use axijoint_analysis_core_structure, only : structure_type
-   use axijoint_analysis_fine_difference, only : difference_type, find_difference
+   use axijoint_analysis_fine_difference, only : difference_type, find_difference, &
+                                                share_difference
    use axijoint_analysis_fine_level, only : fine_load_type, new_fine_load
-   use axijoint_assembly_equations, only : equations_type, solve_mode, refine_mode, &
+   use axijoint_assembly_equations, only : equations_type, own_modes, solve_mode, refine_mode, &
                                            backward_error, find_condition
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
                                          release_factor, report_failure
    use axijoint_assembly_force, only : joint_force
    use axijoint_assembly_loading, only : loading_type
    use axijoint_base_error, only : error_type
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, i8
    use axijoint_model_model, only : model_type
    implicit none
    private
@@ -21,7 +22,8 @@ module axijoint_analysis_core_solution
 contains
 
    !> Displacements under loads and excess joint stress, a step of refinement in them. A factor
-   !> that is not kept is made, used for all that needs it, and given up.
+   !> that is not kept is made, used for all that needs it, and given up. Each rank solves its
+   !> systems, and learns the rest.
    subroutine solve_displacements(structure, model, loading, displacement, solves, error, excess, &
       difference)
       !> The structure, assembled
@@ -60,7 +62,7 @@ contains
       associate (equations => structure%equations, points => structure%condensed%points(:n))
          !$omp parallel do schedule(dynamic) private(i, k, force, before_errors) &
          !$omp num_threads(size(spaces))
-         do s = 1, size(equations%systems)
+         do s = equations%first, equations%last
             times(1, s) = omp_get_wtime()
             call hold_factor(equations, s, spaces(own()))
             times(2, s) = omp_get_wtime()
@@ -100,8 +102,39 @@ contains
                sum(times(4, :) - times(1, :)))
          end if
          call report_failure(equations, model, error)
+         if (allocated(error)) return
+         call equations%team%gather(displacement, size(displacement, kind=i8), equations%last_mode)
+         call share_solves(equations, solves)
+         if (present(difference)) call share_difference(equations, difference)
       end associate
    end subroutine solve_displacements
+
+   !> Let all ranks know how well all modes were solved
+   subroutine share_solves(equations, solves)
+      !> The equations
+      type(equations_type), intent(in) :: equations
+      !> The reports; those of the modes of this rank are there
+      type(mode_solve_type), intent(inout) :: solves(:)
+
+      real(wp) :: found(4, size(solves))
+      integer :: k, own(2)
+
+      found = 0.0_wp
+      own = own_modes(equations)
+      do k = own(1), own(2)
+         found(:, k) = [solves(k)%smallest_pivot, solves(k)%backward_error, &
+                        solves(k)%correction, solves(k)%condition]
+      end do
+      call equations%team%gather(found, size(found, kind=i8), equations%last_mode)
+      do k = 1, size(solves)
+         associate (class => equations%systems(equations%system(k))%class)
+            solves(k) = mode_solve_type(equations%modes(k), &
+               equations%classes(class)%dofs%n_equations, &
+               equations%plans(class)%solver%factor_entries, found(1, k), found(2, k), &
+               found(3, k), found(4, k))
+         end associate
+      end do
+   end subroutine share_solves
 
    !> How well the equations of one mode are solved
    subroutine report_solve(equations, k, force, displacement, report)
@@ -117,9 +150,6 @@ contains
       type(mode_solve_type), intent(inout) :: report
 
       associate (system => equations%systems(equations%system(k)))
-         report%mode = equations%modes(k)
-         report%n_equations = equations%classes(system%class)%dofs%n_equations
-         report%factor_entries = equations%plans(system%class)%solver%factor_entries
          report%smallest_pivot = system%pivots%smallest
          report%backward_error = backward_error(equations, k, force, displacement)
       end associate

@@ -75,6 +75,7 @@ contains
       call timer%push(phase_assemble)
       call assemble(model, structure, progress, error)
       call timer%pop()
+      if (allocated(model%team)) call model%team%agree(error)
       if (allocated(error)) return
       call timer%push(phase_factor)
       if (structure%equations%n_kept > 0) then
@@ -149,8 +150,8 @@ contains
       if (allocated(error)) return
       call check_stop(error)
       if (allocated(error)) return
-      others = data_footprint(model, size(structure%modes), size(structure%equations%systems), &
-                              structure%joint_points)
+      others = data_footprint(model, size(structure%modes), &
+         structure%equations%last - structure%equations%first + 1, structure%joint_points)
       call plan_factors(structure%equations, reuses_factors(model), others%coming(), &
                         model%memory_limit, error)
       if (allocated(error)) return

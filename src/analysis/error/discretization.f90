@@ -44,9 +44,8 @@ contains
       integer :: k
 
       start = omp_get_wtime()
-      call solid_errors(model, loading%initial, results%modes, results%displacement, &
-         results%stress, &
-                        error, energy)
+      call solid_errors(model, structure%equations, loading%initial, results%displacement, &
+         results%stress, error, energy)
       associate (estimate => results%discretization)
          estimate%error_energy = sum(error, 2)
          estimate%energy = sum(energy, 2) + [(joint_energy(k) + &

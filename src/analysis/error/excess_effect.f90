@@ -4,7 +4,7 @@ module axijoint_analysis_error_excess_effect
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
       release_factor
    use axijoint_assembly_force, only : joint_force
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, i8
    use axijoint_model_joint_points, only : model_joint_point_type
    implicit none
    private
@@ -34,7 +34,7 @@ contains
       call new_workspaces(equations, spaces)
       !$omp parallel do schedule(dynamic) private(i, k, part, force) num_threads(size(spaces)) &
       !$omp reduction(.and.: found)
-      do s = 1, size(equations%systems)
+      do s = equations%first, equations%last
          call hold_factor(equations, s, spaces(own()))
          found = found .and. .not. equations%systems(s)%failed
          if (equations%systems(s)%failed) cycle
@@ -49,6 +49,8 @@ contains
          call release_factor(equations, s, spaces(own()))
       end do
       !$omp end parallel do
+      found = equations%team%all_of(found)
+      call equations%team%gather(displacement, size(displacement, kind=i8), equations%last_mode)
    end subroutine add_excess_effect
 
 end module axijoint_analysis_error_excess_effect

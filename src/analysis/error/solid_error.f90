@@ -2,11 +2,13 @@
 module axijoint_analysis_error_solid_error
    use axijoint_analysis_error_patch_recovery, only : sampling_type, new_sampling, patches_type, &
                                                 new_patches, patch_work_type, find_patch, fit_patch
+   use axijoint_assembly_equations, only : equations_type, own_modes
    use axijoint_assembly_solid_force, only : initial_state_type, solid_force
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_ranges, only : range_end
    use axijoint_element_solid_point, only : solid_point_type, solid_points
    use axijoint_fe_element_kind, only : is_reduced, full_order
-   use axijoint_fe_mode, only : mode_type, mode_integral
+   use axijoint_fe_mode, only : mode_integral
    use axijoint_fe_quadrature, only : max_element_points
    use axijoint_fe_reference, only : reference_type
    use axijoint_linalg_lapack, only : cholesky, inverse_from_cholesky
@@ -37,14 +39,15 @@ module axijoint_analysis_error_solid_error
 
 contains
 
-   !> Energies of the error of stress and of the stress itself, element by element
-   subroutine solid_errors(model, initial, modes, displacement, stress, error, energy)
+   !> Energies of the error of stress and of the stress itself, element by element; each rank looks
+   !> at a range of elements
+   subroutine solid_errors(model, equations, initial, displacement, stress, error, energy)
       !> The job
       type(model_type), intent(in) :: model
+      !> Its equations, for modes and ranks
+      type(equations_type), intent(in) :: equations
       !> Stress without strain
       type(initial_state_type), intent(in) :: initial
-      !> The modes
-      type(mode_type), intent(in) :: modes(:)
       !> Displacement amplitudes, shape (3, nodes, modes)
       real(wp), intent(in) :: displacement(:, :, :)
       !> Stress amplitudes at the integration points, shape (6, points, modes)
@@ -54,15 +57,19 @@ contains
 
       type(fields_type) :: fields
       type(patch_work_type), allocatable :: work  ! threads have small stacks
-      integer :: element
+      integer :: element, rank
+      integer, allocatable :: last(:)
 
-      call new_fields(model, initial, modes, displacement, stress, fields)
-      allocate (error(size(modes), n_elements(model%mesh)), &
-         energy(size(modes), n_elements(model%mesh)))
+      call new_fields(model, equations, initial, displacement, stress, fields)
+      associate (n_modes => size(equations%modes), n => n_elements(model%mesh))
+         allocate (error(n_modes, n), energy(n_modes, n))
+         last = [(range_end(n, rank, equations%team%size), rank=0, equations%team%size)]
+      end associate
+      rank = equations%team%rank
       !$omp parallel private(work)
       allocate (work)
       !$omp do schedule(dynamic, 16)
-      do element = 1, n_elements(model%mesh)
+      do element = last(rank + 1) + 1, last(rank + 2)
          if (allocated(fields%stress)) then
             call element_error(model, fields, fields%stress, element, work, error(:, element), &
                energy(:, element))
@@ -70,21 +77,23 @@ contains
             call element_error(model, fields, stress, element, work, error(:, element), &
                energy(:, element))
          end if
-         error(:, element) = mode_integral(modes)*error(:, element)
-         energy(:, element) = mode_integral(modes)*energy(:, element)
+         error(:, element) = mode_integral(equations%modes)*error(:, element)
+         energy(:, element) = mode_integral(equations%modes)*energy(:, element)
       end do
       !$omp end do
       !$omp end parallel
+      call equations%team%gather(error, size(error, kind=i8), last)
+      call equations%team%gather(energy, size(energy, kind=i8), last)
    end subroutine solid_errors
 
    !> Stresses at the integration points and at the samples
-   subroutine new_fields(model, initial, modes, displacement, stress, fields)
+   subroutine new_fields(model, equations, initial, displacement, stress, fields)
       !> The job
       type(model_type), intent(in) :: model
+      !> Its equations, for modes and ranks
+      type(equations_type), intent(in) :: equations
       !> Stress without strain
       type(initial_state_type), intent(in) :: initial
-      !> The modes
-      type(mode_type), intent(in) :: modes(:)
       !> Displacement amplitudes, shape (3, nodes, modes)
       real(wp), intent(in) :: displacement(:, :, :)
       !> Stress amplitudes at the integration points, shape (6, points, modes)
@@ -95,7 +104,7 @@ contains
       integer :: element, k, n_points
 
       if (any(is_reduced(model%mesh%kinds))) then
-         call full_stress(model, initial, modes, displacement, fields)
+         call full_stress(model, equations, initial, displacement, fields)
       else
          fields%references = element_references(model%mesh)
       end if
@@ -107,7 +116,7 @@ contains
          fields%before(element) = n_points
          n_points = n_points + fields%references(model%mesh%element_kind(element))%n_points
       end do
-      allocate (fields%sampled(6, size(modes), size(fields%patches%position, 2)))
+      allocate (fields%sampled(6, size(equations%modes), size(fields%patches%position, 2)))
       !$omp parallel do
       do element = 1, n_elements(model%mesh)
          if (allocated(fields%stress)) then
@@ -125,13 +134,13 @@ contains
 
    !> Stresses at the points of the full rule: at those of the reduced one the stresses of quadratic
    !> elements are best, and the error would seem small
-   subroutine full_stress(model, initial, modes, displacement, fields)
+   subroutine full_stress(model, equations, initial, displacement, fields)
       !> The job
       type(model_type), intent(in) :: model
+      !> Its equations, for modes and ranks
+      type(equations_type), intent(in) :: equations
       !> Stress without strain
       type(initial_state_type), intent(in) :: initial
-      !> The modes
-      type(mode_type), intent(in) :: modes(:)
       !> Displacement amplitudes, shape (3, nodes, modes)
       real(wp), intent(in) :: displacement(:, :, :)
       !> Takes elements and stresses
@@ -139,21 +148,23 @@ contains
 
       type(model_type), allocatable :: full
       real(wp), allocatable :: force(:, :)
-      integer :: k, n
+      integer :: k, n, own(2)
 
       allocate (full, source=model)
       where (is_reduced(full%mesh%kinds)) full%mesh%kinds%order = full_order
       fields%references = element_references(full%mesh)
       n = sum(fields%references(model%mesh%element_kind)%n_points)
-      allocate (fields%stress(6, n, size(modes)))
+      allocate (fields%stress(6, n, size(equations%modes)))
+      own = own_modes(equations)
       !$omp parallel do schedule(dynamic) private(force)
-      do k = 1, size(modes)
+      do k = own(1), own(2)
          allocate (force, mold=displacement(:, :, k))
-         call solid_force(full, initial, k, modes(k), displacement(:, :, k), force, &
+         call solid_force(full, initial, k, equations%modes(k), displacement(:, :, k), force, &
             fields%stress(:, :, k))
          deallocate (force)
       end do
       !$omp end parallel do
+      call equations%team%gather(fields%stress, size(fields%stress, kind=i8), equations%last_mode)
    end subroutine full_stress
 
    !> Stresses at the samples of an element

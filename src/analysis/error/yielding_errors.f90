@@ -6,7 +6,8 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_error_excess_effect, only : add_excess_effect
    use axijoint_analysis_error_largest_values, only : largest_vector, largest_elastic_stress
-   use axijoint_analysis_fine_difference, only : difference_type, new_difference, find_difference
+   use axijoint_analysis_fine_difference, only : difference_type, new_difference, &
+      find_difference, share_difference
    use axijoint_analysis_fine_joints, only : fine_excess
    use axijoint_analysis_fine_level, only : fine_level_type, fine_load_type, new_fine_load
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type, new_mesh_error
@@ -303,7 +304,7 @@ contains
       associate (equations => structure%equations)
          call new_workspaces(equations, spaces)
          !$omp parallel do schedule(dynamic) num_threads(size(spaces))
-         do s = 1, size(equations%systems)
+         do s = equations%first, equations%last
             if (all(weak(equations%systems(s)%modes))) cycle
             call hold_factor(equations, s, spaces(own()))
             if (.not. equations%systems(s)%failed) then
@@ -313,9 +314,10 @@ contains
             call release_factor(equations, s, spaces(own()))
          end do
          !$omp end parallel do
+         call share_difference(equations, difference)
+         call new_mesh_error(difference, error)
+         error%known = equations%team%all_of(.not. any(equations%systems%failed))
       end associate
-      call new_mesh_error(difference, error)
-      error%known = .not. any(structure%equations%systems%failed)
    end subroutine all_differences
 
    !> Whether nothing acts in a mode but little excess stress. Its part in the error is as small:

@@ -11,12 +11,12 @@ module axijoint_analysis_fine_difference
    use axijoint_assembly_force, only : joint_force, joint_jump
    use axijoint_assembly_loading, only : add_external, still_force
    use axijoint_assembly_node_blocks, only : block_product
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, i8
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_mesh, only : n_nodes
    implicit none
    private
-   public :: difference_type, new_difference, find_difference
+   public :: difference_type, new_difference, find_difference, share_difference
 
    !> Steps: of 38 meshes of elements of all kinds, uniform, graded, distorted and slender, the
    !> second came to 0.80 to 1.03 of the largest difference of a node, the first to 0.6 to 0.95.
@@ -48,6 +48,19 @@ contains
       allocate (difference%displacement(3, n_nodes, n_modes), source=0.0_wp)
       allocate (difference%jump(3, n_points, n_modes), source=0.0_wp)
    end subroutine new_difference
+
+   !> Let all ranks know the differences of all modes
+   subroutine share_difference(equations, difference)
+      !> The equations
+      type(equations_type), intent(in) :: equations
+      !> The difference; those of the modes of this rank are found
+      type(difference_type), intent(inout) :: difference
+
+      associate (displacement => difference%displacement, jump => difference%jump)
+         call equations%team%gather(displacement, size(displacement, kind=i8), equations%last_mode)
+         call equations%team%gather(jump, size(jump, kind=i8), equations%last_mode)
+      end associate
+   end subroutine share_difference
 
    !> Find the difference of the modes of one system
    subroutine find_difference(level, equations, s, load, displacement, points, excess, difference)

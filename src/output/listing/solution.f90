@@ -36,6 +36,8 @@ module axijoint_output_listing_solution
       '(2x, "estimates", t14, f14.3, "  (part of joints and recover)")'
    !> Memory
    character(len=*), parameter :: format_memory = '(2x, a, t14, f14.1, a)'
+   !> Bytes
+   real(wp), parameter :: megabyte = 2.0_wp**20
    !> Columns of coordinates and of results
    integer, parameter :: narrow = 13, wide = 15
 
@@ -288,6 +290,11 @@ contains
          call file%put(line)
       end if
       write (line, format_memory) "peak memory", peak_memory_mb(), " MB"
+      call file%put(line)
+      if (results%exchanged(2) == 0) return
+      write (line, format_memory) "exchanged", results%exchanged(2)/megabyte, " MB"
+      call file%put(line)
+      write (line, format_memory) "in joints", results%exchanged(1)/megabyte, " MB"
       call file%put(line)
    end subroutine write_times
 

@@ -1,0 +1,91 @@
+"""One process beside several by MPI: whole run and phases, memory, bytes exchanged, and what a model made of the run of
+one process says of more. See scripts/bench and doc/scaling.md."""
+import argparse
+import math
+import os
+import re
+import subprocess
+import tempfile
+
+BAR = 1.8  # of two ranks
+PHASES = ("read", "assemble", "factor", "joints", "recover", "write", "total")
+# Share of `recover` that every rank does for itself: largest displacements, samples of stresses
+REDUNDANT_RECOVER = 0.35
+BYTES_PER_SECOND = 2.0e9  # between processes of one machine
+
+
+def deck(n, harmonics):
+    """A thick tube of n x n elements of 9 nodes, held at its bottom, under a pressure of every harmonic"""
+    lines = ["TITLE", "A tube under pressures round it", "CONTROL", f"{harmonics - 1}", "MATERIALS", "1, 2e4, 0.3",
+             "BLOCKS", f"1, 1, 9, {n}, {n}", ".5, 0, 1.5, 1", "FACES", "1, 1, .5, 0, 1.5, 0", "2, 1, 1.5, 0, 1.5, 1",
+             "FIXEDFACES", "1, 111", "PRESSURES"]
+    return "\n".join(lines + [f"2, {m}, 1, 1" for m in range(harmonics)] + ["END", ""])
+
+
+def run(words, path, folder):
+    """Wall-clock and processor time of each phase of rank 0 [s], its peak memory and exchanged bytes [MB]"""
+    subprocess.run([*words, "run", path, "-o", folder, "--quiet"], check=True)
+    with open(os.path.join(folder, "tube.lis"), encoding="utf-8") as file:
+        text = file.read()
+    text = text[text.index("\nTIMES"):]
+    found = {name: tuple(map(float, re.search(rf"^  {name} +(\S+) +(\S+)", text, re.MULTILINE).groups()))
+             for name in PHASES}
+    for name in ("peak memory", "exchanged"):
+        match = re.search(rf"^  {name} +(\S+) MB", text, re.MULTILINE)
+        found[name] = float(match[1]) if match else 0.0
+    return found
+
+
+def least(runs):
+    """The least of each number of some runs"""
+    return {name: tuple(map(min, zip(*(r[name] for r in runs)))) if name in PHASES else min(r[name] for r in runs)
+            for name in runs[0]}
+
+
+def model(one, measured_harmonics, harmonics, ranks, exchanged):
+    """Seconds of parts that all ranks do, of harmonics of one rank, of what rank 0 writes, of exchange"""
+    seconds = {name: one[name][1]/measured_harmonics for name in PHASES}
+    own = seconds["factor"] + seconds["joints"] + (1 - REDUNDANT_RECOVER)*seconds["recover"]
+    same = one["read"][1] + one["assemble"][1] + REDUNDANT_RECOVER*seconds["recover"]*harmonics
+    return (same, own*math.ceil(harmonics/ranks), seconds["write"]*harmonics,
+            0.0 if ranks == 1 else exchanged/measured_harmonics*harmonics*2**20/BYTES_PER_SECOND)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--axijoint", required=True)
+    parser.add_argument("--mpi", required=True)
+    parser.add_argument("--quick", action="store_true")
+    args = parser.parse_args()
+    n, harmonics, rounds = (60, 16, 2) if args.quick else (150, 16, 2)
+    print(f"Bar: {BAR} of two ranks. Processors: {os.cpu_count()}; load when it began: {os.getloadavg()[0]:.1f}")
+    mpirun = ["mpirun", "--quiet", "--oversubscribe", "--bind-to", "none", "-n", "2", args.mpi]
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "tube.dat")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(deck(n, harmonics))
+        pairs = [(run([args.axijoint], path, folder), run(mpirun, path, folder)) for _ in range(rounds)]
+    one, two = (least([pair[k] for pair in pairs]) for k in (0, 1))
+    print(f"{3*(2*n + 1)*2*n:,} unknowns x {harmonics} harmonics; least of {rounds} rounds; load at the end: "
+          f"{os.getloadavg()[0]:.1f}\n\nphase     seconds of 1, 2 ranks  ratio   processor s of rank 0  ratio")
+    for name in PHASES + ("solution",):
+        (a, c), (b, d) = ([sum(r[p][k] for p in ("factor", "joints")) for k in (0, 1)] if name == "solution" else r[name]
+                          for r in (one, two))
+        print(f"{name:9} {a:9.2f} {b:9.2f} {a/b:9.2f} {c:13.2f} {d:9.2f} {c/d:6.2f}")
+    print(f"memory of a rank {one['peak memory']:.0f}, {two['peak memory']:.0f} MB; exchanged {two['exchanged']:.0f} MB")
+    said = sum(model(one, harmonics, harmonics, 2, two["exchanged"]))
+    print(f"model of two ranks {said:.1f} s, processor time of rank 0 {two['total'][1]:.1f} s, "
+          f"{100*(said/two['total'][1] - 1):+.0f} %\n\nModel, seconds (all ranks the same + own harmonics + writing + "
+          "exchange)\nharmonics ranks     same      own    write exchange    total speedup")
+    for count in (16, 128, 1024):
+        alone = sum(model(one, harmonics, count, 1, 0.0))
+        for ranks in (1, 2, 4, 16, 128, 1024):
+            if ranks > count:
+                continue
+            parts = model(one, harmonics, count, ranks, two["exchanged"])
+            print(f"{count:9} {ranks:5}" + "".join(f"{x:9.1f}" for x in (*parts, sum(parts))) +
+                  f"{alone/sum(parts):8.1f}")
+
+
+if __name__ == "__main__":
+    main()
