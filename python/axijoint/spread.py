@@ -56,9 +56,9 @@ def study(deck: Deck | str | os.PathLike[str], table: Columns | str | os.PathLik
     """Solve a deck in the states of a table, as `axijoint study` does: a Study.
 
     deck: a Deck, or the path of a file
-    table: the path of a file; its text, of two lines or more; or a dictionary or pandas.DataFrame from names of columns,
-        such as "LAWS 1 PHI", to a sequence with a cell for each line, or to one cell for all lines: a number, a word,
-        or a text of doc/studies.md, "0:40:2" or "NORMAL 30 2". None, nan and "" leave what the deck says
+    table: the path of a file; its text, of two lines or more; or a dictionary or pandas.DataFrame from names of
+        columns, such as "LAWS 1 PHI", to a sequence with a cell for each line, or to one cell for all lines: a
+        number, a word, or a text of doc/studies.md, "0:40:2" or "NORMAL 30 2". None, nan and "" leave what the deck says
     executor: where the program runs, anything in the sense of concurrent.futures: groups of rows (those of one
         structure together) are submitted as parts, and gathered here. Without it one process solves all rows
     parts: number of groups; without it the number of the executor's workers if it is one of the standard library,
@@ -76,14 +76,14 @@ def study(deck: Deck | str | os.PathLike[str], table: Columns | str | os.PathLik
     the folder.
     """
     kept = _Folder() if folder is None else None
-    place = pathlib.Path(kept.path if kept else folder).resolve()
+    place = pathlib.Path(kept.path if kept else folder or ".").resolve()
     place.mkdir(parents=True, exist_ok=True)
     path = _table_path(table, place, name)
     deck_path = deck.write(place/f"{name}.dat") if isinstance(deck, Deck) else deck
     if threads is None and executor is not None:
         threads = 1
-    command = [os.path.abspath(program or find_program()), "study", str(path), os.path.abspath(deck_path), "-o", str(place),
-               *options, *(["--estimates"] if estimates else []),
+    command = [os.path.abspath(program or find_program()), "study", str(path), os.path.abspath(deck_path), "-o",
+               str(place), *options, *(["--estimates"] if estimates else []),
                *(["--threads", str(threads)] if threads else [])]
     if executor is None:
         _check(run_command(command))
@@ -100,6 +100,8 @@ def _table_path(table: Columns | str | os.PathLike[str], place: pathlib.Path, na
     """The path of a table, which is written if it is no file."""
     if isinstance(table, (str, os.PathLike)) and "\n" not in os.fspath(table):
         return pathlib.Path(table).resolve()
+    if isinstance(table, os.PathLike):
+        raise ValueError(f"the path of the table, {table!s}, has an end of line")
     path = place/f"{name}.csv"
     path.write_text(table if isinstance(table, str) else table_text(table), encoding="utf-8")
     return path

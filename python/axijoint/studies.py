@@ -39,6 +39,7 @@ class Study:
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = pathlib.Path(path)
+        self.folder: object = None  # a folder that lasts as long as this object, if the files lie in one
         with h5py.File(self.path, "r") as file:
             if "quantities" not in file.attrs:
                 raise ValueError(f"{path} is no file of a study")
@@ -121,7 +122,8 @@ class Study:
         xarray = needed("xarray", "Study.to_xarray")
         coords: dict[str, Any] = {"row": self.rows["row"], "increment": np.arange(1, self._values.shape[1] + 1)}
         coords |= {name: ("row", self.rows[name]) for name in self.columns}
-        found = {name: (("row", "increment"), self.values(name)) for name in self.quantities if name != "increment"}
+        found: dict[str, Any] = {name: (("row", "increment"), self.values(name))
+                                 for name in self.quantities if name != "increment"}
         found |= {name: ("row", self.rows[name]) for name in ("exit_code", "seconds", "message")}
         return xarray.Dataset(found | {"increments": ("row", self.increments)}, coords, {"study": str(self.path)})
 

@@ -9,6 +9,9 @@ from typing import Any, Union
 Cell = Union[float, int, str, None, Sequence[Any]]
 Columns = Mapping[str, Union[Cell, Sequence[Cell]]]
 
+# Integers below are written without a decimal point
+EXACT = 1e15
+
 
 def table_text(columns: Columns) -> str:
     """The text of a table from its columns.
@@ -50,9 +53,10 @@ def _text(name: str, cell: Any) -> str:
         raise TypeError(f"{name}: {cell!r} is neither a number nor a text nor a list of them")
     if isinstance(cell, Sequence):
         return "; ".join(_text(name, one) for one in cell)
-    if math.isnan(cell):
+    value = float(cell)
+    if math.isnan(value):
         return ""
-    return str(int(cell)) if float(cell).is_integer() and abs(cell) < 1e15 else repr(float(cell))
+    return str(int(value)) if value.is_integer() and abs(value) < EXACT else repr(value)
 
 
 def _plain(name: str, text: str) -> str:

@@ -82,7 +82,8 @@ class Figures(unittest.TestCase):
         drawn = {"grid": {"curves", "map"}, "words": {"curves"}, "samples": {"curves", "map", "histogram"}}
         with tempfile.TemporaryDirectory() as folder:
             for name, table in tables.items():
-                study = axijoint.study(jobs.ROOT/"inputs/case3_balanced.dat", table, folder=folder, name=name, threads=1)
+                study = axijoint.study(jobs.ROOT/"inputs/case3_balanced.dat", table, folder=folder, name=name,
+                                       threads=1)
                 found = set()
                 for figure_name, figure in plot.figures(study):
                     self.assertEqual(overlaps(figure), [], f"{name} {figure_name}")
@@ -102,9 +103,11 @@ class Figures(unittest.TestCase):
         self.assertEqual(len(found), 4)
         for one, other in zip(found, wanted):
             np.testing.assert_array_equal(one, other)
-        (_, figure), = plot.figures(study, ["map"], plot.Options(quantities=["work"], against=["LAWS 1 PHI", "LAWS 1 C"]))
+        options = plot.Options(quantities=["work"], against=["LAWS 1 PHI", "LAWS 1 C"])
+        (_, figure), = plot.figures(study, ["map"], options)
         cells = figure.axes[0].collections[0].get_array()
-        self.assertAlmostEqual(cells[1, 2], np.mean(rows["work"][(rows["LAWS 1 C"] == 0.1) & (rows["LAWS 1 PHI"] == 20)]), 15)
+        alike = (rows["LAWS 1 C"] == 0.1) & (rows["LAWS 1 PHI"] == 20)
+        self.assertAlmostEqual(cells[1, 2], np.mean(rows["work"][alike]), 15)
 
     def command_of_studies(self, folder):
         """Files of studies on the command line"""

@@ -80,7 +80,8 @@ class Studies(unittest.TestCase):
     def test_a_row_is_a_run(self):
         text = DECK.read_text()
         # Of row 9: phi = 20, E = 1.8E4, value = 0.2
-        for old, new in (("    1     2.0E4 ", "    1     1.8E4 "), ("       0.0       0.0     PAPER", "       0.0      20.0     PAPER"),
+        for old, new in (("    1     2.0E4 ", "    1     1.8E4 "),
+                         ("       0.0       0.0     PAPER", "       0.0      20.0     PAPER"),
                          ("   LATERAL       0.4", "   LATERAL       0.2")):
             self.assertEqual(text.count(old), 1)
             text = text.replace(old, new)
@@ -153,7 +154,8 @@ class Studies(unittest.TestCase):
     def failing(self, script):
         """A program that fails in part 2 as long as there is a file `fail`"""
         path = self.folder/"failing.sh"
-        path.write_text(f"#!/bin/sh\ncase \"$*\" in *'--part 2/3'*) [ ! -e {self.folder}/fail ] || {{ {script}; }};; esac\n"
+        path.write_text("#!/bin/sh\n"
+                        f"case \"$*\" in *'--part 2/3'*) [ ! -e {self.folder}/fail ] || {{ {script}; }};; esac\n"
                         f"exec {os.environ['AXIJOINT']} \"$@\"\n")
         path.chmod(0o755)
         (self.folder/"fail").touch()
@@ -169,7 +171,8 @@ class Studies(unittest.TestCase):
                     axijoint.study(DECK, TABLE, executor, 3, place, program=program)
                 self.assertEqual((caught.exception.exit_code, list(caught.exception.parts)), (code, [2]))
                 self.assertFalse((place/"job.study.h5").exists())
-                done = [line for part in (1, 3) for line in (place/f"job.study.{part}of3.rows").read_text().splitlines()[1:]]
+                done = [line for part in (1, 3)
+                        for line in (place/f"job.study.{part}of3.rows").read_text().splitlines()[1:]]
                 self.assertEqual(len(done), 8)
                 (self.folder/"fail").unlink()
                 found = axijoint.study(DECK, TABLE, executor, 3, place, program=program)

@@ -21,7 +21,7 @@
 
 # Runs a program and ends the job with its exit code. `B:` sends the signal to this shell alone, which hands it on;
 # a signal also ends `wait`, which is then called again. The job goes back to the queue if the program was stopped by
-# the signal (exit code 75) while the job was still to run: not if it was cancelled, and not if Slurm puts it back itself.
+# the signal (exit code 75) while the job was to run on: not if it was cancelled, and not if Slurm puts it back itself.
 run_job() { # program, arguments
    local code seen=0
    signals=0

@@ -11,8 +11,8 @@
 #    array=$(sbatch --parsable --array=1-8 scripts/slurm/study.sh 8 friction.csv case3.dat -o out)
 #    sbatch --dependency=afterany:$array scripts/slurm/study.sh 8 friction.csv case3.dat -o out
 #
-# which may have any options of sbatch. Rows that a task did not come to are solved by the job that gathers. A task that is
-# stopped goes back to the queue and on from there, as in one.sh. Exit codes are the largest of the rows.
+# which may have any options of sbatch. Rows that a task did not come to are solved by the job that gathers. A task
+# that is stopped goes back to the queue and on from there, as in one.sh. Exit codes are the largest of the rows.
 # AXIJOINT is the path of the program, if it is not on the PATH. See doc/cluster.md.
 #
 # Options on the command line of sbatch win over these:
@@ -28,7 +28,7 @@
 
 # Runs a program and ends the job with its exit code. `B:` sends the signal to this shell alone, which hands it on;
 # a signal also ends `wait`, which is then called again. The job goes back to the queue if the program was stopped by
-# the signal (exit code 75) while the job was still to run: not if it was cancelled, and not if Slurm puts it back itself.
+# the signal (exit code 75) while the job was to run on: not if it was cancelled, and not if Slurm puts it back itself.
 run_job() { # program, arguments
    local code seen=0
    signals=0

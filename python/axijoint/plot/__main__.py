@@ -101,7 +101,8 @@ def fault_of(given, kinds, paths):
     for name in options.given():
         heeding = [kind for kind, one in known.items() if name in one.takes]
         if not set(kinds or known) & set(heeding):
-            return f"no kind of {', '.join(kinds or known)} heeds --{name}; those that do: {', '.join(heeding) or 'none'}"
+            return f"no kind of {', '.join(kinds or known)} heeds --{name}; " \
+                f"those that do: {', '.join(heeding) or 'none'}"
     return None
 
 
@@ -130,7 +131,8 @@ def main(arguments=None):
     code = 0
     for path in paths:
         try:
-            code = max(code, write((open_study if is_study(path) else open_result)(path), given.o/path.name.removesuffix(".h5"), kinds, given))
+            result = (open_study if is_study(path) else open_result)(path)
+            code = max(code, write(result, given.o/path.name.removesuffix(".h5"), kinds, given))
         except (OSError, ValueError) as error:
             print(f"plot: {path}: {error}", file=sys.stderr)
             return 2
