@@ -1,11 +1,14 @@
-"""A history that is stopped in the middle, in all ways that Slurm has, and goes on"""
+"""Histories and studies that are stopped in the middle, in all ways that Slurm has, and go on"""
 import os
 import pathlib
 import re
 import time
 
-from place import same
-from support import expected, input_deck, write
+from place import rows_of, same
+from support import INPUTS, expected, input_deck, write
+
+# 400 rows
+TABLE = 'LAWS 1 PHI, LAWS 1 C, RESULTANTS 1 VALUE\n0:38/20, 0:0.4/10, 0.2;0.4\n'
 
 
 class History:
@@ -96,4 +99,29 @@ def cancelled(place):
     return faults + same(place, 'out/history', '../whole/history')
 
 
-CHECKS = (warned, pre_empted, out_of_time, cancelled)
+def study_warned(place):
+    """A part of a study that is stopped goes back to the queue; the job that gathers waits for it"""
+    deck, journal = os.path.join(INPUTS, 'case3_balanced.dat'), place.path('out', 'states.study.1of2.rows')
+    write(place.folder, 'states.csv', TABLE)
+    array = place.submit('study.sh', '2', 'states.csv', deck, '-o', 'out', before=['--array=1-2'])
+    gather = place.submit('study.sh', '2', 'states.csv', deck, '-o', 'out',
+                          before=[f'--dependency=afterany:{array}'])
+    place.cluster.wait_for(lambda: lines_of(journal) > 10, 'a row')
+    place.cluster.command('scancel', '--signal=USR1', '--batch', f'{array}_1')
+    place.cluster.finish(array, gather)
+    text = place.output(array)
+    faults = [f'{words!r} is not said' for words in ('stopped by SIGUSR1', 'The job goes back to the queue',
+                                                     'rows of 400 stand in') if words not in text]
+    if '400 rows, 0 solved now' not in place.output(gather):
+        faults.append('the last job has not waited')
+    place.program.run('study', 'states.csv', deck, '-o', 'whole', folder=place.folder, time_limit=300)
+    return faults + expected('rows', rows_of(place.path('whole/states.study.csv')),
+                             rows_of(place.path('out/states.study.csv')))
+
+
+def lines_of(path):
+    """Lines of a file; none if it is not there"""
+    return pathlib.Path(path).read_text(encoding='utf-8').count('\n') if os.path.exists(path) else 0
+
+
+CHECKS = (warned, pre_empted, out_of_time, cancelled, study_warned)
