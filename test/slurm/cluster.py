@@ -89,8 +89,11 @@ class Cluster:
 
     def stop(self):
         """End jobs and daemons"""
-        if (self.folder/'slurm.conf').exists() and len(self.daemons) > 1:
-            self.command('scancel', '--full', '--user=root', check=False)
+        if len(self.daemons) > 1:
+            self.command('scancel', '--user=root', check=False)
+            end = time.time() + 15
+            while self.command('squeue', '--noheader', check=False).strip() and time.time() < end:
+                time.sleep(0.2)
         for daemon in reversed(self.daemons):
             if daemon.poll() is None:
                 daemon.send_signal(signal.SIGTERM)
