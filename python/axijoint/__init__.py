@@ -10,6 +10,9 @@
     result.line((0, 0.5), (2, 0.5), theta=[0, 180]).table() # along a line
     result.at(3).displacement(0.5, 0.25)                    # at the end of increment 3
 
+    study = axijoint.study("case3.dat", {"LAWS 1 PHI": "0:40:5", "LAWS 1 C": "0; 0.1"})
+    study.rows["largest_displacement"]                      # of 18 states
+
 Angles are in degrees, as in the deck and the listing; everything else is in the units of the deck.
 Figures are made by `axijoint.plot`, which needs matplotlib.
 """
@@ -22,9 +25,12 @@ from .result import STATES, OutsideError, Result, open_combinations
 from .result import open_result as open
 from .section import Section
 from .soil import SoilReactions, soil_reactions
+from .spread import StudyError, study
+from .studies import Study, open_study
 from .table import Table
 
 __all__ = ["DISPLACEMENTS", "STATES", "STRESSES", "Deck", "DeckError", "NotKeptError", "OutsideError", "Result",
-           "RunError", "Section", "SoilReactions", "Table", "cartesian_displacement", "cartesian_stress", "open",
-           "open_combinations", "principal_stresses", "run", "run_combinations", "soil_reactions"]
+           "RunError", "Section", "SoilReactions", "Study", "StudyError", "Table", "cartesian_displacement",
+           "cartesian_stress", "open", "open_combinations", "open_study", "principal_stresses", "run",
+           "run_combinations", "soil_reactions", "study"]
 __version__ = "0.1.0"

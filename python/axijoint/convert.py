@@ -15,16 +15,16 @@ RESULTANTS = ("axial", "lateral", "moment", "torque", "lateral_90", "moment_90")
 
 
 def needed(module, method):
-    """A module that a method needs; without it the message says how to get it."""
+    """A module that a method, such as Result.to_pandas, needs; without it the message says how to get it."""
     try:
         return importlib.import_module(module)
     except ImportError as error:
-        raise ImportError(f"Result.{method} needs {module}: pip install {module}") from error
+        raise ImportError(f"{method} needs {module}: pip install {module}") from error
 
 
 def to_pandas(result, theta=0.0):
     """All tables as pandas.DataFrames, by name; see `Result.to_pandas`."""
-    needed("pandas", "to_pandas")
+    needed("pandas", "Result.to_pandas")
     tables = {"nodes": result.nodes(theta), "nodal_stresses": result.nodal_stresses(theta),
               "gauss_stresses": result.gauss_stresses(theta), "joints": result.joints(),
               "increments": result.increments, "convergence": result.convergence(), "spectrum": result.spectrum()}
@@ -33,7 +33,7 @@ def to_pandas(result, theta=0.0):
 
 def to_xarray(result):
     """What is kept of all increments as an xarray.Dataset; see `Result.to_xarray`."""
-    xarray = needed("xarray", "to_xarray")
+    xarray = needed("xarray", "Result.to_xarray")
     history = result.history
     coords = {"increment": history.increment, "node": result.mesh.node_label, "component": list(DISPLACEMENTS),
               "stress": list(STRESSES), "harmonic": ("mode", result.harmonic), "family": ("mode", result.family),
@@ -74,7 +74,7 @@ def _by_increment(xarray, result, name, dims, read):
 
 def to_pyvista(result, sectors=None):
     """The bodies swept round the axis as a pyvista.UnstructuredGrid; see `Result.to_pyvista`."""
-    pyvista = needed("pyvista", "to_pyvista")
+    pyvista = needed("pyvista", "Result.to_pyvista")
     sweep, mesh = Sweep(result), result.mesh
     sectors = sectors or max(LEAST_SECTORS, SECTORS_OF_A_WAVE*int(result.harmonic.max()))
     angles = np.arange(sectors)*360/sectors

@@ -75,6 +75,58 @@ class Figures(unittest.TestCase):
                 self.assertEqual(command.main([str(path), "nothing"]), 2)
             self.assertIn("nothing is neither a file nor a kind of figure", said.getvalue())
 
+    def test_studies(self):
+        tables = {"grid": {"LAWS 1 PHI": "0:30:10", "RESULTANTS 1 VALUE": "0.2;0.4", "LAWS 1 C": "0;0.1"},
+                  "words": {"LAWS 1 kind of law": [None, "ELASTIC", None], "LAWS 1 PHI": [10, 20, 30]},
+                  "samples": {"SAMPLES": 20, "LAWS 1 PHI": "UNIFORM 10 30", "LAWS 1 C": "UNIFORM 0 0.1"}}
+        drawn = {"grid": {"curves", "map"}, "words": {"curves"}, "samples": {"curves", "map", "histogram"}}
+        with tempfile.TemporaryDirectory() as folder:
+            for name, table in tables.items():
+                study = axijoint.study(jobs.ROOT/"inputs/case3_balanced.dat", table, folder=folder, name=name,
+                                       threads=1)
+                found = set()
+                for figure_name, figure in plot.figures(study):
+                    self.assertEqual(overlaps(figure), [], f"{name} {figure_name}")
+                    found.add(figure_name)
+                self.assertEqual(found, drawn[name])
+            self.heights_of_curves(axijoint.open_study(f"{folder}/grid.study.h5"))
+            self.command_of_studies(folder)
+
+    def heights_of_curves(self, study):
+        """Each curve has the values of its rows"""
+        options = plot.Options(quantities=["work"], against=["LAWS 1 phi"])
+        (_, figure), = plot.figures(study, ["curves"], options)
+        found = [line.get_ydata() for line in figure.axes[0].get_lines()]
+        rows = study.rows
+        wanted = [rows["work"][(rows["LAWS 1 C"] == c) & (rows["RESULTANTS 1 VALUE"] == force)]
+                  for force in (0.2, 0.4) for c in (0, 0.1)]
+        self.assertEqual(len(found), 4)
+        for one, other in zip(found, wanted):
+            np.testing.assert_array_equal(one, other)
+        options = plot.Options(quantities=["work"], against=["LAWS 1 PHI", "LAWS 1 C"])
+        (_, figure), = plot.figures(study, ["map"], options)
+        cells = figure.axes[0].collections[0].get_array()
+        alike = (rows["LAWS 1 C"] == 0.1) & (rows["LAWS 1 PHI"] == 20)
+        self.assertAlmostEqual(cells[1, 2], np.mean(rows["work"][alike]), 15)
+
+    def command_of_studies(self, folder):
+        """Files of studies on the command line"""
+        path = f"{folder}/grid.study.h5"
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(command.main([path, "map", "--quantity", "work,n_open", "-o", f"{folder}/out"]), 0)
+        self.assertEqual(sorted(os.listdir(f"{folder}/out")), ["grid.study_map.png", "grid.study_map.svg"])
+        result = self.results(folder, "first")
+        for words, said in (([path, "mesh"], "has no figure of kind mesh; it has curves, map, histogram"),
+                            ([path, str(result)], "commands of their own"),
+                            ([str(result), "map"], "has no figure of kind map"),
+                            ([path, "--body", "1"], "no kind of curves, map, histogram heeds --body"),
+                            ([str(result), "--against", "LAWS 1 PHI"], "heeds --against; those that do: none"),
+                            ([path, "--quantity", "wrok"], "there is no quantity 'wrok'; there are increment"),
+                            ([path, "--against", "LAWS 1 K"], "there are LAWS 1 PHI, RESULTANTS 1 VALUE, LAWS 1 C")):
+            with contextlib.redirect_stderr(io.StringIO()) as told:
+                self.assertEqual(command.main(words), 2, words)
+            self.assertIn(said, told.getvalue())
+
     def test_triangles_cover_the_body(self):
         with tempfile.TemporaryDirectory() as folder:
             mesh = axijoint.open(self.results(folder, "first")).mesh

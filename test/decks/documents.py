@@ -1,9 +1,10 @@
 """The documents against what they speak of: links, named files, decks, keywords, folders and their uses"""
 import os
 import re
+import subprocess
 
 import card_tables
-from support import HERE, INPUTS, Test, expected, read_text, write
+from support import HERE, INPUTS, Test, expected, python_with, read_text, write
 
 ROOT = os.path.realpath(os.path.join(HERE, '..', '..'))
 SKIPPED = ('build', 'bench_results')
@@ -18,6 +19,9 @@ FENCED_DECK = re.compile(EXIT + r'^```\w*\n(TITLE\n.*?^END)\n```$', re.MULTILINE
 INDENTED_DECK = re.compile(EXIT + r'^(    TITLE\n(?:(?:    .*)?\n)*?    END)$', re.MULTILINE)
 # Documents whose decks are meant to be run
 RUNNABLE = ('README.md', 'doc/user.md', 'doc/deck.md')
+# Documents whose Python is run, one block after the other
+PYTHON = ('doc/studies.md',)
+PYTHON_BLOCK = re.compile(r'^```python\n(.*?)^```$', re.MULTILINE | re.DOTALL)
 # Documents that show the output of a run below its deck, and lines of it that differ from run to run
 SHOWING = ('README.md', 'doc/user.md')
 CHANGING = ('deck', 'residual ratio', 'equilibrium error', 'time, peak memory', 'files')
@@ -33,6 +37,9 @@ def tests(program):
               for name in RUNNABLE]
     found += [Test(f'documents/outputs of {name}', lambda folder, name=name: output_faults(program, name, folder))
               for name in SHOWING]
+    if python_with('numpy, h5py'):
+        found += [Test(f'documents/python of {name}', lambda folder, name=name: python_faults(program, name, folder))
+                  for name in PYTHON]
     return found + [Test('documents/keywords', lambda folder: keyword_faults(program, folder)),
                     Test('documents/folders', folder_faults)]
 
@@ -98,6 +105,18 @@ def deck_faults(program, name, folder):
         found = ran.ended_with(code) + (expected('messages', '', ran.err) if code == 0 else [])
         faults += [f'deck {number}: {fault}' for fault in found]
     return faults
+
+
+def python_faults(program, name, folder):
+    """What the Python of a document fails with, run in a folder beside `inputs`"""
+    blocks = PYTHON_BLOCK.findall(text_of(name))
+    if not blocks:
+        return ['found no Python']
+    os.symlink(INPUTS, os.path.join(folder, 'inputs'))
+    done = subprocess.run([python_with('numpy, h5py'), '-B', write(folder, 'blocks.py', '\n'.join(blocks))], cwd=folder,
+                          capture_output=True, text=True, check=False,
+                          env=dict(program.environment, AXIJOINT=program.path, PYTHONPATH=os.path.join(ROOT, 'python')))
+    return [f'{done.stdout}{done.stderr}'] if done.returncode else []
 
 
 def shown_runs(name):

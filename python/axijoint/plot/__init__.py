@@ -13,24 +13,36 @@ try:
 except ImportError as error:
     raise ImportError("axijoint.plot needs matplotlib: pip install matplotlib") from error
 
+from ..studies import Study
+from . import states
 from .kinds import KINDS, NothingToDraw
 from .options import Options
 from .style import SETTINGS, plt, settings
 
-__all__ = ["FORMATS", "KINDS", "SETTINGS", "NothingToDraw", "Options", "figures", "plt", "save", "tables"]
+__all__ = ["FORMATS", "KINDS", "SETTINGS", "STUDY_KINDS", "NothingToDraw", "Options", "figures",
+           "kinds_of", "plt", "save", "tables"]
 
 FORMATS = ("png", "svg")
+# Kinds of figures of studies
+STUDY_KINDS = states.KINDS
+
+
+def kinds_of(result):
+    """The kinds of figures that there are of a Result, or of a Study."""
+    return STUDY_KINDS if isinstance(result, Study) else KINDS
 
 
 def figures(result, kinds=None, options=Options(), missing=None):
     """Yield name and matplotlib Figure of each figure of some kinds, or of all that tell something.
+
+    result: a Result, or a Study, which has the kinds of STUDY_KINDS
 
     A figure is closed when the next one is asked for. missing: called with the kind and the reason for kinds that
     there is nothing to draw of, such as the convergence path of a linear job.
     """
     for kind, view, suffix in _drawn(result, kinds, options):
         try:
-            for name, figure in KINDS[kind].draw(view, options):
+            for name, figure in kinds_of(result)[kind].draw(view, options):
                 yield name + suffix, figure
                 plt.close(figure)
         except NothingToDraw as reason:
@@ -40,30 +52,32 @@ def figures(result, kinds=None, options=Options(), missing=None):
 
 def tables(result, kinds=None, options=Options()):
     """Yield name and Table of what is drawn, of the kinds that have tables."""
-    for kind in _known(kinds) or KINDS:
-        if KINDS[kind].tables and (kinds or KINDS[kind].tells(result)):
+    known = kinds_of(result)
+    for kind in _known(kinds, known) or known:
+        if known[kind].tables and (kinds or known[kind].tells(result)):
             try:
-                yield from KINDS[kind].tables(result, options)
+                yield from known[kind].tables(result, options)
             except NothingToDraw:
                 pass
 
 
 def _drawn(result, kinds, options):
     """Kinds, the view of the increment that each is drawn of, and what it adds to the name."""
-    for kind in _known(kinds) or KINDS:
-        if not kinds and not KINDS[kind].tells(result):
+    known = kinds_of(result)
+    for kind in _known(kinds, known) or known:
+        if not kinds and not known[kind].tells(result):
             continue
-        if KINDS[kind].each_increment and options.increments is not None:
+        if known[kind].each_increment and options.increments is not None:
             for number in options.increments:
                 yield kind, result.at(number), f"_increment_{number}"
         else:
             yield kind, result, ""
 
 
-def _known(kinds):
+def _known(kinds, known):
     for kind in kinds or ():
-        if kind not in KINDS:
-            raise ValueError(f"there is no kind {kind!r}; there are {', '.join(KINDS)}")
+        if kind not in known:
+            raise ValueError(f"there is no kind {kind!r}; there are {', '.join(known)}")
     return kinds
 
 

@@ -4,9 +4,10 @@ import pathlib
 import sys
 from dataclasses import replace
 
-from .. import open as open_result
+from .. import open as open_result, open_study
 from ..history import NotKeptError
-from . import FORMATS, KINDS, Options, figures, save, tables
+from ..studies import ENDING
+from . import FORMATS, KINDS, STUDY_KINDS, Options, figures, kinds_of, save, tables
 from .style import plt
 
 EVERY_FORMAT = ("png", "svg", "pdf")
@@ -30,16 +31,28 @@ def numbers(of):
     return read
 
 
+def words(text):
+    """Reads words between commas."""
+    return tuple(word.strip() for word in text.split(","))
+
+
+def listed(head, kinds):
+    """Lines that tell of kinds."""
+    return "\n".join([f"{head}:", *(f"  {name:<12} {kind.about}" for name, kind in kinds.items())])
+
+
 def parser():
     """The parser of the command line."""
     one = argparse.ArgumentParser(
         prog="plot", formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Writes figures of results of axijoint, NAME_FIGURE.png and .svg, and tables of some, "
-        "NAME_TABLE.csv.", epilog="kinds:\n" + "\n".join(f"  {name:<12} {kind.about}" for name, kind in KINDS.items())
-        + "\n\nLists are numbers between commas: 0,90; increments 1,3-5. A list or range that begins with a minus sign "
-        "needs =: --depths=-2,-5.")
+        "NAME_TABLE.csv.", epilog="\n\n".join((
+            listed("kinds", KINDS), listed("kinds of studies, NAME.study.h5", STUDY_KINDS),
+            "Lists are numbers between commas: 0,90; increments 1,3-5. A list or range that begins with a minus sign "
+            "needs =: --depths=-2,-5.")))
     add = one.add_argument
-    add("words", nargs="+", metavar="RESULT.h5 | KIND", help="result files, and kinds of figures (default: all)")
+    add("words", nargs="+", metavar="RESULT.h5 | KIND",
+        help="files of results or studies, and kinds of figures (default: all)")
     add("-o", metavar="DIR", type=pathlib.Path, default=pathlib.Path("."),
         help="directory of the figures (default: the current one)")
     add("--body", type=int, metavar="N", help="only this body; the pile")
@@ -51,11 +64,12 @@ def parser():
     add("--depth", "--depths", dest="depths", type=numbers(float), metavar="Z,...",
         help="heights z of curves by depth (r on interfaces across z)")
     add("--enlargement", type=float, metavar="X", help="displacements are drawn so many times larger")
+    add("--quantity", "--quantities", dest="quantities", type=words, metavar="NAME,...", help="quantities of studies")
+    add("--against", type=words, metavar="COLUMN[,COLUMN]", help="columns of studies that quantities are drawn against")
     add("--title", metavar="TEXT", help="in place of the figures' titles")
-    add("--units", type=lambda text: tuple(name.strip() for name in text.split(",")),
-        metavar="FORCE,LENGTH[,STRESS]", help="names of units in labels")
-    add("--format", type=lambda text: tuple(name.strip() for name in text.split(",")), default=FORMATS,
-        metavar="png,svg,pdf", help="formats of the figures (default: png,svg)")
+    add("--units", type=words, metavar="FORCE,LENGTH[,STRESS]", help="names of units in labels")
+    add("--format", type=words, default=FORMATS, metavar="png,svg,pdf",
+        help="formats of the figures (default: png,svg)")
     add("--style", metavar="FILE", help="style sheet of matplotlib")
     return one
 
@@ -65,7 +79,13 @@ def fault_of(given, kinds, paths):
     missing = [path for path in paths if not path.is_file()]
     if missing or not paths:
         what = f"{missing[0]} is neither a file nor a kind of figure" if missing else "no result file"
-        return f"{what}; kinds: {', '.join(KINDS)}"
+        return f"{what}; kinds: {', '.join(KINDS)}; of studies: {', '.join(STUDY_KINDS)}"
+    if len({is_study(path) for path in paths}) > 1:
+        return "results and studies are drawn by commands of their own"
+    known = STUDY_KINDS if is_study(paths[0]) else KINDS
+    strange = [kind for kind in kinds if kind not in known]
+    if strange:
+        return f"{paths[0]} has no figure of kind {strange[0]}; it has {', '.join(known)}"
     unknown = [name for name in given.format if name not in EVERY_FORMAT]
     if unknown:
         return f"there is no format {unknown[0]!r}; there are {', '.join(EVERY_FORMAT)}"
@@ -79,23 +99,30 @@ def fault_of(given, kinds, paths):
         return f"--style: there is no file {given.style}, and matplotlib has no such style"
     options = options_of(given)
     for name in options.given():
-        heeding = [kind for kind, one in KINDS.items() if name in one.takes]
-        if kinds and not set(kinds) & set(heeding):
-            return f"no kind of {', '.join(kinds)} heeds --{name}; those that do: {', '.join(heeding)}"
+        heeding = [kind for kind, one in known.items() if name in one.takes]
+        if not set(kinds or known) & set(heeding):
+            return f"no kind of {', '.join(kinds or known)} heeds --{name}; " \
+                f"those that do: {', '.join(heeding) or 'none'}"
     return None
+
+
+def is_study(path):
+    """Whether a file is that of a study, by its name."""
+    return path.name.endswith(ENDING)
 
 
 def options_of(given):
     """Options of the command line."""
     return Options(given.body, given.material, given.range, given.angles, given.increments, given.depths,
-                   given.enlargement, given.title, given.units, given.style)
+                   given.enlargement, given.title, given.units, given.style, given.quantities, given.against)
 
 
 def main(arguments=None):
     """Draw and write; the exit code."""
     given = parser().parse_intermixed_args(arguments)
-    kinds = [word for word in given.words if word in KINDS]
-    paths = [pathlib.Path(word) for word in given.words if word not in KINDS]
+    every = KINDS | STUDY_KINDS
+    kinds = [word for word in given.words if word in every]
+    paths = [pathlib.Path(word) for word in given.words if word not in every]
     fault = fault_of(given, kinds, paths)
     if fault:
         print(f"plot: {fault}", file=sys.stderr)
@@ -104,7 +131,8 @@ def main(arguments=None):
     code = 0
     for path in paths:
         try:
-            code = max(code, write(open_result(path), given.o/path.name.removesuffix(".h5"), kinds, given))
+            result = (open_study if is_study(path) else open_result)(path)
+            code = max(code, write(result, given.o/path.name.removesuffix(".h5"), kinds, given))
         except (OSError, ValueError) as error:
             print(f"plot: {path}: {error}", file=sys.stderr)
             return 2
@@ -136,8 +164,9 @@ def write(result, stem, kinds, given):
 
 def each_of(result, kinds, options):
     """Kinds, and the options for one increment after another where each has figures of its own."""
-    for kind in kinds or [name for name, one in KINDS.items() if one.tells(result)]:
-        if KINDS[kind].each_increment and options.increments:
+    known = kinds_of(result)
+    for kind in kinds or [name for name, one in known.items() if one.tells(result)]:
+        if known[kind].each_increment and options.increments:
             for number in options.increments:
                 yield kind, replace(options, increments=(number,))
         else:

@@ -18,6 +18,8 @@ class Options:
     enlargement     displacements are drawn so many times larger
     title           in place of the figure's own
     units           names of the units of force, length and stress, or of force and length
+    quantities      of studies: names of those to draw
+    against         of studies: names of the columns to draw against
     style           path or name of a style sheet of matplotlib, put over that of the figures
     """
     body: Optional[int] = None
@@ -30,6 +32,8 @@ class Options:
     title: Optional[str] = None
     units: Optional[Sequence[str]] = None
     style: Optional[str] = None
+    quantities: Optional[Sequence[str]] = None
+    against: Optional[Sequence[str]] = None
 
     def given(self):
         """Names of the options that are given and not common to all figures."""

@@ -1,0 +1,48 @@
+#!/bin/bash
+# Runs one deck in several processes by MPI, on one node or more.
+#
+# Usage: sbatch [OPTIONS OF SBATCH] scripts/slurm/mpi.sh DECK [OPTIONS OF axijoint run]
+#
+#    export AXIJOINT_MPI=/home/me/axijoint/bin/axijoint-mpi
+#    sbatch --nodes=2 --ntasks=16 --cpus-per-task=4 --mem=64G scripts/slurm/mpi.sh chimney.dat -o out
+#
+# AXIJOINT_MPI is the path of the program that is built for MPI (doc/cluster.md), MPIRUN what starts it: mpirun, or
+# "srun --mpi=pmix" where the MPI of the site knows it. The rest is as in one.sh.
+#
+# Options on the command line of sbatch win over these:
+#SBATCH --job-name=axijoint
+#SBATCH --ntasks=2
+#SBATCH --cpus-per-task=1
+#SBATCH --mem=4G
+#SBATCH --time=1:00:00
+#SBATCH --signal=B:USR1@120
+#SBATCH --requeue
+#SBATCH --open-mode=append
+
+# Runs a program and ends the job with its exit code. `B:` sends the signal to this shell alone, which hands it on;
+# a signal also ends `wait`, which is then called again. The job goes back to the queue if the program was stopped by
+# the signal (exit code 75) while the job was to run on: not if it was cancelled, and not if Slurm puts it back itself.
+run_job() { # program, arguments
+   local code seen=0
+   signals=0
+   trap 'signals=$((signals + 1)); kill -USR1 "$program" 2>/dev/null' USR1 TERM
+   "$@" &
+   program=$!
+   while wait "$program"; code=$?; [ "$seen" -lt "$signals" ]; do seen=$signals; done
+   if [ "$signals" -gt 0 ] && [ "$code" -eq 75 ] &&
+      [ "$(squeue --noheader --job="$SLURM_JOB_ID" --format=%T)" = RUNNING ]; then
+      echo "The job goes back to the queue" >&2
+      scontrol requeue "$SLURM_JOB_ID"
+   fi
+   exit "$code"
+}
+
+AXIJOINT=${AXIJOINT_MPI:-axijoint-mpi}
+command -v "$AXIJOINT" >/dev/null || {
+   echo "there is no program $AXIJOINT: set the variable AXIJOINT_MPI to its path, or load its module" >&2
+   exit 127
+}
+export OMP_NUM_THREADS=${SLURM_CPUS_PER_TASK:-1} # what the job has
+
+# shellcheck disable=SC2086  # several words
+run_job ${MPIRUN:-mpirun --bind-to none} "$AXIJOINT" run "$@" --resume

@@ -1,0 +1,49 @@
+#!/bin/bash
+# Runs one deck as a job of Slurm.
+#
+# Usage: sbatch [OPTIONS OF SBATCH] scripts/slurm/one.sh DECK [OPTIONS OF axijoint run]
+#
+#    sbatch scripts/slurm/one.sh monopile.dat -o out
+#    sbatch --time=8:00:00 --cpus-per-task=8 --mem=16G scripts/slurm/one.sh monopile.dat -o out --vtk
+#
+# Two minutes before its time is over the job is stopped, keeps how far it is, and goes back to the queue; its next
+# start goes on from there. The same if it has to give way to others. The exit code of the job is that of axijoint.
+# AXIJOINT is the path of the program, if it is not on the PATH. See doc/cluster.md.
+#
+# Options on the command line of sbatch win over these:
+#SBATCH --job-name=axijoint
+#SBATCH --nodes=1
+#SBATCH --ntasks=1
+#SBATCH --cpus-per-task=1
+#SBATCH --mem=4G
+#SBATCH --time=1:00:00
+#SBATCH --signal=B:USR1@120
+#SBATCH --requeue
+#SBATCH --open-mode=append
+
+# Runs a program and ends the job with its exit code. `B:` sends the signal to this shell alone, which hands it on;
+# a signal also ends `wait`, which is then called again. The job goes back to the queue if the program was stopped by
+# the signal (exit code 75) while the job was to run on: not if it was cancelled, and not if Slurm puts it back itself.
+run_job() { # program, arguments
+   local code seen=0
+   signals=0
+   trap 'signals=$((signals + 1)); kill -USR1 "$program" 2>/dev/null' USR1 TERM
+   "$@" &
+   program=$!
+   while wait "$program"; code=$?; [ "$seen" -lt "$signals" ]; do seen=$signals; done
+   if [ "$signals" -gt 0 ] && [ "$code" -eq 75 ] &&
+      [ "$(squeue --noheader --job="$SLURM_JOB_ID" --format=%T)" = RUNNING ]; then
+      echo "The job goes back to the queue" >&2
+      scontrol requeue "$SLURM_JOB_ID"
+   fi
+   exit "$code"
+}
+
+AXIJOINT=${AXIJOINT:-axijoint}
+command -v "$AXIJOINT" >/dev/null || {
+   echo "there is no program $AXIJOINT: set the variable AXIJOINT to its path, or load its module" >&2
+   exit 127
+}
+export OMP_NUM_THREADS=${SLURM_CPUS_PER_TASK:-1} # what the job has
+
+run_job "$AXIJOINT" run "$@" --resume ${SLURM_MEM_PER_NODE:+--memory "$SLURM_MEM_PER_NODE"}

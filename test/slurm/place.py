@@ -1,0 +1,51 @@
+"""A folder that jobs are submitted from, and what they leave there"""
+import csv
+import os
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT/'test/decks')]
+
+from same_bits import digests  # noqa: E402
+from support import read_text  # noqa: E402
+
+SCRIPTS = ROOT/'scripts/slurm'
+
+
+class Place:
+    """The program, the cluster, and a folder that jobs are submitted from"""
+
+    def __init__(self, program, cluster, folder, history):
+        self.program, self.cluster, self.folder, self.history = program, cluster, folder, history
+
+    def path(self, *names):
+        """A path in the folder"""
+        return os.path.join(self.folder, *names)
+
+    def submit(self, script, *words, before=()):
+        """Submit one of the scripts: the number of the job"""
+        return self.cluster.submit(self.folder, *before, SCRIPTS/script, *words, AXIJOINT=self.program.path)
+
+    def output(self, job):
+        """What a job has printed, all of its starts"""
+        return ''.join(read_text(self.path(name)) for name in sorted(os.listdir(self.folder))
+                       if re.fullmatch(rf'slurm-{job}(_\d+)?\.out', name))
+
+    def outputs(self):
+        """What all jobs have printed, for messages"""
+        return ''.join(f'{name}:\n{read_text(self.path(name))}' for name in sorted(os.listdir(self.folder))
+                       if name.startswith('slurm-'))
+
+
+def same(place, one, other):
+    """A fault unless two results are the same bits, but for dates and times"""
+    texts = digests([place.path(one), place.path(other)])
+    return [] if len(set(texts)) == 1 else [f'{one} and {other} differ']
+
+
+def rows_of(path):
+    """Rows of a study but for times"""
+    with open(path, encoding='utf-8') as file:
+        return [{name: value for name, value in row.items() if name != 'seconds'} for row in csv.DictReader(file)]
