@@ -44,12 +44,22 @@ class _Folder:
 
 
 def find_program() -> str:
-    """Path of the program: the environment variable AXIJOINT, or `axijoint` among the commands."""
-    found = os.environ.get("AXIJOINT") or shutil.which("axijoint")
+    """Path of the program: the environment variable AXIJOINT, or what the wheel of this package carries, or
+    `axijoint` among the commands."""
+    found = os.environ.get("AXIJOINT") or _carried() or shutil.which("axijoint")
     if not found:
         raise FileNotFoundError("no program axijoint: put it on the PATH, name it in the environment variable "
                                 "AXIJOINT, or give run(..., program=PATH); scripts/build release prints its path")
     return found
+
+
+def _carried() -> str | None:
+    """Path of the program in a wheel that carries it (scripts/wheel)"""
+    try:
+        from axijoint_program import PATH
+    except ModuleNotFoundError:
+        return None
+    return PATH
 
 
 def run(deck: Deck | str | os.PathLike[str], directory: str | os.PathLike[str] | None = None, *,

@@ -11,7 +11,7 @@ SKIPPED = ('build', 'bench_results')
 LINK = re.compile(r'!?\[[^\]]*\]\(([^()\s]+)\)')
 FENCE = re.compile(r'^(```|~~~).*?^\1[^\n]*$', re.MULTILINE | re.DOTALL)
 # A name in backticks that begins with a folder of the repository
-NAMED = re.compile(r'`((?:app|bench|doc|inputs|python|scripts|src|test|verification)/[\w./-]*)`')
+NAMED = re.compile(r'`((?:app|bench|doc|inputs|packaging|python|scripts|src|test|verification)/[\w./-]*)`')
 # A deck: from a TITLE card to an END card, in a fence or indented by four blanks; before it, the exit
 # code that it is there to show
 EXIT = r'(?:^<!-- exit code (\d+) -->\n\n)?'
