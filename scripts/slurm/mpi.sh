@@ -7,7 +7,8 @@
 #    sbatch --nodes=2 --ntasks=16 --cpus-per-task=4 --mem=64G scripts/slurm/mpi.sh chimney.dat -o out
 #
 # AXIJOINT_MPI is the path of the program that is built for MPI (doc/cluster.md), MPIRUN what starts it: mpirun, or
-# "srun --mpi=pmix" where the MPI of the site knows it. The rest is as in one.sh.
+# "srun --mpi=pmix" where the MPI of the site knows it. Several processes keep no state: a job that is
+# put back in the queue begins anew.
 #
 # Options on the command line of sbatch win over these:
 #SBATCH --job-name=axijoint
@@ -15,8 +16,6 @@
 #SBATCH --cpus-per-task=1
 #SBATCH --mem=4G
 #SBATCH --time=1:00:00
-#SBATCH --signal=B:USR1@120
-#SBATCH --requeue
 #SBATCH --open-mode=append
 
 # Runs a program and ends the job with its exit code. `B:` sends the signal to this shell alone, which hands it on;
@@ -45,4 +44,4 @@ command -v "$AXIJOINT" >/dev/null || {
 export OMP_NUM_THREADS=${SLURM_CPUS_PER_TASK:-1} # what the job has
 
 # shellcheck disable=SC2086  # several words
-run_job ${MPIRUN:-mpirun --bind-to none} "$AXIJOINT" run "$@" --resume
+run_job ${MPIRUN:-mpirun --bind-to none} "$AXIJOINT" run "$@"
