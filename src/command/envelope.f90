@@ -236,7 +236,7 @@ contains
             found(k)%n_increments = nint(rows(k)%values(3, 1))
          end if
       end do
-      call write_envelope(undertaking, job%model%load_cases(cases)%label, directions, found, error)
+      call write_envelope(undertaking, (job%model%load_cases(cases)%label), directions, found, error)
       if (allocated(error)) return
       call close_journal(journal)
       call clear_progress(job%progress)

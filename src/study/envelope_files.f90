@@ -20,9 +20,9 @@ contains
       !> What is under way: where the files go
       type(undertaking_type), intent(in) :: undertaking
       !> Numbers of the load cases
-      integer, intent(in) :: cases(:)
+      integer, intent(in), contiguous :: cases(:)
       !> Unit vectors, shape (cases, directions)
-      real(wp), intent(in) :: directions(:, :)
+      real(wp), intent(in), contiguous :: directions(:, :)
       !> What was found
       type(capacity_type), intent(in) :: found(:)
       !> A file could not be written

@@ -147,12 +147,12 @@ contains
       end do
       call file%attribute('/', 'program', program_name)
       call file%attribute('/', 'version', program_version)
-      call file%attribute('/', 'columns', joined(table%columns%name))
+      call file%attribute('/', 'columns', joined((table%columns%name)))
       call file%attribute('/', 'quantities', joined(names))
       call file%write('/varied', merge(table%values, missing(), table%given), &
          'What varies, nan where the value of the deck stays, words by their place among those '// &
          'allowed; (column, row)')
-      call file%write('/exit_code', rows%code, 'Exit code of the job of each row; (row)')
+      call file%write('/exit_code', (rows%code), 'Exit code of the job of each row; (row)')
       call file%write('/seconds', (rows%seconds), 'Time; (row) [second]')
       call file%write('/increments', [(size(rows(k)%values, 2), k=1, size(rows))], &
          'Increments of each row; (row)')
