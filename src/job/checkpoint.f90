@@ -53,6 +53,9 @@ module axijoint_job_checkpoint
       !> When it was written last [tick], and how long that took [second]
       integer(i8), private :: last = 0
       real(wp), private :: cost = expected_time
+      !> When a history was made bytes of last [tick], and how long that took [second]
+      integer(i8), private :: noted = 0
+      real(wp), private :: noting = 0.0_wp
    contains
       procedure :: restore
       procedure :: keep
@@ -124,7 +127,8 @@ contains
          'structure than this deck describes'//new_line('a')//'mend: run without --resume')
    end subroutine restore
 
-   !> A step came to equilibrium
+   !> A step came to equilibrium. Where that share of the time would not do for noting every step,
+   !> some are left out, unless all are asked for
    subroutine keep(self, history)
       !> The state
       class(checkpoint_type), intent(inout) :: self
@@ -132,10 +136,16 @@ contains
       type(history_type), intent(in) :: history
 
       type(writer_type) :: writer
+      integer(i8) :: now, rate
 
       if (.not. allocated(self%parts)) return
+      call system_clock(now, rate)
+      if (abs(self%interval) > 0.0_wp .and. real(now - self%noted, wp) < &
+          self%noting/cheap_share*real(rate, wp)) return
       call write_history(history, writer)
       self%parts(self%at)%history = writer%bytes()
+      call system_clock(self%noted)
+      self%noting = real(self%noted - now, wp)/real(rate, wp)
       self%place = 'increment '//to_text(history%increment)//' of '//to_text(self%n_increments)
       if (size(history%ahead) > 0) self%place = 'a part of '//self%place
       if (size(self%parts) > 1) self%place = self%place//', combination '//to_text(self%at)// &
