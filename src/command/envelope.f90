@@ -180,7 +180,7 @@ contains
       !> Load cases (indices)
       integer, intent(in) :: cases(:)
       !> Unit vectors, shape (cases, directions)
-      real(wp), intent(in) :: directions(:, :)
+      real(wp), intent(in), contiguous :: directions(:, :)
       !> What holds the name of the files
       type(undertaking_type), intent(in) :: undertaking
       !> What is found
@@ -190,6 +190,7 @@ contains
 
       type(journal_type) :: journal
       type(row_type), allocatable :: rows(:)
+      integer :: labels(size(cases))
       real(wp) :: direction(size(job%model%load_cases)), first
       integer :: k, n_before
 
@@ -236,7 +237,8 @@ contains
             found(k)%n_increments = nint(rows(k)%values(3, 1))
          end if
       end do
-      call write_envelope(undertaking, (job%model%load_cases(cases)%label), directions, found, error)
+      labels = job%model%load_cases(cases)%label
+      call write_envelope(undertaking, labels, directions, found, error)
       if (allocated(error)) return
       call close_journal(journal)
       call clear_progress(job%progress)
