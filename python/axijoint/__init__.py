@@ -27,10 +27,11 @@ from .section import Section
 from .soil import SoilReactions, soil_reactions
 from .spread import StudyError, study
 from .studies import Study, open_study
+from .envelopes import Envelope, open_envelope
 from .table import Table
 
 __all__ = ["DISPLACEMENTS", "STATES", "STRESSES", "Deck", "DeckError", "NotKeptError", "OutsideError", "Result",
            "RunError", "Section", "SoilReactions", "Study", "StudyError", "Table", "cartesian_displacement",
-           "cartesian_stress", "open", "open_combinations", "open_study", "principal_stresses", "run",
+           "cartesian_stress", "open", "open_combinations", "open_envelope", "open_study", "principal_stresses", "run",
            "run_combinations", "soil_reactions", "study"]
 __version__ = "0.1.0"

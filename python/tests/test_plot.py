@@ -3,6 +3,7 @@ import contextlib
 import io
 import os
 import pathlib
+import subprocess
 import tempfile
 import unittest
 import xml.etree.ElementTree
@@ -91,6 +92,28 @@ class Figures(unittest.TestCase):
                 self.assertEqual(found, drawn[name])
             self.heights_of_curves(axijoint.open_study(f"{folder}/grid.study.h5"))
             self.command_of_studies(folder)
+
+    def test_an_envelope(self):
+        """A block whose base slides: factors in the figure are those of the file"""
+        deck = (jobs.ROOT/"inputs/block.dat").read_text(encoding="utf-8").replace("    8   33\n", "    2    9\n")
+        with tempfile.TemporaryDirectory() as folder:
+            path = f"{folder}/block.dat"
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(deck)
+            subprocess.run([os.environ["AXIJOINT"], "envelope", path, "--cases", "2,4+", "--directions", "3",
+                            "--tolerance", "0.1", "-o", folder, "--quiet"], check=False, stdout=subprocess.DEVNULL)
+            path = f"{folder}/block.envelope.h5"
+            envelope = axijoint.open_envelope(path)
+            (name, figure), = plot.figures(envelope)
+            self.assertEqual((name, overlaps(figure)), ("envelope", []))
+            points = figure.axes[0].get_lines()[1].get_xydata()
+            np.testing.assert_array_equal(points, envelope.factors[envelope.exit_codes == 4])
+            self.assertGreaterEqual(len(points), 2)
+            with contextlib.redirect_stdout(io.StringIO()):
+                self.assertEqual(command.main([path, "-o", f"{folder}/out"]), 0)
+            self.assertEqual(len(os.listdir(f"{folder}/out")), 2)
+            with self.assertRaisesRegex(ValueError, "is no file of an envelope"):
+                axijoint.open_envelope(self.results(folder, "first"))
 
     def heights_of_curves(self, study):
         """Each curve has the values of its rows"""

@@ -72,7 +72,7 @@ contains
                                 .not. (command%quiet .or. command%verbose)
          call job%timer%start()
          name = job_name(command%decks(1)%text)//'.envelope'
-         call begin_undertaking(command%options%directory, name, name, &
+         call begin_undertaking(command%options%directory, name, [name], &
             'envelope '//command%decks(1)%text, undertaking, notes, error)
          if (len(notes) > 0) write (error_unit, '(a)') notes
          if (.not. allocated(error)) &
@@ -190,19 +190,21 @@ contains
 
       type(journal_type) :: journal
       type(row_type), allocatable :: rows(:)
+      character(len=:), allocatable :: put_aside
       integer :: labels(size(cases))
       real(wp) :: direction(size(job%model%load_cases)), first
       integer :: k, n_before
 
+      allocate (rows(size(directions, 2)))
       call open_journal(undertaking%stem//'.rows', program_version//deck_text(job%source)// &
-         command%cases//' '// &
-         to_text(command%n_directions)//' '//to_text(command%tolerance), n_kept, &
-         size(directions, 2), journal, rows, n_before, error)
+         command%cases//' '//to_text(command%n_directions)//' '//to_text(command%tolerance), &
+         n_kept, journal, rows, put_aside, error)
       if (allocated(error)) return
+      if (len(put_aside) > 0) write (error_unit, '(a)') 'axijoint: the directions of another '// &
+         'envelope of this name, deck or options changed, are '//put_aside//' now'
+      n_before = count(rows%number > 0)
       if (n_before > 0 .and. .not. command%quiet) write (error_unit, '(a)') 'axijoint: '// &
-         count_of(n_before, 'direction')//' of '//to_text(size(rows))//' stand in '// &
-         undertaking%stem// &
-         '.rows from before'
+         count_of(n_before, 'direction')//' of '//to_text(size(rows))//' were found before'
       allocate (job%structure)
       call build_structure(job%model, job%structure, job%timer, job%progress, error)
       if (allocated(error)) return

@@ -14,6 +14,7 @@ module axijoint_command_line
    use axijoint_deck_text_token, only : read_integer, read_real, token_good
    use axijoint_job_checkpoint, only : whenever_cheap
    use axijoint_job_job, only : options_type
+   use axijoint_study_parts, only : part_type
    use axijoint_solver_entry, only : solver_entry_type
    use axijoint_solver_registry, only : find_solver, solver_words
    implicit none
@@ -44,9 +45,9 @@ module axijoint_command_line
       logical :: resume = .false.
       !> Whether nothing but errors and warnings is to be told; whether a log is to say what is done
       logical :: quiet = .false., verbose = .false.
-      !> Of a study: whether errors are estimated; the part to solve, of how many (0: all of it)
+      !> Of a study: whether errors are estimated; the part to solve
       logical :: estimates = .false.
-      integer :: part = 0, n_parts = 0
+      type(part_type) :: part
       !> Of an envelope: load cases as given, number of directions, part of a capacity that is left
       !> open
       character(len=:), allocatable :: cases
@@ -318,11 +319,11 @@ contains
       slash = index(value, '/')
       if (slash > 1 .and. len(value) <= 13) then
          if (verify(value(:slash - 1)//value(slash + 1:), '0123456789') == 0) then
-            read (value(:slash - 1), *, iostat=stat) command%part
-            if (stat == 0) read (value(slash + 1:), *, iostat=stat) command%n_parts
+            read (value(:slash - 1), *, iostat=stat) command%part%number
+            if (stat == 0) read (value(slash + 1:), *, iostat=stat) command%part%n
          end if
       end if
-      if (stat == 0 .and. command%n_parts > 0 .and. command%part <= command%n_parts) return
+      if (stat == 0 .and. command%part%n > 0 .and. command%part%number <= command%part%n) return
       call fatal_error(error, exit_deck, "option --part: found '"//value// &
                        "', allowed is K/N with K from 0 to N")
    end subroutine read_part

@@ -92,7 +92,34 @@ contains
          'factors, operations, memory and time, with the threads and in the memory that the '// &
          'run would have. Nothing is solved. The deck - is read from the standard input.', &
          [threads, memory])
-      topics(4) = topic_type('study', 'TABLE [DECK]', 'solve many states of a deck', &
+      topics(4) = study_topic(solvers, threads, memory, quiet)
+      topics(5) = envelope_topic(solvers, threads, memory, quiet)
+      topics(6) = topic_type('compare', 'A B', 'compare two listings or result files', &
+         'Compares two listings, two HDF5 result files, or one of each, table by table and '// &
+         'column by column. Rows are matched by their places (r, z, theta), whatever the '// &
+         'numbers of the nodes. Values are the same if they differ by no more than the largest '// &
+         'of the tolerances, and the rounding of the digits printed.', compare_options(), &
+         '0 same; 1 different; 2 a file that cannot be read, or usage.')
+      topics(7) = topic_type('help', '[COMMAND]', 'help on a command', &
+         'Without COMMAND, what commands there are. `help card` prints an index of all cards '// &
+         'of a deck, `help card NAME` the fields of one.', &
+         [option_type('--markdown', '', 'of cards: as they stand in doc/deck.md'), &
+          option_type('--json', '', 'of cards: with kinds and ranges, for programs'), &
+          option_type('--man', '', 'the manual page, as source for man'), &
+          option_type('--completion', 'SHELL', 'what completes command lines in bash or zsh', &
+                      takes_word, 'bash zsh')])
+   end function all_topics
+
+   !> `study`
+   function study_topic(solvers, threads, memory, quiet) result(topic)
+      !> Solvers that can be asked for
+      type(solver_entry_type), intent(in) :: solvers(:)
+      !> Options that several commands have
+      type(option_type), intent(in) :: threads, memory, quiet
+      !> The command
+      type(topic_type) :: topic
+
+      topic = topic_type('study', 'TABLE [DECK]', 'solve many states of a deck', &
          'Solves the deck (NAME.dat beside TABLE unless it is given) for each row of a table, '// &
          'and writes NAME.study.csv, a line a row, and NAME.study.h5, with all increments. '// &
          'The head of the table names what varies: `LAWS 1 PHI, RESULTANTS 2 VALUE`. Cells '// &
@@ -112,7 +139,18 @@ contains
           option_type('--verbose', '', 'lines on the standard error output that say what is '// &
                       'being done, for logs')], &
          'The largest of the rows'', as of run.')
-      topics(5) = topic_type('envelope', 'DECK', 'find what loads joints can carry, by direction', &
+   end function study_topic
+
+   !> `envelope`
+   function envelope_topic(solvers, threads, memory, quiet) result(topic)
+      !> Solvers that can be asked for
+      type(solver_entry_type), intent(in) :: solvers(:)
+      !> Options that several commands have
+      type(option_type), intent(in) :: threads, memory, quiet
+      !> The command
+      type(topic_type) :: topic
+
+      topic = topic_type('envelope', 'DECK', 'find what loads joints can carry, by direction', &
          'Finds the largest factor with equilibrium in directions of the space of some load '// &
          'cases, and the mechanism beyond it. Increments of other load cases come first (a '// &
          'card '// &
@@ -132,21 +170,7 @@ contains
                       'being done, for logs')], &
          '0 if every direction ends in a mechanism or in none up to very large factors; 3 if '// &
          'an iteration found no equilibrium; else as of run.')
-      topics(6) = topic_type('compare', 'A B', 'compare two listings or result files', &
-         'Compares two listings, two HDF5 result files, or one of each, table by table and '// &
-         'column by column. Rows are matched by their places (r, z, theta), whatever the '// &
-         'numbers of the nodes. Values are the same if they differ by no more than the largest '// &
-         'of the tolerances, and the rounding of the digits printed.', compare_options(), &
-         '0 same; 1 different; 2 a file that cannot be read, or usage.')
-      topics(7) = topic_type('help', '[COMMAND]', 'help on a command', &
-         'Without COMMAND, what commands there are. `help card` prints an index of all cards '// &
-         'of a deck, `help card NAME` the fields of one.', &
-         [option_type('--markdown', '', 'of cards: as they stand in doc/deck.md'), &
-          option_type('--json', '', 'of cards: with kinds and ranges, for programs'), &
-          option_type('--man', '', 'the manual page, as source for man'), &
-          option_type('--completion', 'SHELL', 'what completes command lines in bash or zsh', &
-                      takes_word, 'bash zsh')])
-   end function all_topics
+   end function envelope_topic
 
    !> Options of `compare`
    pure function compare_options() result(options)

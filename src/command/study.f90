@@ -1,17 +1,19 @@
 !> `axijoint study`: many states of a deck, as a table says
 module axijoint_command_study
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
-   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck
+   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_singular, &
+      exit_not_converged
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_progress, only : show_progress, clear_progress
    use axijoint_base_stop, only : check_stop
-   use axijoint_base_system, only : error_output_is_terminal, path_kind, path_absent
+   use axijoint_base_system, only : error_output_is_terminal
    use axijoint_base_text, only : to_text, count_of
    use axijoint_base_version, only : program_version
    use axijoint_command_line, only : command_type
    use axijoint_command_run, only : print_error
    use axijoint_deck_reader, only : open_deck, make_model
    use axijoint_deck_text_diagnostics, only : diagnostics_type, render, add_error
+   use axijoint_deck_text_field, only : kind_word
    use axijoint_deck_text_sections, only : sections_type
    use axijoint_deck_text_source, only : source_type
    use axijoint_job_job, only : job_name, take_options
@@ -19,6 +21,8 @@ module axijoint_command_study
    use axijoint_output_file_echo, only : deck_text
    use axijoint_study_files, only : write_study
    use axijoint_study_journal, only : journal_type, open_journal, append_row, close_journal
+   use axijoint_study_parts, only : part_type, part_name, journal_path, first_row, last_row, &
+      gather_parts, remove_parts
    use axijoint_study_quantities, only : quantity_names, name_length
    use axijoint_study_rows, only : rows_type, row_type, new_rows, solve_row, row_order
    use axijoint_study_statistics, only : new_statistics
@@ -58,16 +62,14 @@ contains
       type(study_type), target :: study
       type(row_type), allocatable :: done(:)
       type(error_type), allocatable :: error
-      character(len=:), allocatable :: lock_name, notes
+      character(len=:), allocatable :: notes
 
       if (command%threads > 0) call omp_set_num_threads(command%threads)
       call begin_study(command, study, error)
       if (.not. allocated(error)) then
-         lock_name = study%name
-         if (command%part > 0) lock_name = study%name//'.'//to_text(command%part)//'of'// &
-            to_text(command%n_parts)
-         call begin_undertaking(command%options%directory, study%name, lock_name, &
-            'study '//command%decks(1)%text, study%undertaking, notes, error)
+         call begin_undertaking(command%options%directory, study%name, &
+            claimed_names(study%name, command%part), 'study '//command%decks(1)%text, &
+            study%undertaking, notes, error)
          if (len(notes) > 0) write (error_unit, '(a)') notes
          if (.not. allocated(error)) call solve_rows(command, study, done, error)
          call end_undertaking(study%undertaking, error)
@@ -80,6 +82,27 @@ contains
       end if
       exit_code = max(exit_ok, maxval(done%code, mask=done%number > 0))
    end subroutine run_study
+
+   !> Names that a study, or a part of it, must have for itself: who gathers parts waits for none
+   !> that is under way
+   pure function claimed_names(name, part) result(names)
+      !> Name of the study
+      character(len=*), intent(in) :: name
+      !> The part
+      type(part_type), intent(in) :: part
+      !> The names
+      character(len=:), allocatable :: names(:)
+
+      integer :: k, n
+
+      n = 0
+      if (part%number == 0) n = part%n
+      allocate (character(len=len(name) + 24) :: names(1 + n))
+      names(1) = part_name(name, part)
+      do k = 1, n
+         names(1 + k) = part_name(name, part_type(k, n))
+      end do
+   end function claimed_names
 
    !> Read deck and table
    subroutine begin_study(command, study, error)
@@ -140,165 +163,162 @@ contains
       type(study_type), intent(inout), target :: study
       !> What came of each row
       type(row_type), allocatable, intent(out) :: done(:)
-      !> A file cannot be written
+      !> A file cannot be written, or the program is to end
       type(error_type), allocatable, intent(out) :: error
 
       type(journal_type) :: journal
       integer, allocatable :: order(:)
       integer(i8) :: start, now, rate
-      integer :: i, n_before, first, last, n_shown
+      integer :: i, n_before, last, n_shown
 
       call system_clock(start, rate)
       order = row_order(study%table, study%rows%keeps_structure)
-      first = 1
-      last = size(order)
-      if (command%n_parts > 0 .and. command%part > 0) then
-         first = part_end(command%part - 1) + 1
-         last = part_end(command%part)
-      end if
-      call open_journal(journal_path(command%part), study%key, size(study%names), size(order), &
-         journal, done, n_before, error)
+      allocate (done(size(order)))
+      call find_done(command, study, journal, done, n_before, error)
       if (allocated(error)) return
-      if (command%part == 0) call gather_parts()
-      if (n_before > 0 .and. .not. command%quiet) write (error_unit, '(a)') &
-         'axijoint: '//count_of(n_before, 'row')//' of '//to_text(size(order))// &
-         ' stand in '//journal_path(command%part)//' from before'
+      last = last_row(command%part, size(order))
       n_shown = 0
-      do i = first, last
+      do i = first_row(command%part, size(order)), last
          if (done(order(i))%number > 0) cycle
          call show_progress(study%rows%progress, 'row '//to_text(i)//' of '//to_text(last))
          call check_stop(error)
          if (.not. allocated(error)) &
             call solve_row(study%table, order(i), study%rows, done(order(i)), error)
+         if (.not. allocated(error)) call append_row(journal, done(order(i)), error)
          if (allocated(error)) return
-         call append_row(journal, done(order(i)), error)
-         if (allocated(error)) return
-         call tell(done(order(i)))
+         if (.not. command%quiet) call tell_row(study, done(order(i)), n_shown)
       end do
       call system_clock(now)
-      if (command%part == 0) then
+      if (command%part%number == 0) then
          call write_study(study%undertaking, study%table, study%names, done, &
             new_statistics(done, size(study%names)), error)
          if (allocated(error)) return
-         call remove_journals()
+         call close_journal(journal)
+         call remove_parts(study%undertaking%stem, study%key, size(study%names), command%part%n)
       end if
       call clear_progress(study%rows%progress)
-      if (.not. command%quiet) call tell_end(real(now - start, wp)/rate)
+      if (.not. command%quiet) &
+         call tell_end(command, study, done, n_before, real(now - start, wp)/rate)
+   end subroutine solve_rows
+
+   !> Find the rows that are done already, and say so
+   subroutine find_done(command, study, journal, done, n_before, error)
+      !> Options
+      type(command_type), intent(in) :: command
+      !> The study
+      type(study_type), intent(in) :: study
+      !> The journal, open
+      type(journal_type), intent(out) :: journal
+      !> Rows by number; takes those that are done
+      type(row_type), intent(inout) :: done(:)
+      !> How many these are
+      integer, intent(out) :: n_before
+      !> The journal cannot be written
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: put_aside
+
+      associate (stem => study%undertaking%stem, part => command%part)
+         call open_journal(journal_path(stem, part), study%key, size(study%names), journal, done, &
+            put_aside, error)
+         if (allocated(error)) return
+         if (part%number == 0) &
+            call gather_parts(stem, study%key, size(study%names), part%n, done)
+         n_before = count(done%number > 0)
+         if (len(put_aside) > 0) &
+            write (error_unit, '(a)') 'axijoint: the rows of another study '// &
+            'of this name, deck or table changed, are '//put_aside//' now'
+         if (n_before > 0 .and. .not. command%quiet) write (error_unit, '(a)') 'axijoint: '// &
+            count_of(n_before, 'row')//' of '//to_text(size(done))//' were done before'
+      end associate
+   end subroutine find_done
+
+   !> Tell what there is to say of a row that was not solved, if not too many had something
+   subroutine tell_row(study, row, n_shown)
+      !> The study
+      type(study_type), intent(inout) :: study
+      !> The row
+      type(row_type), intent(in) :: row
+      !> Rows of which something was told
+      integer, intent(inout) :: n_shown
+
+      if (len(row%message) == 0 .or. size(row%values) > 0) return
+      n_shown = n_shown + 1
+      if (n_shown > most_messages) return
+      call clear_progress(study%rows%progress)
+      write (error_unit, '(a)') 'axijoint: row '//to_text(row%number)//' ('// &
+         varied(study%table, row%number)//'):', row%message
+      if (n_shown == most_messages) write (error_unit, '(a)') &
+         'axijoint: messages of further rows stand in the table of results'
+   end subroutine tell_row
+
+   !> What a row varies
+   function varied(table, number) result(text)
+      !> The table
+      type(study_table_type), intent(in) :: table
+      !> Number of the row
+      integer, intent(in) :: number
+      !> In words
+      character(len=:), allocatable :: text
+
+      integer :: k
+
+      text = ''
+      do k = 1, size(table%columns)
+         if (.not. table%given(k, number)) cycle
+         if (len(text) > 0) text = text//', '
+         text = text//trim(table%columns(k)%name)//' = '
+         if (table%columns(k)%kind%kind == kind_word) then
+            text = text//value_text(table, k, number)
+         else
+            text = text//to_text(table%values(k, number))
+         end if
+      end do
+   end function varied
+
+   !> Tell what was done
+   subroutine tell_end(command, study, done, n_before, seconds)
+      !> Options
+      type(command_type), intent(in) :: command
+      !> The study
+      type(study_type), intent(in) :: study
+      !> The rows
+      type(row_type), intent(in) :: done(:)
+      !> Rows that were done before
+      integer, intent(in) :: n_before
+      !> Time of the others
+      real(wp), intent(in) :: seconds
+
+      integer :: n
+
+      n = count(done%number > 0)
+      write (output_unit, '(a)') 'study                 '//count_of(n, 'row')//', '// &
+         to_text(n - n_before)//' solved now with '// &
+         count_of(study%rows%n_structures, 'structure'), &
+         'status                '//to_text(ended(exit_ok))//' converged, '// &
+         to_text(ended(exit_not_converged))//' not converged, '// &
+         to_text(ended(exit_singular))//' mechanisms, '//to_text(n - ended(exit_ok) - &
+         ended(exit_not_converged) - ended(exit_singular))//' with errors', &
+         'time                  '//to_text(seconds)//' s'
+      if (n > n_before) write (output_unit, '(a)') 'time of a row         '// &
+         to_text(seconds/(n - n_before))//' s'
+      if (command%part%number > 0) then
+         write (output_unit, '(a)') 'file                  '// &
+            journal_path(study%undertaking%stem, command%part)
+      else
+         write (output_unit, '(a)') 'files                 '//study%undertaking%stem//'.csv .h5'
+      end if
 
    contains
 
-      !> Last place in the order of a part
-      integer function part_end(part)
-         !> Its number
-         integer, intent(in) :: part
+      !> Rows that ended with an exit code
+      integer function ended(code)
+         !> The code
+         integer, intent(in) :: code
 
-         part_end = int(int(size(order), i8)*part/command%n_parts)
-      end function part_end
+         ended = count(done%number > 0 .and. done%code == code)
+      end function ended
 
-      !> Path of the journal of a part; 0 for the whole
-      function journal_path(part) result(path)
-         !> The part
-         integer, intent(in) :: part
-         !> The path
-         character(len=:), allocatable :: path
-
-         path = study%undertaking%stem//'.rows'
-         if (part > 0) path = study%undertaking%stem//'.'//to_text(part)//'of'// &
-            to_text(command%n_parts)//'.rows'
-      end function journal_path
-
-      !> Take the rows that parts have done
-      subroutine gather_parts()
-         type(journal_type) :: other
-         type(row_type), allocatable :: theirs(:)
-         integer :: part, n, k
-
-         do part = 1, command%n_parts
-            if (path_kind(journal_path(part)) == path_absent) cycle
-            call open_journal(journal_path(part), study%key, size(study%names), size(order), &
-               other, theirs, n, error)
-            do k = 1, size(theirs)
-               if (theirs(k)%number == 0 .or. done(k)%number > 0) cycle
-               done(k) = theirs(k)
-               n_before = n_before + 1
-            end do
-         end do
-      end subroutine gather_parts
-
-      !> Remove the journals, once the files are there
-      subroutine remove_journals()
-         type(journal_type) :: other
-         type(row_type), allocatable :: theirs(:)
-         integer :: part, n
-
-         call close_journal(journal)
-         do part = 1, command%n_parts
-            if (path_kind(journal_path(part)) == path_absent) cycle
-            call open_journal(journal_path(part), study%key, size(study%names), size(order), &
-               other, theirs, n, error)
-            call close_journal(other)
-         end do
-      end subroutine remove_journals
-
-      !> Tell what there is to say of a row, if not too many had something
-      subroutine tell(row)
-         !> The row
-         type(row_type), intent(in) :: row
-
-         if (command%quiet .or. len(row%message) == 0 .or. size(row%values) > 0) return
-         n_shown = n_shown + 1
-         if (n_shown > most_messages) return
-         call clear_progress(study%rows%progress)
-         write (error_unit, '(a)') 'axijoint: row '//to_text(row%number)//' ('// &
-            varied(row%number)//'):', row%message
-         if (n_shown == most_messages) write (error_unit, '(a)') &
-            'axijoint: messages of further rows stand in the table of results'
-      end subroutine tell
-
-      !> What a row varies
-      function varied(number) result(text)
-         !> Its number
-         integer, intent(in) :: number
-         !> In words
-         character(len=:), allocatable :: text
-
-         integer :: k
-
-         text = ''
-         do k = 1, size(study%table%columns)
-            if (.not. study%table%given(k, number)) cycle
-            if (len(text) > 0) text = text//', '
-            text = text//trim(study%table%columns(k)%name)//' = '// &
-               to_text(study%table%values(k, number))
-         end do
-      end function varied
-
-      !> Tell what was done
-      subroutine tell_end(seconds)
-         !> Time of the rows
-         real(wp), intent(in) :: seconds
-
-         integer :: n
-
-         n = count(done%number > 0)
-         write (output_unit, '(a)') 'study                 '//count_of(n, 'row')//', '// &
-            to_text(n - n_before)//' solved now with '// &
-            count_of(study%rows%n_structures, 'structure'), &
-            'status                '//to_text(count(done%number > 0 .and. done%code == 0))// &
-            ' converged, '//to_text(count(done%code == 3 .and. done%number > 0))// &
-            ' not converged, '//to_text(count(done%code == 4 .and. done%number > 0))// &
-            ' mechanisms, '//to_text(count(done%number > 0 .and. done%code /= 0 &
-               .and. done%code /= 3 .and. done%code /= 4))//' with errors', &
-            'time                  '//to_text(seconds)//' s'
-         if (n > n_before) write (output_unit, '(a)') 'time of a row         '// &
-            to_text(seconds/(n - n_before))//' s'
-         if (command%part > 0) then
-            write (output_unit, '(a)') 'file                  '//journal_path(command%part)
-         else
-            write (output_unit, '(a)') 'files                 '//study%undertaking%stem//'.csv .h5'
-         end if
-      end subroutine tell_end
-
-   end subroutine solve_rows
+   end subroutine tell_end
 
 end module axijoint_command_study

@@ -34,6 +34,19 @@ module axijoint_joints_increments
    !> A step that finds no equilibrium is halved so many times at most
    integer, parameter :: most_halvings = 6
 
+   !> What the increments of a job act on
+   type :: stage_type
+      !> The job, and the factors of its load cases
+      type(model_type), pointer :: model => null()
+      type(combination_type), pointer :: combination => null()
+      !> Equations of all modes, and the condensed structure
+      type(equations_type), pointer :: equations => null()
+      type(condensed_type), pointer :: condensed => null()
+      !> Points of all joints, and of all springs
+      type(model_joint_point_type), pointer :: joint_points(:) => null()
+      type(support_point_type), pointer :: supports(:) => null()
+   end type stage_type
+
 contains
 
    !> Apply the increments. Each starts from the last state in equilibrium, whose
@@ -42,16 +55,16 @@ contains
    subroutine run_increments(model, equations, condensed, joint_points, supports, combination, &
       history, progress, keeper)
       !> The job
-      type(model_type), intent(in) :: model
+      type(model_type), intent(in), target :: model
       !> Equations of all modes, assembled
-      type(equations_type), intent(inout) :: equations
+      type(equations_type), intent(inout), target :: equations
       !> The condensed structure
-      type(condensed_type), intent(in) :: condensed
+      type(condensed_type), intent(in), target :: condensed
       !> Points of all joints, and of all springs
-      type(model_joint_point_type), intent(in) :: joint_points(:)
-      type(support_point_type), intent(in) :: supports(:)
+      type(model_joint_point_type), intent(in), target :: joint_points(:)
+      type(support_point_type), intent(in), target :: supports(:)
       !> Factors of the load cases
-      type(combination_type), intent(in) :: combination
+      type(combination_type), intent(in), target :: combination
       !> What it came to
       type(history_type), intent(out) :: history
       !> Where to show progress
@@ -59,6 +72,14 @@ contains
       !> Who may know how far an earlier run came, and is told of every step in equilibrium
       class(keeper_type), intent(inout), optional :: keeper
 
+      type(stage_type) :: stage
+
+      stage%model => model
+      stage%equations => equations
+      stage%condensed => condensed
+      stage%joint_points => joint_points
+      stage%supports => supports
+      stage%combination => combination
       call new_history(model, condensed, history)
       if (history%method%accumulates .and. .not. all(cuts_back(history%scene%laws))) then
          call fatal_error(history%failure, exit_deck, &
@@ -67,138 +88,168 @@ contains
          return
       end if
       history%at = first_step(combination)
-      if (present(keeper)) call go_on_from(keeper)
+      if (present(keeper)) call go_on_from(stage, keeper, history)
       do while (history%increment < size(model%increments) .or. size(history%ahead) > 0)
          call check_stop(history%failure)
          if (allocated(history%failure)) return
-         if (size(history%ahead) == 0) call begin_increment()
-         call reach_next()
+         if (size(history%ahead) == 0) call begin_increment(stage, history, progress)
+         call reach_next(stage, history)
          if (.not. history%verdict%converged) then
             if (size(history%ahead) == 0 .or. allocated(history%failure)) return
             cycle  ! in smaller steps
          end if
-         if (size(history%ahead) == 0) call end_increment()
+         if (size(history%ahead) == 0) call end_increment(stage, history)
          if (present(keeper)) call keeper%keep(history)
       end do
-
-   contains
-
-      !> Go on from where an earlier run was
-      subroutine go_on_from(keeper)
-         !> Who knows
-         class(keeper_type), intent(inout) :: keeper
-
-         real(wp), allocatable :: factor(:)
-         logical :: restored
-
-         call keeper%restore(history, restored, history%failure)
-         if (.not. restored) return
-         factor = history%loading%case_factor
-         call put_on_nodes(factor, history%loading)
-         factor = history%peak%case_factor
-         call put_on_nodes(factor, history%peak)
-      end subroutine go_on_from
-
-      !> The loads of the next increment lie ahead
-      subroutine begin_increment()
-         history%increment = history%increment + 1
-         history%ahead = [target_type(next_step(history%at, &
-            model%increments(history%increment), combination), most_halvings)]
-         call show_progress(progress, 'increment '//to_text(history%increment)//' of '// &
-            to_text(size(model%increments)))
-      end subroutine begin_increment
-
-      !> The loads of the increment are reached
-      subroutine end_increment()
-         call forget_failure(history)
-         if (history%increment < size(model%increments)) then
-            call keep_state(condensed, history%increment, history%at%load_factor, &
-               history%at%case_factor, history)
-         end if
-      end subroutine end_increment
-
-      !> Go to the loads that lie ahead next. If that finds no equilibrium, half the way there lies
-      !> ahead then, or nothing any more: the history has ended
-      subroutine reach_next()
-         type(target_type) :: target
-         type(joint_field_type), allocatable :: before
-         class(method_type), allocatable :: second
-
-         target = history%ahead(size(history%ahead))
-         before = history%field
-         call put(target%step)
-         call balance(history%method, target%step)
-         if (history%verdict%converged) return
-         if (ends(history)) then
-            history%ahead = history%ahead(:0)
-            return
-         end if
-         call note_failure(history)
-         if (target%halvings > 0 .and. .not. history%method%accumulates) then
-            history%field = before
-            target%halvings = target%halvings - 1
-            history%ahead = [history%ahead(:size(history%ahead) - 1), target, &
-               target_type(halfway(history%at, target%step), target%halvings)]
-            return
-         end if
-         if (allocated(history%runaway) .or. allocated(history%motion)) then
-            if (.not. history%verdict%mechanism%loaded) &
-               call second_opinion(history%method, second)
-            if (allocated(second)) then
-               history%field = before
-               call put(target%step)
-               call balance(second, target%step)
-               if (history%verdict%converged .or. allocated(history%failure)) return
-            end if
-            history%field = before  ! what ran away is no state to show
-            call put(history%at)
-            call judge_states(history%scene%laws, history%field)  ! none was, before the first load
-         end if
-         history%ahead = history%ahead(:0)
-      end subroutine reach_next
-
-      !> Iterate the step to the loads that were put on. If it is in equilibrium, they lie behind
-      subroutine balance(method, step)
-         !> How joints are brought to equilibrium
-         class(method_type), intent(in) :: method
-         !> The loads
-         type(step_type), intent(in) :: step
-
-         call balance_step(condensed, model%increments(history%increment), history%increment, &
-            step%load_factor, method, history)
-         if (.not. history%verdict%converged) then
-            call check_stop(history%failure)  ! the iterations may have ended for it
-            return
-         end if
-         history%at = step
-         history%ahead = history%ahead(:size(history%ahead) - 1)
-      end subroutine balance
-
-      !> Load the structure
-      subroutine put(step)
-         !> Loads
-         type(step_type), intent(in) :: step
-
-         call put_on_nodes(step%case_factor, history%loading)
-         call put_loads(equations, condensed, history%loading, history%scene%loads)
-         history%largest_elastic = maxval([history%largest_elastic, history%scene%loads%largest])
-         history%load_norm = load_norm(equations, history%loading)
-         call report_failure(equations, model, history%failure)
-         call set_initial_stress(model, condensed%points, step%case_factor, history%field)
-      end subroutine put
-
-      !> Loads on the nodes
-      subroutine put_on_nodes(case_factor, loading)
-         !> Factor of each load case
-         real(wp), intent(in) :: case_factor(:)
-         !> The loads
-         type(loading_type), intent(out) :: loading
-
-         call new_loading(model, joint_points, supports, equations%modes, &
-                          combination_type(combination%label, case_factor), loading)
-      end subroutine put_on_nodes
-
    end subroutine run_increments
+
+   !> Go on from where an earlier run was
+   subroutine go_on_from(stage, keeper, history)
+      !> What the increments act on
+      type(stage_type), intent(in) :: stage
+      !> Who knows
+      class(keeper_type), intent(inout) :: keeper
+      !> The history, new
+      type(history_type), intent(inout) :: history
+
+      real(wp), allocatable :: factor(:)
+      logical :: restored
+
+      call keeper%restore(history, restored, history%failure)
+      if (.not. restored) return
+      factor = history%loading%case_factor
+      call put_on_nodes(stage, factor, history%loading)
+      factor = history%peak%case_factor
+      call put_on_nodes(stage, factor, history%peak)
+   end subroutine go_on_from
+
+   !> The loads of the next increment lie ahead
+   subroutine begin_increment(stage, history, progress)
+      !> What the increments act on
+      type(stage_type), intent(in) :: stage
+      !> The history
+      type(history_type), intent(inout) :: history
+      !> Where to show progress
+      type(progress_type), intent(inout) :: progress
+
+      history%increment = history%increment + 1
+      associate (increments => stage%model%increments, n => history%increment)
+         history%ahead = [target_type(next_step(history%at, increments(n), stage%combination), &
+                                      most_halvings)]
+         call show_progress(progress, 'increment '//to_text(n)//' of '//to_text(size(increments)))
+      end associate
+   end subroutine begin_increment
+
+   !> The loads of the increment are reached
+   subroutine end_increment(stage, history)
+      !> What the increments act on
+      type(stage_type), intent(in) :: stage
+      !> The history
+      type(history_type), intent(inout) :: history
+
+      real(wp), allocatable :: factor(:)
+
+      call forget_failure(history)
+      if (history%increment == size(stage%model%increments)) return
+      factor = history%at%case_factor
+      call keep_state(stage%condensed, history%increment, history%at%load_factor, factor, history)
+   end subroutine end_increment
+
+   !> Go to the loads that lie ahead next. If that finds no equilibrium, half the way there lies
+   !> ahead then, or nothing any more: the history has ended
+   subroutine reach_next(stage, history)
+      !> What the increments act on
+      type(stage_type), intent(in) :: stage
+      !> The history
+      type(history_type), intent(inout) :: history
+
+      type(target_type) :: target
+      type(joint_field_type), allocatable :: before
+      class(method_type), allocatable :: second
+
+      target = history%ahead(size(history%ahead))
+      before = history%field
+      call put(stage, target%step, history)
+      call balance(stage, history%method, target%step, history)
+      if (history%verdict%converged) return
+      if (ends(history)) then
+         history%ahead = history%ahead(:0)
+         return
+      end if
+      call note_failure(history)
+      if (target%halvings > 0 .and. .not. history%method%accumulates) then
+         history%field = before
+         target%halvings = target%halvings - 1
+         history%ahead = [history%ahead(:size(history%ahead) - 1), target, &
+            target_type(halfway(history%at, target%step), target%halvings)]
+         return
+      end if
+      if (allocated(history%runaway) .or. allocated(history%motion)) then
+         if (.not. history%verdict%mechanism%loaded) &
+            call second_opinion(history%method, second)
+         if (allocated(second)) then
+            history%field = before
+            call put(stage, target%step, history)
+            call balance(stage, second, target%step, history)
+            if (history%verdict%converged .or. allocated(history%failure)) return
+         end if
+         history%field = before  ! what ran away is no state to show
+         call put(stage, history%at, history)
+         call judge_states(history%scene%laws, history%field)  ! none was, before the first load
+      end if
+      history%ahead = history%ahead(:0)
+   end subroutine reach_next
+
+   !> Iterate the step to the loads that were put on. If it is in equilibrium, they lie behind
+   subroutine balance(stage, method, step, history)
+      !> What the increments act on
+      type(stage_type), intent(in) :: stage
+      !> How joints are brought to equilibrium
+      class(method_type), intent(in) :: method
+      !> The loads
+      type(step_type), intent(in) :: step
+      !> The history
+      type(history_type), intent(inout) :: history
+
+      call balance_step(stage%condensed, stage%model%increments(history%increment), &
+         history%increment, step%load_factor, method, history)
+      if (.not. history%verdict%converged) then
+         call check_stop(history%failure)  ! the iterations may have ended for it
+         return
+      end if
+      history%at = step
+      history%ahead = history%ahead(:size(history%ahead) - 1)
+   end subroutine balance
+
+   !> Load the structure
+   subroutine put(stage, step, history)
+      !> What the increments act on
+      type(stage_type), intent(in) :: stage
+      !> Loads
+      type(step_type), intent(in) :: step
+      !> The history
+      type(history_type), intent(inout) :: history
+
+      call put_on_nodes(stage, step%case_factor, history%loading)
+      call put_loads(stage%equations, stage%condensed, history%loading, history%scene%loads)
+      history%largest_elastic = maxval([history%largest_elastic, history%scene%loads%largest])
+      history%load_norm = load_norm(stage%equations, history%loading)
+      call report_failure(stage%equations, stage%model, history%failure)
+      call set_initial_stress(stage%model, stage%condensed%points, step%case_factor, history%field)
+   end subroutine put
+
+   !> Loads on the nodes
+   subroutine put_on_nodes(stage, case_factor, loading)
+      !> What the increments act on
+      type(stage_type), intent(in) :: stage
+      !> Factor of each load case
+      real(wp), intent(in) :: case_factor(:)
+      !> The loads
+      type(loading_type), intent(out) :: loading
+
+      call new_loading(stage%model, stage%joint_points, stage%supports, stage%equations%modes, &
+                       combination_type(stage%combination%label, case_factor), loading)
+   end subroutine put_on_nodes
 
    !> Whether there is nothing to try about the last step: it is in equilibrium, or as near as
    !> numbers go, or ended for another reason, or was of a loop that does no more than end

@@ -35,7 +35,7 @@ module axijoint_study_envelope
    !> Factors grow to at most this power of two times the first one
    integer, parameter :: most_doublings = 40
    !> Rounds of a search, each closing in on what the one before it left open
-   integer, parameter :: most_rounds = 4
+   integer, parameter :: most_rounds = 6
 
 contains
 
@@ -63,6 +63,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       real(wp), allocatable :: factors(:)
+      real(wp) :: before(2)
       integer(i8) :: start, now, rate
       integer :: k, round
 
@@ -70,22 +71,41 @@ contains
       capacity%message = ''
       factors = [first, (first*2.0_wp**k, k=0, most_doublings)]
       do round = 1, most_rounds
+         before = [capacity%factor, capacity%without]
          call follow(model, structure, control, direction, factors, timer, progress, capacity, &
             error)
          if (allocated(error)) return
-         if (.not. capacity%without > 0.0_wp) exit
-         if (capacity%without - capacity%factor <= tolerance*capacity%without) exit
-         ! half of the way, half of the rest ..., then all that is open
-         if (capacity%factor > 0.0_wp) then
-            factors = [(capacity%factor*0.5_wp**k, k=1, 4), capacity%factor*0.5_wp**4, &
-                       capacity%without - capacity%factor]
+         if (capacity%code == exit_ok) then
+            if (round == 1) exit
+            ! smaller steps came beyond what larger ones did not reach: on from there
+            factors = [path_to(capacity%factor), &
+                       (capacity%factor*2.0_wp**(k - 5), k=0, most_doublings)]
+         else if (capacity%factor < before(1)) then
+            capacity%factor = before(1)  ! another path came farther
+            capacity%without = before(2)
+            exit
+         else if (.not. capacity%factor > 0.0_wp .or. &
+                  capacity%without - capacity%factor <= tolerance*capacity%without) then
+            exit
          else
-            factors = [capacity%without]
+            factors = [path_to(capacity%factor), capacity%without - capacity%factor]
          end if
       end do
       call system_clock(now)
       capacity%seconds = real(now - start, wp)/rate
    end subroutine search_direction
+
+   !> Increments of a load that end at a factor: half of it, half of the rest, ...
+   pure function path_to(factor) result(factors)
+      !> The factor
+      real(wp), intent(in) :: factor
+      !> The increments
+      real(wp) :: factors(5)
+
+      integer :: k
+
+      factors = [(factor*0.5_wp**k, k=1, 4), factor*0.5_wp**4]
+   end function path_to
 
    !> Follow a path of growing load to its end
    subroutine follow(model, structure, control, direction, factors, timer, progress, capacity, &
@@ -129,8 +149,7 @@ contains
          loaded%increments(n_base + k)%factor = factors(k)
       end do
       call analyse_combination(loaded, structure, loaded%combinations(1), results, timer, &
-         progress, &
-         error, estimated=.false.)
+         progress, error, estimated=.false.)
       if (allocated(error)) return
       capacity%code = exit_code_of(results)
       capacity%n_increments = capacity%n_increments + size(results%states)
@@ -139,7 +158,8 @@ contains
       base = sum(model%increments%factor)
       last = size(results%states)
       if (capacity%code == exit_ok) then
-         capacity%factor = max(capacity%factor, sum(factors))
+         capacity%factor = sum(factors)
+         capacity%without = 0.0_wp
          return
       end if
       reached = results%states(last)%load_factor

@@ -4,14 +4,14 @@ module axijoint_study_journal
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_sha256, only : sha256
-   use axijoint_base_system, only : append_to_file, path_kind, path_absent, unlink_path
+   use axijoint_base_system, only : append_to_file, path_kind, path_absent, rename_path, unlink_path
    use axijoint_base_text, only : to_text
    use axijoint_deck_text_file_bytes, only : read_bytes, line_end, next_line
    use axijoint_output_file_pending, only : io_error
    use axijoint_study_rows, only : row_type
    implicit none
    private
-   public :: journal_type, open_journal, append_row, close_journal
+   public :: journal_type, open_journal, read_journal, append_row, close_journal
 
    !> Letters of a checksum
    integer, parameter :: sum_length = 16
@@ -33,59 +33,81 @@ module axijoint_study_journal
 
 contains
 
-   !> Open a journal, with the rows that stand in it if it is of the same study; else it begins anew
-   subroutine open_journal(path, key, n_quantities, n_rows, journal, rows, n_done, error)
+   !> Open a journal, with the rows that stand in it if it is of the same study. One of another
+   !> study is put aside, and a new one begun
+   subroutine open_journal(path, key, n_quantities, journal, rows, put_aside, error)
       !> The file
       character(len=*), intent(in) :: path
       !> What tells one study from another
       character(len=*), intent(in) :: key
-      !> Quantities of a row, rows of the table
-      integer, intent(in) :: n_quantities, n_rows
+      !> Quantities of a row
+      integer, intent(in) :: n_quantities
       !> The journal
       type(journal_type), intent(out) :: journal
-      !> Rows by number; of those that are not done the number is 0
-      type(row_type), allocatable, intent(out) :: rows(:)
-      !> How many are done
-      integer, intent(out) :: n_done
+      !> Rows by number; takes those that are done
+      type(row_type), intent(inout) :: rows(:)
+      !> Where the journal of another study is now; empty if there was none
+      character(len=:), allocatable, intent(out) :: put_aside
       !> The file cannot be written
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: bytes, failure, head
-      type(row_type) :: row
-      integer :: first, last, errno, k
-      logical :: torn
+      logical :: there, ours, torn
+      integer :: errno
 
       journal%path = path
-      allocate (rows(n_rows))
-      n_done = 0
-      head = opening//sha256(key)
-      torn = .false.
+      put_aside = ''
       errno = 0
-      if (path_kind(path) /= path_absent) then
-         call read_bytes(path, bytes, failure)
-         last = line_end(bytes, 1)
-         if (bytes(:last) == head) then
-            first = next_line(bytes, last)
-            do while (first <= len(bytes))
-               last = line_end(bytes, first)
-               call read_row(bytes(first:last), n_quantities, row)
-               k = row%number
-               if (k >= 1 .and. k <= n_rows) then
-                  if (rows(k)%number == 0) n_done = n_done + 1
-                  rows(k) = row
-               end if
-               first = next_line(bytes, last)
-            end do
-            torn = bytes(len(bytes):) /= new_line('a')
-            if (torn) call append_to_file(path, new_line('a'), .true., errno)
-            if (errno /= 0) call io_error(error, 'write', path, errno)
-            return
+      call read_journal(path, key, n_quantities, rows, there, ours, torn)
+      if (ours) then
+         if (torn) call append_to_file(path, new_line('a'), .true., errno)
+      else
+         if (there) then
+            put_aside = path//'.old'
+            call rename_path(path, put_aside, errno)
          end if
-         call unlink_path(path, errno)
+         if (errno == 0) &
+            call append_to_file(path, opening//sha256(key)//new_line('a'), .true., errno)
       end if
-      call append_to_file(path, head//new_line('a'), .true., errno)
       if (errno /= 0) call io_error(error, 'write', path, errno)
    end subroutine open_journal
+
+   !> Read a journal that this process does not write
+   subroutine read_journal(path, key, n_quantities, rows, there, ours, torn)
+      !> The file
+      character(len=*), intent(in) :: path
+      !> What tells one study from another
+      character(len=*), intent(in) :: key
+      !> Quantities of a row
+      integer, intent(in) :: n_quantities
+      !> Rows by number; takes those that are done and not there yet
+      type(row_type), intent(inout) :: rows(:)
+      !> Whether there is such a file, and whether it is of this study; whether its last line is not
+      !> whole
+      logical, intent(out) :: there, ours, torn
+
+      character(len=:), allocatable :: bytes, failure
+      type(row_type) :: row
+      integer :: first, last
+
+      ours = .false.
+      torn = .false.
+      there = path_kind(path) /= path_absent
+      if (.not. there) return
+      call read_bytes(path, bytes, failure)
+      last = line_end(bytes, 1)
+      ours = bytes(:last) == opening//sha256(key)
+      if (.not. ours) return
+      torn = bytes(len(bytes):) /= new_line('a')
+      first = next_line(bytes, last)
+      do while (first <= len(bytes))
+         last = line_end(bytes, first)
+         call read_row(bytes(first:last), n_quantities, row)
+         if (row%number >= 1 .and. row%number <= size(rows)) then
+            if (rows(row%number)%number == 0) rows(row%number) = row
+         end if
+         first = next_line(bytes, last)
+      end do
+   end subroutine read_journal
 
    !> Append a row
    subroutine append_row(journal, row, error)

@@ -1,6 +1,6 @@
 !> What a study keeps of a row: numbers with names, increment by increment
 module axijoint_study_quantities
-   use axijoint_analysis_core_results, only : results_type, n_resultants
+   use axijoint_analysis_core_results, only : results_type, error_share_type, n_resultants
    use axijoint_analysis_core_series, only : series_type
    use axijoint_analysis_error_budget, only : sum_of_shares
    use axijoint_base_kinds, only : wp, pi
@@ -71,6 +71,7 @@ contains
       !> Shape (quantities, increments)
       real(wp), allocatable :: values(:, :)
 
+      type(error_share_type) :: total
       integer :: i, n
 
       n = size(general) + size(estimates) + 1
@@ -86,10 +87,9 @@ contains
          values(n + 1:, i) = [totals(i), series%faces(:, :, i), series%cuts(:, :, i)]
       end do
       if (allocated(results%budget)) then
-         associate (total => sum_of_shares(results%budget))
-            values(size(general) + 1:size(general) + 2, series%n) = &
-               [total%displacement, total%joint_stress]
-         end associate
+         total = sum_of_shares(results%budget)
+         values(size(general) + 1:size(general) + 2, series%n) = &
+            [total%displacement, total%joint_stress]
       end if
       values(n, series%n) = largest_mises(results)
 

@@ -12,7 +12,8 @@ module axijoint_study_rows
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type
    use axijoint_base_progress, only : progress_type
-   use axijoint_deck_job_deck, only : stage_properties, stage_loads, stage_requests
+   use axijoint_deck_job_deck, only : read_section_type, stage_properties, stage_loads, &
+      stage_requests
    use axijoint_deck_reader, only : make_model, kept_mesh_type
    use axijoint_deck_registry, only : all_sections
    use axijoint_deck_text_diagnostics, only : diagnostics_type, render
@@ -22,6 +23,7 @@ module axijoint_study_rows
    use axijoint_job_in_situ_messages, only : judge_in_situ
    use axijoint_job_job, only : options_type, take_options
    use axijoint_model_model, only : model_type
+   use axijoint_output_listing_solution, only : convergence_text
    use axijoint_output_file_run, only : exit_code_of
    use axijoint_study_quantities, only : quantity_values
    use axijoint_study_table, only : study_table_type, change_entries
@@ -102,30 +104,30 @@ contains
       !> Shape (columns)
       logical, allocatable, intent(out) :: keeps_mesh(:), keeps_structure(:)
 
+      type(read_section_type), allocatable :: sections(:)
       integer :: k, stage
 
       allocate (keeps_mesh(size(table%columns)), keeps_structure(size(table%columns)))
-      associate (sections => all_sections())
-         do k = 1, size(table%columns)
-            associate (column => table%columns(k))
-               stage = sections(column%section)%stage
-               keeps_mesh(k) = any(stage == [stage_loads, stage_requests]) .or. &
-                  (stage == stage_properties .and. column%kind%kind == kind_real)
-               select case (source%sections(column%section)%name)
-               case ('MATERIALS')
-                  keeps_structure(k) = index(column%kind%name, 'modulus') == 0 .and. &
-                     index(column%kind%name, 'ratio') == 0
-               case ('LAWS')
-                  keeps_structure(k) = index(column%kind%name, 'k_') == 0
-               case ('ORTHOTROPIC', 'SPRINGS')
-                  keeps_structure(k) = .false.
-               case default
-                  keeps_structure(k) = .true.
-               end select
-               keeps_structure(k) = keeps_structure(k) .and. keeps_mesh(k)
-            end associate
-         end do
-      end associate
+      sections = all_sections()
+      do k = 1, size(table%columns)
+         associate (column => table%columns(k))
+            stage = sections(column%section)%stage
+            keeps_mesh(k) = any(stage == [stage_loads, stage_requests]) .or. &
+               (stage == stage_properties .and. column%kind%kind == kind_real)
+            select case (source%sections(column%section)%name)
+            case ('MATERIALS')
+               keeps_structure(k) = index(column%kind%name, 'modulus') == 0 .and. &
+                  index(column%kind%name, 'ratio') == 0
+            case ('LAWS')
+               keeps_structure(k) = index(column%kind%name, 'k_') == 0
+            case ('ORTHOTROPIC', 'SPRINGS')
+               keeps_structure(k) = .false.
+            case default
+               keeps_structure(k) = .true.
+            end select
+            keeps_structure(k) = keeps_structure(k) .and. keeps_mesh(k)
+         end associate
+      end do
    end subroutine free_columns
 
    !> Order of the rows: those that may share a structure follow each other, else as in the table
@@ -313,7 +315,11 @@ contains
          rows%progress, error, rows%estimated)
       if (allocated(error)) return
       row%code = exit_code_of(results)
-      if (allocated(results%mechanism)) row%message = results%mechanism
+      if (allocated(results%mechanism)) then
+         row%message = results%mechanism
+      else if (.not. results%converged) then
+         row%message = convergence_text(results)
+      end if
       series = new_series(model, results, size(results%states))
       do i = 1, size(results%states) - 1
          call solve_increment(model, rows%structure, results%states(i), results, earlier, error)

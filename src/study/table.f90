@@ -5,11 +5,13 @@ module axijoint_study_table
    use axijoint_base_text, only : to_text, upper, did_you_mean
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
    use axijoint_deck_text_field, only : field_type, integer_field, word_field, kind_text, &
-      kind_word, largest_number
+      kind_word, kind_code, kind_integer, largest_number
    use axijoint_deck_text_file_bytes, only : read_bytes, line_end, next_line
    use axijoint_deck_text_section, only : names_of, section_named, form_entries
    use axijoint_deck_text_sections, only : sections_type
    use axijoint_deck_text_source, only : source_type, add_file, add_card, card_text
+   use axijoint_deck_text_table, only : table_type
+   use axijoint_deck_text_token, only : read_integer, token_good
    use axijoint_study_cell, only : cell_type, read_cell
    use axijoint_study_draw, only : generator_type, new_generator, next_uniform, latin_hypercube, &
       quantile
@@ -196,22 +198,18 @@ contains
       !> Errors
       type(diagnostics_type), intent(inout) :: diagnostics
 
-      character(len=:), allocatable :: section, rest, word
-      integer :: number
+      character(len=:), allocatable :: section, rest
 
       column%name = name
-      section = name(:index(name//' ', ' ') - 1)
-      rest = trim(adjustl(name(len(section) + 1:)))
       column%field = findloc(own_names, name, 1)
       if (column%field > 0) then
          column%kind = integer_field('the number of '//name, 1, 5, 1, largest_number)
          if (column%field == own_sampler) column%kind = word_field('the sampler', 1, 5, samplers, 1)
          return
       end if
-      column%section = section_named(deck%sections, section)
-      if (column%section > 0) then
-         if (deck%sections(column%section)%form /= form_entries) column%section = 0
-      end if
+      section = name(:index(name//' ', ' ') - 1)
+      rest = trim(adjustl(name(len(section) + 1:)))
+      column%section = section_with_entries(deck, section)
       if (column%section == 0) then
          call add_error(diagnostics, line, first, max(last, first), &
             'the column names no section of a deck', found=section, &
@@ -219,72 +217,93 @@ contains
             mend=did_you_mean(section, [character(len=12) :: names_of(deck%sections), own_names]))
          return
       end if
-      word = rest(:index(rest//' ', ' ') - 1)
-      number = 0
-      if (len(word) > 0 .and. len(word) < 10 .and. verify(word, '0123456789') == 0) then
-         read (word, *) number
-         rest = trim(adjustl(rest(len(word) + 1:)))
-      else if (entries%tables(column%section)%n == 1) then
-         column%entry = 1
-      end if
-      if (column%entry == 0) column%entry = entry_of(number)
-      if (column%entry == 0) then
-         call add_error(diagnostics, line, first, last, 'the deck has no such card of '//section, &
-            found=name, allowed=choice_of_entries())
-         return
-      end if
-      column%field = field_of(deck%sections(column%section)%fields, rest)
-      if (column%field == 0) then
-         call add_error(diagnostics, line, first, last, 'no field of '//section// &
-            ' has this name, or several have', found=rest, &
-            allowed=names_of_fields(deck%sections(column%section)%fields))
-         return
-      end if
-      column%kind = deck%sections(column%section)%fields(column%field)
-      if (column%kind%kind == kind_text) &
-         call add_error(diagnostics, line, first, last, 'a text cannot vary', found=rest)
-
-   contains
-
-      !> Entry of a number: the entry's own where it has one, else its place
-      integer function entry_of(number) result(entry)
-         !> The number
-         integer, intent(in) :: number
-
-         associate (table => entries%tables(column%section))
-            if (deck%sections(column%section)%numbered) then
-               entry = findloc(nint(table%values(1, :table%n)), number, 1)
-            else
-               entry = number
-               if (number > table%n) entry = 0
-            end if
-         end associate
-      end function entry_of
-
-      !> Numbers that may be called
-      function choice_of_entries() result(text)
-         !> In words
-         character(len=:), allocatable :: text
-
-         integer :: i
-
-         associate (table => entries%tables(column%section))
-            if (table%n == 0) then
-               text = 'a section that the deck has'
-            else if (.not. deck%sections(column%section)%numbered) then
-               text = section//' 1 to '//to_text(table%n)//', by their order'
-            else
-               text = section
-               do i = 1, min(table%n, 12)
-                  if (i > 1) text = text//','
-                  text = text//' '//to_text(nint(table%values(1, i)))
-               end do
-               if (table%n > 12) text = text//', ...'
-            end if
-         end associate
-      end function choice_of_entries
-
+      associate (kind => deck%sections(column%section), table => entries%tables(column%section))
+         call take_entry(kind%numbered, table, rest, column%entry)
+         column%field = field_of(kind%fields, rest)
+         if (column%entry == 0) then
+            call add_error(diagnostics, line, first, last, 'the deck has no such card of '// &
+               section, found=name, allowed=choice_of_entries(section, kind%numbered, table))
+         else if (column%field == 0) then
+            call add_error(diagnostics, line, first, last, 'no field of '//section// &
+               ' has this name, or several have', found=rest, allowed=names_of_fields(kind%fields))
+         else
+            column%kind = kind%fields(column%field)
+            if (column%kind%kind == kind_text) &
+               call add_error(diagnostics, line, first, last, 'a text cannot vary', found=rest)
+         end if
+      end associate
    end subroutine read_name
+
+   !> Place of a section of a name; 0 if it is unknown or has no entries
+   pure integer function section_with_entries(deck, name) result(section)
+      !> The deck
+      type(source_type), intent(in) :: deck
+      !> The keyword
+      character(len=*), intent(in) :: name
+
+      section = section_named(deck%sections, name)
+      if (section == 0) return
+      if (deck%sections(section)%form /= form_entries) section = 0
+   end function section_with_entries
+
+   !> Take the number of an entry from what follows the section: the entry's own number where it has
+   !> one, else its place
+   pure subroutine take_entry(numbered, table, rest, entry)
+      !> Whether entries have numbers of their own
+      logical, intent(in) :: numbered
+      !> The entries
+      type(table_type), intent(in) :: table
+      !> What follows the section; what follows the number on return
+      character(len=:), allocatable, intent(inout) :: rest
+      !> Place of the entry; 0 if there is none of the number
+      integer, intent(out) :: entry
+
+      character(len=:), allocatable :: word
+      integer :: number, code
+
+      word = rest(:index(rest//' ', ' ') - 1)
+      code = token_good + 1
+      if (len(word) > 0) call read_integer(word, number, code)
+      entry = 0
+      if (code /= token_good) then
+         if (table%n == 1) entry = 1
+         return
+      end if
+      rest = trim(adjustl(rest(len(word) + 1:)))
+      if (numbered) then
+         entry = findloc(nint(table%values(1, :table%n)), number, 1)
+      else if (number >= 1 .and. number <= table%n) then
+         entry = number
+      end if
+   end subroutine take_entry
+
+   !> Numbers of entries that may be called, for messages
+   pure function choice_of_entries(section, numbered, table) result(text)
+      !> The keyword
+      character(len=*), intent(in) :: section
+      !> Whether entries have numbers of their own
+      logical, intent(in) :: numbered
+      !> The entries
+      type(table_type), intent(in) :: table
+      !> In words
+      character(len=:), allocatable :: text
+
+      integer, parameter :: most_named = 12
+      integer :: i
+
+      if (table%n == 0) then
+         text = 'a section that the deck has'
+      else if (.not. numbered) then
+         text = section//' 1 to '//to_text(table%n)//', by their order'
+      else
+         text = section
+         do i = 1, min(table%n, most_named)
+            if (i > 1) text = text//','
+            text = text//' '//to_text(nint(table%values(1, i)))
+         end do
+         if (table%n > most_named) text = text//', ...'
+      end if
+   end function choice_of_entries
 
    !> Field of a name: its symbol, its name, or a name with the words
    pure integer function field_of(fields, name) result(place)
@@ -583,6 +602,11 @@ contains
       associate (value => table%values(column, row), kind => table%columns(column)%kind)
          if (kind%kind == kind_word) then
             text = trim(kind%words(nint(value)))
+         else if (kind%kind == kind_code) then
+            write (digits, '(b3.3)') nint(value)
+            text = trim(adjustl(digits))
+         else if (kind%kind == kind_integer) then
+            text = to_text(nint(value))
          else
             write (digits, '(es24.16e3)') value
             text = trim(adjustl(digits))

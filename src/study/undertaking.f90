@@ -26,11 +26,13 @@ module axijoint_study_undertaking
 contains
 
    !> Take a name, and heed signals and its STOP file from now on
-   subroutine begin_undertaking(directory, name, lock_name, purpose, undertaking, notes, error)
+   subroutine begin_undertaking(directory, name, claimed, purpose, undertaking, notes, error)
       !> Directory, made if it is not there
       character(len=*), intent(in) :: directory
-      !> Name of the files without ending, and the name that is taken: of a part of a study another
-      character(len=*), intent(in) :: name, lock_name
+      !> Name of the files without ending
+      character(len=*), intent(in) :: name
+      !> Names that are taken: that name, of a part of a study another, to gather parts all of them
+      character(len=*), intent(in) :: claimed(:)
       !> What it is, a line that others are told
       character(len=*), intent(in) :: purpose
       !> What is under way
@@ -52,7 +54,7 @@ contains
          call io_error(error, 'make', directory, errno)
          return
       end if
-      call claim_names(directory, [lock_name], purpose, undertaking%claim, notes, error)
+      call claim_names(directory, claimed, purpose, undertaking%claim, notes, error)
       if (allocated(error)) return
       call unlink_path(undertaking%stem//stop_ending, errno)  ! of an earlier one
       call heed_file(undertaking%stem//stop_ending)

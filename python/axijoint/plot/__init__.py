@@ -13,29 +13,32 @@ try:
 except ImportError as error:
     raise ImportError("axijoint.plot needs matplotlib: pip install matplotlib") from error
 
+from ..envelopes import Envelope
 from ..studies import Study
-from . import states
+from . import envelope, states
 from .kinds import KINDS, NothingToDraw
 from .options import Options
 from .style import SETTINGS, plt, settings
 
-__all__ = ["FORMATS", "KINDS", "SETTINGS", "STUDY_KINDS", "NothingToDraw", "Options", "figures",
+__all__ = ["ENVELOPE_KINDS", "FORMATS", "KINDS", "SETTINGS", "STUDY_KINDS", "NothingToDraw", "Options", "figures",
            "kinds_of", "plt", "save", "tables"]
 
 FORMATS = ("png", "svg")
-# Kinds of figures of studies
-STUDY_KINDS = states.KINDS
+# Kinds of figures of studies, and of envelopes
+STUDY_KINDS, ENVELOPE_KINDS = states.KINDS, envelope.KINDS
 
 
 def kinds_of(result):
-    """The kinds of figures that there are of a Result, or of a Study."""
+    """The kinds of figures that there are of a Result, a Study, or an Envelope."""
+    if isinstance(result, Envelope):
+        return ENVELOPE_KINDS
     return STUDY_KINDS if isinstance(result, Study) else KINDS
 
 
 def figures(result, kinds=None, options=Options(), missing=None):
     """Yield name and matplotlib Figure of each figure of some kinds, or of all that tell something.
 
-    result: a Result, or a Study, which has the kinds of STUDY_KINDS
+    result: a Result; a Study, which has the kinds of STUDY_KINDS; an Envelope, which has those of ENVELOPE_KINDS
 
     A figure is closed when the next one is asked for. missing: called with the kind and the reason for kinds that
     there is nothing to draw of, such as the convergence path of a linear job.

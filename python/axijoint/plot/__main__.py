@@ -4,13 +4,16 @@ import pathlib
 import sys
 from dataclasses import replace
 
-from .. import open as open_result, open_study
+from .. import open as open_result, open_envelope, open_study
+from ..envelopes import ENVELOPE_ENDING
 from ..history import NotKeptError
 from ..studies import ENDING
-from . import FORMATS, KINDS, STUDY_KINDS, Options, figures, kinds_of, save, tables
+from . import ENVELOPE_KINDS, FORMATS, KINDS, STUDY_KINDS, Options, figures, kinds_of, save, tables
 from .style import plt
 
 EVERY_FORMAT = ("png", "svg", "pdf")
+# What opens a file of an ending, and its kinds of figures
+SORTS = {ENDING: (open_study, STUDY_KINDS), ENVELOPE_ENDING: (open_envelope, ENVELOPE_KINDS), "": (open_result, KINDS)}
 
 
 def numbers(of):
@@ -48,6 +51,7 @@ def parser():
         description="Writes figures of results of axijoint, NAME_FIGURE.png and .svg, and tables of some, "
         "NAME_TABLE.csv.", epilog="\n\n".join((
             listed("kinds", KINDS), listed("kinds of studies, NAME.study.h5", STUDY_KINDS),
+            listed("kinds of envelopes, NAME.envelope.h5", ENVELOPE_KINDS),
             "Lists are numbers between commas: 0,90; increments 1,3-5. A list or range that begins with a minus sign "
             "needs =: --depths=-2,-5.")))
     add = one.add_argument
@@ -79,10 +83,11 @@ def fault_of(given, kinds, paths):
     missing = [path for path in paths if not path.is_file()]
     if missing or not paths:
         what = f"{missing[0]} is neither a file nor a kind of figure" if missing else "no result file"
-        return f"{what}; kinds: {', '.join(KINDS)}; of studies: {', '.join(STUDY_KINDS)}"
-    if len({is_study(path) for path in paths}) > 1:
-        return "results and studies are drawn by commands of their own"
-    known = STUDY_KINDS if is_study(paths[0]) else KINDS
+        return f"{what}; kinds: {', '.join(KINDS)}; of studies: {', '.join(STUDY_KINDS)}; " \
+            f"of envelopes: {', '.join(ENVELOPE_KINDS)}"
+    if len({sort_of(path) for path in paths}) > 1:
+        return "results, studies and envelopes are drawn by commands of their own"
+    _, known = SORTS[sort_of(paths[0])]
     strange = [kind for kind in kinds if kind not in known]
     if strange:
         return f"{paths[0]} has no figure of kind {strange[0]}; it has {', '.join(known)}"
@@ -106,9 +111,9 @@ def fault_of(given, kinds, paths):
     return None
 
 
-def is_study(path):
-    """Whether a file is that of a study, by its name."""
-    return path.name.endswith(ENDING)
+def sort_of(path):
+    """What a file is of, by its name: a place in SORTS."""
+    return next((ending for ending in SORTS if path.name.endswith(ending)), "")
 
 
 def options_of(given):
@@ -120,7 +125,7 @@ def options_of(given):
 def main(arguments=None):
     """Draw and write; the exit code."""
     given = parser().parse_intermixed_args(arguments)
-    every = KINDS | STUDY_KINDS
+    every = KINDS | STUDY_KINDS | ENVELOPE_KINDS
     kinds = [word for word in given.words if word in every]
     paths = [pathlib.Path(word) for word in given.words if word not in every]
     fault = fault_of(given, kinds, paths)
@@ -131,7 +136,8 @@ def main(arguments=None):
     code = 0
     for path in paths:
         try:
-            result = (open_study if is_study(path) else open_result)(path)
+            opened, _ = SORTS[sort_of(path)]
+            result = opened(path)
             code = max(code, write(result, given.o/path.name.removesuffix(".h5"), kinds, given))
         except (OSError, ValueError) as error:
             print(f"plot: {path}: {error}", file=sys.stderr)

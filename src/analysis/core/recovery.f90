@@ -4,7 +4,7 @@ module axijoint_analysis_core_recovery
                                          lateral_90, moment_90, n_resultants
    use axijoint_analysis_core_rigid, only : rigid_resultants
    use axijoint_analysis_core_structure, only : structure_type
-   use axijoint_assembly_equations, only : on_equations, worth_threads, own_modes
+   use axijoint_assembly_equations, only : equations_type, on_equations, worth_threads, own_modes
    use axijoint_assembly_force, only : joint_force
    use axijoint_assembly_loading, only : loading_type
    use axijoint_assembly_rigid_motion, only : solid_parts
@@ -77,16 +77,15 @@ contains
          end associate
       end do
       !$omp end parallel do
-      call share(results%reaction, size(results%reaction, kind=i8))
-      call share(results%acting, size(results%acting, kind=i8))
-      call share(results%taken, size(results%taken, kind=i8))
-      call share(results%stress, size(results%stress, kind=i8))
-      call share(unbalanced, size(unbalanced, kind=i8))
-      call share(scale, size(scale, kind=i8))
-      call share(applied, size(applied, kind=i8))
-      call share(resultant, size(resultant, kind=i8))
-      call share(reacted, size(reacted, kind=i8))
-      call share(unbalance, size(unbalance, kind=i8))
+      call share_fields(structure%equations, results)
+      associate (equations => structure%equations)
+         call share(equations, unbalanced, size(unbalanced, kind=i8))
+         call share(equations, scale, size(scale, kind=i8))
+         call share(equations, applied, size(applied, kind=i8))
+         call share(equations, resultant, size(resultant, kind=i8))
+         call share(equations, reacted, size(reacted, kind=i8))
+         call share(equations, unbalance, size(unbalance, kind=i8))
+      end associate
       results%applied = sum(applied, 2)
       results%reacted = sum(reacted, 2)
       results%part_unbalance = sum(unbalance, 3)
@@ -100,17 +99,6 @@ contains
       end associate
 
    contains
-
-      !> Let all ranks know what was found mode by mode
-      subroutine share(values, n)
-         !> Values of the modes, one mode after the other
-         integer(i8), intent(in) :: n
-         real(wp), intent(inout) :: values(n)
-
-         associate (equations => structure%equations)
-            call equations%team%gather(values, n, equations%last_mode)
-         end associate
-      end subroutine share
 
       !> Nodal forces of solids, springs and joints in one mode; fills the stress
       function internal_force(k) result(internal)
@@ -142,6 +130,30 @@ contains
       end function spring_force
 
    end subroutine recover
+
+   !> Let all ranks know the fields that were found mode by mode
+   subroutine share_fields(equations, results)
+      !> The equations, for the modes of each rank
+      type(equations_type), intent(in) :: equations
+      !> The fields
+      type(results_type), intent(inout) :: results
+
+      call share(equations, results%reaction, size(results%reaction, kind=i8))
+      call share(equations, results%acting, size(results%acting, kind=i8))
+      call share(equations, results%taken, size(results%taken, kind=i8))
+      call share(equations, results%stress, size(results%stress, kind=i8))
+   end subroutine share_fields
+
+   !> Let all ranks know what was found mode by mode
+   subroutine share(equations, values, n)
+      !> The equations
+      type(equations_type), intent(in) :: equations
+      !> Values of the modes, one mode after the other
+      integer(i8), intent(in) :: n
+      real(wp), intent(inout) :: values(n)
+
+      call equations%team%gather(values, n, equations%last_mode)
+   end subroutine share
 
    !> Place the Gauss points of all elements
    subroutine new_points(model, results)

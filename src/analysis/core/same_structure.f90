@@ -4,7 +4,7 @@
 module axijoint_analysis_core_same_structure
    use axijoint_analysis_core_structure, only : structure_type, reuses_factors
    use axijoint_base_kinds, only : wp
-   use axijoint_fe_mode, only : same_mode
+   use axijoint_fe_mode, only : mode_type, same_mode
    use axijoint_model_load, only : edge_support_type
    use axijoint_model_material, only : solid_material_type, joint_material_type, elasticity
    use axijoint_model_mesh, only : mesh_type
@@ -33,6 +33,8 @@ contains
       !> Its structure
       type(structure_type), intent(in) :: structure
 
+      type(mode_type), allocatable :: modes(:)
+
       same_structure = same_mesh(model%mesh, built_for%mesh) &
          .and. same_solids(model%materials, built_for%materials) &
          .and. same_joints(model%joint_materials, built_for%joint_materials) &
@@ -46,10 +48,9 @@ contains
          .and. model%memory_limit == built_for%memory_limit &
          .and. (reuses_factors(model) .eqv. reuses_factors(built_for))
       if (.not. same_structure) return
-      associate (modes => used_modes(model))
-         same_structure = size(modes) == size(structure%modes)
-         if (same_structure) same_structure = all(same_mode(modes, structure%modes))
-      end associate
+      modes = used_modes(model)
+      same_structure = size(modes) == size(structure%modes)
+      if (same_structure) same_structure = all(same_mode(modes, structure%modes))
    end function same_structure
 
    !> Whether two meshes are the same; numbers that the user gave aside

@@ -10,7 +10,7 @@ module axijoint_output_file_hdf5
       write_string, write_attribute, write_string_attribute
    use axijoint_output_file_hdf5_series, only : hdf5_series_type, open_series, append_piece, &
       piece_length, close_series
-   use axijoint_output_file_pending, only : temporary_path, publish, discard, io_error
+   use axijoint_output_file_pending, only : temporary_path, discard, io_error
    use hdf5, only : hid_t, hsize_t, h5f_obj_all_f, h5f_obj_file_f, h5open_f, h5close_f, &
       h5eset_auto_f, h5fcreate_f, &
       h5fopen_f, h5fflush_f, h5fclose_f, h5f_acc_excl_f, h5f_acc_rdonly_f, &
@@ -24,7 +24,7 @@ module axijoint_output_file_hdf5
    integer, parameter :: kind_real = 1, kind_long = 2, kind_byte = 3
 
    !> File under way. `create`, any number of groups, datasets and
-   !> attributes, `finish`, then `commit` or `abandon`; after a failure
+   !> attributes, `finish`, a final name (`pending.f90`) or `abandon`; after a failure
    !> everything but `abandon` does nothing.
    type :: hdf5_file_type
       private
@@ -60,8 +60,6 @@ module axijoint_output_file_hdf5
       procedure :: finish
       !> Bytes of the finished file
       procedure :: size => size_of_file
-      !> Give the file its final name
-      procedure :: commit
       !> Remove what was written
       procedure :: abandon
    end type hdf5_file_type
@@ -396,18 +394,6 @@ contains
 
       inquire (file=temporary_path(self%path), size=bytes)
    end function size_of_file
-
-   !> Give the finished file its final name, replacing an earlier file
-   subroutine commit(self, error)
-      !> The file, finished without error
-      class(hdf5_file_type), intent(inout) :: self
-      !> The rename failed; the earlier file stands
-      type(error_type), allocatable, intent(out) :: error
-
-      if (self%failure%failed .or. .not. self%present) return
-      call publish(self%path, error)
-      if (.not. allocated(error)) self%present = .false.
-   end subroutine commit
 
    !> Close and remove what was written; an earlier file stands
    subroutine abandon(self)
