@@ -71,12 +71,26 @@ contains
       if (.not. allocated(loading%held) .and. .not. loading%initial%present) return
       do k = 1, size(modes)
          if (allocated(loading%held)) still = loading%held(:, :, k)
+         if (.not. (any(abs(still) > 0.0_wp) .or. is_in_mode(loading%initial, k, modes(k)))) cycle
          loading%right(:, :, k) = loading%right(:, :, k) - &
             still_force(model, joint_points, supports, loading%initial, &
                                                                        k, modes(k), still, &
                                                                        combination%factor)
       end do
    end subroutine new_loading
+
+   !> Whether an initial state is in a mode: in-situ stress is in that of the axis alone
+   pure logical function is_in_mode(state, k, mode)
+      !> The state
+      type(initial_state_type), intent(in) :: state
+      !> Place of the mode, and the mode
+      integer, intent(in) :: k
+      type(mode_type), intent(in) :: mode
+
+      is_in_mode = same_mode(mode, mode_type(0, family_symmetric))
+      if (allocated(state%temperature)) &
+         is_in_mode = is_in_mode .or. any(abs(state%temperature(:, :, k)) > 0.0_wp)
+   end function is_in_mode
 
    !> Nodal forces of solids, joints and springs in one mode while the unknowns are zero: of held
    !> displacements and of initial stresses

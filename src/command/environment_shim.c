@@ -40,6 +40,14 @@ static int has_avx512(void)
 #endif
 }
 
+static int computes(const char *command)
+{
+   static const char *const commands[] = {"run", "estimate", "study", "envelope"};
+   for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i)
+      if (strcmp(command, commands[i]) == 0) return 1;
+   return 0;
+}
+
 /* Commands that compute start again if a variable is not set. If that fails, nothing is lost but
    time. */
 static void set_environment(int argc, char **argv, char **environment)
@@ -51,7 +59,7 @@ static void set_environment(int argc, char **argv, char **environment)
    char program[PATH_MAX];
    ssize_t length;
 
-   if (argc < 2 || (strcmp(argv[1], "run") != 0 && strcmp(argv[1], "estimate") != 0)) return;
+   if (argc < 2 || !computes(argv[1])) return;
    while (environment[size]) ++size;
    char *larger[size + wanted + 1];
    memcpy(larger, environment, size * sizeof *larger);

@@ -21,7 +21,7 @@ module axijoint_joints_condensed
    use axijoint_model_model, only : model_type, can_yield_at
    implicit none
    private
-   public :: condensed_type, new_condensed, rank_of
+   public :: condensed_type, flexibility_type, new_condensed, rank_of
 
    !> Numbers of all flexibilities below which every rank has all of them and multiplies by itself:
    !> that takes less time than to tell each other the products (some 0.05 ms)
@@ -29,8 +29,8 @@ module axijoint_joints_condensed
 
    !> Flexibility of one harmonic
    type :: flexibility_type
-      !> Jumps that unit amplitudes of excess stress give: N K_m^-1 N^T c_m w, for all components of
-      !> point 1, 2, ..., shape (components points, components points)
+      !> Jumps that unit amplitudes of excess stress give: N K_m^-1 N^T c_m w, for all points of
+      !> component 1, 2, 3, shape (points components, points components)
       real(wp), allocatable :: matrix(:, :)
    end type flexibility_type
 
@@ -101,7 +101,7 @@ contains
       !> The condensed structure
       type(condensed_type), intent(inout) :: condensed
 
-      integer :: s, k, n
+      integer :: s, i, k, n
 
       n = 3*size(condensed%points)
       condensed%shared = condensed%team%size > 1 &
@@ -117,8 +117,9 @@ contains
       do s = 1, size(condensed%flexibilities)
          if (.not. allocated(condensed%flexibilities(s)%matrix)) cycle
          do k = 1, size(condensed%points)
-            condensed%own(:, :, k, s) = &
-               condensed%flexibilities(s)%matrix(3*k - 2:3*k, 3*k - 2:3*k)
+            associate (rows => k + [(i*size(condensed%points), i=0, 2)])
+               condensed%own(:, :, k, s) = condensed%flexibilities(s)%matrix(rows, rows)
+            end associate
          end do
       end do
       call condensed%team%gather(condensed%own, size(condensed%own, kind=i8), &
@@ -192,7 +193,7 @@ contains
       allocate (half(size(unknowns), 3*size(points)), matrix(3*size(points), 3*size(points)))
       do k = 1, size(points)
          do i = 1, 3
-            column = 3*(k - 1) + i
+            column = k + (i - 1)*size(points)
             half(:, column) = combination(inverse, place(:, i, k), coefficient(:, i, k))
             half(:, column) = &
                circle_integral(equations%systems(s)%harmonic)*points(k)%weight*half(:, column)
@@ -201,7 +202,7 @@ contains
       half = transpose(half)
       do k = 1, size(points)
          do i = 1, 3
-            column = 3*(k - 1) + i
+            column = k + (i - 1)*size(points)
             matrix(:, column) = combination(half, place(:, i, k), coefficient(:, i, k))
          end do
       end do

@@ -14,19 +14,18 @@ module axijoint_joints_newton
    use axijoint_element_joint_law, only : admit
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, seen_by_law
+   use axijoint_joints_newton_system, only : linear_type, solve
    use axijoint_joints_planes, only : synthesize, analyse
-   use axijoint_joints_point_blocks, only : point_blocks_type, new_point_blocks, precondition
-   use axijoint_joints_scene, only : scene_type, evaluate, views, jumps
-   use axijoint_linalg_gmres, only : operator_type, gmres
+   use axijoint_joints_scene, only : scene_type, evaluate, views
    implicit none
    private
-   public :: newton_type, step_bounds_type, new_newton, newton_step, correction, at_points, &
+   public :: newton_type, step_bounds_type, new_newton, newton_step, at_points, &
       newton_view
 
    !> Stiffness k h/E of joints that the laws see at most at a time
    real(wp), parameter :: newton_view = 10.0_wp
-   !> Most products of a linear solution
-   integer, parameter :: most_products = 400
+   !> Share of the largest stress that is rounding
+   real(wp), parameter :: rounding = 1.0e-14_wp
    !> Values on the planes from which on threads are worth their start
    integer, parameter :: worth_threads = 5000
    !> Shortest part of a step, and how fast the radius of steps grows
@@ -34,18 +33,13 @@ module axijoint_joints_newton
 
    !> Laws of all points, linear about an iterate: P changes by `by_jump` times the
    !> change of the jumps, and by `rest`
-   type :: newton_type
-      !> Derivatives of P and of the excess stress k d - P by the jumps, shape
-      !> (3, 3, points, planes)
-      real(wp), allocatable :: by_jump(:, :, :, :), slope(:, :, :, :)
+   type, extends(linear_type) :: newton_type
+      !> Derivatives of P by the jumps, shape (3, 3, points, planes); those of the excess stress
+      !> k d - P are the slopes of the linear system, and its right side is what is not transferred
+      !> of k d - P - `rest`
+      real(wp), allocatable :: by_jump(:, :, :, :)
       !> Change of P at the same jumps, shape (3, points, planes)
       real(wp), allocatable :: rest(:, :, :)
-      !> Amplitudes of k d - P - `rest` that are not transferred, shape (3, points, modes)
-      real(wp), allocatable :: residual(:, :, :)
-      !> Share of the excess stress that the laws do keep from the structure: 1 without weak springs
-      real(wp) :: kept = 1.0_wp
-      !> Points whose laws are stiffer than their joints in the structure
-      logical, allocatable :: stiff(:)
       !> Size of what is missing to the solution, in P and in e
       real(wp) :: merit = huge(1.0_wp)
    end type newton_type
@@ -64,42 +58,7 @@ module axijoint_joints_newton
       real(wp) :: radius = huge(1.0_wp)
    end type step_bounds_type
 
-   !> I - A E' S F: derivative of the excess stress that is not yet transferred,
-   !> with the synthesis S, the slopes E' of the laws and the analysis A
-   type, extends(operator_type) :: derivative_type
-      !> What it multiplies with: flexibilities, planes, slopes on the planes, shape (3, 3, points,
-      !> planes)
-      type(condensed_type), pointer :: condensed => null()
-      type(scene_type), pointer :: scene => null()
-      real(wp), pointer :: slope(:, :, :, :) => null()
-      !> Share of them that acts
-      real(wp) :: kept = 1.0_wp
-      !> Inverses of what points do to themselves, where laws are stiff
-      type(point_blocks_type), allocatable :: blocks
-   contains
-      !> Product with amplitudes of excess stress
-      procedure :: apply
-   end type derivative_type
-
 contains
-
-   !> Product with amplitudes of excess stress
-   subroutine apply(self, x, y)
-      !> The operator
-      class(derivative_type), intent(in) :: self
-      !> Amplitudes, 3 x points x modes
-      real(wp), intent(in), contiguous :: x(:)
-      !> The product
-      real(wp), intent(out), contiguous :: y(:)
-
-      real(wp), allocatable :: excess(:, :, :)
-
-      excess = reshape(x, [3, size(self%slope, 3), size(x)/(3*size(self%slope, 3))])
-      excess = excess - self%kept*analyse(self%scene%planes, at_points(self%slope, &
-         synthesize(self%scene%planes, jumps(self%condensed, self%scene, excess, free=.false.))))
-      if (allocated(self%blocks)) call precondition(self%blocks, excess)
-      y = reshape(excess, [size(y)])
-   end subroutine apply
 
    !> Products of the matrices of all points and planes with their vectors
    pure function at_points(matrix, vector) result(product)
@@ -179,6 +138,7 @@ contains
       newton%residual = newton%kept*analyse(scene%planes, excess) - field%excess
       newton%merit = merit_of(condensed, newton%residual, missing)
       newton%residual = newton%residual - newton%kept*analyse(scene%planes, newton%rest)
+      newton%rounding = rounding*maxval(abs(field%stress))
    end function new_newton
 
    !> Stiffness k h/E above which laws are linearized as if they had no more: far from equilibrium a
@@ -243,43 +203,6 @@ contains
       end do
    end function merit_of
 
-   !> Change of the excess stress that would balance the residual were the laws linear
-   function correction(condensed, scene, newton, tolerance) result(change)
-      !> The condensed structure
-      type(condensed_type), intent(in), target :: condensed
-      !> Laws, planes and loads
-      type(scene_type), intent(in), target :: scene
-      !> Laws about the iterate, and its residual
-      type(newton_type), intent(in), target :: newton
-      !> Tolerance of the linear solution
-      real(wp), intent(in) :: tolerance
-      !> The change, shape (3, points, modes)
-      real(wp), allocatable :: change(:, :, :)
-
-      type(derivative_type) :: derivative
-      real(wp), allocatable :: x(:), right(:, :, :)
-      logical :: stiff(size(condensed%points))
-      real(wp) :: reduction
-      integer :: n_products
-
-      derivative%condensed => condensed
-      derivative%scene => scene
-      derivative%slope => newton%slope
-      derivative%kept = newton%kept
-      right = newton%residual
-      stiff = newton%stiff
-      if (any(stiff)) then
-         allocate (derivative%blocks)
-         call new_point_blocks(condensed, scene, newton%slope, newton%kept, stiff, &
-            derivative%blocks)
-         call precondition(derivative%blocks, right)
-      end if
-      allocate (x(size(right)))
-      call gmres(derivative, reshape(right, [size(x)]), tolerance, min(most_products, size(x)), x, &
-                 n_products, reduction)
-      change = reshape(x, shape(newton%residual))
-   end function correction
-
    !> One step, shortened until what is missing is not much more, but not below a part of it:
    !> the shortest is made even if it does not help. A step to jumps that are no
    !> state is not made.
@@ -300,11 +223,11 @@ contains
       logical, intent(out) :: made
 
       real(wp), allocatable :: start(:, :, :), carried(:, :, :), change(:, :, :), &
-         change_carried(:, :, :), jump(:, :, :)
+         amplitude(:, :, :), change_carried(:, :, :), jump(:, :, :)
       real(wp) :: length, before, least
 
-      change = correction(condensed, scene, newton, bounds%tolerance)
-      jump = synthesize(scene%planes, jumps(condensed, scene, change, free=.false.))
+      call solve(condensed, scene, newton%linear_type, bounds%tolerance, change, amplitude)
+      jump = synthesize(scene%planes, amplitude)
       change_carried = newton%rest + at_points(newton%by_jump, jump)
       start = field%excess
       carried = field%carried

@@ -3,10 +3,11 @@ module axijoint_joints_planes
    use axijoint_base_kinds, only : wp, pi
    use axijoint_fe_fourier, only : cosine_of_fraction, sine_of_fraction
    use axijoint_fe_mode, only : mode_type, family_symmetric, meridional, circumferential
+   use axijoint_linalg_lapack, only : dgemm
    use axijoint_model_modes, only : greatest_divisor
    implicit none
    private
-   public :: planes_type, new_planes, new_view, synthesize, analyse, on_all
+   public :: planes_type, new_planes, new_view, synthesize, analyse, sum_modes, find_modes, on_all
 
    !> Planes and the matrices between them and the modes
    type :: planes_type
@@ -186,7 +187,7 @@ contains
    end function new_view
 
    !> Sum of the modes of joint quantities on every plane
-   pure function synthesize(planes, amplitude) result(total)
+   function synthesize(planes, amplitude) result(total)
       !> The planes
       type(planes_type), intent(in) :: planes
       !> Amplitudes, shape (components, points, modes)
@@ -194,19 +195,14 @@ contains
       !> Sums, shape (components, points, planes)
       real(wp) :: total(size(amplitude, 1), size(amplitude, 2), size(planes%angle))
 
-      integer :: i
+      real(wp) :: by_component(size(total, 2), size(total, 1), size(total, 3))
 
-      do i = 1, size(amplitude, 1)
-         if (planes%odd(i)) then
-            total(i, :, :) = matmul(amplitude(i, :, :), planes%circumferential)
-         else
-            total(i, :, :) = matmul(amplitude(i, :, :), planes%meridional)
-         end if
-      end do
+      call sum_modes(planes, size(total, 2), turned(amplitude), by_component)
+      total = turned(by_component)
    end function synthesize
 
    !> Amplitudes of joint quantities known on the planes
-   pure function analyse(planes, total) result(amplitude)
+   function analyse(planes, total) result(amplitude)
       !> The planes, made by `new_planes`
       type(planes_type), intent(in) :: planes
       !> Values, shape (components, points, planes)
@@ -214,15 +210,82 @@ contains
       !> Amplitudes, shape (components, points, modes)
       real(wp) :: amplitude(size(total, 1), size(total, 2), size(planes%meridional, 1))
 
-      integer :: i
+      real(wp) :: by_component(size(amplitude, 2), size(amplitude, 1), size(amplitude, 3))
 
-      do i = 1, size(total, 1)
-         if (planes%odd(i)) then
-            amplitude(i, :, :) = matmul(total(i, :, :), planes%circumferential_back)
-         else
-            amplitude(i, :, :) = matmul(total(i, :, :), planes%meridional_back)
-         end if
-      end do
+      call find_modes(planes, size(total, 2), turned(total), by_component)
+      amplitude = turned(by_component)
    end function analyse
+
+   !> Values with their first two places changed
+   pure function turned(values)
+      !> Shape (m, n, any)
+      real(wp), intent(in) :: values(:, :, :)
+      !> Shape (n, m, any)
+      real(wp) :: turned(size(values, 2), size(values, 1), size(values, 3))
+
+      integer :: i, k
+
+      do k = 1, size(values, 3)
+         do i = 1, size(values, 1)
+            turned(:, i, k) = values(i, :, k)
+         end do
+      end do
+   end function turned
+
+   !> Sums of the modes on every plane, of values that lie together component by component
+   subroutine sum_modes(planes, n, amplitude, total)
+      !> The planes
+      type(planes_type), intent(in) :: planes
+      !> Number of points
+      integer, intent(in) :: n
+      !> Amplitudes, shape (points, components, modes)
+      real(wp), intent(in) :: amplitude(n, size(planes%odd), *)
+      !> Sums, shape (points, components, planes)
+      real(wp), intent(inout) :: total(n, size(planes%odd), *)
+
+      integer :: i, step
+
+      if (n == 0) return
+      step = n*size(planes%odd)
+      associate (m => size(planes%meridional, 1), p => size(planes%angle))
+         do i = 1, size(planes%odd)
+            if (planes%odd(i)) then
+               call dgemm('N', 'N', n, p, m, 1.0_wp, amplitude(1, i, 1), step, &
+                  planes%circumferential, m, 0.0_wp, total(1, i, 1), step)
+            else
+               call dgemm('N', 'N', n, p, m, 1.0_wp, amplitude(1, i, 1), step, &
+                  planes%meridional, m, 0.0_wp, total(1, i, 1), step)
+            end if
+         end do
+      end associate
+   end subroutine sum_modes
+
+   !> Amplitudes of values that are known on the planes and lie together component by component
+   subroutine find_modes(planes, n, total, amplitude)
+      !> The planes, made by `new_planes`
+      type(planes_type), intent(in) :: planes
+      !> Number of points
+      integer, intent(in) :: n
+      !> Values, shape (points, components, planes)
+      real(wp), intent(in) :: total(n, size(planes%odd), *)
+      !> Amplitudes, shape (points, components, modes)
+      real(wp), intent(inout) :: amplitude(n, size(planes%odd), *)
+
+      integer :: i, step
+
+      if (n == 0) return
+      step = n*size(planes%odd)
+      associate (m => size(planes%meridional, 1), p => size(planes%angle))
+         do i = 1, size(planes%odd)
+            if (planes%odd(i)) then
+               call dgemm('N', 'N', n, m, p, 1.0_wp, total(1, i, 1), step, &
+                  planes%circumferential_back, p, 0.0_wp, amplitude(1, i, 1), step)
+            else
+               call dgemm('N', 'N', n, m, p, 1.0_wp, total(1, i, 1), step, &
+                  planes%meridional_back, p, 0.0_wp, amplitude(1, i, 1), step)
+            end if
+         end do
+      end associate
+   end subroutine find_modes
 
 end module axijoint_joints_planes

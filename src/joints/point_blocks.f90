@@ -26,7 +26,7 @@ module axijoint_joints_point_blocks
 contains
 
    !> Invert I - A E' S f at the points that are worth it, f the flexibility of a point by itself
-   subroutine new_point_blocks(condensed, scene, slope, kept, stiff, point_blocks)
+   subroutine new_point_blocks(condensed, scene, slope, kept, points, stiff, point_blocks)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Modes and planes
@@ -35,18 +35,20 @@ contains
       real(wp), intent(in) :: slope(:, :, :, :)
       !> Share of them that acts
       real(wp), intent(in) :: kept
-      !> The points
+      !> The points, and whether each of all points is worth it
+      integer, intent(in) :: points(:)
       logical, intent(in) :: stiff(:)
       !> The inverses
       type(point_blocks_type), intent(out) :: point_blocks
 
       integer :: k, info
 
-      allocate (point_blocks%blocks(size(stiff)))
+      allocate (point_blocks%blocks(size(points)))
       !$omp parallel do schedule(dynamic) private(info)
-      do k = 1, size(stiff)
-         if (.not. stiff(k)) cycle
-         point_blocks%blocks(k)%inverse = block(condensed, scene, kept*slope(:, :, k, :), k)
+      do k = 1, size(points)
+         if (.not. stiff(points(k))) cycle
+         point_blocks%blocks(k)%inverse = block(condensed, scene, &
+            kept*slope(:, :, points(k), :), points(k))
          call invert(point_blocks%blocks(k)%inverse, info)
          if (info /= 0) deallocate (point_blocks%blocks(k)%inverse)
       end do
@@ -123,7 +125,7 @@ contains
    subroutine precondition(point_blocks, amplitude)
       !> The inverses
       type(point_blocks_type), intent(in) :: point_blocks
-      !> Shape (3, points, modes)
+      !> Shape (points, 3, modes)
       real(wp), intent(inout) :: amplitude(:, :, :)
 
       real(wp) :: x(3*size(amplitude, 3)), y(3*size(amplitude, 3))
@@ -131,9 +133,9 @@ contains
 
       do k = 1, size(point_blocks%blocks)
          if (.not. allocated(point_blocks%blocks(k)%inverse)) cycle
-         x = reshape(amplitude(:, k, :), [size(x)])
+         x = reshape(amplitude(k, :, :), [size(x)])
          call matrix_vector(point_blocks%blocks(k)%inverse, x, y)
-         amplitude(:, k, :) = reshape(y, [3, size(amplitude, 3)])
+         amplitude(k, :, :) = reshape(y, [3, size(amplitude, 3)])
       end do
    end subroutine precondition
 

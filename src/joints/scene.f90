@@ -5,15 +5,15 @@ module axijoint_joints_scene
    use axijoint_base_kinds, only : wp, i8
    use axijoint_element_joint_law, only : joint_law_type
    use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
-   use axijoint_joints_condensed, only : condensed_type, rank_of
+   use axijoint_joints_condensed, only : condensed_type, flexibility_type, rank_of
    use axijoint_joints_field, only : joint_field_type, admit_jump
    use axijoint_joints_loads, only : joint_loads_type, new_joint_loads
    use axijoint_joints_planes, only : planes_type, new_planes, synthesize, analyse
-   use axijoint_linalg_lapack, only : invert, matrix_vector
+   use axijoint_linalg_lapack, only : invert, matrix_sparse_vector
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: scene_type, new_scene, jumps, jumps_of_mode, own_flexibility, evaluate, views, &
+   public :: scene_type, new_scene, jumps, tell_jumps, jumps_of_mode, own_flexibility, evaluate, views, &
       mismatch_of, elastic_stress
    public :: motion_of, multiples_of_motions, stand_where_they_are
 
@@ -73,25 +73,50 @@ contains
 
       integer :: k
 
-      associate (n => size(condensed%modes))
-         !$omp parallel do schedule(static, 1) if (size(excess, 2) >= worth_points)
-         do k = 1, size(excess, 3)
-            associate (flexibility => condensed%flexibilities(scene%system(k)))
-               if (.not. allocated(flexibility%matrix)) cycle
-               call matrix_vector(flexibility%matrix, excess(:, :, k), jump(:, :, k))
-            end associate
-            if (k > n) jump(:, :, k) = scene%scale(k)*jump(:, :, k)
-         end do
-         !$omp end parallel do
-         if (condensed%shared) then
-            call condensed%team%gather(jump, size(jump(:, :, :n), kind=i8), condensed%last_mode)
-            ! all that follow take the flexibility of one system
-            if (size(jump, 3) > n) call condensed%team%broadcast(jump(:, :, n + 1:), &
-               size(jump(:, :, n + 1:), kind=i8), rank_of(condensed, scene%system(n + 1)))
-         end if
-      end associate
+      !$omp parallel do schedule(static, 1) if (size(excess, 2) >= worth_points)
+      do k = 1, size(excess, 3)
+         associate (flexibility => condensed%flexibilities(scene%system(k)))
+            if (.not. allocated(flexibility%matrix)) cycle
+            jump(:, :, k) = scene%scale(k)*flexed(flexibility, excess(:, :, k))
+         end associate
+      end do
+      !$omp end parallel do
+      if (condensed%shared) call tell_jumps(condensed, scene, jump)
       if (free) jump = jump + scene%loads%free
    end function jumps
+
+   !> Let all ranks know the jumps that each has found with its flexibilities
+   subroutine tell_jumps(condensed, scene, jump)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Modes
+      type(scene_type), intent(in) :: scene
+      !> Amplitudes, the last place of which is the mode
+      real(wp), intent(inout), contiguous :: jump(:, :, :)
+
+      associate (n => size(condensed%modes))
+         call condensed%team%gather(jump, size(jump(:, :, :n), kind=i8), condensed%last_mode)
+         ! all that follow take the flexibility of one system
+         if (size(jump, 3) > n) call condensed%team%broadcast(jump(:, :, n + 1:), &
+            size(jump(:, :, n + 1:), kind=i8), rank_of(condensed, scene%system(n + 1)))
+      end associate
+   end subroutine tell_jumps
+
+   !> Product of a flexibility and excess stress
+   function flexed(flexibility, excess) result(jump)
+      !> The flexibility
+      type(flexibility_type), intent(in) :: flexibility
+      !> Amplitudes, shape (components, points)
+      real(wp), intent(in) :: excess(:, :)
+      !> Amplitudes of the jumps, same shape
+      real(wp) :: jump(size(excess, 1), size(excess, 2))
+
+      real(wp) :: by_component(size(excess)), product(size(excess))
+
+      by_component = reshape(transpose(excess), [size(excess)])
+      call matrix_sparse_vector(flexibility%matrix, by_component, product)
+      jump = transpose(reshape(product, [size(excess, 2), size(excess, 1)]))
+   end function flexed
 
    !> Jumps of one mode from excess stress
    function jumps_of_mode(condensed, scene, mode, excess) result(jump)
@@ -107,7 +132,7 @@ contains
       real(wp) :: jump(size(excess, 1), size(excess, 2))
 
       associate (flexibility => condensed%flexibilities(scene%system(mode)))
-         if (allocated(flexibility%matrix)) call matrix_vector(flexibility%matrix, excess, jump)
+         if (allocated(flexibility%matrix)) jump = flexed(flexibility, excess)
       end associate
       if (condensed%shared) call condensed%team%broadcast(jump, size(jump, kind=i8), &
          rank_of(condensed, scene%system(mode)))

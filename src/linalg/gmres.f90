@@ -2,6 +2,7 @@
 !> 1986) for an operator known by its products
 module axijoint_linalg_gmres
    use axijoint_base_kinds, only : wp
+   use axijoint_linalg_lapack, only : matrix_vector, transposed_vector
    implicit none
    private
    public :: operator_type, gmres
@@ -84,10 +85,11 @@ contains
       do j = n_products, 1, -1  ! back-substitution
          g(j) = (g(j) - dot_product(h(j, j + 1:n_products), g(j + 1:n_products)))/h(j, j)
       end do
-      x = matmul(basis(:, :n_products), g(:n_products))
+      if (n_products > 0) call matrix_vector(basis(:, :n_products), g, x)
    end subroutine gmres
 
-   !> Make a vector orthogonal to a basis, twice is enough, and of length one
+   !> Make a vector orthogonal to a basis, and of length one. Once is enough where that leaves most of
+   !> it, twice always (Daniel, Gragg, Kaufman and Stewart, Math. Comp. 30, 1976)
    subroutine orthogonalize(basis, v, h)
       !> The basis
       real(wp), intent(in), contiguous :: basis(:, :)
@@ -96,16 +98,22 @@ contains
       !> Its components along the basis, and its length
       real(wp), intent(out) :: h(:)
 
-      real(wp) :: part(size(basis, 2))
+      !> The square of what is left, over that before, that is most of it
+      real(wp), parameter :: most = 0.5_wp
+      real(wp) :: part(size(basis, 2)), along(size(v)), before, left
       integer :: pass
 
       h = 0.0_wp
+      before = dot_product(v, v)
       do pass = 1, 2
-         part = matmul(v, basis)
-         v = v - matmul(basis, part)
+         call transposed_vector(basis, v, part)
+         call matrix_vector(basis, part, along)
+         v = v - along
          h(:size(part)) = h(:size(part)) + part
+         left = dot_product(v, v)
+         if (left > most*before) exit
       end do
-      h(size(h)) = norm2(v)
+      h(size(h)) = sqrt(left)
       if (h(size(h)) > 0.0_wp) v = v/h(size(h))
    end subroutine orthogonalize
 

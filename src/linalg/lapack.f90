@@ -1,14 +1,14 @@
 !> The LAPACK routines in use, with sizes taken from the arrays
 module axijoint_linalg_lapack
    use, intrinsic :: iso_c_binding, only : c_int
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, sp
    implicit none
    private
    public :: band_cholesky, dpbtrs, dtrsm, dgemm, dsyrk, dpotrf
    public :: cholesky, inverse_from_cholesky, product_with_transpose, symmetric_eigen, &
       use_one_blas_thread
    public :: product_rate
-   public :: matrix_vector, least_squares, invert, singular_values
+   public :: matrix_vector, single_matrix_vector, transposed_vector, matrix_sparse_vector, least_squares, invert, singular_values
 
    interface
       !> Cholesky factorization of a positive definite band matrix
@@ -85,6 +85,14 @@ module axijoint_linalg_lapack
          real(wp), intent(in) :: alpha, beta, a(lda, *), x(*)
          real(wp), intent(inout) :: y(*)
       end subroutine dgemv
+      !> The same in single precision
+      subroutine sgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
+         import :: sp
+         character, intent(in) :: trans
+         integer, intent(in) :: m, n, lda, incx, incy
+         real(sp), intent(in) :: alpha, beta, a(lda, *), x(*)
+         real(sp), intent(inout) :: y(*)
+      end subroutine sgemv
       !> Least squares with a rank-revealing factorization
       subroutine dgelsy(m, n, nrhs, a, lda, b, ldb, jpvt, rcond, rank, work, lwork, info)
          import :: wp
@@ -213,6 +221,71 @@ contains
 
       call dgemv('N', size(a, 1), size(a, 2), 1.0_wp, a, max(1, size(a, 1)), x, 1, 0.0_wp, y, 1)
    end subroutine matrix_vector
+
+   !> Product of a matrix and a vector in single precision
+   subroutine single_matrix_vector(a, x, y)
+      !> The matrix, shape (m, n)
+      real(sp), intent(in), contiguous :: a(:, :)
+      !> The vector, n values
+      real(sp), intent(in) :: x(*)
+      !> The product, m values
+      real(sp), intent(inout) :: y(*)
+
+      call sgemv('N', size(a, 1), size(a, 2), 1.0_sp, a, max(1, size(a, 1)), x, 1, 0.0_sp, y, 1)
+   end subroutine single_matrix_vector
+
+   !> Product of the transpose of a matrix and a vector
+   subroutine transposed_vector(a, x, y)
+      !> The matrix, shape (m, n)
+      real(wp), intent(in), contiguous :: a(:, :)
+      !> The vector, m values in any shape
+      real(wp), intent(in) :: x(*)
+      !> The product, n values in any shape
+      real(wp), intent(inout) :: y(*)
+
+      call dgemv('T', size(a, 1), size(a, 2), 1.0_wp, a, max(1, size(a, 1)), x, 1, 0.0_wp, y, 1)
+   end subroutine transposed_vector
+
+   !> Product of a matrix and a vector with long runs of zeros, whose columns are not read
+   subroutine matrix_sparse_vector(a, x, y)
+      !> The matrix, shape (m, n)
+      real(wp), intent(in), contiguous :: a(:, :)
+      !> The vector, shape (n)
+      real(wp), intent(in), contiguous :: x(:)
+      !> The product, shape (m)
+      real(wp), intent(out), contiguous :: y(:)
+
+      !> Zeros that end a run of others
+      integer, parameter :: enough = 6
+      integer :: first, last, next
+
+      y = 0.0_wp
+      first = next_one(1)
+      do while (first <= size(x))
+         last = first
+         do
+            next = next_one(last + 1)
+            if (next > min(size(x), last + enough)) exit
+            last = next
+         end do
+         call dgemv('N', size(a, 1), last - first + 1, 1.0_wp, a(:, first:last), size(a, 1), &
+            x(first:last), 1, 1.0_wp, y, 1)
+         first = next
+      end do
+
+   contains
+
+      !> Place of the next value that is none, from a place on; beyond the end if there is none
+      integer function next_one(from) result(place)
+         !> The place
+         integer, intent(in) :: from
+
+         do place = from, size(x)
+            if (abs(x(place)) > 0.0_wp) return
+         end do
+      end function next_one
+
+   end subroutine matrix_sparse_vector
 
    !> Singular values of a square matrix, descending, and its right singular vectors, one row each
    subroutine singular_values(a, values, rows)

@@ -148,16 +148,16 @@ def environment(program, folder):
     bare = {name: value for name, value in program.environment.items() if name not in names}
     script = os.path.join(HERE, '..', '..', 'scripts', 'environment')
     faults = []
-    for given in ({}, {'OMP_WAIT_POLICY': 'ACTIVE', 'OPENBLAS_CORETYPE': 'HASWELL'}):
+    fifo = os.path.join(folder, 'waits')  # that nobody writes to
+    os.mkfifo(fifo)
+    commands = (['run', fifo], ['estimate', fifo], ['study', fifo], ['envelope', fifo, '--cases', '1'])
+    for given, words in [({'OMP_WAIT_POLICY': 'ACTIVE', 'OPENBLAS_CORETYPE': 'HASWELL'}, commands[0]),
+                         *(({}, words) for words in commands)]:
         printed = subprocess.run(['bash', '-c', f'. "{script}"; env'], env=bare | given, text=True,
                                  capture_output=True, check=True).stdout
         wanted = sorted(line for line in printed.split('\n') if line.split('=')[0] in names)
-        # it waits for its deck once it reads the standard input
-        with subprocess.Popen([program.path, 'run', '-'], env=bare | given, cwd=folder,
-                              stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
-                              stderr=subprocess.PIPE) as process:
-            process.stdin.write(b'TITLE\n')
-            process.stdin.flush()
+        with subprocess.Popen([program.path, *words], env=bare | given, cwd=folder,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
             found = []
             for _ in range(500):
                 with open(f'/proc/{process.pid}/environ', encoding='utf-8') as file:
@@ -166,8 +166,8 @@ def environment(program, folder):
                 if found == wanted:
                     break
                 time.sleep(0.01)
-            process.communicate()
-        faults += expected('environment', wanted, found)
+            process.kill()
+        faults += expected(f'environment of {words[0]}', wanted, found)
     return faults
 
 

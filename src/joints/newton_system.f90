@@ -1,0 +1,353 @@
+!> The linear system of a Newton step: amplitudes e of excess stress with (I - A E' S F) e = r, with the
+!> synthesis S, the slopes E' of the laws on the planes, the analysis A and the flexibilities F.
+!>
+!> A point whose laws are elastic on all planes takes its r at once, for its row is that of I. What
+!> remains is a system of the points that slip, open or close, often a few of many, which GMRES
+!> solves. Its arrays lie component by component, so that all products are those of matrices. It
+!> reads flexibilities most of the time, and few digits of them are enough: where they are more than
+!> the processor keeps at hand they are gathered in single precision, and what a solution leaves is
+!> found with all digits, and solved for again
+module axijoint_joints_newton_system
+   use axijoint_base_kinds, only : wp, sp
+   use axijoint_joints_condensed, only : condensed_type, flexibility_type
+   use axijoint_joints_planes, only : sum_modes, find_modes
+   use axijoint_joints_point_blocks, only : point_blocks_type, new_point_blocks, precondition
+   use axijoint_joints_scene, only : scene_type, jumps, tell_jumps
+   use axijoint_linalg_gmres, only : operator_type, gmres
+   use axijoint_linalg_lapack, only : matrix_vector, single_matrix_vector
+   implicit none
+   private
+   public :: linear_type, solve
+
+   !> Most products of a solution, and the loosest tolerance
+   integer, parameter :: most_products = 400
+   real(wp), parameter :: loosest = 0.1_wp
+   !> A slope below this share of the stiffness is rounding
+   real(wp), parameter :: rounding = 1.0e-12_wp
+   !> What a solution in single precision may leave at best, how much less each must leave than the
+   !> one before, and most of them
+   real(wp), parameter :: single_tolerance = 1.0e-4_wp, worth_more = 0.5_wp
+   integer, parameter :: most_solutions = 6
+   !> Numbers of flexibilities that a processor keeps at hand
+   real(wp), parameter :: at_hand = 1.0e5_wp
+   !> Points times values from which on a product is worth threads
+   real(wp), parameter :: worth_threads = 1.0e6_wp
+
+   !> What is solved
+   type :: linear_type
+      !> Derivatives of the excess stress by the jumps, shape (3, 3, points, planes)
+      real(wp), allocatable :: slope(:, :, :, :)
+      !> Share of the excess stress that the laws do keep from the structure
+      real(wp) :: kept = 1.0_wp
+      !> Right side: amplitudes that are not transferred, shape (3, points, modes)
+      real(wp), allocatable :: residual(:, :, :)
+      !> Stress that is rounding
+      real(wp) :: rounding = 0.0_wp
+      !> Points whose laws are stiffer than their joints in the structure
+      logical, allocatable :: stiff(:)
+   end type linear_type
+
+   !> Flexibility of the points that move
+   type :: gathered_type
+      !> As that of all points, in one of two precisions; neither on ranks that do not have it
+      real(sp), allocatable :: single(:, :)
+      real(wp), allocatable :: double(:, :)
+      !> What single precision counts in
+      real(wp) :: unit = 0.0_wp
+   end type gathered_type
+
+   !> I - A E' S F of the points that move
+   type, extends(operator_type) :: derivative_type
+      !> The structure, modes and planes
+      type(condensed_type), pointer :: condensed => null()
+      type(scene_type), pointer :: scene => null()
+      !> Flexibilities of these points, one a system
+      type(gathered_type), allocatable :: flexibilities(:)
+      !> Their slopes times the share that acts, shape (points, 3, 3, planes)
+      real(wp), allocatable :: slope(:, :, :, :)
+      !> What a solution may leave at best
+      real(wp) :: least_left = 0.0_wp
+      !> Inverses of what points do to themselves, where laws are stiff
+      type(point_blocks_type), allocatable :: blocks
+   contains
+      !> Product with amplitudes of excess stress
+      procedure :: apply
+   end type derivative_type
+
+contains
+
+   !> Solve for the change of the excess stress
+   subroutine solve(condensed, scene, linear, tolerance, change, jump)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> Slopes and right side
+      type(linear_type), intent(in) :: linear
+      !> What may be left of the right side
+      real(wp), intent(in) :: tolerance
+      !> The change, and amplitudes of the jumps that it makes, shape (3, points, modes)
+      real(wp), allocatable, intent(out) :: change(:, :, :), jump(:, :, :)
+
+      type(derivative_type) :: derivative
+      real(wp), allocatable :: right(:, :, :), left(:, :, :), x(:)
+      integer, allocatable :: points(:)
+      logical :: moves(size(linear%slope, 3))
+      real(wp) :: enough, before, reached, reduction
+      integer :: k, n, n_products
+
+      moves = moving(condensed, linear%slope)
+      points = pack([(k, k=1, size(moves))], moves)
+      change = linear%residual
+      do k = 1, size(moves)  ! what is left of points that hold is often nothing
+         if (moves(k)) change(:, k, :) = 0.0_wp
+         if (all(abs(change(:, k, :)) <= linear%rounding)) change(:, k, :) = 0.0_wp
+      end do
+      jump = jumps(condensed, scene, change, free=.false.)
+      if (size(points) == 0) return
+      call new_derivative(condensed, scene, linear, points, derivative)
+      right = by_component(linear%residual, points)
+      if (allocated(derivative%blocks)) call precondition(derivative%blocks, right)
+      enough = tolerance*hypot(norm2(change), norm2(right))
+      allocate (x(size(right)))
+      before = huge(before)
+      do n = 1, most_solutions
+         left = remainder(derivative, linear, points, change, jump)
+         reached = norm2(left)
+         if (reached <= enough .or. reached > worth_more*before) exit
+         before = reached
+         call gmres(derivative, reshape(left, [size(x)]), min(loosest, max(enough/reached, &
+            derivative%least_left)), min(most_products, size(x)), x, n_products, reduction)
+         call add(reshape(x, shape(left)), points, change)
+         jump = jumps(condensed, scene, change, free=.false.)
+      end do
+   end subroutine solve
+
+   !> Points whose excess stress changes with the jumps, on any plane
+   pure function moving(condensed, slope) result(moves)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Slopes, shape (3, 3, points, planes)
+      real(wp), intent(in) :: slope(:, :, :, :)
+      !> Shape (points)
+      logical :: moves(size(slope, 3))
+
+      real(wp) :: least
+      integer :: j, k
+
+      do k = 1, size(moves)
+         least = rounding*maxval(condensed%points(k)%base)
+         moves(k) = .false.
+         do j = 1, size(slope, 4)
+            if (.not. moves(k)) moves(k) = any(abs(slope(:, :, k, j)) > least)
+         end do
+      end do
+   end function moving
+
+   !> Gather what some points do to each other
+   subroutine new_derivative(condensed, scene, linear, points, derivative)
+      !> The condensed structure
+      type(condensed_type), intent(in), target :: condensed
+      !> Modes and planes
+      type(scene_type), intent(in), target :: scene
+      !> Slopes
+      type(linear_type), intent(in) :: linear
+      !> The points
+      integer, intent(in) :: points(:)
+      !> The derivative
+      type(derivative_type), intent(out) :: derivative
+
+      integer :: j, k, s
+      logical :: stiff, double
+
+      derivative%condensed => condensed
+      derivative%scene => scene
+      allocate (derivative%slope(size(points), 3, 3, size(linear%slope, 4)))
+      do j = 1, size(linear%slope, 4)
+         do k = 1, size(points)
+            derivative%slope(k, :, :, j) = linear%kept*linear%slope(:, :, points(k), j)
+         end do
+      end do
+      stiff = any(linear%stiff(points))
+      if (stiff) then
+         allocate (derivative%blocks)
+         call new_point_blocks(condensed, scene, linear%slope, linear%kept, points, linear%stiff, &
+            derivative%blocks)
+      end if
+      double = stiff .or. 9.0_wp*size(points)**2*size(condensed%flexibilities) <= at_hand
+      derivative%least_left = merge(0.0_wp, single_tolerance, double)
+      allocate (derivative%flexibilities(size(condensed%flexibilities)))
+      do s = 1, size(condensed%flexibilities)
+         if (.not. allocated(condensed%flexibilities(s)%matrix)) cycle
+         call gather(condensed%flexibilities(s)%matrix, size(condensed%points), points, double, &
+            derivative%flexibilities(s))
+      end do
+   end subroutine new_derivative
+
+   !> Gather the flexibility of some points
+   subroutine gather(whole, n, points, double, gathered)
+      !> Flexibility of all points, and their number
+      real(wp), intent(in) :: whole(:, :)
+      integer, intent(in) :: n
+      !> These points
+      integer, intent(in) :: points(:)
+      !> Whether all digits are gathered
+      logical, intent(in) :: double
+      !> Their flexibility
+      type(gathered_type), intent(out) :: gathered
+
+      integer :: place(3*size(points)), i, j
+
+      place = [points, n + points, 2*n + points]
+      if (double) then
+         gathered%double = whole(place, place)
+         return
+      end if
+      do j = 1, size(place)  ! in a range that single precision has
+         gathered%unit = max(gathered%unit, tiny(1.0_wp), abs(whole(place(j), place(j))))
+      end do
+      allocate (gathered%single(size(place), size(place)))
+      do j = 1, size(place)
+         do i = 1, size(place)
+            gathered%single(i, j) = real(whole(place(i), place(j))/gathered%unit, sp)
+         end do
+      end do
+   end subroutine gather
+
+   !> What a change leaves of the right side of the points that move
+   function remainder(derivative, linear, points, change, jump) result(left)
+      !> The derivative
+      type(derivative_type), intent(in) :: derivative
+      !> The right side
+      type(linear_type), intent(in) :: linear
+      !> The points
+      integer, intent(in) :: points(:)
+      !> The change, and the jumps that it makes, shape (3, all points, modes)
+      real(wp), intent(in) :: change(:, :, :), jump(:, :, :)
+      !> Shape (points, 3, modes)
+      real(wp), allocatable :: left(:, :, :)
+
+      real(wp), allocatable :: excess(:, :, :)
+
+      left = by_component(linear%residual - change, points)
+      allocate (excess, mold=left)
+      call find_excess(derivative, size(points), by_component(jump, points), excess)
+      left = left + excess
+      if (allocated(derivative%blocks)) call precondition(derivative%blocks, left)
+   end function remainder
+
+   !> Values of some points, component by component
+   pure function by_component(values, points) result(chosen)
+      !> Shape (3, all points, modes)
+      real(wp), intent(in) :: values(:, :, :)
+      !> The points
+      integer, intent(in) :: points(:)
+      !> Shape (points, 3, modes)
+      real(wp) :: chosen(size(points), 3, size(values, 3))
+
+      integer :: i, k
+
+      do k = 1, size(values, 3)
+         do i = 1, 3
+            chosen(:, i, k) = values(i, points, k)
+         end do
+      end do
+   end function by_component
+
+   !> Add a solution to the change
+   subroutine add(solution, points, change)
+      !> Shape (points, 3, modes)
+      real(wp), intent(in) :: solution(:, :, :)
+      !> The points
+      integer, intent(in) :: points(:)
+      !> Shape (3, all points, modes)
+      real(wp), intent(inout) :: change(:, :, :)
+
+      integer :: i
+
+      do i = 1, 3
+         change(i, points, :) = change(i, points, :) + solution(:, i, :)
+      end do
+   end subroutine add
+
+   !> A E' S: excess stress that the laws make of jumps
+   subroutine find_excess(self, n, jump, excess)
+      !> The operator
+      type(derivative_type), intent(in) :: self
+      !> Number of points
+      integer, intent(in) :: n
+      !> Amplitudes of jumps and excess stress, shape (points, 3, modes)
+      real(wp), intent(in) :: jump(n, 3, *)
+      real(wp), intent(inout) :: excess(n, 3, *)
+
+      real(wp), allocatable :: on_planes(:, :, :), stress(:, :, :)
+      integer :: i, j, l
+
+      allocate (on_planes(n, 3, size(self%slope, 4)), stress(n, 3, size(self%slope, 4)))
+      call sum_modes(self%scene%planes, n, jump, on_planes)
+      do j = 1, size(stress, 3)
+         do i = 1, 3
+            stress(:, i, j) = self%slope(:, i, 1, j)*on_planes(:, 1, j)
+            do l = 2, 3
+               stress(:, i, j) = stress(:, i, j) + self%slope(:, i, l, j)*on_planes(:, l, j)
+            end do
+         end do
+      end do
+      call find_modes(self%scene%planes, n, stress, excess)
+   end subroutine find_excess
+
+   !> Product with amplitudes of excess stress
+   subroutine apply(self, x, y)
+      !> The operator
+      class(derivative_type), intent(in) :: self
+      !> Amplitudes, points x 3 x modes
+      real(wp), intent(in), contiguous :: x(:)
+      !> The product
+      real(wp), intent(out), contiguous :: y(:)
+
+      real(wp), allocatable :: jump(:, :, :), excess(:, :, :)
+      integer :: k, n
+
+      n = size(self%slope, 1)
+      allocate (jump(n, 3, size(self%scene%system)), excess(n, 3, size(self%scene%system)))
+      !$omp parallel do schedule(static, 1) if (real(n, wp)*size(x) > worth_threads)
+      do k = 1, size(jump, 3)
+         associate (flexibility => self%flexibilities(self%scene%system(k)), &
+                    scale => self%scene%scale(k))
+            if (allocated(flexibility%single)) then
+               call single_product(flexibility, 3*n, scale, x(3*n*(k - 1) + 1:3*n*k), &
+                  jump(:, :, k))
+            else if (allocated(flexibility%double)) then
+               call matrix_vector(flexibility%double, x(3*n*(k - 1) + 1:3*n*k), jump(:, :, k))
+               jump(:, :, k) = scale*jump(:, :, k)
+            end if
+         end associate
+      end do
+      !$omp end parallel do
+      if (self%condensed%shared) call tell_jumps(self%condensed, self%scene, jump)
+      call find_excess(self, n, jump, excess)
+      excess = reshape(x, shape(excess)) - excess
+      if (allocated(self%blocks)) call precondition(self%blocks, excess)
+      y = reshape(excess, [size(y)])
+   end subroutine apply
+
+   !> Product of a flexibility in single precision
+   subroutine single_product(flexibility, n, scale, excess, jump)
+      !> The flexibility
+      type(gathered_type), intent(in) :: flexibility
+      !> Its size
+      integer, intent(in) :: n
+      !> Factor of the product
+      real(wp), intent(in) :: scale
+      !> Amplitudes of excess stress and jumps
+      real(wp), intent(in) :: excess(n)
+      real(wp), intent(inout) :: jump(n)
+
+      real(sp) :: x(n), y(n)
+
+      x = real(excess, sp)
+      call single_matrix_vector(flexibility%single, x, y)
+      jump = scale*flexibility%unit*y
+   end subroutine single_product
+
+end module axijoint_joints_newton_system
