@@ -6,7 +6,7 @@ module axijoint_base_system
    private
    public :: path_kind, target_kind, is_directory, same_file, rename_path, unlink_path, sync_path
    public :: peak_memory_mb, process_id, error_output_is_terminal
-   public :: return_freed_memory, ignore_file_size_signal, last_error, set_last_error, error_text
+   public :: return_freed_memory, keep_freed_memory, ignore_file_size_signal, last_error, set_last_error, error_text
    public :: make_directories, read_standard_input, append_to_file
    public :: path_absent, path_file, path_directory, path_link, path_other
 
@@ -117,6 +117,10 @@ module axijoint_base_system
       !> Have memory back from the heap; system_shim.c
       subroutine c_return_freed_memory() bind(c, name="axijoint_return_freed_memory")
       end subroutine c_return_freed_memory
+
+      !> Keep what is freed; system_shim.c
+      subroutine c_keep_freed_memory() bind(c, name="axijoint_keep_freed_memory")
+      end subroutine c_keep_freed_memory
 
       !> Ignore SIGXFSZ; system_shim.c
       subroutine c_ignore_file_size_signal() bind(c, name="axijoint_ignore_file_size_signal")
@@ -301,6 +305,11 @@ contains
    subroutine return_freed_memory()
       call c_return_freed_memory()
    end subroutine return_freed_memory
+
+   !> From now on keep what is freed, for arrays of the same size that follow
+   subroutine keep_freed_memory()
+      call c_keep_freed_memory()
+   end subroutine keep_freed_memory
 
    !> Let a write beyond the limit on file sizes fail instead of ending the
    !> process by a signal

@@ -2,7 +2,7 @@
 module axijoint_command_program
    use, intrinsic :: iso_fortran_env, only : output_unit
    use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck
-   use axijoint_base_system, only : return_freed_memory
+   use axijoint_base_system, only : return_freed_memory, keep_freed_memory
    use axijoint_base_team, only : team_type
    use axijoint_command_check, only : check_decks
    use axijoint_command_compare, only : compare_files
@@ -63,8 +63,10 @@ contains
       case ('estimate')
          call estimate_decks(command, exit_code)
       case ('envelope')
+         call keep_freed_memory()
          call run_envelope(command, exit_code)
       case ('study')
+         call keep_freed_memory()
          call run_study(command, exit_code)
       case ('compare')
          call compare_files(command%decks, exit_code)

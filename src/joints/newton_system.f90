@@ -1,5 +1,6 @@
-!> The linear system of a Newton step: amplitudes e of excess stress with (I - A E' S F) e = r, with the
-!> synthesis S, the slopes E' of the laws on the planes, the analysis A and the flexibilities F.
+!> The linear system of a Newton step: amplitudes e of excess stress with (I - A E' S F) e = r,
+!> with the synthesis S, the slopes E' of the laws on the planes, the analysis A and the
+!> flexibilities F.
 !>
 !> A point whose laws are elastic on all planes takes its r at once, for its row is that of I. What
 !> remains is a system of the points that slip, open or close, often a few of many, which GMRES
@@ -196,7 +197,7 @@ contains
       !> Their flexibility
       type(gathered_type), intent(out) :: gathered
 
-      integer :: place(3*size(points)), i, j
+      integer :: place(3*size(points)), i, j, k, m
 
       place = [points, n + points, 2*n + points]
       if (double) then
@@ -208,8 +209,11 @@ contains
       end do
       allocate (gathered%single(size(place), size(place)))
       do j = 1, size(place)
-         do i = 1, size(place)
-            gathered%single(i, j) = real(whole(place(i), place(j))/gathered%unit, sp)
+         do k = 0, 2  ! the components
+            m = k*size(points)
+            do i = 1, size(points)
+               gathered%single(m + i, j) = real(whole(k*n + points(i), place(j))/gathered%unit, sp)
+            end do
          end do
       end do
    end subroutine gather

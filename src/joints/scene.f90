@@ -13,7 +13,8 @@ module axijoint_joints_scene
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: scene_type, new_scene, jumps, tell_jumps, jumps_of_mode, own_flexibility, evaluate, views, &
+   public :: scene_type, new_scene, jumps, tell_jumps, jumps_of_mode, own_flexibility, evaluate, &
+      views, &
       mismatch_of, elastic_stress
    public :: motion_of, multiples_of_motions, stand_where_they_are
 

@@ -8,7 +8,8 @@ module axijoint_linalg_lapack
    public :: cholesky, inverse_from_cholesky, product_with_transpose, symmetric_eigen, &
       use_one_blas_thread
    public :: product_rate
-   public :: matrix_vector, single_matrix_vector, transposed_vector, matrix_sparse_vector, least_squares, invert, singular_values
+   public :: matrix_vector, single_matrix_vector, transposed_vector, matrix_sparse_vector
+   public :: least_squares, invert, singular_values
 
    interface
       !> Cholesky factorization of a positive definite band matrix
