@@ -1,0 +1,139 @@
+!> A load step of bodies that yield as methods see it: what is out of balance, how the elastic
+!> structure answers it, and the load factor if a displacement is given instead of the load
+module axijoint_plastic_problem
+   use axijoint_assembly_equations, only : equations_type
+   use axijoint_base_kinds, only : wp
+   use axijoint_fe_fourier, only : circle_integral
+   use axijoint_joints_planes, only : planes_type
+   use axijoint_plastic_bodies, only : bodies_type
+   use axijoint_plastic_elastic, only : elastic_response, ring_norm
+   use axijoint_plastic_field, only : body_field_type, body_load_type, evaluate
+   implicit none
+   private
+   public :: problem_type, steering_type, iterate_type, steer, look, turn, go_to_displacement
+
+   !> Load control by the displacement that is work-conjugate to the load: where that is given, the
+   !> load factor is found, beyond the limit load, too
+   type :: steering_type
+      !> Load of a factor of one, and the response of the elastic structure to it; not allocated if
+      !> the load is given
+      real(wp), allocatable :: load(:), response(:)
+      !> Load factor
+      real(wp) :: factor = 0.0_wp
+   end type steering_type
+
+   !> The problem
+   type :: problem_type
+      !> Equations of all modes
+      type(equations_type), pointer :: equations => null()
+      !> Bodies and planes
+      type(bodies_type), pointer :: bodies => null()
+      type(planes_type) :: planes
+      !> Loads without that of the steering
+      type(body_load_type) :: load
+      !> What gives the load
+      type(steering_type) :: steering
+      !> Whether plastic strain is normal to all criteria, so that tangents are symmetric
+      logical :: associated_flow = .true.
+      !> Elastic solutions of all modes so far
+      integer :: solutions = 0
+   end type problem_type
+
+   !> What an iterate leaves out of balance
+   type :: iterate_type
+      !> Forces on the unknowns r, and the response K^-1 r of the elastic structure, both without
+      !> what the load factor balances
+      real(wp), allocatable :: residual(:), response(:)
+      !> sqrt(r K^-1 r), and the norm of r over that of the forces of the increment
+      real(wp) :: energy = 0.0_wp, ratio = 0.0_wp
+   end type iterate_type
+
+contains
+
+   !> Let the work-conjugate displacement of a load be given
+   subroutine steer(problem, load)
+      !> The problem
+      type(problem_type), intent(inout) :: problem
+      !> Load of a factor of one, on the unknowns
+      real(wp), intent(in) :: load(:)
+
+      problem%steering%load = load
+      allocate (problem%steering%response, mold=load)
+      call elastic_response(problem%equations, load, problem%steering%response)
+      problem%solutions = problem%solutions + 1
+   end subroutine steer
+
+   !> Move the state along the elastic response until the load does the work given by a factor of
+   !> one: the start of a step
+   subroutine go_to_displacement(problem, work, field)
+      !> The problem, steered
+      type(problem_type), intent(inout) :: problem
+      !> Load of a factor of one times displacement
+      real(wp), intent(in) :: work
+      !> The state
+      type(body_field_type), intent(inout) :: field
+
+      real(wp) :: step
+
+      associate (steering => problem%steering)
+         step = (work - dot_product(steering%load, field%unknowns)) &
+            /dot_product(steering%load, steering%response)
+         field%unknowns = field%unknowns + step*steering%response
+         steering%factor = steering%factor + step
+      end associate
+   end subroutine go_to_displacement
+
+   !> Look at an iterate
+   subroutine look(problem, field, iterate)
+      !> The problem; its load factor follows the iterate
+      type(problem_type), intent(inout) :: problem
+      !> The state
+      type(body_field_type), intent(inout) :: field
+      !> What it leaves out of balance
+      type(iterate_type), intent(inout) :: iterate
+
+      real(wp) :: change, forces
+      integer :: k
+
+      if (.not. allocated(iterate%residual)) &
+         allocate (iterate%residual, iterate%response, mold=field%unknowns)
+      call evaluate(problem%equations, problem%bodies, problem%planes, problem%load, field, &
+                    iterate%residual)
+      if (allocated(problem%steering%load)) iterate%residual = &
+         iterate%residual + problem%steering%factor*problem%steering%load
+      call turn(problem, iterate%residual, iterate%response, change)
+      problem%steering%factor = problem%steering%factor + change
+      iterate%energy = sqrt(max(0.0_wp, dot_product(iterate%residual, iterate%response)))
+      forces = 0.0_wp
+      do k = 1, size(problem%equations%modes)
+         forces = forces + sum((field%force(:, :, k) - field%force_before(:, :, k))**2) &
+            /circle_integral(problem%equations%modes(k)%harmonic)
+      end do
+      iterate%ratio = ring_norm(problem%equations, iterate%residual)
+      if (iterate%ratio > 0.0_wp) iterate%ratio = iterate%ratio/max(sqrt(forces), tiny(1.0_wp))
+   end subroutine look
+
+   !> Response of the elastic structure to forces. If a displacement is given, it does no work with
+   !> the steering load: the forces are changed by as much of that load
+   subroutine turn(problem, force, response, change)
+      !> The problem
+      type(problem_type), intent(inout) :: problem
+      !> Forces on the unknowns
+      real(wp), intent(inout) :: force(:)
+      !> The response
+      real(wp), intent(out) :: response(:)
+      !> Change of the load factor that is in the forces then
+      real(wp), intent(out) :: change
+
+      call elastic_response(problem%equations, force, response)
+      problem%solutions = problem%solutions + 1
+      change = 0.0_wp
+      if (.not. allocated(problem%steering%load)) return
+      associate (load => problem%steering%load, own => problem%steering%response)
+         change = -dot_product(load, response)/dot_product(load, own)
+         force = force + change*load
+         response = response + change*own
+      end associate
+   end subroutine turn
+
+end module axijoint_plastic_problem
