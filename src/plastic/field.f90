@@ -28,8 +28,11 @@ module axijoint_plastic_field
 
    !> The state
    type :: body_field_type
-      !> Unknown displacements of all modes
-      real(wp), allocatable :: unknowns(:)
+      !> Unknown displacements of all modes; those at the last increment in equilibrium, and what it
+      !> changed of them
+      real(wp), allocatable :: unknowns(:), begun(:), moved(:)
+      !> Forces on the unknowns at the last increment in equilibrium, and what it changed of them
+      real(wp), allocatable :: right(:), pushed(:)
       !> Elastic stress that plastic strain has taken, and plastic strain that has hardened, both at
       !> the last increment in equilibrium, shapes (6, points, planes) and (points, planes)
       real(wp), allocatable :: taken(:, :, :), gained(:, :)
@@ -83,6 +86,10 @@ contains
       associate (n => size(bodies%laws), n_planes => size(planes%angle), &
                  n_modes => size(equations%modes), dofs => equations%classes(1)%dofs)
          allocate (field%unknowns(n_unknowns(equations)), source=0.0_wp)
+         field%begun = field%unknowns
+         field%moved = field%unknowns
+         field%right = field%unknowns
+         field%pushed = field%unknowns
          allocate (field%force(3, size(dofs%equation, 2), n_modes), source=0.0_wp)
          field%force_before = field%force
          allocate (field%taken(6, n, n_planes), field%amplitude(6, n, n_modes), source=0.0_wp)
@@ -293,7 +300,9 @@ contains
    end subroutine yielding_force
 
    !> Keep the plastic strain of an increment in equilibrium
-   subroutine commit(field)
+   subroutine commit(load, field)
+      !> The loads
+      type(body_load_type), intent(in) :: load
       !> The state, evaluated
       type(body_field_type), intent(inout) :: field
 
@@ -307,6 +316,10 @@ contains
          end associate
       end do
       field%force_before = field%force
+      field%moved = field%unknowns - field%begun
+      field%begun = field%unknowns
+      field%pushed = load%right - field%right
+      field%right = load%right
    end subroutine commit
 
 end module axijoint_plastic_field

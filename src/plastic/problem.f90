@@ -10,7 +10,11 @@ module axijoint_plastic_problem
    use axijoint_plastic_field, only : body_field_type, body_load_type, evaluate
    implicit none
    private
-   public :: problem_type, steering_type, iterate_type, steer, look, turn, go_to_displacement
+   public :: problem_type, steering_type, iterate_type, put_load, steer, look, turn, &
+      go_to_displacement
+
+   !> Increments are repeated so often at most, for the start of the next
+   real(wp), parameter :: most_repeated = 10.0_wp
 
    !> Load control by the displacement that is work-conjugate to the load: where that is given, the
    !> load factor is found, beyond the limit load, too
@@ -50,6 +54,36 @@ module axijoint_plastic_problem
 
 contains
 
+   !> Put loads on. As far as they go on like those of the last increment, so does the state; under
+   !> the rest it moves as the elastic structure does
+   subroutine put_load(problem, load, field)
+      !> The problem
+      type(problem_type), intent(inout) :: problem
+      !> The loads
+      type(body_load_type), intent(in) :: load
+      !> The state
+      type(body_field_type), intent(inout) :: field
+
+      real(wp), dimension(size(field%unknowns)) :: change, response
+      real(wp) :: share
+
+      change = load%right - field%right
+      share = going_on(dot_product(change, field%pushed), dot_product(field%pushed, field%pushed))
+      call elastic_response(problem%equations, change - share*field%pushed, response)
+      problem%solutions = problem%solutions + 1
+      field%unknowns = field%begun + share*field%moved + response
+      problem%load = load
+   end subroutine put_load
+
+   !> How much of the last increment a new one repeats; nothing if it turns back
+   pure real(wp) function going_on(work, last)
+      !> Product of what is new with the last, and of the last with itself
+      real(wp), intent(in) :: work, last
+
+      going_on = 0.0_wp
+      if (last > 0.0_wp) going_on = min(max(0.0_wp, work/last), most_repeated)
+   end function going_on
+
    !> Let the work-conjugate displacement of a load be given
    subroutine steer(problem, load)
       !> The problem
@@ -63,8 +97,8 @@ contains
       problem%solutions = problem%solutions + 1
    end subroutine steer
 
-   !> Move the state along the elastic response until the load does the work given by a factor of
-   !> one: the start of a step
+   !> Let the load of a factor of one do a given work: the start of a step. The state goes on as in
+   !> the last increment, or as the elastic structure would
    subroutine go_to_displacement(problem, work, field)
       !> The problem, steered
       type(problem_type), intent(inout) :: problem
@@ -76,6 +110,9 @@ contains
       real(wp) :: step
 
       associate (steering => problem%steering)
+         step = work - dot_product(steering%load, field%begun)
+         field%unknowns = field%begun + going_on(step*dot_product(steering%load, field%moved), &
+            dot_product(steering%load, field%moved)**2)*field%moved
          step = (work - dot_product(steering%load, field%unknowns)) &
             /dot_product(steering%load, steering%response)
          field%unknowns = field%unknowns + step*steering%response

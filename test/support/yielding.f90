@@ -15,8 +15,9 @@ module axijoint_test_yielding
    use axijoint_order_orders, only : orders_type, new_orders
    use axijoint_plastic_bodies, only : bodies_type, new_bodies
    use axijoint_plastic_elastic, only : to_vector
-   use axijoint_plastic_field, only : body_field_type, body_planes, new_body_field, no_body_load
-   use axijoint_plastic_problem, only : problem_type
+   use axijoint_plastic_field, only : body_field_type, body_load_type, body_planes, &
+      new_body_field, no_body_load
+   use axijoint_plastic_problem, only : problem_type, put_load
    implicit none
    private
    public :: yielding_type, new_yielding, unit_load, load_by, steady
@@ -86,9 +87,12 @@ contains
       !> The share
       real(wp), intent(in) :: factor
 
-      yielding%problem%load%right = factor*unit_load(yielding)
-      if (allocated(yielding%loading%held)) yielding%problem%load%held = &
-         factor*yielding%loading%held
+      type(body_load_type) :: load
+
+      load = yielding%problem%load
+      load%right = factor*unit_load(yielding)
+      if (allocated(yielding%loading%held)) load%held = factor*yielding%loading%held
+      call put_load(yielding%problem, load, yielding%field)
    end subroutine load_by
 
    !> A law with the elastic constants of a material
