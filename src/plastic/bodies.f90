@@ -152,8 +152,8 @@ contains
                local = 0.0_wp
                do i = 1, size(element%points)
                   if (.not. present(before + i)) cycle
-                  call add_solid_force(element%points(i), n, harmonic, stress(:, before + i), local, &
-                     element%dilatation)
+                  call add_solid_force(element%points(i), n, harmonic, stress(:, before + i), &
+                     local, element%dilatation)
                end do
                force(:, element%nodes) = force(:, element%nodes) &
                   + circle_integral(harmonic)*local(:, :n)

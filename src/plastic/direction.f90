@@ -1,4 +1,4 @@
-!> Newton's direction: the tangent of the structure, (K - C) p = r, solved to a forcing term by a few
+!> Newton's direction: the tangent of the structure, (K - C) p = r, solved to a forcing term by some
 !> steps of a Krylov method in the energy of the elastic structure, whose factors precondition it
 module axijoint_plastic_direction
    use axijoint_base_kinds, only : wp

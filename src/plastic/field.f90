@@ -200,7 +200,8 @@ contains
 
       total = synthesize(planes, elastic)
       n = size(field%on)
-      if (allocated(field%stress)) deallocate (field%stress, field%excess, field%growth, field%slope)
+      if (allocated(field%stress)) &
+         deallocate (field%stress, field%excess, field%growth, field%slope)
       associate (n_planes => size(planes%angle))
          allocate (field%stress(6, n, n_planes), field%excess(6, n, n_planes), &
             field%growth(n, n_planes), field%slope(6, 6, n, n_planes))

@@ -25,13 +25,16 @@ module axijoint_plastic_methods
    real(wp), parameter :: forcing = 0.1_wp
    !> Iterates that the mix remembers, and steps that it takes in Newton's place
    integer, parameter :: depth = 20, substitute = 20
+   !> Share of the residual, in energy, that a step of Newton's may leave; the mix takes over if it
+   !> leaves more
+   real(wp), parameter :: enough = 0.5_wp
    !> Cuts of a step
    integer, parameter :: most_cuts = 5
 
    !> When the iterations end
    type :: body_control_type
       !> One of the `method_` parameters
-      integer :: method = method_newton
+      integer :: method = method_mix
       !> Tolerance on the ratio of residual forces to those of the increment
       real(wp) :: tolerance = 1.0e-6_wp
       !> Most elastic solutions of all modes
@@ -64,8 +67,8 @@ contains
       type(body_verdict_type), intent(out) :: verdict
 
       type(iterate_type) :: iterate
+      real(wp) :: before
       integer :: begun
-      logical :: moved
 
       begun = problem%solutions
       call look(problem, field, iterate)
@@ -73,9 +76,10 @@ contains
          if (ended()) exit
          select case (control%method)
          case (method_newton)
-            call newton_step(problem, field, iterate, moved)
+            before = iterate%energy
+            call newton_step(problem, field, iterate)
             verdict%iterations = verdict%iterations + 1
-            if (.not. moved) call mix_steps(depth, substitute)
+            if (iterate%energy > enough*before) call mix_steps(depth, substitute)
          case (method_mix)
             call mix_steps(depth, huge(1))
          case default
@@ -116,20 +120,19 @@ contains
    end subroutine balance_bodies
 
    !> A step of Newton's method, cut until the residual is smaller or, where there is a potential,
-   !> most of the way down is behind
-   subroutine newton_step(problem, field, iterate, moved)
+   !> most of the way down is behind; none if no cut helps
+   subroutine newton_step(problem, field, iterate)
       !> The problem
       type(problem_type), intent(inout) :: problem
       !> The state
       type(body_field_type), intent(inout) :: field
       !> What it leaves out of balance
       type(iterate_type), intent(inout) :: iterate
-      !> Whether a step was taken; the state is as before if not
-      logical, intent(out) :: moved
 
       real(wp), allocatable :: start(:), direction(:)
       real(wp) :: length, down, still, energy
       integer :: cut
+      logical :: moved
 
       allocate (direction, mold=field%unknowns)
       call newton_direction(problem, field, iterate, forcing, most_inner, direction)

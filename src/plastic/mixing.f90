@@ -1,5 +1,5 @@
-!> Anderson's mix of iterates u -> u + K^-1 r(u), in the energy of the elastic structure: of the last
-!> iterates the mix whose residual has the least r K^-1 r. Without memory it is the classical
+!> Anderson's mix of iterates u -> u + K^-1 r(u), in the energy of the elastic structure: of the
+!> last iterates the mix whose residual has the least r K^-1 r. Without memory it is the classical
 !> initial-stress loop
 module axijoint_plastic_mixing
    use axijoint_base_kinds, only : wp

@@ -37,6 +37,8 @@ module axijoint_plastic_problem
       type(body_load_type) :: load
       !> What gives the load
       type(steering_type) :: steering
+      !> Norm of the forces that the step would add if the bodies held
+      real(wp) :: pushed = 0.0_wp
       !> Whether plastic strain is normal to all criteria, so that tangents are symmetric
       logical :: associated_flow = .true.
       !> Elastic solutions of all modes so far
@@ -48,7 +50,8 @@ module axijoint_plastic_problem
       !> Forces on the unknowns r, and the response K^-1 r of the elastic structure, both without
       !> what the load factor balances
       real(wp), allocatable :: residual(:), response(:)
-      !> sqrt(r K^-1 r), and the norm of r over that of the forces of the increment
+      !> sqrt(r K^-1 r), and the norm of r over that of the forces of the step: what it adds to those
+      !> of the bodies, or, where these yield, what it would add if they held, up to all of them
       real(wp) :: energy = 0.0_wp, ratio = 0.0_wp
    end type iterate_type
 
@@ -68,6 +71,7 @@ contains
       real(wp) :: share
 
       change = load%right - field%right
+      problem%pushed = ring_norm(problem%equations, change)
       share = going_on(dot_product(change, field%pushed), dot_product(field%pushed, field%pushed))
       call elastic_response(problem%equations, change - share*field%pushed, response)
       problem%solutions = problem%solutions + 1
@@ -111,6 +115,8 @@ contains
 
       associate (steering => problem%steering)
          step = work - dot_product(steering%load, field%begun)
+         problem%pushed = ring_norm(problem%equations, steering%load) &
+            *abs(step)/dot_product(steering%load, steering%response)
          field%unknowns = field%begun + going_on(step*dot_product(steering%load, field%moved), &
             dot_product(steering%load, field%moved)**2)*field%moved
          step = (work - dot_product(steering%load, field%unknowns)) &
@@ -130,7 +136,6 @@ contains
       type(iterate_type), intent(inout) :: iterate
 
       real(wp) :: change, forces
-      integer :: k
 
       if (.not. allocated(iterate%residual)) &
          allocate (iterate%residual, iterate%response, mold=field%unknowns)
@@ -141,13 +146,28 @@ contains
       call turn(problem, iterate%residual, iterate%response, change)
       problem%steering%factor = problem%steering%factor + change
       iterate%energy = sqrt(max(0.0_wp, dot_product(iterate%residual, iterate%response)))
-      forces = 0.0_wp
-      do k = 1, size(problem%equations%modes)
-         forces = forces + sum((field%force(:, :, k) - field%force_before(:, :, k))**2) &
-            /circle_integral(problem%equations%modes(k)%harmonic)
-      end do
+      forces = max(size_of(field%force - field%force_before), &
+                   min(problem%pushed, size_of(field%force)))
       iterate%ratio = ring_norm(problem%equations, iterate%residual)
-      if (iterate%ratio > 0.0_wp) iterate%ratio = iterate%ratio/max(sqrt(forces), tiny(1.0_wp))
+      if (iterate%ratio > 0.0_wp) iterate%ratio = iterate%ratio/max(forces, tiny(1.0_wp))
+
+   contains
+
+      !> Norm of forces on all components
+      real(wp) function size_of(force)
+         !> Shape (3, nodes, modes)
+         real(wp), intent(in) :: force(:, :, :)
+
+         integer :: k
+
+         size_of = 0.0_wp
+         do k = 1, size(force, 3)
+            size_of = size_of + sum(force(:, :, k)**2) &
+               /circle_integral(problem%equations%modes(k)%harmonic)
+         end do
+         size_of = sqrt(size_of)
+      end function size_of
+
    end subroutine look
 
    !> Response of the elastic structure to forces. If a displacement is given, it does no work with
