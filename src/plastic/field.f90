@@ -11,7 +11,7 @@ module axijoint_plastic_field
    implicit none
    private
    public :: body_field_type, body_load_type, body_planes, new_body_field, no_body_load, evaluate, &
-      yielding_force, commit
+      yielding_force, elastic_force, commit
 
    !> Components that are odd in theta in a symmetric mode: r-theta and z-theta
    logical, parameter :: odd_components(6) = [.false., .false., .false., .false., .true., .true.]
@@ -299,6 +299,31 @@ contains
       end associate
       force = to_vector(equations, force_of(equations, bodies, amplitude, field%yields))
    end subroutine yielding_force
+
+   !> Forces on the unknowns of all modes that displacements would give if the bodies held
+   function elastic_force(equations, bodies, displacement) result(force)
+      !> The equations
+      type(equations_type), intent(in) :: equations
+      !> The bodies
+      type(bodies_type), intent(in) :: bodies
+      !> Unknowns of the displacements
+      real(wp), intent(in) :: displacement(:)
+      !> The forces
+      real(wp), allocatable :: force(:)
+
+      real(wp), allocatable :: amplitude(:, :, :), nodal(:, :)
+      logical, allocatable :: all_points(:)
+      integer :: k
+
+      allocate (amplitude(6, size(bodies%laws), size(equations%modes)))
+      allocate (all_points(size(bodies%laws)), source=.true.)
+      do k = 1, size(equations%modes)
+         nodal = to_nodes(equations, displacement, k)
+         call elastic_stress(bodies, equations%modes(k)%harmonic, nodal, all_points, &
+                             amplitude(:, :, k))
+      end do
+      force = to_vector(equations, force_of(equations, bodies, amplitude, all_points))
+   end function elastic_force
 
    !> Keep the plastic strain of an increment in equilibrium
    subroutine commit(load, field)

@@ -75,7 +75,11 @@ contains
       do
          if (ended()) exit
          select case (control%method)
-         case (method_newton)
+         case (method_newton)  ! its tangent knows no joints
+            if (allocated(problem%joints)) then
+               call mix_steps(depth, huge(1))
+               cycle
+            end if
             before = iterate%energy
             call newton_step(problem, field, iterate)
             verdict%iterations = verdict%iterations + 1

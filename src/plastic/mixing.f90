@@ -83,7 +83,8 @@ contains
       integer :: i, info
 
       do i = 1, size(right)
-         scale(i) = 1.0_wp/sqrt(max(matrix(i, i), tiny(1.0_wp)))
+         scale(i) = 0.0_wp
+         if (matrix(i, i) > tiny(1.0_wp)) scale(i) = 1.0_wp/sqrt(matrix(i, i))
       end do
       do i = 1, size(right)
          vectors(:, i) = 0.5_wp*(matrix(:, i) + matrix(i, :))*scale*scale(i)

@@ -7,7 +7,8 @@ module axijoint_plastic_problem
    use axijoint_joints_planes, only : planes_type
    use axijoint_plastic_bodies, only : bodies_type
    use axijoint_plastic_elastic, only : elastic_response, ring_norm
-   use axijoint_plastic_field, only : body_field_type, body_load_type, evaluate
+   use axijoint_plastic_field, only : body_field_type, body_load_type, evaluate, elastic_force
+   use axijoint_plastic_joint_side, only : joint_side_type, begin_joint_step, balance_joints
    implicit none
    private
    public :: problem_type, steering_type, iterate_type, put_load, steer, look, turn, &
@@ -37,6 +38,8 @@ module axijoint_plastic_problem
       type(body_load_type) :: load
       !> What gives the load
       type(steering_type) :: steering
+      !> Joints that open and slip, if there are any
+      type(joint_side_type), allocatable :: joints
       !> Norm of the forces that the step would add if the bodies held
       real(wp) :: pushed = 0.0_wp
       !> Whether plastic strain is normal to all criteria, so that tangents are symmetric
@@ -59,11 +62,13 @@ contains
 
    !> Put loads on. As far as they go on like those of the last increment, so does the state; under
    !> the rest it moves as the elastic structure does
-   subroutine put_load(problem, load, field)
+   subroutine put_load(problem, load, external, field)
       !> The problem
       type(problem_type), intent(inout) :: problem
       !> The loads
       type(body_load_type), intent(in) :: load
+      !> External forces on components, shape (3, nodes, modes)
+      real(wp), intent(in) :: external(:, :, :)
       !> The state
       type(body_field_type), intent(inout) :: field
 
@@ -77,6 +82,7 @@ contains
       problem%solutions = problem%solutions + 1
       field%unknowns = field%begun + share*field%moved + response
       problem%load = load
+      if (allocated(problem%joints)) call begin_joint_step(problem%joints, external)
    end subroutine put_load
 
    !> How much of the last increment a new one repeats; nothing if it turns back
@@ -145,6 +151,7 @@ contains
          iterate%residual + problem%steering%factor*problem%steering%load
       call turn(problem, iterate%residual, iterate%response, change)
       problem%steering%factor = problem%steering%factor + change
+      if (allocated(problem%joints)) call add_joints(problem, field, iterate)
       iterate%energy = sqrt(max(0.0_wp, dot_product(iterate%residual, iterate%response)))
       forces = max(size_of(field%force - field%force_before), &
                    min(problem%pushed, size_of(field%force)))
@@ -169,6 +176,28 @@ contains
       end function size_of
 
    end subroutine look
+
+   !> Let joints give way to what is out of balance: they are in equilibrium where the response goes.
+   !> The residual is then what the bodies have of it, elastic forces of the response
+   subroutine add_joints(problem, field, iterate)
+      !> The problem
+      type(problem_type), intent(inout) :: problem
+      !> The state
+      type(body_field_type), intent(in) :: field
+      !> The iterate
+      type(iterate_type), intent(inout) :: iterate
+
+      real(wp), dimension(size(field%unknowns)) :: force, response
+      real(wp) :: change
+
+      call balance_joints(problem%joints, problem%equations, field%unknowns + iterate%response, &
+                          problem%load%held, ring_norm(problem%equations, problem%load%right), &
+                          force)
+      call turn(problem, force, response, change)
+      problem%steering%factor = problem%steering%factor + change
+      iterate%response = iterate%response + response
+      iterate%residual = elastic_force(problem%equations, problem%bodies, iterate%response)
+   end subroutine add_joints
 
    !> Response of the elastic structure to forces. If a displacement is given, it does no work with
    !> the steering load: the forces are changed by as much of that load
