@@ -52,11 +52,14 @@ module axijoint_plastic_field
       !> Forces of the bodies on components, held ones too, now and at the last increment in
       !> equilibrium, shape (3, nodes, modes)
       real(wp), allocatable :: force(:, :, :), force_before(:, :, :)
+      !> What residuals were held against there
+      real(wp) :: scale = 0.0_wp
    end type body_field_type
 
 contains
 
-   !> Planes for bodies: 2 M + 1 from 0 to pi unless said
+   !> Planes for bodies: 2 M + 1 from 0 to pi unless said. M + 2 are almost singular, so harmonics
+   !> up to 1 take five
    pure function body_planes(modes, n) result(planes)
       !> The modes
       type(mode_type), intent(in) :: modes(:)
@@ -67,7 +70,7 @@ contains
 
       integer :: number
 
-      number = max(2, 2*maxval(modes%harmonic) + 1)
+      number = 2*max(2, maxval(modes%harmonic)) + 1
       if (present(n)) number = n
       planes = new_planes(number, modes, odd=odd_components)
    end function body_planes

@@ -1,6 +1,6 @@
-!> Joints that open and slip beside bodies that yield. For given plastic strain of the bodies they are
-!> brought to equilibrium on the condensed structure, by the method of the job, so the bodies see a
-!> structure whose joints are always in equilibrium
+!> Joints that open and slip beside bodies that yield. For given plastic strain of the bodies they
+!> are brought to equilibrium on the condensed structure, by the method of the job, so the bodies
+!> see a structure whose joints are always in equilibrium
 module axijoint_plastic_joint_side
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_force, only : joint_force, joint_jump
@@ -86,6 +86,7 @@ contains
          side%begun = .true.
       end if
       allocate (path(0))
+      side%field%memory = side%before%memory  ! bonds break in equilibrium, not on the way
       call side%method%balance(side%condensed, side%scene, side%control, side%field, path, &
          side%verdict)
       allocate (nodal(3, size(displacement, 2), size(equations%modes)))

@@ -24,10 +24,17 @@ module axijoint_plastic_methods
    integer, parameter :: most_inner = 40
    real(wp), parameter :: forcing = 0.1_wp
    !> Iterates that the mix remembers, and steps that it takes in Newton's place
-   integer, parameter :: depth = 20, substitute = 20
+   integer, parameter :: depth = 10, substitute = 20
    !> Share of the residual, in energy, that a step of Newton's may leave; the mix takes over if it
    !> leaves more
    real(wp), parameter :: enough = 0.5_wp
+   !> Displacements so many times larger than those of the elastic bodies are no state
+   real(wp), parameter :: runaway = 1.0e4_wp
+   !> The residual has stopped falling if so many elastic solutions do not halve it
+   integer, parameter :: patience = 400
+   real(wp), parameter :: halved = 0.5_wp
+   !> The mix begins anew, after a step of Newton's, if so many do not
+   integer, parameter :: restless = 60
    !> Cuts of a step
    integer, parameter :: most_cuts = 5
 
@@ -43,8 +50,13 @@ module axijoint_plastic_methods
 
    !> How they ended
    type :: body_verdict_type
-      !> Whether the step is in equilibrium
-      logical :: converged = .false.
+      !> Whether the step is in equilibrium, and whether displacements ran away instead: there is no
+      !> equilibrium under this load
+      logical :: converged = .false., ran_away = .false.
+      !> Whether the residual stopped falling: a smaller step may help
+      logical :: stalled = .false.
+      !> Whether joints found no equilibrium on the way
+      logical :: joints_failed = .false.
       !> Ratio of the residual forces
       real(wp) :: ratio = 0.0_wp
       !> Iterates, and elastic solutions of all modes
@@ -67,10 +79,13 @@ contains
       type(body_verdict_type), intent(out) :: verdict
 
       type(iterate_type) :: iterate
-      real(wp) :: before
-      integer :: begun
+      real(wp) :: before, largest, best
+      integer :: begun, best_at
 
       begun = problem%solutions
+      largest = runaway*max(maxval(abs(field%unknowns)), maxval(abs(field%begun)), tiny(1.0_wp))
+      best = huge(1.0_wp)
+      best_at = begun
       call look(problem, field, iterate)
       do
          if (ended()) exit
@@ -86,11 +101,14 @@ contains
             if (iterate%energy > enough*before) call mix_steps(depth, substitute)
          case (method_mix)
             call mix_steps(depth, huge(1))
+            if (ended()) exit
+            if (.not. allocated(problem%joints)) call newton_step(problem, field, iterate)
          case default
             call mix_steps(0, huge(1))
          end select
       end do
       verdict%ratio = iterate%ratio
+      field%scale = iterate%scale
       verdict%solutions = problem%solutions - begun
       verdict%on_planes = real(size(field%on), wp)/max(1, size(field%marked))
 
@@ -98,9 +116,19 @@ contains
 
       !> Whether there is equilibrium, or no more to try
       logical function ended()
-         verdict%converged = iterate%ratio <= control%tolerance
+         if (allocated(problem%joints)) &
+            verdict%joints_failed = .not. problem%joints%verdict%converged
+         verdict%converged = .not. verdict%joints_failed &
+            .and. (iterate%ratio <= control%tolerance .or. iterate%at_rounding)
+         verdict%ran_away = maxval(abs(field%unknowns)) > largest
+         if (iterate%ratio < halved*best) then
+            best = iterate%ratio
+            best_at = problem%solutions
+         end if
+         verdict%stalled = problem%solutions > best_at + patience .and. .not. verdict%converged
          ended = stop_wished()  ! nobody uses what was reached
-         ended = ended .or. verdict%converged .or. .not. ieee_is_finite(iterate%ratio) &
+         ended = ended .or. verdict%converged .or. verdict%ran_away .or. verdict%stalled &
+            .or. verdict%joints_failed .or. .not. ieee_is_finite(iterate%ratio) &
             .or. problem%solutions - begun >= control%most
       end function ended
 
@@ -110,11 +138,18 @@ contains
          integer, intent(in) :: remembered, most
 
          type(mixing_type) :: memory
-         integer :: k
+         real(wp) :: least
+         integer :: k, least_at
 
          memory = new_mixing(size(field%unknowns), remembered)
+         least = huge(1.0_wp)
          do k = 1, most
             if (ended()) exit
+            if (iterate%ratio < halved*least) then
+               least = iterate%ratio
+               least_at = problem%solutions
+            end if
+            if (problem%solutions > least_at + restless .and. remembered > 0) exit
             call mix(memory, field%unknowns, iterate%residual, iterate%response)
             call look(problem, field, iterate)
             verdict%iterations = verdict%iterations + 1

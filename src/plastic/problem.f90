@@ -17,6 +17,9 @@ module axijoint_plastic_problem
    !> Increments are repeated so often at most, for the start of the next
    real(wp), parameter :: most_repeated = 10.0_wp
 
+   !> Residuals this small beside the forces of the bodies are rounding
+   real(wp), parameter :: resolution = 1.0e-11_wp
+
    !> Load control by the displacement that is work-conjugate to the load: where that is given, the
    !> load factor is found, beyond the limit load, too
    type :: steering_type
@@ -53,9 +56,13 @@ module axijoint_plastic_problem
       !> Forces on the unknowns r, and the response K^-1 r of the elastic structure, both without
       !> what the load factor balances
       real(wp), allocatable :: residual(:), response(:)
-      !> sqrt(r K^-1 r), and the norm of r over that of the forces of the step: what it adds to those
-      !> of the bodies, or, where these yield, what it would add if they held, up to all of them
+      !> sqrt(r K^-1 r), and the norm of r over that of the forces of the step: what it adds to
+      !> those of the bodies, or, where these yield, what it would add if they held, up to all
       real(wp) :: energy = 0.0_wp, ratio = 0.0_wp
+      !> Whether the residual is rounding
+      logical :: at_rounding = .false.
+      !> That norm of forces
+      real(wp) :: scale = 0.0_wp
    end type iterate_type
 
 contains
@@ -141,7 +148,7 @@ contains
       !> What it leaves out of balance
       type(iterate_type), intent(inout) :: iterate
 
-      real(wp) :: change, forces
+      real(wp) :: change, forces, whole
 
       if (.not. allocated(iterate%residual)) &
          allocate (iterate%residual, iterate%response, mold=field%unknowns)
@@ -153,10 +160,13 @@ contains
       problem%steering%factor = problem%steering%factor + change
       if (allocated(problem%joints)) call add_joints(problem, field, iterate)
       iterate%energy = sqrt(max(0.0_wp, dot_product(iterate%residual, iterate%response)))
-      forces = max(size_of(field%force - field%force_before), &
-                   min(problem%pushed, size_of(field%force)))
+      whole = size_of(field%force)
+      forces = max(size_of(field%force - field%force_before), min(problem%pushed, whole))
+      if (.not. problem%pushed > 0.0_wp) forces = max(forces, field%scale)
       iterate%ratio = ring_norm(problem%equations, iterate%residual)
+      iterate%at_rounding = iterate%ratio <= resolution*whole
       if (iterate%ratio > 0.0_wp) iterate%ratio = iterate%ratio/max(forces, tiny(1.0_wp))
+      iterate%scale = forces
 
    contains
 
@@ -177,8 +187,8 @@ contains
 
    end subroutine look
 
-   !> Let joints give way to what is out of balance: they are in equilibrium where the response goes.
-   !> The residual is then what the bodies have of it, elastic forces of the response
+   !> Let joints give way to what is out of balance: they are in equilibrium where the response
+   !> goes. The residual is then what the bodies have of it, elastic forces of the response
    subroutine add_joints(problem, field, iterate)
       !> The problem
       type(problem_type), intent(inout) :: problem
