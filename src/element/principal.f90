@@ -1,9 +1,9 @@
-!> Principal stresses
+!> Principal stresses and their axes
 module axijoint_element_principal
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: principal_stresses
+   public :: principal_stresses, principal_axes
 
    !> Rotations in turn at most; three to five suffice
    integer, parameter :: most_sweeps = 12
@@ -31,13 +31,44 @@ contains
       principal(2) = max(min(a(1, 1), a(2, 2)), min(max(a(1, 1), a(2, 2)), a(3, 3)))
    end function principal_stresses
 
+   !> Principal stresses, the largest first, and their axes, which are at right angles to each other
+   !> even where stresses are equal
+   pure subroutine principal_axes(stress, principal, axes)
+      !> xx, yy, zz, xy, yz, xz, in any cartesian axes
+      real(wp), intent(in) :: stress(6)
+      !> The stresses, and a unit vector along each, shape (3, 3)
+      real(wp), intent(out) :: principal(3), axes(3, 3)
+
+      real(wp) :: a(3, 3), unsorted(3, 3), left(3)
+      integer :: sweep, i, k
+
+      a = reshape(stress([1, 4, 6, 4, 2, 5, 6, 5, 3]), [3, 3])
+      unsorted = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], &
+         [3, 3])
+      do sweep = 1, most_sweeps
+         if (.not. abs(a(1, 2)) + abs(a(2, 3)) + abs(a(1, 3)) > tiny(1.0_wp)) exit
+         call rotate(a, 1, 2, unsorted)
+         call rotate(a, 2, 3, unsorted)
+         call rotate(a, 1, 3, unsorted)
+      end do
+      left = [a(1, 1), a(2, 2), a(3, 3)]
+      do i = 1, 3
+         k = maxloc(left, 1)
+         principal(i) = left(k)
+         axes(:, i) = unsorted(:, k)
+         left(k) = -huge(1.0_wp)
+      end do
+   end subroutine principal_axes
+
    !> Turn the axes p and q so that the shear stress between them vanishes (Golub and
    !> Van Loan, Matrix Computations, 8.5)
-   pure subroutine rotate(a, p, q)
+   pure subroutine rotate(a, p, q, axes)
       !> The stress
       real(wp), intent(inout) :: a(3, 3)
       !> The axes
       integer, intent(in) :: p, q
+      !> Unit vectors along all axes, shape (3, 3)
+      real(wp), intent(inout), optional :: axes(3, 3)
 
       real(wp) :: tau, t, c, s, row_p(3), row_q(3)
 
@@ -60,6 +91,11 @@ contains
       a(:, q) = s*row_p + c*row_q
       a(p, q) = 0.0_wp
       a(q, p) = 0.0_wp
+      if (.not. present(axes)) return
+      row_p = axes(:, p)
+      row_q = axes(:, q)
+      axes(:, p) = c*row_p - s*row_q
+      axes(:, q) = s*row_p + c*row_q
    end subroutine rotate
 
 end module axijoint_element_principal

@@ -1,0 +1,110 @@
+!> Joints that open and slip beside bodies that yield. For given plastic strain of the bodies they
+!> are brought to equilibrium on the condensed structure, by the method of the job, so the bodies
+!> see a structure whose joints are always in equilibrium
+module axijoint_plastic_joint_side
+   use axijoint_assembly_equations, only : equations_type
+   use axijoint_assembly_force, only : joint_force, joint_jump
+   use axijoint_base_kinds, only : wp
+   use axijoint_joints_condensed, only : condensed_type
+   use axijoint_joints_field, only : joint_field_type, commit_field
+   use axijoint_joints_loads, only : put_work
+   use axijoint_joints_method, only : method_type, control_type, verdict_type
+   use axijoint_joints_path, only : iteration_type
+   use axijoint_joints_residual, only : set_reference
+   use axijoint_joints_scene, only : scene_type, elastic_stress
+   use axijoint_plastic_elastic, only : to_vector, to_nodes
+   implicit none
+   private
+   public :: joint_side_type, begin_joint_step, balance_joints, commit_joints
+
+   !> The joints
+   type :: joint_side_type
+      !> The condensed structure; none if no joint can yield
+      type(condensed_type), pointer :: condensed => null()
+      !> Laws, planes, loads
+      type(scene_type) :: scene
+      !> How they are brought to equilibrium, and when that ends
+      class(method_type), allocatable :: method
+      type(control_type) :: control
+      !> Their state, and as it was at the last increment in equilibrium
+      type(joint_field_type) :: field, before
+      !> Amplitudes of the stress that the joints would carry if they held, at that increment, shape
+      !> (3, points, modes)
+      real(wp), allocatable :: balanced(:, :, :)
+      !> How the last equilibrium was reached
+      type(verdict_type) :: verdict
+      !> Whether residuals have their reference in this step
+      logical :: begun = .false.
+   end type joint_side_type
+
+contains
+
+   !> Begin a step from the last increment in equilibrium
+   subroutine begin_joint_step(side, external)
+      !> The joints
+      type(joint_side_type), intent(inout) :: side
+      !> External forces on components, shape (3, nodes, modes)
+      real(wp), intent(in) :: external(:, :, :)
+
+      side%field = side%before
+      side%begun = .false.
+      call put_work(side%condensed%floating, external, side%scene%loads)
+   end subroutine begin_joint_step
+
+   !> Equilibrium of the joints, and the forces of the stress that they do not admit
+   subroutine balance_joints(side, equations, free, held, norm, force)
+      !> The joints
+      type(joint_side_type), intent(inout) :: side
+      !> The equations
+      type(equations_type), intent(in) :: equations
+      !> Unknowns of the elastic structure under all else
+      real(wp), intent(in) :: free(:)
+      !> Displacements of held components, shape (3, nodes, modes), if there are any
+      real(wp), intent(in), allocatable :: held(:, :, :)
+      !> Norm of the loads
+      real(wp), intent(in) :: norm
+      !> The forces on the unknowns
+      real(wp), intent(out) :: force(:)
+
+      type(iteration_type), allocatable :: path(:)
+      real(wp), allocatable :: nodal(:, :, :), displacement(:, :)
+      integer :: k
+
+      do k = 1, size(equations%modes)
+         displacement = to_nodes(equations, free, k)
+         if (allocated(held)) displacement = displacement + held(:, :, k)
+         side%scene%loads%free(:, :, k) = joint_jump(side%condensed%points, displacement)
+         side%scene%loads%largest(k) = maxval(abs(displacement))
+      end do
+      if (.not. side%begun) then
+         associate (stress => elastic_stress(side%condensed, side%scene, side%field))
+            if (.not. allocated(side%balanced)) &
+               allocate (side%balanced, source=0.0_wp*side%scene%loads%free)
+            call set_reference(side%condensed%measure, norm, stress - side%balanced, &
+               side%control%tolerance, side%scene%loads%reference)
+         end associate
+         side%begun = .true.
+      end if
+      allocate (path(0))
+      side%field%memory = side%before%memory  ! bonds break in equilibrium, not on the way
+      call side%method%balance(side%condensed, side%scene, side%control, side%field, path, &
+         side%verdict)
+      allocate (nodal(3, size(displacement, 2), size(equations%modes)))
+      do k = 1, size(equations%modes)
+         nodal(:, :, k) = joint_force(side%condensed%points, equations%modes(k)%harmonic, &
+                                      side%field%excess(:, :, k), size(nodal, 2))
+      end do
+      force = to_vector(equations, nodal)
+   end subroutine balance_joints
+
+   !> Keep the slip of an increment in equilibrium
+   subroutine commit_joints(side)
+      !> The joints
+      type(joint_side_type), intent(inout) :: side
+
+      side%balanced = elastic_stress(side%condensed, side%scene, side%field)
+      if (.not. side%method%accumulates) call commit_field(side%scene%laws, side%field)
+      side%before = side%field
+   end subroutine commit_joints
+
+end module axijoint_plastic_joint_side

@@ -1,0 +1,235 @@
+!> A load step of bodies that yield as methods see it: what is out of balance, how the elastic
+!> structure answers it, and the load factor if a displacement is given instead of the load
+module axijoint_plastic_problem
+   use axijoint_assembly_equations, only : equations_type
+   use axijoint_base_kinds, only : wp
+   use axijoint_fe_fourier, only : circle_integral
+   use axijoint_joints_planes, only : planes_type
+   use axijoint_plastic_bodies, only : bodies_type
+   use axijoint_plastic_elastic, only : elastic_response, ring_norm
+   use axijoint_plastic_field, only : body_field_type, body_load_type, evaluate, elastic_force
+   use axijoint_plastic_joint_side, only : joint_side_type, begin_joint_step, balance_joints
+   implicit none
+   private
+   public :: problem_type, steering_type, iterate_type, put_load, steer, look, turn, &
+      go_to_displacement
+
+   !> Increments are repeated so often at most, for the start of the next
+   real(wp), parameter :: most_repeated = 10.0_wp
+
+   !> Residuals this small beside the forces of the bodies are rounding
+   real(wp), parameter :: resolution = 1.0e-11_wp
+
+   !> Load control by the displacement that is work-conjugate to the load: where that is given, the
+   !> load factor is found, beyond the limit load, too
+   type :: steering_type
+      !> Load of a factor of one, and the response of the elastic structure to it; not allocated if
+      !> the load is given
+      real(wp), allocatable :: load(:), response(:)
+      !> Load factor
+      real(wp) :: factor = 0.0_wp
+   end type steering_type
+
+   !> The problem
+   type :: problem_type
+      !> Equations of all modes
+      type(equations_type), pointer :: equations => null()
+      !> Bodies and planes
+      type(bodies_type), pointer :: bodies => null()
+      type(planes_type) :: planes
+      !> Loads without that of the steering
+      type(body_load_type) :: load
+      !> What gives the load
+      type(steering_type) :: steering
+      !> Joints that open and slip, if there are any
+      type(joint_side_type), allocatable :: joints
+      !> Norm of the forces that the step would add if the bodies held
+      real(wp) :: pushed = 0.0_wp
+      !> Whether plastic strain is normal to all criteria, so that tangents are symmetric
+      logical :: associated_flow = .true.
+      !> Elastic solutions of all modes so far
+      integer :: solutions = 0
+   end type problem_type
+
+   !> What an iterate leaves out of balance
+   type :: iterate_type
+      !> Forces on the unknowns r, and the response K^-1 r of the elastic structure, both without
+      !> what the load factor balances
+      real(wp), allocatable :: residual(:), response(:)
+      !> sqrt(r K^-1 r), and the norm of r over that of the forces of the step: what it adds to
+      !> those of the bodies, or, where these yield, what it would add if they held, up to all
+      real(wp) :: energy = 0.0_wp, ratio = 0.0_wp
+      !> Whether the residual is rounding
+      logical :: at_rounding = .false.
+      !> That norm of forces
+      real(wp) :: scale = 0.0_wp
+   end type iterate_type
+
+contains
+
+   !> Put loads on. As far as they go on like those of the last increment, so does the state; under
+   !> the rest it moves as the elastic structure does
+   subroutine put_load(problem, load, external, field)
+      !> The problem
+      type(problem_type), intent(inout) :: problem
+      !> The loads
+      type(body_load_type), intent(in) :: load
+      !> External forces on components, shape (3, nodes, modes)
+      real(wp), intent(in) :: external(:, :, :)
+      !> The state
+      type(body_field_type), intent(inout) :: field
+
+      real(wp), dimension(size(field%unknowns)) :: change, response
+      real(wp) :: share
+
+      change = load%right - field%right
+      problem%pushed = ring_norm(problem%equations, change)
+      share = going_on(dot_product(change, field%pushed), dot_product(field%pushed, field%pushed))
+      call elastic_response(problem%equations, change - share*field%pushed, response)
+      problem%solutions = problem%solutions + 1
+      field%unknowns = field%begun + share*field%moved + response
+      problem%load = load
+      if (allocated(problem%joints)) call begin_joint_step(problem%joints, external)
+   end subroutine put_load
+
+   !> How much of the last increment a new one repeats; nothing if it turns back
+   pure real(wp) function going_on(work, last)
+      !> Product of what is new with the last, and of the last with itself
+      real(wp), intent(in) :: work, last
+
+      going_on = 0.0_wp
+      if (last > 0.0_wp) going_on = min(max(0.0_wp, work/last), most_repeated)
+   end function going_on
+
+   !> Let the work-conjugate displacement of a load be given
+   subroutine steer(problem, load)
+      !> The problem
+      type(problem_type), intent(inout) :: problem
+      !> Load of a factor of one, on the unknowns
+      real(wp), intent(in) :: load(:)
+
+      problem%steering%load = load
+      allocate (problem%steering%response, mold=load)
+      call elastic_response(problem%equations, load, problem%steering%response)
+      problem%solutions = problem%solutions + 1
+   end subroutine steer
+
+   !> Let the load of a factor of one do a given work: the start of a step. The state goes on as in
+   !> the last increment, or as the elastic structure would
+   subroutine go_to_displacement(problem, work, field)
+      !> The problem, steered
+      type(problem_type), intent(inout) :: problem
+      !> Load of a factor of one times displacement
+      real(wp), intent(in) :: work
+      !> The state
+      type(body_field_type), intent(inout) :: field
+
+      real(wp) :: step
+
+      associate (steering => problem%steering)
+         step = work - dot_product(steering%load, field%begun)
+         problem%pushed = ring_norm(problem%equations, steering%load) &
+            *abs(step)/dot_product(steering%load, steering%response)
+         field%unknowns = field%begun + going_on(step*dot_product(steering%load, field%moved), &
+            dot_product(steering%load, field%moved)**2)*field%moved
+         step = (work - dot_product(steering%load, field%unknowns)) &
+            /dot_product(steering%load, steering%response)
+         field%unknowns = field%unknowns + step*steering%response
+         steering%factor = steering%factor + step
+      end associate
+   end subroutine go_to_displacement
+
+   !> Look at an iterate
+   subroutine look(problem, field, iterate)
+      !> The problem; its load factor follows the iterate
+      type(problem_type), intent(inout) :: problem
+      !> The state
+      type(body_field_type), intent(inout) :: field
+      !> What it leaves out of balance
+      type(iterate_type), intent(inout) :: iterate
+
+      real(wp) :: change, forces, whole
+
+      if (.not. allocated(iterate%residual)) &
+         allocate (iterate%residual, iterate%response, mold=field%unknowns)
+      call evaluate(problem%equations, problem%bodies, problem%planes, problem%load, field, &
+                    iterate%residual)
+      if (allocated(problem%steering%load)) iterate%residual = &
+         iterate%residual + problem%steering%factor*problem%steering%load
+      call turn(problem, iterate%residual, iterate%response, change)
+      problem%steering%factor = problem%steering%factor + change
+      if (allocated(problem%joints)) call add_joints(problem, field, iterate)
+      iterate%energy = sqrt(max(0.0_wp, dot_product(iterate%residual, iterate%response)))
+      whole = size_of(field%force)
+      forces = max(size_of(field%force - field%force_before), min(problem%pushed, whole))
+      if (.not. problem%pushed > 0.0_wp) forces = max(forces, field%scale)
+      iterate%ratio = ring_norm(problem%equations, iterate%residual)
+      iterate%at_rounding = iterate%ratio <= resolution*whole
+      if (iterate%ratio > 0.0_wp) iterate%ratio = iterate%ratio/max(forces, tiny(1.0_wp))
+      iterate%scale = forces
+
+   contains
+
+      !> Norm of forces on all components
+      real(wp) function size_of(force)
+         !> Shape (3, nodes, modes)
+         real(wp), intent(in) :: force(:, :, :)
+
+         integer :: k
+
+         size_of = 0.0_wp
+         do k = 1, size(force, 3)
+            size_of = size_of + sum(force(:, :, k)**2) &
+               /circle_integral(problem%equations%modes(k)%harmonic)
+         end do
+         size_of = sqrt(size_of)
+      end function size_of
+
+   end subroutine look
+
+   !> Let joints give way to what is out of balance: they are in equilibrium where the response
+   !> goes. The residual is then what the bodies have of it, elastic forces of the response
+   subroutine add_joints(problem, field, iterate)
+      !> The problem
+      type(problem_type), intent(inout) :: problem
+      !> The state
+      type(body_field_type), intent(in) :: field
+      !> The iterate
+      type(iterate_type), intent(inout) :: iterate
+
+      real(wp), dimension(size(field%unknowns)) :: force, response
+      real(wp) :: change
+
+      call balance_joints(problem%joints, problem%equations, field%unknowns + iterate%response, &
+                          problem%load%held, ring_norm(problem%equations, problem%load%right), &
+                          force)
+      call turn(problem, force, response, change)
+      problem%steering%factor = problem%steering%factor + change
+      iterate%response = iterate%response + response
+      iterate%residual = elastic_force(problem%equations, problem%bodies, iterate%response)
+   end subroutine add_joints
+
+   !> Response of the elastic structure to forces. If a displacement is given, it does no work with
+   !> the steering load: the forces are changed by as much of that load
+   subroutine turn(problem, force, response, change)
+      !> The problem
+      type(problem_type), intent(inout) :: problem
+      !> Forces on the unknowns
+      real(wp), intent(inout) :: force(:)
+      !> The response
+      real(wp), intent(out) :: response(:)
+      !> Change of the load factor that is in the forces then
+      real(wp), intent(out) :: change
+
+      call elastic_response(problem%equations, force, response)
+      problem%solutions = problem%solutions + 1
+      change = 0.0_wp
+      if (.not. allocated(problem%steering%load)) return
+      associate (load => problem%steering%load, own => problem%steering%response)
+         change = -dot_product(load, response)/dot_product(load, own)
+         force = force + change*load
+         response = response + change*own
+      end associate
+   end subroutine turn
+
+end module axijoint_plastic_problem
