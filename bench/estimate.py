@@ -2,6 +2,7 @@
 import argparse
 import csv
 import json
+import math
 import os
 import re
 import resource
@@ -20,7 +21,7 @@ GROUPS = {"start, write": ("beginning", "files", "lines", "array_bytes", "swept_
                     "fine_blocks", "stress_modes", "row_stresses")}
 # The processor clocks of the listing that these are; what is left of a run is the first
 CLOCKS = {"read": ("read",), "assemble": ("assemble",), "factor": ("factor",), "solve": ("joints", "recover")}
-STAY = 0.01  # what a change of a constant counts beside what is missing
+STAY = 0.02  # what a change of a constant counts beside what is missing
 MEASURED = ("reading", "ordering", "factoring")  # their counts are seconds already
 
 
@@ -30,54 +31,51 @@ def counts(program, path, options):
     return {name: (float(count), float(seconds)) for name, count, seconds in re.findall(r"^(\S+) +(\S+) +(\S+)$", text, re.M)}
 
 
-def best_of(several):
-    """What is measured, where the machine did the least else: the shortest times, the highest rates"""
-    best = dict(several[0])
-    for name in ("reading", "ordering", "factoring"):
-        best[name] = min(found[name] for found in several)
-    for name in ("text_rate", "product_rate"):
-        best[name] = max(found[name] for found in several)
-    return best
-
-
 def speeds(found):
     """What seconds of each term are multiplied by on this machine"""
     text, product = (found[name][1]/found[name][0] for name in ("text_rate", "product_rate"))
     return {name: 1.0 if name in MEASURED else product if name == "inverse" else text for name in sum(GROUPS.values(), ())}
 
 
+def pace(found):
+    """How fast the machine is in common work"""
+    return found["text_rate"][0]
+
+
 def run(program, path, options, folder):
-    """Processor seconds by group and in all, peak memory, increments and iterations"""
-    best = None
-    for _ in range(REPEATS):
-        for name in os.listdir(folder):
-            os.remove(os.path.join(folder, name))
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        subprocess.run([program, "run", path, "--quiet", "-o", folder, *options], capture_output=True, check=True)
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        total = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-        if best is None or total < best["total"]:
-            summaries = []
-            for name in sorted(os.listdir(folder)):
-                if name.endswith(".json"):
-                    with open(os.path.join(folder, name), encoding="utf-8") as file:
-                        summaries.append(json.load(file))
-            last = max(summaries, key=lambda summary: summary["seconds"]["total"])
-            best = {"total": total, "memory": max(summary["peak_memory_mb"] for summary in summaries),
-                    "disk": sum(os.path.getsize(os.path.join(folder, name)) for name in os.listdir(folder))/MEGABYTE,
-                    "increments": sum(len(summary["increments"]) for summary in summaries),
-                    "iterations": sum(summary["iterations"] for summary in summaries)}
-            with open(os.path.join(folder, os.path.splitext(os.path.basename(last["deck"]))[0]
-                                   + (f".{last['combination']}" if last["combination"] else "") + ".lis"),
-                      encoding="utf-8") as file:
-                clock = dict(re.findall(r"^  (\w+) +\S+ +(\S+) +\S+$", file.read().split("\nTIMES")[1], re.MULTILINE))
-            best["groups"] = {name: sum(float(clock[phase]) for phase in phases) for name, phases in CLOCKS.items()}
-            best["groups"]["start, write"] = total - sum(best["groups"].values())
-    return best
+    """Processor seconds by group and in all, peak memory, increments and iterations of one run"""
+    for name in os.listdir(folder):
+        os.remove(os.path.join(folder, name))
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run([program, "run", path, "--quiet", "-o", folder, *options], capture_output=True, check=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    total = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    summaries, listing = [], ""
+    for name in os.listdir(folder):
+        if name.endswith(".json"):
+            with open(os.path.join(folder, name), encoding="utf-8") as file:
+                summaries.append(json.load(file))
+        if name.endswith(".lis"):
+            with open(os.path.join(folder, name), encoding="utf-8") as file:
+                listing = max(listing, file.read().split("\nTIMES")[1], key=total_of)
+    clock = dict(re.findall(r"^  (\w+) +\S+ +(\S+) +\S+$", listing, re.MULTILINE))
+    groups = {name: sum(float(clock[phase]) for phase in phases) for name, phases in CLOCKS.items()}
+    return {"total": total, "groups": groups | {"start, write": total - sum(groups.values())},
+            "memory": max(summary["peak_memory_mb"] for summary in summaries),
+            "disk": sum(os.path.getsize(os.path.join(folder, name)) for name in os.listdir(folder))/MEGABYTE,
+            "increments": sum(len(summary["increments"]) for summary in summaries),
+            "iterations": sum(summary["iterations"] for summary in summaries)}
+
+
+def total_of(listing):
+    """Seconds of a run until its listing was written: clocks run on from combination to combination"""
+    found = re.search(r"^  total +(\S+)", listing, re.MULTILINE)
+    return float(found[1]) if found else 0.0
 
 
 def measure(program, decks, folder):
-    """Of each deck: what is predicted with the usual and with the true number of iterations, and what it took"""
+    """Of each deck: what is predicted with the usual and with the true number of iterations, and what it took. Others may
+    work on the machine: of several runs that one counts beside which the machine was fastest, with the rates of then"""
     rows = []
     out = os.path.join(folder, "out")
     os.makedirs(out, exist_ok=True)
@@ -85,8 +83,14 @@ def measure(program, decks, folder):
         path = os.path.join(folder, name + ".dat")
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
-        found = run(program, path, options, out)
-        usual = best_of([counts(program, path, options) for _ in range(REPEATS)])
+        tries = []
+        after = counts(program, path, options)
+        for _ in range(REPEATS):
+            before = after
+            found = run(program, path, options, out)
+            after = counts(program, path, options)
+            tries.append((min(pace(before), pace(after)), len(tries), found, min(before, after, key=pace)))
+        _, _, found, usual = max(tries)
         once, twice = (counts(program, path, [*options, "--iterations", str(n)]) for n in (1, 2))
         each = found["iterations"]/max(1, found["increments"])
         true = {term: once[term][0] + (each - 1.0)*(twice[term][0] - once[term][0]) if term in ("laws", "sums", "flexibility")
@@ -102,26 +106,33 @@ def predicted(row, group, true=False):
 
 
 def fit(rows, group):
-    """Seconds of one of each term, none below zero: the least squares of what is missing, over the time of the run, and
-    of the changes to the present seconds, so that terms that go together keep their proportion"""
+    """Seconds of one of each term: the least sum over decks of |log(predicted/measured)|, each by the share of the group
+    in its run; terms that go together keep their proportion, as a change by a factor costs a little, too"""
     terms = [term for term in GROUPS[group] if term not in ("reading", "ordering")]
-    now = [rows[0]["usual"][term][1] for term in terms]
-    matrix, right = [], []
+    data = []
     for row in rows:
         known = sum(row["true"][term] for term in GROUPS[group] if term not in terms)
-        weight = 1.0/(row["found"]["groups"][group] + 0.1*row["found"]["total"])
-        matrix.append([weight*row["true"][term]*row["speeds"][term]*c for term, c in zip(terms, now)])
-        right.append(weight*(row["found"]["groups"][group] - known))
-    value, trust = [1.0]*len(terms), [1.0]*len(rows)
-    for _ in range(30):  # rows that fit badly count less
-        for _ in range(300):
-            for k in range(len(terms)):
-                square = sum(t*line[k]**2 for t, line in zip(trust, matrix)) + STAY
-                miss = sum(t*line[k]*(b - sum(x*c for x, c in zip(line, value)))
-                           for t, line, b in zip(trust, matrix, right)) + STAY*(1.0 - value[k])
-                value[k] = max(0.0, value[k] + miss/square)
-        trust = [1.0/max(0.1, abs(b - sum(x*c for x, c in zip(line, value)))) for line, b in zip(matrix, right)]
-    return {term: c*x for term, c, x in zip(terms, now, value)}
+        data.append((known, [row["true"][term]*row["speeds"][term]*row["usual"][term][1] for term in terms],
+                     max(1e-4, row["found"]["groups"][group]), row["found"]["groups"][group]/row["found"]["total"]))
+
+    def miss(logs):
+        factors = [math.exp(x) for x in logs]
+        return STAY*sum(x*x for x in logs) + sum(
+            share*abs(math.log((known + sum(f*c for f, c in zip(factors, each)) + 1e-6)/found))
+            for known, each, found, share in data)
+
+    logs, step = [0.0]*len(terms), 1.0
+    least = miss(logs)
+    while step > 0.02:
+        better = False
+        for k in range(len(terms)):
+            for sign in (step, -step):
+                tried = logs[:k] + [logs[k] + sign] + logs[k + 1:]
+                value = miss(tried)
+                if value < least:
+                    logs, least, better = tried, value, True
+        step = step if better else 0.6*step
+    return {term: rows[0]["usual"][term][1]*math.exp(x) for term, x in zip(terms, logs)}
 
 
 def fit_swept(rows, constants):

@@ -66,6 +66,7 @@ def fitted():
     decks["flange_2"] = finer(inputs("gallery/flange"), 2), []
     decks["footing_2"] = finer(inputs("gallery/footing"), 2), []
     decks["stiff_4"] = finer(inputs("case3_stiff_joint_balanced"), 4), []
+    decks["case1_24"] = with_harmonics(turned(inputs("case1_balanced")), 24, 97), []
     decks["shaft_vtk"] = inputs("gallery/lined_shaft"), ["--vtk"]
     decks["pipe_vtk"] = inputs("gallery/pipe"), ["--vtk"]
     decks["flange_vtk"] = inputs("gallery/flange"), ["--vtk"]

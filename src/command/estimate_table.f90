@@ -6,13 +6,14 @@ module axijoint_command_estimate_table
    use axijoint_base_text, only : to_text, count_of
    use axijoint_estimate_forecast, only : forecast_type, term_seconds, phase_seconds
    use axijoint_estimate_machine, only : machine_type, reference
+   use axijoint_estimate_study, only : study_size_type
    use axijoint_estimate_terms, only : terms, n_terms, n_phases, phase_names
    use axijoint_estimate_work, only : n_yielding
    use axijoint_job_job, only : deck_name
    use axijoint_model_model, only : model_type, method_names
    implicit none
    private
-   public :: print_forecast, print_counts
+   public :: print_forecast, print_counts, deck_text, study_text
 
    character(len=*), parameter :: format_seconds = '(2x, a10, f12.3, 2x, a)'
    character(len=*), parameter :: format_count = '(a, t17, es16.8, es14.6)'
@@ -21,13 +22,9 @@ module axijoint_command_estimate_table
 contains
 
    !> Seconds by phase, memory, disk
-   subroutine print_forecast(deck, model, structure, forecast, machine, each)
-      !> The deck
-      character(len=*), intent(in) :: deck
+   subroutine print_forecast(model, forecast, machine, each)
       !> The job
       type(model_type), intent(in) :: model
-      !> The structure, planned
-      type(structure_type), intent(in) :: structure
       !> What it takes
       type(forecast_type), intent(in) :: forecast
       !> The machine
@@ -38,7 +35,6 @@ contains
       real(wp) :: seconds(n_terms), phases(n_phases)
       integer :: p
 
-      write (output_unit, '(a)') deck_name(deck)//': '//size_text(model, structure)
       seconds = term_seconds(forecast, machine, forecast%n_workers)
       phases = phase_seconds(seconds)
       write (output_unit, '(a)') '  phase          seconds  most of it'
@@ -54,8 +50,10 @@ contains
       call print_assumptions(model, forecast, each)
    end subroutine print_forecast
 
-   !> Size of the job in a line
-   function size_text(model, structure) result(text)
+   !> First line: a deck and its size
+   function deck_text(deck, model, structure) result(text)
+      !> The deck
+      character(len=*), intent(in) :: deck
       !> The job
       type(model_type), intent(in) :: model
       !> The structure, planned
@@ -66,7 +64,7 @@ contains
       integer :: k
 
       associate (equations => structure%equations)
-         text = to_text(sum([(equations%classes(equations%systems(equations%system(k))%class) &
+         text = deck_name(deck)//': '//to_text(sum([(equations%classes(equations%systems(equations%system(k))%class) &
                               %dofs%n_equations, k=1, size(structure%modes))]))// &
             ' unknowns in '//count_of(size(structure%modes), 'harmonic')//', '// &
             trim(equations%solver%name)
@@ -81,7 +79,20 @@ contains
          count_of(size(model%increments), 'increment')
       if (size(model%combinations) > 1) text = text//', '// &
          count_of(size(model%combinations), 'combination')
-   end function size_text
+   end function deck_text
+
+   !> First line: a study and its size
+   pure function study_text(table, extent) result(text)
+      !> The table
+      character(len=*), intent(in) :: table
+      !> Its size
+      type(study_size_type), intent(in) :: extent
+      !> The line
+      character(len=:), allocatable :: text
+
+      text = table//': '//count_of(extent%n_rows, 'row')//' on '// &
+         count_of(extent%n_structures, 'structure')
+   end function study_text
 
    !> What stands beside the total
    function total_text(forecast, machine) result(text)
@@ -109,9 +120,8 @@ contains
 
       if (.not. forecast%iterations > 0.0_wp) return
       write (output_unit, '(a)') '  '//to_text(nint(forecast%iterations))// &
-         ' iterations of '//trim(method_names(model%method))//trim(merge(' as said   ', &
-         ' assumed   ', each > 0))//', '//to_text(nint(forecast%iterations &
-         /(size(model%increments)*size(model%combinations))))//' an increment (--iterations N)'
+         ' iterations of '//trim(method_names(model%method))//trim(merge(' as said', &
+         ' assumed', each > 0))//'; --iterations N assumes N an increment'
    end subroutine print_assumptions
 
    !> All terms: name, count, seconds of one; rates here and where these were fitted; what else is
@@ -130,6 +140,7 @@ contains
       write (output_unit, format_count) 'product_rate', machine%product_rate, &
          reference%product_rate, 'text_rate', machine%text_rate, reference%text_rate, &
          'iterations', forecast%iterations, 0.0_wp, &
+         'factors', real(forecast%n_factors, wp), 0.0_wp, &
          'memory', forecast%memory/megabyte, 0.0_wp, 'disk', forecast%disk/megabyte, 0.0_wp
    end subroutine print_counts
 

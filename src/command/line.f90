@@ -224,6 +224,14 @@ contains
       end do
       if (command%quiet .and. command%verbose) call fatal_error(error, exit_deck, &
          'only one of --quiet and --verbose can be had')
+      if (allocated(command%table)) then
+         if (size(command%decks) > 1) call fatal_error(error, exit_deck, &
+            'a study has one table and one deck; use: '//program_name// &
+            ' estimate [DECK] --study TABLE')
+         return
+      end if
+      if (command%name == 'estimate' .and. (command%estimates .or. command%part%n > 0)) &
+         call fatal_error(error, exit_deck, 'options --estimates and --part go with --study TABLE')
       if (size(command%decks) == 0) call fatal_error(error, exit_deck, &
          'no '//trim(merge('table', 'deck ', command%name == 'study'))//' given; use: '// &
          program_name//' '//command%name//' '//trim(topic%arguments))

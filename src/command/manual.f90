@@ -124,6 +124,7 @@ contains
          [option_type('--study', 'TABLE', 'of the study of this table and the deck (default: '// &
                       'NAME.dat beside it)', takes_file), &
           option_type('--estimates', '', 'of a study with estimates of errors'), &
+          option_type('--part', 'K/N', 'of a part of a study'), &
           option_type('--iterations', 'N', 'iterations an increment (default: what is usual)'), &
           option_type('--slurm', '', '#SBATCH lines for a job script instead: three times the '// &
                       'time and 5 minutes, 1.2 times the memory and 256 MB, for the largest of '// &

@@ -22,8 +22,8 @@ module axijoint_estimate_forecast
    type :: forecast_type
       !> Counts of all terms
       real(wp) :: work(n_terms) = 0.0_wp
-      !> Harmonics that are worked on at once
-      integer :: n_workers = 1
+      !> Harmonics that are worked on at once, and factors that are there at once
+      integer :: n_workers = 1, n_factors = 0
       !> Rounds that an error target is expected to take, and what they take beside the first
       integer :: n_rounds = 1
       real(wp) :: rounds = 1.0_wp
@@ -93,7 +93,11 @@ contains
          work(ordering) = timer%cpu_seconds(phase_assemble)
          forecast%disk = volume_bytes(work)
       end associate
-      forecast%n_workers = structure%equations%n_workers
+      associate (equations => structure%equations)
+         forecast%n_workers = equations%n_workers
+         forecast%n_factors = equations%n_kept + &
+            min(equations%n_workers, size(equations%systems) - equations%n_kept)
+      end associate
       forecast%memory = peak_bytes(model, structure)
       if (.not. model%error_goal%wanted) return
       forecast%n_rounds = min(usual_rounds, model%error_goal%most_rounds)

@@ -12,14 +12,15 @@ module axijoint_estimate_volume
    use axijoint_output_vtkhdf_grid, only : sweep_planes
    implicit none
    private
-   public :: volume_work, volume_bytes
+   public :: volume_work, volume_bytes, swept_numbers
 
    !> Bytes of a real, of a line of the listing, of what a results file has whatever the job, and of
    !> the summary
    real(wp), parameter :: real_bytes = 8.0_wp, line_bytes = 95.0_wp, least_arrays = 4.0e5_wp, &
       summary_bytes = 6.0e3_wp
-   !> Numbers of a point of swept bodies: displacement, stress
-   real(wp), parameter :: swept_numbers = 9.0_wp
+   !> Numbers of a point of swept bodies: displacement, stress; bytes of one, with its share of
+   !> points and cells
+   real(wp), parameter :: numbers_a_point = 9.0_wp, swept_bytes = 13.0_wp
 
 contains
 
@@ -41,7 +42,7 @@ contains
       work(lines) = listing_lines(model, source, size(modes), n_planes(model, modes)*size(points))
       work(array_bytes) = least_arrays + real_bytes*array_numbers(model, size(modes), &
          n_planes(model, modes)*size(points))
-      work(swept_values) = swept_numbers*swept_points(model, modes)*size(model%increments)
+      work(swept_values) = swept_numbers(model, modes)*size(model%increments)
    end function volume_work
 
    !> Bytes on the disk
@@ -49,7 +50,7 @@ contains
       !> Counts of all terms
       real(wp), intent(in) :: work(n_terms)
 
-      bytes = line_bytes*work(lines) + work(array_bytes) + real_bytes*work(swept_values) &
+      bytes = line_bytes*work(lines) + work(array_bytes) + swept_bytes*work(swept_values) &
          + summary_bytes*work(files)
    end function volume_bytes
 
@@ -109,8 +110,8 @@ contains
       end do
    end function array_numbers
 
-   !> Points of the bodies swept round the axis
-   pure real(wp) function swept_points(model, modes) result(n)
+   !> Numbers of the bodies swept round the axis, after an increment
+   pure real(wp) function swept_numbers(model, modes) result(n)
       !> The job
       type(model_type), intent(in) :: model
       !> Modes that are solved
@@ -118,8 +119,8 @@ contains
 
       n = 0.0_wp
       if (.not. model%sweep%wanted) return
-      n = real(n_nodes(model%mesh) + count(model%mesh%element_size == 8), wp) &
+      n = numbers_a_point*real(n_nodes(model%mesh) + count(model%mesh%element_size == 8), wp) &
          *size(sweep_planes(model%sweep, modes))
-   end function swept_points
+   end function swept_numbers
 
 end module axijoint_estimate_volume

@@ -27,7 +27,7 @@ module axijoint_analysis_core_footprint
    !> Bytes of a node of the fine mesh besides its stiffness, and what its vectors and blocks take,
    !> as measured
    integer(i8), parameter :: fine_mesh_bytes = 250
-   real(wp), parameter :: fine_work_bytes = 900.0_wp
+   real(wp), parameter :: fine_work_bytes = 650.0_wp
 
    !> Bytes
    type :: footprint_type
