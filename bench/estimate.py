@@ -9,13 +9,13 @@ import resource
 import subprocess
 import tempfile
 
-from estimate_decks import fitted, shown
+from estimate_decks import fitted, shown, studies
 
 REPEATS = 3
 MEMORY_BAR, TIME_BAR = 0.10, 0.30
 MEGABYTE = 2.0**20
 # Terms of the phases that a run has a clock for
-GROUPS = {"start, write": ("beginning", "files", "lines", "array_bytes", "swept_values"),
+GROUPS = {"start, write": ("beginning", "files", "lines", "array_bytes", "swept_values", "rows"),
           "read": ("reading",), "assemble": ("ordering", "shape_products", "fine_nodes"), "factor": ("factoring", "formed_entries"),
           "solve": ("inverse", "block_entries", "solved_entries", "node_modes", "laws", "sums", "flexibility",
                     "fine_blocks", "stress_modes", "row_stresses")}
@@ -99,6 +99,32 @@ def measure(program, decks, folder):
     return rows
 
 
+def measure_studies(program, folder):
+    """A line for each study: rows, structures, processor seconds and memory, predicted and measured"""
+    print("study        rows, structures  processor s   predicted  ratio     MB  predicted ratio")
+    for name, (deck, table, options) in studies().items():
+        paths = [os.path.join(folder, f"{name}.{ending}") for ending in ("csv", "dat")]
+        for path, text in zip(paths, (table, deck)):
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+        tries = []
+        for _ in range(REPEATS):
+            out = tempfile.mkdtemp(dir=folder)
+            told = counts(program, paths[1], ["--study", paths[0], *options])
+            process = subprocess.Popen([program, "study", *paths, "-o", out, "--quiet", *options])
+            _, _, used = os.wait4(process.pid, 0)
+            process.returncode = 0
+            tries.append((pace(told), len(tries), used.ru_utime + used.ru_stime, used.ru_maxrss/1024.0, told))
+        _, _, total, memory, told = max(tries)
+        size = re.match(r".*: (\d+) rows? on (\d+)", subprocess.run(
+            [program, "estimate", paths[1], "--study", paths[0]], capture_output=True, text=True, check=True).stdout)
+        speed = speeds(told)
+        seconds = sum(told[term][0]*told[term][1]*speed[term] for term in speed)
+        print(f"{name:12} {size[1]:>5}, {size[2]:>10} {total:12.3f} {seconds:11.3f} {seconds/total:6.2f} {memory:6.1f} "
+              f"{told['memory'][0]:10.1f} {told['memory'][0]/memory:5.2f}")
+    print()
+
+
 def predicted(row, group, true=False):
     """Seconds of a group"""
     return sum((row["true"][term] if true else row["usual"][term][0])*row["usual"][term][1]*row["speeds"][term]
@@ -175,6 +201,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         rows = measure(args.axijoint, shown(), folder)
         show(rows, "Decks that nothing was fitted to")
+        measure_studies(args.axijoint, folder)
         if not args.quick:
             basis = measure(args.axijoint, fitted(), folder)
             show(basis, "Decks that the constants are fitted to")

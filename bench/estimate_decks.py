@@ -90,3 +90,14 @@ def shown():
             "block": (inputs("block"), []),
             "harmonics": (with_harmonics(turned(inputs("first")), 32, 129), []),
             "first_vtk": (finer(inputs("first"), 3), ["--vtk"])}
+
+
+def studies():
+    """Name: deck, table, options. No constant is fitted to any but the first"""
+    case3 = inputs("case3_balanced")
+    with open(os.path.join(INPUTS, "friction.csv"), encoding="utf-8") as file:
+        friction = file.read()
+    return {"friction": (case3, friction, []),
+            "moduli": (finer(case3, 2), "LAWS 1 PHI, MATERIALS 1 E\n0:30/20, 1E4; 2E4; 4E4\n", []),
+            "histories": (inputs("monopile"), "LAWS 1 PHI\n20:32/8\n", []),
+            "estimated": (finer(case3, 2), "LAWS 1 PHI\n0:30/12\n", ["--estimates"])}

@@ -32,6 +32,12 @@ module axijoint_estimate_work
    !> joints are out of proportion, with others
    real(wp), parameter :: to_settle = 2.0_wp, on_planes = 2.0_wp, after_mesh = 3.0_wp, &
       other_loop = 2.0_wp, of_stiffer = 10.0_wp
+   !> Their linear solutions need few digits: products of one of these iterations, over those of an
+   !> iteration of an increment
+   real(wp), parameter :: rough = 0.4_wp
+   !> Loads, displacements, reactions, smoothed stresses of the nodes: of the end, of an increment
+   !> that is shown, of any other, as multiples of one
+   real(wp), parameter :: nodes_last = 4.0_wp, nodes_shown = 2.0_wp, nodes_loaded = 0.5_wp
    !> Planes for these, times so many
    integer, parameter :: more_planes = 4
    !> Angles at which a row of a study looks for its largest stress
@@ -135,7 +141,8 @@ contains
       end associate
       associate (mesh => model%mesh, modes => real(size(structure%modes), wp))
          work(solved_entries) = entries*(solutions + merge(steps_down, 0.0_wp, estimates))
-         work(node_modes) = n_nodes(mesh)*modes*solutions
+         work(node_modes) = n_nodes(mesh)*modes*(nodes_last + nodes_shown*shown &
+                                                 + nodes_loaded*(size(model%increments) - 1))
          if (estimates) work(fine_blocks) = modes*sum(fine_nodes_of(mesh%element_size) &
                                                       *blocks_of(mesh%element_size))
          work(stress_modes) = n_points(model)*modes*(1.0_wp + shown)
@@ -156,38 +163,38 @@ contains
       real(wp) :: work(n_terms)
 
       type(planes_type) :: planes
-      real(wp) :: here
+      real(wp) :: again
       integer :: k
 
       work = 0.0_wp
       planes = new_planes(model%n_planes, structure%modes)
-      here = iterations*merge(1.0_wp, loop_share, model%method == method_newton)
-      if (estimates) then
-         here = here + to_settle + after_mesh
-         if (size(model%increments) == 1) here = here + other_loop
-         associate (proportions => joint_proportions(model))
-            here = here + of_stiffer*count([(side_of(model%joint_materials(k)%law, &
-               proportions(k)) /= side_sensible, k=1, size(proportions))])
-         end associate
-      end if
-      call iterate(here, size(planes%angle), size(structure%modes))
-      if (.not. estimates .or. planes%folds == 0) return
-      call iterate(on_planes, more_planes*size(planes%angle), size(structure%modes))
-      call iterate(on_planes, more_planes*size(planes%angle), 2*size(structure%modes))
+      call iterate(iterations*merge(1.0_wp, loop_share, model%method == method_newton), 1.0_wp, &
+         size(planes%angle), size(structure%modes))
+      if (.not. estimates) return
+      again = to_settle + after_mesh
+      if (size(model%increments) == 1) again = again + other_loop
+      associate (proportions => joint_proportions(model))
+         again = again + of_stiffer*count([(side_of(model%joint_materials(k)%law, &
+            proportions(k)) /= side_sensible, k=1, size(proportions))])
+      end associate
+      call iterate(again, rough, size(planes%angle), size(structure%modes))
+      if (planes%folds == 0) return
+      call iterate(on_planes, rough, more_planes*size(planes%angle), size(structure%modes))
+      call iterate(on_planes, rough, more_planes*size(planes%angle), 2*size(structure%modes))
 
    contains
 
       !> Add iterations on some planes with some modes
-      subroutine iterate(n, n_planes, n_modes)
-         !> Iterations
-         real(wp), intent(in) :: n
+      subroutine iterate(n, share, n_planes, n_modes)
+         !> Iterations, and how many products each makes beside what is usual
+         real(wp), intent(in) :: n, share
          !> Planes, modes
          integer, intent(in) :: n_planes, n_modes
 
          associate (jumps => 3.0_wp*n_yielding(model, structure))
             work(laws) = work(laws) + n*jumps*n_planes
-            work(sums) = work(sums) + n*jumps*n_planes*n_modes
-            work(flexibility) = work(flexibility) + n*jumps**2*n_modes
+            work(sums) = work(sums) + share*n*jumps*n_planes*n_modes
+            work(flexibility) = work(flexibility) + share*n*jumps**2*n_modes
          end associate
       end subroutine iterate
 
