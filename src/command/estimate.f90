@@ -1,98 +1,159 @@
 !> `axijoint estimate`: what decks would cost
 module axijoint_command_estimate
-   use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
-   use axijoint_analysis_core_estimate, only : estimate_type, estimate_job
-   use axijoint_assembly_pattern, only : node_graph
+   use, intrinsic :: iso_fortran_env, only : output_unit
+   use axijoint_analysis_core_structure, only : structure_type
    use axijoint_base_error, only : error_type, exit_ok, exit_deck
    use axijoint_base_kinds, only : wp
+   use axijoint_command_estimate_table, only : print_forecast, print_counts, &
+      deck_text, study_text
+   use axijoint_command_job_lines, only : needs_type, add_needs, print_job_lines
    use axijoint_command_line, only : command_type
    use axijoint_command_run, only : print_error
    use axijoint_deck_text_diagnostics, only : diagnostics_type, render
-   use axijoint_job_job, only : job_type, deck_name
+   use axijoint_estimate_forecast, only : forecast_type, plan_run, forecast_run
+   use axijoint_estimate_machine, only : machine_type, this_machine
+   use axijoint_estimate_study, only : study_size_type, forecast_study
+   use axijoint_estimate_terms, only : reading
+   use axijoint_job_job, only : job_type
    use axijoint_job_read, only : read_job
-   use axijoint_linalg_lapack, only : product_rate
-   use axijoint_model_model, only : model_type, yielding_nodes
-   use axijoint_order_orders, only : orders_type, new_orders
-   use axijoint_solver_entry, only : solver_entry_type
+   use axijoint_model_model, only : model_type
+   use axijoint_study_open, only : open_study, deck_beside
+   use axijoint_study_rows, only : rows_type
+   use axijoint_study_table, only : study_table_type
    use omp_lib, only : omp_set_num_threads
    implicit none
    private
    public :: estimate_decks
 
-   !> Solver, equations, entries, operations, factors, memory, time
-   character(len=*), parameter :: format_row = '(2x, a10, i12, es16.3, es16.3, i9, f13.1, f15.4)'
-
 contains
 
-   !> Print the costs of each deck with each solver
+   !> Print what a run of each deck, or a study, would take, or the lines of a job script for the
+   !> largest
    subroutine estimate_decks(command, exit_code)
       !> Decks and options
       type(command_type), intent(in) :: command
       !> Largest exit code of all decks
       integer, intent(out) :: exit_code
 
-      type(job_type) :: job
-      type(diagnostics_type) :: diagnostics
+      type(machine_type) :: machine
+      type(needs_type) :: needs
       type(error_type), allocatable :: error
-      real(wp) :: rate
       integer :: k
 
       exit_code = exit_ok
       if (command%threads > 0) call omp_set_num_threads(command%threads)
-      rate = product_rate()
-      job%options = command%options
-      do k = 1, size(command%decks)
-         call read_job(command%decks(k)%text, job, diagnostics)
-         if (diagnostics%n_errors > 0) then
-            write (error_unit, '(a)') render(diagnostics, job%source)
-            exit_code = max(exit_code, exit_deck)
-            cycle
-         end if
-         call estimate_deck(deck_name(command%decks(k)%text), job%model, command%solvers, rate, &
-                            error)
-         if (allocated(error)) then
-            call print_error(command%decks(k)%text, error)
-            exit_code = max(exit_code, error%code)
-         end if
-      end do
+      machine = this_machine()
+      if (allocated(command%table)) then
+         call estimate_study(command, machine, needs, error)
+         call judge(command%table)
+      else
+         do k = 1, size(command%decks)
+            call estimate_deck(command%decks(k)%text, command, machine, needs, error)
+            call judge(command%decks(k)%text)
+         end do
+      end if
+      if (command%job_lines .and. exit_code == exit_ok) call print_job_lines(command, needs)
+
+   contains
+
+      !> Tell an error
+      subroutine judge(path)
+         !> The deck or table
+         character(len=*), intent(in) :: path
+
+         if (.not. allocated(error)) return
+         call print_error(path, error)
+         exit_code = max(exit_code, error%code)
+      end subroutine judge
+
    end subroutine estimate_decks
 
-   !> Print the costs of one deck
-   subroutine estimate_deck(deck, model, solvers, rate, error)
-      !> The deck
-      character(len=*), intent(in) :: deck
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The solvers
-      type(solver_entry_type), intent(in) :: solvers(:)
-      !> Rate of large matrix products [operations/second]
-      real(wp), intent(in) :: rate
-      !> Out of memory
+   !> What a study would take
+   subroutine estimate_study(command, machine, needs, error)
+      !> Table, deck and options
+      type(command_type), intent(in) :: command
+      !> The machine
+      type(machine_type), intent(in) :: machine
+      !> Takes what it needs
+      type(needs_type), intent(inout) :: needs
+      !> A wrong deck or table; a mechanism
       type(error_type), allocatable, intent(out) :: error
 
-      type(estimate_type) :: estimate
-      type(orders_type) :: orders
-      integer :: k
+      type(study_table_type) :: table
+      type(rows_type), target :: rows
+      type(model_type), target :: model
+      type(forecast_type) :: forecast
+      type(study_size_type) :: extent
+      character(len=:), allocatable :: deck
+      real(wp) :: start, finish
 
-      call new_orders(orders, node_graph(model%mesh), yielding_nodes(model), error)
+      deck = deck_beside(command%table)
+      if (size(command%decks) > 0) deck = command%decks(1)%text
+      call cpu_time(start)
+      call open_study(command%table, deck, command%options, command%estimates, table, rows, model, &
+         error)
       if (allocated(error)) return
-      do k = 1, size(solvers)
-         call estimate_job(model, orders, solvers(k), rate, estimate, error)
-         if (allocated(error)) return
-         if (k == 1) then
-            write (output_unit, '(a, i0, a, f0.1, a)') deck//': ', estimate%n_harmonics, &
-               ' harmonics; matrix products at ', rate/1.0e9_wp, ' GFLOP/s in one thread'
-            write (output_unit, '(a)') '  solver       equations  factor entries      '// &
-               'operations'// &
-               '  at once  memory [MB]  factoring [s]'
-         end if
-         write (output_unit, format_row) solvers(k)%name, estimate%n_equations, &
-            real(estimate%factor_entries, wp), estimate%operations, estimate%n_factors, &
-            real(estimate%bytes, wp)/2.0_wp**20, estimate%seconds
-      end do
-      do k = 1, size(solvers)
-         if (solvers(k)%note /= '') write (output_unit, '(2x, a)') trim(solvers(k)%note)
-      end do
+      call cpu_time(finish)
+      call forecast_study(table, rows, command%part, machine, command%iterations, forecast, &
+         extent, error)
+      if (allocated(error)) return
+      forecast%work(reading) = forecast%work(reading) + finish - start
+      call add_needs(command%table, forecast, machine, needs)
+      call show(command, study_text(command%table, extent), model, forecast, machine)
+   end subroutine estimate_study
+
+   !> What a run of one deck would take
+   subroutine estimate_deck(deck, command, machine, needs, error)
+      !> The deck
+      character(len=*), intent(in) :: deck
+      !> Options
+      type(command_type), intent(in) :: command
+      !> The machine
+      type(machine_type), intent(in) :: machine
+      !> Takes the largest of all decks
+      type(needs_type), intent(inout) :: needs
+      !> A wrong deck; a mechanism
+      type(error_type), allocatable, intent(out) :: error
+
+      type(job_type) :: job
+      type(structure_type) :: structure
+      type(diagnostics_type) :: diagnostics
+      type(forecast_type) :: forecast
+
+      job%options = command%options
+      call job%timer%start()
+      call read_job(deck, job, diagnostics)
+      if (diagnostics%n_errors > 0) then
+         error = error_type(exit_deck, render(diagnostics, job%source))
+         return
+      end if
+      call plan_run(job%model, job%timer, structure, error)
+      if (allocated(error)) return
+      forecast = forecast_run(job%model, job%source, structure, job%timer, machine, &
+                              command%iterations)
+      call add_needs(deck, forecast, machine, needs)
+      call show(command, deck_text(deck, job%model, structure), job%model, forecast, machine)
    end subroutine estimate_deck
+
+   !> Print a forecast as it is wanted
+   subroutine show(command, heading, model, forecast, machine)
+      !> Options
+      type(command_type), intent(in) :: command
+      !> First line
+      character(len=*), intent(in) :: heading
+      !> The job
+      type(model_type), intent(in) :: model
+      !> What it takes
+      type(forecast_type), intent(in) :: forecast
+      !> The machine
+      type(machine_type), intent(in) :: machine
+
+      if (command%counts) then
+         call print_counts(forecast, machine)
+      else if (.not. command%job_lines) then
+         write (output_unit, '(a)') heading
+         call print_forecast(model, forecast, machine, command%iterations)
+      end if
+   end subroutine show
 
 end module axijoint_command_estimate

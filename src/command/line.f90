@@ -48,6 +48,11 @@ module axijoint_command_line
       !> Of a study: whether errors are estimated; the part to solve
       logical :: estimates = .false.
       type(part_type) :: part
+      !> Of an estimate: iterations of an increment, 0 for what is usual; whether lines of a job
+      !> script are wanted, or all counts; the table of a study
+      integer :: iterations = 0
+      logical :: job_lines = .false., counts = .false.
+      character(len=:), allocatable :: table
       !> Of an envelope: load cases as given, number of directions, part of a capacity that is left
       !> open
       character(len=:), allocatable :: cases
@@ -219,6 +224,14 @@ contains
       end do
       if (command%quiet .and. command%verbose) call fatal_error(error, exit_deck, &
          'only one of --quiet and --verbose can be had')
+      if (allocated(command%table)) then
+         if (size(command%decks) > 1) call fatal_error(error, exit_deck, &
+            'a study has one table and one deck; use: '//program_name// &
+            ' estimate [DECK] --study TABLE')
+         return
+      end if
+      if (command%name == 'estimate' .and. (command%estimates .or. command%part%n > 0)) &
+         call fatal_error(error, exit_deck, 'options --estimates and --part go with --study TABLE')
       if (size(command%decks) == 0) call fatal_error(error, exit_deck, &
          'no '//trim(merge('table', 'deck ', command%name == 'study'))//' given; use: '// &
          program_name//' '//command%name//' '//trim(topic%arguments))
@@ -244,6 +257,10 @@ contains
          command%options%swept = .true.
       case ('--estimates')
          command%estimates = .true.
+      case ('--slurm')
+         command%job_lines = .true.
+      case ('--counts')
+         command%counts = .true.
       case ('--resume')
          command%resume = .true.
       case ('--quiet')
@@ -276,11 +293,12 @@ contains
             call unknown('solver', value, lower_all(solver_words(command%solvers)), error)
       case ('--cases')
          command%cases = value
+      case ('--study')
+         command%table = value
+      case ('--iterations')
+         call read_number(option, value, command%iterations, error)
       case ('--directions')
-         call read_integer(value, command%n_directions, stat)
-         if (stat == token_good .and. command%n_directions > 0) return
-         call fatal_error(error, exit_deck, "option --directions: found '"//value// &
-                          "', allowed is a number from 1 on")
+         call read_number(option, value, command%n_directions, error)
       case ('--tolerance')
          call read_real(value, command%tolerance, stat)
          if (stat == token_good .and. command%tolerance > 0.0_wp &
@@ -303,6 +321,26 @@ contains
                           "', allowed is a number from 1 to 9999")
       end select
    end subroutine read_option
+
+   !> A number from 1 on
+   subroutine read_number(option, value, number, error)
+      !> The option, and its value
+      character(len=*), intent(in) :: option, value
+      !> The number
+      integer, intent(inout) :: number
+      !> Value that is not allowed
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: found, stat
+
+      call read_integer(value, found, stat)
+      if (stat == token_good .and. found > 0) then
+         number = found
+      else
+         call fatal_error(error, exit_deck, 'option '//option//": found '"//value// &
+                          "', allowed is a number from 1 on")
+      end if
+   end subroutine read_number
 
    !> A part of a study
    subroutine read_part(value, command, error)

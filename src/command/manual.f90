@@ -87,11 +87,7 @@ contains
          'Reads and checks each deck, prints all its errors and what it describes, and solves '// &
          'nothing. The deck - is read from the standard input.', &
          [quiet], '0 ok; 2 deck or usage.')
-      topics(3) = topic_type('estimate', 'DECK...', 'say what decks would cost', &
-         'Says for each solver what a run of each deck would need: unknowns, entries of the '// &
-         'factors, operations, memory and time, with the threads and in the memory that the '// &
-         'run would have. Nothing is solved. The deck - is read from the standard input.', &
-         [threads, memory])
+      topics(3) = estimate_topic(solvers, threads, memory)
       topics(4) = study_topic(solvers, threads, memory, quiet)
       topics(5) = envelope_topic(solvers, threads, memory, quiet)
       topics(6) = topic_type('compare', 'A B', 'compare two listings or result files', &
@@ -109,6 +105,36 @@ contains
           option_type('--completion', 'SHELL', 'what completes command lines in bash or zsh', &
                       takes_word, 'bash zsh')])
    end function all_topics
+
+   !> `estimate`
+   function estimate_topic(solvers, threads, memory) result(topic)
+      !> Solvers that can be asked for
+      type(solver_entry_type), intent(in) :: solvers(:)
+      !> Options that several commands have
+      type(option_type), intent(in) :: threads, memory
+      !> The command
+      type(topic_type) :: topic
+
+      topic = topic_type('estimate', 'DECK...', 'say what decks would cost', &
+         'Says what a run of each deck would take on this machine: seconds by phase and what '// &
+         'takes most of each, memory, files; or, with --study, what a study would. The deck is '// &
+         'read and its equations are planned, as by a run with the same options; nothing is '// &
+         'solved. How many iterations joints take is not known before: what is assumed is '// &
+         'printed. The deck - is read from the standard input.', &
+         [option_type('--study', 'TABLE', 'of the study of this table and the deck (default: '// &
+                      'NAME.dat beside it)', takes_file), &
+          option_type('--estimates', '', 'of a study with estimates of errors'), &
+          option_type('--part', 'K/N', 'of a part of a study'), &
+          option_type('--iterations', 'N', 'iterations an increment (default: what is usual)'), &
+          option_type('--slurm', '', '#SBATCH lines for a job script instead: three times the '// &
+                      'time and 5 minutes, 1.2 times the memory and 256 MB, for the largest of '// &
+                      'the decks'), &
+          option_type('--solver', 'NAME', alternatives(solvers)//' (default: as the deck says)', &
+                      takes_word, joined(solvers)), &
+          threads, memory, &
+          option_type('--vtk', '', 'of a run with NAME.vtkhdf'), &
+          option_type('--counts', '', 'what is counted, and seconds of one, for programs')])
+   end function estimate_topic
 
    !> `study`
    function study_topic(solvers, threads, memory, quiet) result(topic)

@@ -1,8 +1,7 @@
 !> `axijoint study`: many states of a deck, as a table says
 module axijoint_command_study
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
-   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_singular, &
-      exit_not_converged
+   use axijoint_base_error, only : error_type, exit_ok, exit_singular, exit_not_converged
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_progress, only : show_progress, clear_progress
    use axijoint_base_stop, only : check_stop
@@ -11,22 +10,19 @@ module axijoint_command_study
    use axijoint_base_version, only : program_version
    use axijoint_command_line, only : command_type
    use axijoint_command_run, only : print_error
-   use axijoint_deck_reader, only : open_deck, make_model
-   use axijoint_deck_text_diagnostics, only : diagnostics_type, render, add_error
    use axijoint_deck_text_field, only : kind_word
-   use axijoint_deck_text_sections, only : sections_type
-   use axijoint_deck_text_source, only : source_type
-   use axijoint_job_job, only : job_name, take_options
+   use axijoint_job_job, only : job_name
    use axijoint_model_model, only : model_type
    use axijoint_output_file_echo, only : deck_text
    use axijoint_study_files, only : write_study
    use axijoint_study_journal, only : journal_type, open_journal, append_row, close_journal
+   use axijoint_study_open, only : open_study, deck_beside
    use axijoint_study_parts, only : part_type, part_name, journal_path, first_row, last_row, &
       gather_parts, remove_parts
    use axijoint_study_quantities, only : quantity_names, name_length
-   use axijoint_study_rows, only : rows_type, row_type, new_rows, solve_row, row_order
+   use axijoint_study_rows, only : rows_type, row_type, solve_row, row_order
    use axijoint_study_statistics, only : new_statistics
-   use axijoint_study_table, only : study_table_type, read_study_table, value_text
+   use axijoint_study_table, only : study_table_type, value_text
    use axijoint_study_undertaking, only : undertaking_type, begin_undertaking, end_undertaking
    use omp_lib, only : omp_set_num_threads
    implicit none
@@ -113,43 +109,20 @@ contains
       !> Errors of the deck or the table
       type(error_type), allocatable, intent(out) :: error
 
-      type(source_type), target :: source
-      type(sections_type) :: entries
       type(model_type), target :: model
-      type(diagnostics_type), target :: diagnostics, faults
       character(len=:), allocatable :: path, deck
 
       path = command%decks(1)%text
-      deck = job_name(path)//'.dat'
-      if (index(path, '/') > 0) deck = path(:index(path, '/', back=.true.))//deck
+      deck = deck_beside(path)
       if (size(command%decks) > 1) deck = command%decks(2)%text
-      call open_deck(deck, source, entries, diagnostics)
-      if (source%n_cards > 0 .and. entries%complete) &
-         call make_model(source, entries, model, diagnostics)
-      if (diagnostics%n_errors == 0) then
-         if (size(model%combinations) > 1) call add_error(diagnostics, 0, 0, 0, &
-            'the deck of a study has one combination of load cases', &
-            mend='let the table vary factors: COMBINE 1 FACTOR 1')
-         if (model%error_goal%wanted) call add_error(diagnostics, 0, 0, 0, &
-            'the deck of a study has no section ERROR', &
-            mend='refine the deck first, with axijoint run; --estimates gives estimates of rows')
-      end if
-      if (diagnostics%n_errors > 0) then
-         call fatal_error(error, exit_deck, render(diagnostics, source))
-         return
-      end if
-      call read_study_table(path, source, entries, study%table, faults)
-      if (faults%n_errors > 0) then
-         call fatal_error(error, exit_deck, render(faults, study%table%source))
-         return
-      end if
-      call take_options(command%options, model)
+      call open_study(path, deck, command%options, command%estimates, study%table, study%rows, &
+         model, error)
+      if (allocated(error)) return
       study%names = quantity_names(model)
       study%name = job_name(path)//'.study'
-      study%key = program_version//new_line('a')//deck_text(source)//new_line('a')// &
+      study%key = program_version//new_line('a')//deck_text(study%rows%source)//new_line('a')// &
          deck_text(study%table%source)//merge('estimates', '         ', command%estimates)
       if (command%options%solver_given) study%key = study%key//command%options%solver%name
-      call new_rows(source, entries, command%options, study%table, command%estimates, study%rows)
       study%rows%progress%logged = command%verbose
       study%rows%progress%enabled = error_output_is_terminal() .and. &
                                     .not. (command%quiet .or. command%verbose)

@@ -348,7 +348,7 @@ contains
       !> Floating-point operations a second
       real(wp) :: rate
 
-      integer, parameter :: n = 1000, runs = 8
+      integer, parameter :: n = 500, runs = 6
       real(wp), allocatable :: a(:, :), b(:, :), c(:, :)
       real(wp) :: start, finish
       integer :: k

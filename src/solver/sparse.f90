@@ -103,6 +103,7 @@ contains
       entry%cost = cost_type(share=0.76_wp, kept_entry=9.0e-9_wp, passing_entry=7.0e-9_wp, &
          equation=2.0e-7_wp)
       entry%automatic = .true.
+      entry%holds_last = .true.
       entry%library_bytes = 2500000_i8  ! measured
    end function sparse_entry
 

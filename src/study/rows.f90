@@ -29,7 +29,7 @@ module axijoint_study_rows
    use axijoint_study_table, only : study_table_type, change_entries
    implicit none
    private
-   public :: rows_type, row_type, new_rows, solve_row, row_order, free_columns
+   public :: rows_type, row_type, new_rows, make_row, solve_row, row_order, free_columns
 
    !> What is shared by the rows that are solved
    type :: rows_type

@@ -57,6 +57,10 @@ CASES = (
     (('run',), 2, '', 'no deck given'),
     (('check',), 2, '', 'no deck given'),
     (('run', FIRST, '-o'), 2, '', 'option -o needs DIR'),
+    (('estimate', FIRST, '--iterations', '0'), 2, '', "option --iterations: found '0', allowed is"),
+    (('estimate', FIRST, '--estimates'), 2, '', 'options --estimates and --part go with --study TABLE'),
+    (('estimate', FIRST, FIRST, '--study', 'rows.csv'), 2, '', 'a study has one table and one deck; use: axijoint estimate'),
+    (('estimate', FIRST, '--study', 'rows.csv'), 2, '', 'rows.csv: error: there is no such file'),
     (('run', FIRST, '--fast'), 2, '', "unknown option '--fast'"),
     (('check', FIRST, '-o', '.'), 2, '', "unknown option '-o'"),
     (('run', '--', '-x.dat'), 2, '', '-x.dat: error: there is no such file'),
@@ -103,7 +107,7 @@ def standard_input(program, folder):
     write(folder, 'part.dat', '\n'.join(lines[4:6] + ['END', '']))
     split = '\n'.join(lines[:4] + ['INCLUDE   part.dat'] + lines[6:])
     for text, command, code, words in (
-            (split, 'check', 0, 'stdin: ok, 128 nodes'), (deck, 'estimate', 0, 'stdin: 5 harmonics'),
+            (split, 'check', 0, 'stdin: ok, 128 nodes'), (deck, 'estimate', 0, 'stdin: 1538 unknowns in 5 harmonics'),
             (deck.replace('END', 'ERROR\n      5.0\nEND'), 'run', 0, 'stdin'),
             ('', 'run', 2, 'stdin: error: nothing came from the standard input'),
             (deck.replace('LAT', 'LOT'), 'check', 2, 'stdin:24:6-15: error: the kind of')):

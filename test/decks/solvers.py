@@ -84,11 +84,16 @@ def threads_change_nothing(program, folder):
     return faults
 
 
+def counts(program, deck, *options):
+    """What `estimate` counts, by name"""
+    ran = program.run('estimate', deck, '--counts', *options)
+    return {name: float(number) for name, number in re.findall(r'^(\S+) +(\S+) +\S+$', ran.out, re.MULTILINE)}
+
+
 def predicted_memory(program, deck, *options):
     """Memory [MB] that `estimate` expects of the sparse solver, and its factors at once"""
-    ran = program.run('estimate', deck, *options)
-    row = re.search(r'^ +SPARSE( +\S+){3} +(\d+) +(\S+)', ran.out, re.MULTILINE)
-    return float(row[3]), int(row[2])
+    found = counts(program, deck, '--solver', 'sparse', *options)
+    return found['memory'], int(found['factors'])
 
 
 def memory_changes_nothing(program, folder):
@@ -143,13 +148,87 @@ def stacks_stay_small(program, folder):
 
 
 def estimate_tells_costs(program, folder):
-    """`estimate` has a line for each solver and solves nothing"""
-    ran = program.run('estimate', write(folder, 'ring.dat', RING))
-    rows = re.findall(r'^ +([A-Z]+) +(\d+)', ran.out, re.MULTILINE)
+    """`estimate` has seconds by phase, a total, memory and files, and solves nothing; its sum is right, and solvers differ"""
+    deck = write(folder, 'ring.dat', RING)
+    ran = program.run('estimate', deck)
+    rows = dict(re.findall(r'^ +([a-z]+) +([\d.]+)', ran.out, re.MULTILINE))
     faults = [] if ran.code == 0 else [f'exit code {ran.code}']
-    if [row[0].lower() for row in rows] != solver_names(program) or len({row[1] for row in rows}) != 1:
-        faults.append(f'found {ran.out!r}')
+    if list(rows) != ['read', 'assemble', 'factor', 'joints', 'errors', 'recover', 'write', 'total', 'memory', 'files']:
+        return faults + [f'found {ran.out!r}']
+    parts = sum(float(rows[phase]) for phase in list(rows)[:-3])
+    if abs(parts - float(rows['total'])) > 0.005:
+        faults.append(f'the sum is {parts}: {ran.out!r}')
+    entries = {solver: counts(program, deck, '--solver', solver)['solved_entries'] for solver in ('band', 'sparse')}
+    if not 1.5*entries['sparse'] < entries['band']:
+        faults.append(f'entries of factors {entries}')
     return faults + [f'wrote {name}' for name in os.listdir(folder) if name != 'ring.dat']
+
+
+def estimate_counts(program, folder):
+    """What is counted goes as it must: harmonics and iterations twice, increments, combinations, --vtk, rows"""
+    faults = []
+    once = write(folder, 'once.dat', example(3, refined=2, harmonic=4, planes=17))
+    twice = write(folder, 'twice.dat', example(3, refined=2, harmonic=9, planes=17))
+    for options, term, ratio in (((), 'solved_entries', 10/5), ((), 'stress_modes', 10/5), ((), 'fine_blocks', 10/5),
+                                 ((), 'shape_products', 1), ((), 'laws', 1), ((), 'sums', 10/5)):
+        found = counts(program, twice, *options)[term]/counts(program, once, *options)[term]
+        # harmonic 0 has fewer unknowns
+        if abs(found/ratio - 1) > (0.15 if term == 'solved_entries' else 1e-6):
+            faults.append(f'{term}: {found} times as many with 10 for 5 harmonics, expected {ratio}')
+    laws = [counts(program, once, '--iterations', str(n))['laws'] for n in (10, 20, 30)]
+    if not laws[1] > laws[0] or abs(laws[2] - 2*laws[1] + laws[0]) > 1e-6*laws[0]:
+        faults.append(f'laws of 10, 20 and 30 iterations: {laws}')
+    if counts(program, once)['swept_values'] != 0 or not counts(program, once, '--vtk')['swept_values'] > 0:
+        faults.append('--vtk is not counted, or always')
+    write(folder, 'rows.csv', 'LAWS 1 PHI, MATERIALS 1 E\n0:30/7, 2E4; 3E4\n')
+    ran = program.run('estimate', '--study', 'rows.csv', 'once.dat', folder=folder)
+    if not ran.out.startswith('rows.csv: 14 rows on 2 structures\n'):
+        faults.append(f'found {ran.out!r}{ran.err!r}')
+    part = program.run('estimate', '--study', 'rows.csv', 'once.dat', '--part', '1/2', folder=folder)
+    if not part.out.startswith('rows.csv: 7 rows on 1 structure\n'):
+        faults.append(f'found {part.out!r}{part.err!r}')
+    return faults
+
+
+def estimated_memory(program, folder):
+    """Memory at the peak of a linear job, one of joints, one that sweeps: within 10 % of that of the run, the program itself,
+    which is larger with checks, left aside"""
+    empty = write(folder, 'small.dat', RING.replace('1, 1, 8, 20, 20', '1, 1, 8, 2, 2'))
+    faults, ground = [], {}
+    for name, text in (('small', None), ('linear', RING.replace('1, 1, 8, 20, 20', '1, 1, 8, 90, 90')),
+                       ('joints', example(3, refined=6, harmonic=6, planes=33))):
+        deck = write(folder, name + '.dat', text) if text else empty
+        ran = program.run('run', deck, '-o', folder, '--threads', '1')
+        if ran.code != 0:
+            return [f'{name}: exit code {ran.code}\n{ran.err}']
+        found = json.loads(read_text(os.path.join(folder, name + '.json')))['peak_memory_mb']
+        told = counts(program, deck, '--threads', '1')['memory']
+        ground[name] = found - told
+        if abs(found - told - ground['small']) > 0.1*found:
+            faults.append(f'{name}: {found} MB, expected {told} MB, and {ground["small"]} MB more of the program')
+    return faults
+
+
+def job_lines(program, folder):
+    """`estimate --slurm`: lines that sbatch understands, the largest of several decks, nothing else"""
+    small = write(folder, 'small.dat', RING.replace('1, 1, 8, 20, 20', '1, 1, 8, 2, 2'))
+    large = write(folder, 'large.dat', RING.replace('1, 1, 8, 20, 20', '1, 1, 8, 60, 60'))
+    faults, asked = [], {}
+    for name, decks in (('small', [small]), ('large', [large]), ('axijoint', [small, large])):
+        ran = program.run('estimate', *decks, '--slurm', '--threads', '2')
+        lines = dict(re.findall(r'^#SBATCH --([a-z-]+)=(\S+)$', ran.out, re.MULTILINE))
+        if ran.code != 0 or ran.err or len(lines) + ran.out.count('#SBATCH --requeue\n') != ran.out.count('\n'):
+            return [f'exit code {ran.code}: {ran.out!r}{ran.err!r}']
+        wanted = {'job-name': name, 'nodes': '1', 'ntasks': '1', 'cpus-per-task': '2', 'signal': 'B:USR1@120',
+                  'open-mode': 'append'}
+        faults += [f'{key}: {lines.get(key)}' for key in wanted if lines.get(key) != wanted[key]]
+        if not re.fullmatch(r'\d+M', lines['mem']) or not re.fullmatch(r'\d+:[0-5]\d:00', lines['time']):
+            faults.append(f'mem {lines["mem"]}, time {lines["time"]}')
+        asked[name] = int(lines['mem'][:-1])
+    if not asked['small'] < asked['large'] == asked['axijoint']:
+        faults.append(f'memory {asked}')
+    ran = program.run('estimate', small, write(folder, 'bad.dat', 'TITLE\n'), '--slurm')
+    return faults + ([] if ran.code == 2 and '#SBATCH' not in ran.out else [f'a wrong deck: {ran.code}, {ran.out!r}'])
 
 
 def tests(program):
@@ -160,4 +239,7 @@ def tests(program):
                                 ('memory', memory_changes_nothing),
                                 ('too little memory', memory_too_small),
                                 ('stacks', stacks_stay_small),
-                                ('estimate', estimate_tells_costs))]
+                                ('estimate', estimate_tells_costs),
+                                ('estimate counts', estimate_counts),
+                                ('estimate of memory', estimated_memory),
+                                ('estimate for a job script', job_lines))]

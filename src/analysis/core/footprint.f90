@@ -2,18 +2,22 @@
 module axijoint_analysis_core_footprint
    use axijoint_base_kinds, only : wp, i8
    use axijoint_fe_element_kind, only : is_reduced
+   use axijoint_fe_mode, only : mode_type, family_antisymmetric
    use axijoint_fe_reference, only : reference_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_mesh, only : n_nodes, element_references
    use axijoint_model_model, only : model_type, can_yield_at, yielding_nodes
+   use axijoint_model_modes, only : used_modes
    implicit none
    private
-   public :: footprint_type, data_footprint
+   public :: footprint_type, data_footprint, fine_nodes, blocks_of
 
    !> Bytes of a real
    integer(i8), parameter :: real_bytes = storage_size(1.0_wp)/8
    !> Numbers of a joint point on a plane: jumps, stresses, states, slip, slopes, and copies
    integer(i8), parameter :: plane_numbers = 60
+   !> Planes on which the estimates of errors find joints again, times so many
+   integer(i8), parameter :: more_planes = 4
 
    !> Vectors that the linear solutions of Newton's method touch; more are there for those that need
    !> them, but joints a thousand times as stiff as usual do with these
@@ -23,7 +27,7 @@ module axijoint_analysis_core_footprint
    !> Bytes of a node of the fine mesh besides its stiffness, and what its vectors and blocks take,
    !> as measured
    integer(i8), parameter :: fine_mesh_bytes = 250
-   real(wp), parameter :: fine_work_bytes = 900.0_wp
+   real(wp), parameter :: fine_work_bytes = 650.0_wp
 
    !> Bytes
    type :: footprint_type
@@ -59,7 +63,8 @@ contains
       type(footprint_type) :: footprint
 
       type(reference_type), allocatable :: references(:)
-      integer(i8) :: nodes, jumps, unknowns
+      type(mode_type), allocatable :: modes(:)
+      integer(i8) :: nodes, jumps, unknowns, planes
 
       references = element_references(model%mesh)
       nodes = n_nodes(model%mesh)
@@ -77,8 +82,12 @@ contains
       footprint%stresses = footprint%stresses*n_modes*real_bytes
       jumps = 3*count(can_yield_at(model, joint_points%material), kind=i8)
       unknowns = 3*count(yielding_nodes(model), kind=i8)
+      planes = model%n_planes
+      modes = used_modes(model)
+      if (any(modes%family == family_antisymmetric)) planes = 2*(planes - 1)
+      if (maxval(model%harmonics) > 0) planes = planes + more_planes*planes
       footprint%joints = real_bytes*(n_systems*jumps**2 &
-                                     + plane_numbers*jumps/3*max(model%n_planes, n_modes) &
+                                     + plane_numbers*jumps/3*max(planes, int(n_modes, i8)) &
                                      + jumps*n_modes*min(newton_vectors, jumps*n_modes))
       if (size(model%increments) > 1) then
          ! jumps, stresses and states are kept; one earlier increment at a time is solved again

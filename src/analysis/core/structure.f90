@@ -27,7 +27,7 @@ module axijoint_analysis_core_structure
    use axijoint_order_orders, only : orders_type, new_orders
    implicit none
    private
-   public :: structure_type, build_structure, take_loads_of, reuses_factors
+   public :: structure_type, build_structure, plan_structure, take_loads_of, reuses_factors
 
    !> A structure ready to be loaded
    type :: structure_type
@@ -131,6 +131,24 @@ contains
       !> A mechanism, or out of memory
       type(error_type), allocatable, intent(out) :: error
 
+      call plan_structure(model, structure, progress, error)
+      if (allocated(error)) return
+      call assemble_equations(structure%equations, model, structure%joint_points, &
+                              structure%support_points)
+   end subroutine assemble
+
+   !> Find modes, joint points, unknowns, orders and patterns of the equations, and how many factors
+   !> are there at once; nothing is assembled yet
+   subroutine plan_structure(model, structure, progress, error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(inout) :: structure
+      !> Where to show progress
+      type(progress_type), intent(inout) :: progress
+      !> A mechanism, or out of memory: the factors are planned then all the same
+      type(error_type), allocatable, intent(out) :: error
+
       type(orders_type) :: orders
       type(footprint_type) :: others
 
@@ -154,10 +172,7 @@ contains
          structure%equations%last - structure%equations%first + 1, structure%joint_points)
       call plan_factors(structure%equations, reuses_factors(model), others%coming(), &
                         model%memory_limit, error)
-      if (allocated(error)) return
-      call assemble_equations(structure%equations, model, structure%joint_points, &
-                              structure%support_points)
-   end subroutine assemble
+   end subroutine plan_structure
 
    !> Whether the factors are needed more than once: by several load combinations, or by joints,
    !> which take flexibilities, then displacements, or to show earlier increments

@@ -1,0 +1,52 @@
+!> How fast the machine is on which an estimate is made, measured in some hundredths of a second
+module axijoint_estimate_machine
+   use axijoint_base_kinds, only : wp
+   use axijoint_linalg_lapack, only : product_rate
+   implicit none
+   private
+   public :: machine_type, this_machine, reference
+
+   !> What is measured
+   type :: machine_type
+      !> Large matrix products in one thread [operations/second]
+      real(wp) :: product_rate = 0.0_wp
+      !> Numbers written as text, which stands for all common work [numbers/second]
+      real(wp) :: text_rate = 0.0_wp
+   end type machine_type
+
+   !> The machine that the seconds of `axijoint_estimate_terms` were fitted on
+   type(machine_type), parameter :: reference = machine_type(45.0e9_wp, 4.5e5_wp)
+
+contains
+
+   !> Measure this machine
+   function this_machine() result(machine)
+      !> Its rates
+      type(machine_type) :: machine
+
+      machine%product_rate = product_rate()
+      machine%text_rate = text_rate()
+   end function this_machine
+
+   !> Rate of numbers written as text by this thread: the best of some runs
+   function text_rate() result(rate)
+      !> Numbers a second
+      real(wp) :: rate
+
+      integer, parameter :: n = 2000, runs = 8
+      character(len=14) :: text(n)
+      real(wp) :: start, finish
+      integer :: i, k
+
+      rate = 0.0_wp
+      do k = 1, runs
+         call cpu_time(start)  ! one thread: other jobs do not count
+         do i = 1, n
+            write (text(i), '(es14.6)') real(i, wp)/7.0_wp
+         end do
+         call cpu_time(finish)
+         if (finish > start .and. text(n) /= '') rate = max(rate, n/(finish - start))
+      end do
+   end function text_rate
+
+end module axijoint_estimate_machine

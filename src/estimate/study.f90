@@ -1,0 +1,144 @@
+!> What a study will take: its structures, and its rows on them
+module axijoint_estimate_study
+   use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_base_error, only : error_type, fatal_error, exit_deck
+   use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_timer, only : timer_type, phase_assemble
+   use axijoint_estimate_forecast, only : forecast_type, plan_run
+   use axijoint_estimate_iterations, only : n_iterations
+   use axijoint_estimate_machine, only : machine_type
+   use axijoint_estimate_peak, only : peak_bytes
+   use axijoint_estimate_terms, only : n_terms, beginning, reading, ordering, files, rows
+   use axijoint_estimate_work, only : structure_work, state_work, row_work
+   use axijoint_model_model, only : model_type
+   use axijoint_study_parts, only : part_type, first_row, last_row
+   use axijoint_study_quantities, only : quantity_names
+   use axijoint_study_rows, only : rows_type, row_type, make_row, row_order
+   use axijoint_study_table, only : study_table_type
+   implicit none
+   private
+   public :: study_size_type, forecast_study
+
+   !> Structures that are planned; others are taken to be like these on average
+   integer, parameter :: most_samples = 5
+   !> Bytes of a real, and of a row in the table of results and in the journal beside its numbers
+   real(wp), parameter :: real_bytes = 8.0_wp, row_bytes = 1000.0_wp
+
+   !> Size of a study
+   type :: study_size_type
+      !> Rows and structures
+      integer :: n_rows = 0, n_structures = 0
+   end type study_size_type
+
+contains
+
+   !> Forecast a study
+   subroutine forecast_study(table, shared, part, machine, each, forecast, extent, error)
+      !> What varies
+      type(study_table_type), intent(in) :: table
+      !> What rows share
+      type(rows_type), intent(inout), target :: shared
+      !> The part to solve
+      type(part_type), intent(in) :: part
+      !> The machine
+      type(machine_type), intent(in) :: machine
+      !> Iterations of an increment; zero for what is usual
+      integer, intent(in) :: each
+      !> The forecast
+      type(forecast_type), intent(out) :: forecast
+      !> How large the study is
+      type(study_size_type), intent(out) :: extent
+      !> None of the rows looked at can be solved
+      type(error_type), allocatable, intent(out) :: error
+
+      type(row_type) :: row
+      real(wp) :: work(n_terms, 2), iterations
+      integer, allocatable :: order(:), first(:)
+      integer :: k, n_samples, n_good
+
+      order = row_order(table, shared%keeps_structure)
+      order = order(first_row(part, size(order)):last_row(part, size(order)))
+      first = pack(order, begins_structure(table, shared%keeps_structure, order))
+      extent = study_size_type(size(order), size(first))
+      n_samples = min(most_samples, size(first))
+      work = 0.0_wp
+      iterations = 0.0_wp
+      n_good = 0
+      do k = 1, n_samples
+         call sample(first(1 + ((k - 1)*(size(first) - 1))/max(1, n_samples - 1)))
+         if (allocated(error)) return
+      end do
+      if (n_good == 0) then
+         call fatal_error(error, exit_deck, row%message)
+         return
+      end if
+      work = work/n_good
+      forecast%iterations = extent%n_rows*iterations/n_good
+      forecast%work = extent%n_structures*work(:, 1) + extent%n_rows*work(:, 2)
+      forecast%work(beginning) = 1.0_wp
+      forecast%work(files) = 1.0_wp
+
+   contains
+
+      !> Take a row into account, and the structure that it begins
+      subroutine sample(number)
+         !> Its number
+         integer, intent(in) :: number
+
+         type(model_type), target :: model
+         type(structure_type) :: structure
+         type(timer_type) :: clock
+         real(wp) :: start, finish
+         integer :: again
+
+         do again = 1, 2  ! the second time as most rows find it, the mesh being there
+            row = row_type()
+            row%message = ''
+            call cpu_time(start)
+            call make_row(table, number, shared, model, row)
+            call cpu_time(finish)
+            if (len(row%message) > 0) return
+         end do
+         call plan_run(model, clock, structure, error)
+         if (allocated(error)) return
+         n_good = n_good + 1
+         work(:, 1) = work(:, 1) + structure_work(model, structure, machine%product_rate)
+         work(ordering, 1) = work(ordering, 1) + clock%cpu_seconds(phase_assemble)
+         work(:, 2) = work(:, 2) + row_work(model, structure) + &
+            state_work(model, structure, n_iterations(model, each), shared%estimated)
+         work(reading, 2) = work(reading, 2) + finish - start
+         work(rows, 2) = work(rows, 2) + 1.0_wp
+         iterations = iterations + n_iterations(model, each)
+         associate (numbers => size(quantity_names(model))*real(size(model%increments), wp))
+            forecast%disk = max(forecast%disk, &
+               extent%n_rows*(3.0_wp*real_bytes*numbers + row_bytes))
+            forecast%memory = max(forecast%memory, peak_bytes(model, structure) &
+               + nint(2.0_wp*real_bytes*numbers*extent%n_rows, i8))
+         end associate
+         forecast%n_workers = structure%equations%n_workers
+      end subroutine sample
+
+   end subroutine forecast_study
+
+   !> Which rows need another structure than the one before, as far as their columns tell
+   pure function begins_structure(table, keeps_structure, order) result(begins)
+      !> What varies
+      type(study_table_type), intent(in) :: table
+      !> Columns that leave the structure alone
+      logical, intent(in) :: keeps_structure(:)
+      !> Numbers of the rows in their order
+      integer, intent(in) :: order(:)
+      !> Shape (rows)
+      logical :: begins(size(order))
+
+      integer :: k
+
+      if (size(order) > 0) begins(1) = .true.
+      do k = 2, size(order)
+         begins(k) = any(.not. keeps_structure &
+            .and. (abs(table%values(:, order(k)) - table%values(:, order(k - 1))) > 0.0_wp &
+                   .or. (table%given(:, order(k)) .neqv. table%given(:, order(k - 1)))))
+      end do
+   end function begins_structure
+
+end module axijoint_estimate_study
