@@ -153,9 +153,7 @@ def killed(program, folder, kills):
 def every_state(program, folder, deck, step):
     """A run dies where it writes or removes the n-th name, for every n or some: the next goes on"""
     runs = Runs(program, folder, deck)
-    library = os.path.join(folder, 'failing.so')
-    subprocess.run(['gcc', '-O2', '-shared', '-fPIC', '-o', library, os.path.join(HERE, 'failing_names.c'), '-ldl'],
-                   check=True)
+    library = preload('failing_names')
     faults, places = [], set()
     n = 3
     while True:
