@@ -10,7 +10,7 @@ import time
 
 from commits import Place
 from same_bits import digests
-from support import HERE, INPUTS, Test, expected, input_deck, read_bytes, read_text, write
+from support import INPUTS, Test, expected, input_deck, preload, read_bytes, read_text, write
 
 FACTORS = (0.3, 0.2, 0.2, 0.1, 0.1, 0.1, -0.3, -0.3, -0.4, -0.3, -0.3, -0.4, 0.3, 0.4, 0.5, 0.3, 0.2, 0.1, 0.1, 0.1)
 SHORT = (0.5, 0.5, -1.5, 1.0)
