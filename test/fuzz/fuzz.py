@@ -150,19 +150,21 @@ def faults_of_results(path):
     return faults
 
 
-def seeds_of_decks():
+GOOD = ('inputs/*.dat', 'inputs/hard/*.dat', 'test/decks/good/*.dat', 'test/decks/alike/*.dat', 'test/decks/unsolved/*.dat')
+BAD = ('test/decks/bad/*.dat',)
+
+
+def seeds_of_decks(patterns):
     """Decks that are small enough to be read in no time"""
-    names = [name for pattern in ('inputs/*.dat', 'inputs/hard/*.dat', 'test/decks/good/*.dat', 'test/decks/alike/*.dat',
-                                  'test/decks/bad/*.dat', 'test/decks/unsolved/*.dat')
-             for name in sorted(glob.glob(os.path.join(ROOT, pattern)))]
+    names = [name for pattern in patterns for name in sorted(glob.glob(os.path.join(ROOT, pattern)))]
     return [data for data in map(read_bytes, names) if len(data) < 20000 and b'INCLUDE' not in data and b'GMSH' not in data]
 
 
 def fuzz_decks(fuzz, count):
     """Decks"""
-    seeds, paths = seeds_of_decks(), []
+    good, bad, paths = seeds_of_decks(GOOD), seeds_of_decks(BAD), []
     for k in range(count):
-        text = text_changed(fuzz.dice.choice(seeds), fuzz.dice, DECK_KEYWORD, seeds)
+        text = text_changed(fuzz.dice.choice(bad if fuzz.dice.random() < 0.2 else good), fuzz.dice, DECK_KEYWORD, good + bad)
         paths.append(write(fuzz.folder, f'deck{k}.dat', text))
     fuzz.decks(paths, 'decks')
 

@@ -42,6 +42,16 @@ def change_token(text, dice):
     return text[:token.start()] + new + text[token.end():]
 
 
+def scale_token(text, dice):
+    """A number by some factor, in its columns if it fits there"""
+    tokens = [token for token in TOKEN.finditer(text) if re.fullmatch(rb'-?\d+\.\d*(E-?\d+)?', token.group())]
+    if not tokens:
+        return change_token(text, dice)
+    token = dice.choice(tokens)
+    value = float(token.group())*dice.choice((-1, 0, 0.5, 0.9, 1.1, 2, 10, 0.1, 1e3, 1e-3, 1e6, 1e-6))
+    return text[:token.start()] + (b'%.4g' % value).rjust(len(token.group())) + text[token.end():]
+
+
 def change_line(text, dice):
     """Lines left out, doubled, changed with each other, moved or cut"""
     lines = lines_of(text)
@@ -105,7 +115,9 @@ MESH_KEYWORD = re.compile(rb'^\$(?!End)', re.M)
 
 
 def text_changed(text, dice, keyword=None, others=()):
-    """One to three changes of a text"""
+    """One to three changes of a text; often one number by a factor, which may well be accepted"""
+    if dice.random() < 0.3:
+        return scale_token(text, dice)
     for _ in range(dice.choice((1, 1, 1, 2, 3))):
         kind = dice.randrange(10)
         if kind < 5:
