@@ -2,7 +2,7 @@
 module axijoint_base_error
    implicit none
    private
-   public :: error_type, fatal_error
+   public :: error_type, fatal_error, memory_error
    public :: exit_ok, exit_deck, exit_not_converged, exit_singular
    public :: exit_io, exit_memory, exit_in_use, exit_state, exit_internal, exit_stopped
 
@@ -50,5 +50,17 @@ contains
       error%code = code
       error%message = message
    end subroutine fatal_error
+
+   !> Make an error of memory that was asked for in vain
+   subroutine memory_error(error, what)
+      !> The new error
+      type(error_type), allocatable, intent(out) :: error
+      !> What it was for, and how much
+      character(len=*), intent(in) :: what
+
+      call fatal_error(error, exit_memory, 'out of memory: '//what//new_line('a')// &
+         'mend: more memory or a larger limit; fewer threads (--threads), another solver '// &
+         '(axijoint estimate compares them), fewer harmonics or a coarser mesh')
+   end subroutine memory_error
 
 end module axijoint_base_error

@@ -4,6 +4,7 @@
 module axijoint_base_lock
    use, intrinsic :: iso_c_binding, only : c_int
    use axijoint_base_error, only : error_type, fatal_error, exit_io, exit_in_use
+   use axijoint_base_last_words, only : note_lock, forget_lock
    use axijoint_base_process, only : process_type, this_process, is_dead, &
       same_process, same_machine
    use axijoint_base_system, only : error_text, rename_path, unlink_path
@@ -70,6 +71,8 @@ contains
       own = new_owner(purpose)
       lock%path = path
       beside = path//'.'//own%process%host//'.'//to_text(own%process%id)//'.tmp'
+      call note_lock(beside, own%process%host, own%process%id)
+      call note_lock(path, own%process%host, own%process%id)
       call unlink_path(beside, errno)
       call write_new_file(beside, text_of(own), errno, lasting=.false.)
       if (errno == 0) then
@@ -78,7 +81,9 @@ contains
       else
          call cannot_make(path, errno, error)
       end if
+      call forget_lock(beside)
       lock%held = .not. allocated(error)
+      if (.not. lock%held) call forget_lock(path)
    end subroutine take_lock
 
    !> Give a lock back
@@ -93,9 +98,10 @@ contains
       if (.not. lock%held) return
       lock%held = .false.
       call read_owner(lock%path, owner, there)
-      if (.not. there) return
       ! somebody may have removed it by hand, and another process taken it since
-      if (same_process(owner%process, this_process())) call unlink_path(lock%path, errno)
+      if (there) there = same_process(owner%process, this_process())
+      if (there) call unlink_path(lock%path, errno)
+      call forget_lock(lock%path)
    end subroutine release_lock
 
    !> Give a file its second name, that of the lock. Of those that find a dead process there, the

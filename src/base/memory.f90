@@ -11,9 +11,9 @@ module axijoint_base_memory
    integer(i8), parameter :: no_limit = huge(1_i8)
    !> No limit is known
    integer(i8), parameter :: unknown = huge(1_i8)
-   !> Bytes that must stay free: BLAS takes buffers of its own when a thread
-   !> first calls it, and waits for them for ever if there are none
-   integer(i8), parameter :: head_room = 192*2_i8**20
+   !> Bytes that must stay free for what libraries and threads take besides; the buffers of the BLAS
+   !> are taken before (linalg/blas_buffers.f90)
+   integer(i8), parameter :: head_room = 64*2_i8**20
    !> What numbers are made of
    character(len=*), parameter :: digits = '0123456789'
 

@@ -2,6 +2,7 @@
 module axijoint_base_progress
    use, intrinsic :: iso_fortran_env, only : error_unit
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_last_words, only : note_stage
    implicit none
    private
    public :: progress_type, show_progress, clear_progress
@@ -38,6 +39,7 @@ contains
 
       character(len=width) :: line
 
+      call note_stage(text)
       if (progress%logged) call add_line(progress, text)
       if (.not. progress%enabled) return
       line = text

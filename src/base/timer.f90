@@ -1,6 +1,7 @@
 !> Where the time of a run goes: a wall clock and a processor clock a phase
 module axijoint_base_timer
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_last_words, only : note_stage
    implicit none
    private
    public :: timer_type, n_phases, phase_names
@@ -26,6 +27,10 @@ module axijoint_base_timer
    !> Name of each phase
    character(len=8), parameter :: phase_names(n_phases) = [character(len=8) :: &
       "read", "assemble", "factor", "joints", "recover", "write", "total"]
+   !> What is done in each
+   character(len=24), parameter :: phase_words(n_phases) = [character(len=24) :: &
+      "reading the deck", "assembling", "factoring", "iterating on the joints", &
+      "finding stresses", "writing the results", ""]
 
    !> Deepest nesting of phases
    integer, parameter :: max_depth = 8
@@ -94,6 +99,7 @@ contains
       call settle(self)
       self%depth = self%depth + 1
       if (self%depth <= max_depth) self%open_phases(self%depth) = phase
+      call note_stage(phase_words(phase))
    end subroutine push
 
    !> End the phase pushed last; nothing happens if none is open
@@ -119,6 +125,7 @@ contains
          self%elapsed(other) = plus(self%elapsed(other), stretch)
       end if
       self%depth = self%depth - 1
+      if (self%depth > 0) call note_stage(phase_words(self%open_phases(min(self%depth, max_depth))))
    end subroutine pop
 
    !> Wall-clock time of a phase until now [second]

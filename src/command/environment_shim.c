@@ -6,8 +6,10 @@
    once more with a larger environment. What is set already stays, so that it starts once.
    scripts/environment sets the same for programs that are not this one. */
 #define _GNU_SOURCE
+#include <fcntl.h>
 #include <limits.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 #ifdef __linux__
 #include <sys/syscall.h>
@@ -40,18 +42,29 @@ static int has_avx512(void)
 #endif
 }
 
-static int computes(const char *command)
+/* Whether a command computes, or has no address space to spare for threads of OpenBLAS that have nothing to do. */
+static int needs_settings(const char *command)
 {
-   static const char *const commands[] = {"run", "estimate", "study", "envelope"};
-   for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i)
-      if (strcmp(command, commands[i]) == 0) return 1;
-   return 0;
+   const char *const computing[] = {"run", "estimate", "study", "envelope"};
+   struct rlimit space;
+   for (size_t i = 0; i < sizeof computing / sizeof computing[0]; ++i)
+      if (strcmp(command, computing[i]) == 0) return 1;
+   return getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY;
+}
+
+/* A standard input or output that is closed is no number for the first file that is opened: the words for the screen
+   would get into it. What is read from or written to this one is an error. */
+static void occupy_standard_files(void)
+{
+   for (int file = 0; file <= 2; ++file)
+      if (fcntl(file, F_GETFD) == -1) open("/dev/null", file == 0 ? O_WRONLY : O_RDONLY);
 }
 
 /* Commands that compute start again if a variable is not set. If that fails, nothing is lost but
    time. */
 static void set_environment(int argc, char **argv, char **environment)
 {
+   occupy_standard_files();
    char *const settings[] = {"OMP_WAIT_POLICY=PASSIVE", "OPENBLAS_NUM_THREADS=1",
                              "OPENBLAS_CORETYPE=SKYLAKEX"};
    const size_t wanted = has_avx512() ? 3 : 2;
@@ -59,7 +72,7 @@ static void set_environment(int argc, char **argv, char **environment)
    char program[PATH_MAX];
    ssize_t length;
 
-   if (argc < 2 || !computes(argv[1])) return;
+   if (argc < 2 || !needs_settings(argv[1])) return;
    while (environment[size]) ++size;
    char *larger[size + wanted + 1];
    memcpy(larger, environment, size * sizeof *larger);

@@ -1,8 +1,9 @@
 !> The program: words of the command line to a command and an exit code
 module axijoint_command_program
    use, intrinsic :: iso_fortran_env, only : output_unit
-   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck
-   use axijoint_base_system, only : return_freed_memory, keep_freed_memory
+   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_io
+   use axijoint_base_last_words, only : heed_faults, lost_output
+   use axijoint_base_system, only : return_freed_memory, keep_freed_memory, error_text
    use axijoint_base_team, only : team_type
    use axijoint_command_check, only : check_decks
    use axijoint_command_compare, only : compare_files
@@ -24,8 +25,31 @@ module axijoint_command_program
 
 contains
 
-   !> Do what the command line says
+   !> Do what the command line says, and see that what it says is read
    subroutine run_program(solvers, exit_code, team)
+      !> Solvers that there are
+      type(solver_entry_type), intent(in) :: solvers(:)
+      !> Exit code of the process
+      integer, intent(out) :: exit_code
+      !> Processes that share the work; this one alone if absent
+      class(team_type), intent(in), optional :: team
+
+      type(error_type), allocatable :: error
+
+      call c_link_environment()
+      call heed_faults()
+      call return_freed_memory()
+      call run_command(solvers, exit_code, team)
+      if (lost_output() == 0) return
+      call fatal_error(error, exit_io, 'the output for the screen could not be written: '// &
+         error_text(lost_output())//new_line('a')// &
+         'mend: make room where it goes; files of results are not touched by this')
+      call print_error('', error)
+      exit_code = max(exit_code, error%code)
+   end subroutine run_program
+
+   !> Do what the command line says
+   subroutine run_command(solvers, exit_code, team)
       !> Solvers that there are
       type(solver_entry_type), intent(in) :: solvers(:)
       !> Exit code of the process
@@ -37,8 +61,6 @@ contains
       type(error_type), allocatable :: error
 
       exit_code = exit_ok
-      call c_link_environment()
-      call return_freed_memory()
       call read_command(command, solvers, error)
       if (allocated(error)) then
          call print_error('', error)
@@ -73,6 +95,6 @@ contains
       case default
          write (output_unit, '(a)') command%text
       end select
-   end subroutine run_program
+   end subroutine run_command
 
 end module axijoint_command_program

@@ -255,6 +255,7 @@ contains
       if (allocated(error)) return
       if (.not. quiet) then
          write (output_unit, '(a)') brief_text(job, results)
+         flush (output_unit)
       else if (exit_code_of(results) /= exit_ok) then
          write (error_unit, '(a)') 'axijoint: '//deck_name(job%deck)//': '//status_text(results)
          if (allocated(results%mechanism)) write (error_unit, '(a)') results%mechanism

@@ -1,7 +1,7 @@
 !> Nested dissection by METIS
 module axijoint_order_metis
    use, intrinsic :: iso_c_binding, only : c_int32_t, c_ptr, c_null_ptr
-   use axijoint_base_error, only : error_type, fatal_error, exit_internal, exit_memory
+   use axijoint_base_error, only : error_type, fatal_error, exit_internal, memory_error
    use axijoint_order_graph, only : graph_type, subgraph
    implicit none
    private
@@ -81,7 +81,7 @@ contains
       code = METIS_NodeND(int(graph%n, c_int32_t), graph%start, graph%neighbour, c_null_ptr, &
                           options, order, place)
       if (code == no_memory) then
-         call fatal_error(error, exit_memory, 'out of memory: ordering by METIS')
+         call memory_error(error, 'ordering by METIS')
       else if (code /= ok) then
          call fatal_error(error, exit_internal, 'METIS could not order the nodes')
       end if

@@ -3,8 +3,10 @@ module axijoint_output_output
    use axijoint_analysis_core_results, only : results_type, remark_type
    use axijoint_analysis_core_series, only : series_type
    use axijoint_base_error, only : error_type, fatal_error, exit_io, exit_internal
+   use axijoint_base_last_words, only : note_lock, forget_lock
    use axijoint_base_lock, only : lock_type, take_lock, release_lock
-   use axijoint_base_system, only : path_kind, is_directory, same_file, path_absent, path_file, &
+   use axijoint_base_process, only : host_name
+   use axijoint_base_system, only : process_id, path_kind, is_directory, same_file, path_absent, path_file, &
       path_directory, path_link, error_text, make_directories
    use axijoint_base_team, only : team_type, take_team
    use axijoint_deck_text_source, only : source_type, card_file
@@ -74,8 +76,10 @@ contains
       if (allocated(error)) return
       call spare_sources(directory, name, source, n, error)
       if (allocated(error)) return
+      call note_lock(join_path(directory, name//lock_ending), host_name(), process_id())
       call probe%open(final_path(directory, name, file_summary), error)
       call probe%abandon()
+      call forget_lock(join_path(directory, name//lock_ending))
    end subroutine check_place
 
    !> Make the directory of the files if it is not there

@@ -1,7 +1,8 @@
 !> Band Cholesky solver by LAPACK
 module axijoint_solver_band
-   use axijoint_base_error, only : error_type, fatal_error, exit_memory
+   use axijoint_base_error, only : error_type, memory_error
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_last_words, only : let_fail
    use axijoint_base_large_pages, only : use_large_pages
    use axijoint_base_text, only : to_text
    use axijoint_linalg_band_solve, only : band_cholesky_solve
@@ -105,14 +106,15 @@ contains
       stat = 0
       if (allocated(factor)) call take_memory(factor, new)
       if (.not. allocated(new%band)) then
+         call let_fail(.true.)
          allocate (new%band(self%half_bandwidth + 1, self%n), stat=stat)
+         call let_fail(.false.)
          if (present(passing) .and. stat == 0) then
             if (passing) call use_large_pages(new%band)
          end if
       end if
       if (stat /= 0) then
-         call fatal_error(error, exit_memory, &
-                          'out of memory: a band factor needs '//to_text(self%factor_bytes)// &
+         call memory_error(error, 'a band factor needs '//to_text(self%factor_bytes)// &
                           ' bytes')
          return
       end if

@@ -9,6 +9,9 @@
 #include <suitesparse/cholmod.h>
 #include <sys/mman.h>
 
+/* Here requests for memory may fail, as all are looked at: base/last_words_shim.c */
+void axijoint_let_fail(int change);
+
 typedef struct {
    cholmod_common common;
    cholmod_factor *factor; /* symbolic for a plan, numeric for a factor */
@@ -159,9 +162,9 @@ static int arrange(handle_type *plan, const int64_t *start, const int32_t *colum
 /* Plan for a pattern: null if there is no memory. Gives the entries of the factor, the
    operations of a factorization, and the bytes of a factor and of what a factorization takes
    besides. */
-void *axijoint_cholmod_analyse(int64_t n, const int64_t *start, const int32_t *column,
-                               double *entries, double *operations, int64_t *bytes,
-                               int64_t *work_bytes) {
+static handle_type *new_plan(int64_t n, const int64_t *start, const int32_t *column,
+                             double *entries, double *operations, int64_t *bytes,
+                             int64_t *work_bytes) {
    handle_type *plan = new_handle(n);
    size_t size = (size_t)start[n];
    if (!plan) return NULL;
@@ -179,6 +182,15 @@ void *axijoint_cholmod_analyse(int64_t n, const int64_t *start, const int32_t *c
             + (int64_t)sizeof(int64_t) * ((int64_t)plan->factor->ssize + 3 * n)
             + (int64_t)sizeof(double) * (2 * n + (int64_t)plan->factor->maxesize);
    *work_bytes = (int64_t)sizeof(int32_t) * (3 * n + 3 * (int64_t)plan->factor->nsuper);
+   return plan;
+}
+
+void *axijoint_cholmod_analyse(int64_t n, const int64_t *start, const int32_t *column,
+                               double *entries, double *operations, int64_t *bytes,
+                               int64_t *work_bytes) {
+   axijoint_let_fail(1);
+   handle_type *plan = new_plan(n, start, column, entries, operations, bytes, work_bytes);
+   axijoint_let_fail(-1);
    return plan;
 }
 
@@ -238,7 +250,10 @@ static int factorize(const handle_type *plan, const double *value, handle_type *
 void *axijoint_cholmod_factorize(const void *pointer, void *old, int large, const double *value,
                                  double *diagonal, int64_t *failed) {
    const handle_type *plan = pointer;
-   handle_type *handle = old ? old : new_factor(plan, large);
+   handle_type *handle = old;
+   axijoint_let_fail(1);
+   if (!handle) handle = new_factor(plan, large);
+   axijoint_let_fail(-1);
    *failed = 0;
    if (!handle) return NULL;
    if (!factorize(plan, value, handle, failed)) {
@@ -271,13 +286,25 @@ static cholmod_dense columns(int64_t n, int64_t count, double *b) {
    return view;
 }
 
+/* Whether there is memory for a block of right-hand sides: solution, the same in the order of the factor, rows of a
+   supernode. CHOLMOD itself does not bear to find out half-way. */
+static int has_room(const handle_type *handle, int64_t n_rhs) {
+   size_t n = (size_t)handle->n, rows = handle->factor->maxesize;
+   axijoint_let_fail(1);
+   void *room = malloc(sizeof(double) * (2 * n + rows) * (size_t)n_rhs);
+   axijoint_let_fail(-1);
+   free(room);
+   return room != NULL;
+}
+
 /* Solve for a block of right-hand sides in place: all at once, or if there is no memory for that,
    one after the other in the room reserved, one thread at a time */
 void axijoint_cholmod_solve(void *pointer, int64_t n_rhs, double *b) {
    handle_type *handle = pointer;
    cholmod_dense right = columns(handle->n, n_rhs, b), *x;
    int levels = forbid_threads();
-   x = cholmod_l_solve(CHOLMOD_A, handle->factor, &right, &handle->common);
+   x = has_room(handle, n_rhs)
+          ? cholmod_l_solve(CHOLMOD_A, handle->factor, &right, &handle->common) : NULL;
    if (x) {
       memcpy(b, x->x, sizeof(double) * right.nzmax);
       cholmod_l_free_dense(&x, &handle->common);
@@ -306,8 +333,10 @@ int axijoint_cholmod_trailing(const void *pointer, int64_t count, const int32_t 
    const int64_t *order = l->Perm, *super = l->super, *pi = l->pi, *px = l->px, *rows = l->s;
    const double *x = l->x;
    int64_t k, s, c, n = handle->n, found = 0;
+   axijoint_let_fail(1);
    int64_t *rank = malloc(sizeof *rank * (size_t)(n + 1)); /* by equation, then by row of L */
    int64_t *by_row = malloc(sizeof *by_row * (size_t)(n + 1));
+   axijoint_let_fail(-1);
    int code = !rank || !by_row;
    if (!code) {
       for (k = 0; k < n; k++) rank[k] = -1;

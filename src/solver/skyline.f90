@@ -1,7 +1,8 @@
 !> Skyline (active row) Cholesky solver, the solver of the tradition
 module axijoint_solver_skyline
-   use axijoint_base_error, only : error_type, fatal_error, exit_memory
+   use axijoint_base_error, only : error_type, memory_error
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_last_words, only : let_fail
    use axijoint_base_large_pages, only : use_large_pages
    use axijoint_base_text, only : to_text
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
@@ -111,13 +112,15 @@ contains
       stat = 0
       if (allocated(factor)) call take_memory(factor, new)
       if (.not. allocated(new%entry)) then
+         call let_fail(.true.)
          allocate (new%entry(self%factor_entries), stat=stat)
+         call let_fail(.false.)
          if (present(passing) .and. stat == 0) then
             if (passing) call use_large_pages(new%entry)
          end if
       end if
       if (stat /= 0) then
-         call fatal_error(error, exit_memory, 'out of memory: a skyline factor needs '// &
+         call memory_error(error, 'a skyline factor needs '// &
                           to_text(self%factor_bytes)//' bytes')
          return
       end if

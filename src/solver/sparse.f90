@@ -2,7 +2,7 @@
 module axijoint_solver_sparse
    use, intrinsic :: iso_c_binding, only : c_ptr, c_null_ptr, c_associated, c_int, c_int32_t, &
                                            c_int64_t, c_double
-   use axijoint_base_error, only : error_type, fatal_error, exit_memory
+   use axijoint_base_error, only : error_type, memory_error
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_text, only : to_text
    use axijoint_linalg_lapack, only : inverse_from_cholesky, product_with_transpose
@@ -136,7 +136,7 @@ contains
       ! rows in 8 bytes and places of the values in 4
       self%plan_bytes = 12*size(pattern%column, kind=i8) + 64*int(pattern%n, i8)
       if (c_associated(self%handle)) return
-      call fatal_error(error, exit_memory, 'out of memory: analysis of a sparse matrix with '// &
+      call memory_error(error, 'analysis of a sparse matrix with '// &
                        to_text(pattern%n)//' equations')
    end subroutine analyse
 
@@ -173,7 +173,7 @@ contains
          if (failed == 0) call judge_pivots(value(pattern%row_start(2:) - 1), root, pivots)
          call move_alloc(new, factor)
       else
-         call fatal_error(error, exit_memory, 'out of memory: a sparse factor needs '// &
+         call memory_error(error, 'a sparse factor needs '// &
                           to_text(int(self%factor_bytes/2**20))//' MiB')
       end if
    end subroutine factorize
@@ -281,7 +281,7 @@ contains
       code = cholmod_trailing(self%handle, size(set, kind=c_int64_t), set, triangle, place)
       last = code == 0
       if (last .or. code == not_last) return
-      call fatal_error(error, exit_memory, 'out of memory: columns of a sparse factor')
+      call memory_error(error, 'columns of a sparse factor')
    end subroutine trailing_triangle
 
    !> A matrix of the rows of the triangle in the order of the set

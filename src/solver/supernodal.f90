@@ -8,6 +8,7 @@
 module axijoint_solver_supernodal
    use, intrinsic :: iso_c_binding, only : c_ptr, c_f_pointer, c_double, c_int32_t, c_int64_t
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_last_words, only : let_fail
    use axijoint_linalg_lapack, only : dgemm, dpotrf, dsyrk, dtrsm
    implicit none
    private
@@ -116,11 +117,15 @@ contains
       call view(structure%matrix_row, at%matrix_start(n), at%matrix_row)
       call c_f_pointer(structure%from, at%from, [at%matrix_start(n)])
       at%from(0:) => at%from
+      call let_fail(.true.)
       allocate (at%supernode(0:n), at%place(0:n), at%head(0:m), at%next(0:m), at%done(0:m), &
                 at%target(0:n), stat=stat)
+      call let_fail(.false.)
       if (stat == 0) then
          m = int(maxval([0_i8, at%first_row(1:) - at%first_row(:m - 1)]))
+         call let_fail(.true.)
          allocate (at%update(0:max(largest_update, few_columns*m) - 1), stat=stat)
+         call let_fail(.false.)
       end if
       code = merge(0_c_int32_t, 1_c_int32_t, stat == 0)
       if (code /= 0) return

@@ -1,7 +1,8 @@
 !> What every solver of symmetric positive definite systems offers
 module axijoint_solver_type
-   use axijoint_base_error, only : error_type, fatal_error, exit_memory, exit_singular
+   use axijoint_base_error, only : error_type, fatal_error, exit_singular, memory_error
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_last_words, only : let_fail
    use axijoint_base_text, only : to_text
    use axijoint_linalg_lapack, only : cholesky, inverse_from_cholesky
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
@@ -177,11 +178,13 @@ contains
 
       integer :: stat
 
+      call let_fail(.true.)
       allocate (block(rows, columns), stat=stat)
+      call let_fail(.false.)
       if (stat == 0) then
          block = 0.0_wp
       else
-         call fatal_error(error, exit_memory, 'out of memory: a block of '//to_text(rows)// &
+         call memory_error(error, 'a block of '//to_text(rows)// &
                           ' x '//to_text(columns)//' numbers')
       end if
    end subroutine new_block

@@ -7,7 +7,7 @@ import socket
 import subprocess
 import threading
 
-from support import HERE, INPUTS, Test, expected, read_bytes, read_text, write
+from support import INPUTS, Test, expected, preload, read_bytes, read_text, write
 
 FIRST = os.path.realpath(os.path.join(INPUTS, 'first.dat'))
 ENDINGS = ('h5', 'lis', 'json')
@@ -50,9 +50,7 @@ class Place:
 
     def __init__(self, program, folder, combinations, swept, links=True):
         self.program = program
-        self.library = os.path.join(folder, 'failing.so')
-        subprocess.run(['gcc', '-O2', '-shared', '-fPIC', '-o', self.library,
-                        os.path.join(HERE, 'failing_names.c'), '-ldl'], check=True)
+        self.library = preload('failing_names')
         self.deck = write(folder, 'job.dat', small(combinations))
         self.results = os.path.join(folder, 'results')
         self.options = ['--vtk'] if swept else []

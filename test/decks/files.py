@@ -143,13 +143,54 @@ def full_disk(program, folder):
 
 
 def memory(program, folder):
-    """The factor does not fit into the memory that is allowed. (Limits so small that the mesh
-    itself does not fit are not tested: the run-time library then ends the program.)"""
+    """Whatever does not fit into the memory that is allowed, from the first card to the factor: one message"""
     deck = write(folder, 'large.dat', LARGE)
     earlier = EarlierResults(os.path.join(folder, 'results'), 'large')
-    ran = program.run('run', deck, '-o', earlier.folder,
-                      limits=[(resource.RLIMIT_AS, 450*MEBIBYTE)])
-    return failed(ran, 6, 'out of memory') + earlier.faults()
+    faults = []
+    for limit in (100, 140, 180, 220, 260, 300, 350, 400, 450):
+        ran = program.run('run', deck, '-o', earlier.folder, '--threads', '1',
+                          limits=[(resource.RLIMIT_AS, limit*MEBIBYTE)])
+        found = failed(ran, 6, 'out of memory') + earlier.faults()
+        if ran.err.count('mend: ') != 1:
+            found.append(ran.err)
+        faults += [f'{limit} MiB: {fault}' for fault in found]
+    return faults
+
+
+def stack(program, folder):
+    """The stack cannot grow"""
+    deck = write(folder, 'job.dat', read_text(FIRST))
+    faults = []
+    for limit in (16, 24, 32, 48, 64, 96, 128, 256):
+        ran = program.run('run', deck, '-o', folder, limits=[(resource.RLIMIT_STACK, limit*1024)])
+        if ran.code not in (0, -11):  # -11: before the program begins, nobody can say anything
+            faults += [f'{limit} kB: {fault}' for fault in failed(ran, 6, 'the stack')]
+        elif ran.crash() and limit > 128:
+            faults += ran.crash()
+    return faults
+
+
+def lost_output(program, folder):
+    """What is meant for the screen finds no room, or nobody who takes it: exit code 5 whatever the command, and results as
+    without that"""
+    table = write(folder, 'table.csv', 'LAWS 1 PHI\n20\n')
+    faults = expected('exit code', 0, program.run('run', FIRST, '-o', folder).code)
+    for words in (['check', FIRST], ['run', FIRST, '-o', folder], ['study', table, FIRST, '-o', folder],
+                  ['estimate', FIRST], ['compare', '--print-format'], ['help'], ['help', 'card'], ['help', '--man'], ['--version'],
+                  ['compare', os.path.join(folder, 'first.lis'), os.path.join(folder, 'first.h5')]):
+        name = ' '.join(words[:2])
+        with open('/dev/full', 'wb') as full:
+            ran = program.run(*words, stdout=full)
+        faults += [f'{name}: {fault}' for fault in failed(ran, 5, 'the output for the screen could not be written: '
+                                                           'No space left on device')]
+        closed = subprocess.run(['sh', '-c', '"$@" >&-', 'sh', program.path, *words], capture_output=True, text=True,
+                                env=program.environment, timeout=60, check=False)
+        faults += [f'{name}: {fault}' for fault in expected('exit code without an output', 5, closed.returncode)]
+        if 'Bad file descriptor' not in closed.stderr:
+            faults.append(f'{name}: {closed.stderr}')
+    left = subprocess.run(['sh', '-c', '("$@"; echo $? >&2) | :', 'sh', program.path, 'run', FIRST, '-o', folder],
+                          capture_output=True, text=True, env=program.environment, timeout=60, check=False)
+    return faults + expected('exit code when nobody reads', '0', left.stderr.strip())
 
 
 def tests(program):
@@ -158,7 +199,8 @@ def tests(program):
         'no directory': missing, 'no directory can be made': not_made, 'a file for a directory': is_file,
         'read-only directory': read_only, 'file size limit': file_size_limit,
         'a deck named like a result': deck_named_like_a_result,
-        'full disk': full_disk, 'memory limit': memory,
+        'full disk': full_disk, 'memory limit': memory, 'stack limit': stack,
+        'output that is lost': lost_output,
         'directory for a file': lambda program, folder: occupied(program, folder, os.mkdir),
         'pipe for a file': lambda program, folder: occupied(program, folder, os.mkfifo),
     }

@@ -10,7 +10,7 @@ import time
 
 from commits import Place
 from same_bits import digests
-from support import HERE, INPUTS, Test, expected, input_deck, read_bytes, read_text, write
+from support import INPUTS, Test, expected, input_deck, preload, read_bytes, read_text, write
 
 FACTORS = (0.3, 0.2, 0.2, 0.1, 0.1, 0.1, -0.3, -0.3, -0.4, -0.3, -0.3, -0.4, 0.3, 0.4, 0.5, 0.3, 0.2, 0.1, 0.1, 0.1)
 SHORT = (0.5, 0.5, -1.5, 1.0)
@@ -153,9 +153,7 @@ def killed(program, folder, kills):
 def every_state(program, folder, deck, step):
     """A run dies where it writes or removes the n-th name, for every n or some: the next goes on"""
     runs = Runs(program, folder, deck)
-    library = os.path.join(folder, 'failing.so')
-    subprocess.run(['gcc', '-O2', '-shared', '-fPIC', '-o', library, os.path.join(HERE, 'failing_names.c'), '-ldl'],
-                   check=True)
+    library = preload('failing_names')
     faults, places = [], set()
     n = 3
     while True:

@@ -10,7 +10,7 @@ import os
 import subprocess
 
 from hard_scenes import example
-from support import HERE, INPUTS, Test, python_with, read_text, write
+from support import HERE, INPUTS, Test, preload, python_with, read_text, write
 from written_alike import PASSING
 
 RUNS = 30
@@ -77,9 +77,7 @@ def other_circumstances(program, folder):
 
 def moved_memory(program, folder, deck, *options):
     """Every block of memory at a place of its own"""
-    library = os.path.join(folder, 'moved.so')
-    subprocess.run(['gcc', '-O2', '-fno-builtin', '-shared', '-fPIC', '-o', library,
-                    os.path.join(HERE, 'moved_memory.c')], check=True)
+    library = preload('moved_memory')
     stems = [Run(k).go(program, folder, deck, *options, LD_PRELOAD=library, SHUFFLE=str(k))
              for k in range(RUNS//5)]
     return faults_of(stems)

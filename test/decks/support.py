@@ -1,4 +1,5 @@
 """What all deck tests need: to run the program, and to say what is wrong"""
+import atexit
 import functools
 import os
 import re
@@ -99,6 +100,17 @@ def python_with(modules):
                                                              capture_output=True, check=False).returncode:
             return python
     return None
+
+
+@functools.cache
+def preload(name):
+    """A library of scripts/preload, built once, that is loaded before others"""
+    folder = tempfile.TemporaryDirectory(prefix='axijoint-preload-')
+    atexit.register(folder.cleanup)
+    library = os.path.join(folder.name, f'{name}.so')
+    subprocess.run(['gcc', '-O2', '-fno-builtin', '-shared', '-fPIC', '-o', library,
+                    os.path.join(HERE, '..', '..', 'scripts', 'preload', f'{name}.c'), '-ldl'], check=True)
+    return library
 
 
 def write(folder, name, content):

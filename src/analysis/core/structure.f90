@@ -20,11 +20,13 @@ module axijoint_analysis_core_structure
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_condensed, only : condensed_type, new_condensed
    use axijoint_joints_planes, only : planes_type, new_planes
+   use axijoint_linalg_blas_buffers, only : reserve_blas_buffers
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points
    use axijoint_model_model, only : model_type, can_yield, can_yield_at, yielding_nodes
    use axijoint_model_modes, only : used_modes
    use axijoint_order_graph, only : bandwidth, profile, fill
    use axijoint_order_orders, only : orders_type, new_orders
+   use omp_lib, only : omp_get_max_threads
    implicit none
    private
    public :: structure_type, build_structure, plan_structure, take_loads_of, reuses_factors
@@ -155,6 +157,7 @@ contains
       structure%joint_points = new_joint_points(model)
       structure%support_points = new_support_points(model)
       structure%modes = used_modes(model)
+      call reserve_blas_buffers(omp_get_max_threads())
       call require_memory(0_i8, 'the solvers', model%memory_limit, error)
       if (allocated(error)) return
       call check_mechanism(model, structure%joint_points, structure%support_points, &

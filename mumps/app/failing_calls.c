@@ -1,0 +1,1 @@
+../../app/failing_calls.c
