@@ -1,6 +1,7 @@
 !> Arrays of a result file as values of tables
 module axijoint_compare_read_hdf5_cells
-   use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_is_finite, ieee_is_negative
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_nan, ieee_is_finite, ieee_is_negative, &
+      ieee_value, ieee_quiet_nan
    use axijoint_base_kinds, only : wp
    use axijoint_compare_read_hdf5_arrays, only : result_file_type
    use axijoint_compare_table_cell, only : cell_type, cell_number, cell_word, cell_not_a_number, &
@@ -32,7 +33,7 @@ contains
       call file%read(name, array%value, array%extent)
    end function array
 
-   !> One value of an array
+   !> One value of an array; none, NaN, beyond what a damaged file holds of it
    pure real(wp) function at(array, i, j, k)
       !> The array
       type(array_type), intent(in) :: array
@@ -45,7 +46,11 @@ contains
       place = i
       if (present(j)) place = place + array%extent(1)*(j - 1)
       if (present(k)) place = place + array%extent(1)*array%extent(2)*(k - 1)
-      at = array%value(place)
+      if (place >= 1 .and. place <= size(array%value)) then
+         at = array%value(place)
+      else
+         at = ieee_value(at, ieee_quiet_nan)
+      end if
    end function at
 
    !> A number as a value
