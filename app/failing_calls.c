@@ -8,6 +8,7 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <pthread.h>
+#include <signal.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -113,6 +114,10 @@ struct beginning {
 static void *begin_thread(void *given)
 {
    const struct beginning beginning = *(struct beginning *)given;
+   sigset_t wishes;
+   sigemptyset(&wishes);
+   sigaddset(&wishes, SIGTERM); /* the main thread takes it, when METIS lets it */
+   pthread_sigmask(SIG_BLOCK, &wishes, NULL);
    free(given);
    axijoint_signal_stack();
    return beginning.work(beginning.argument);

@@ -1,6 +1,6 @@
 !> Nested dissection by METIS
 module axijoint_order_metis
-   use, intrinsic :: iso_c_binding, only : c_int32_t, c_ptr, c_null_ptr
+   use, intrinsic :: iso_c_binding, only : c_int, c_int32_t, c_ptr, c_null_ptr
    use axijoint_base_error, only : error_type, fatal_error, exit_internal, memory_error
    use axijoint_order_graph, only : graph_type, subgraph
    implicit none
@@ -32,6 +32,11 @@ module axijoint_order_metis
          integer(c_int32_t), intent(out) :: order(*), place(*)
          integer(c_int32_t) :: code
       end function METIS_NodeND
+      !> Let a signal wait that METIS would take for an error of its own; metis_shim.c
+      subroutine hold_termination(hold) bind(c, name='axijoint_hold_termination')
+         import :: c_int
+         integer(c_int), value :: hold
+      end subroutine hold_termination
    end interface
 
 contains
@@ -78,8 +83,10 @@ contains
       if (graph%n == 0) return
       code = METIS_SetDefaultOptions(options)
       options(numbering) = 1
+      call hold_termination(1_c_int)
       code = METIS_NodeND(int(graph%n, c_int32_t), graph%start, graph%neighbour, c_null_ptr, &
                           options, order, place)
+      call hold_termination(0_c_int)
       if (code == no_memory) then
          call memory_error(error, 'ordering by METIS')
       else if (code /= ok) then

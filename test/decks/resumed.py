@@ -384,11 +384,20 @@ def option_faults(program, folder):
     return faults
 
 
+def signal_in_metis(program, folder):
+    """SIGTERM while METIS orders the nodes, which takes it for an error of its own: a wish like any other"""
+    runs = Runs(program, folder, history(SHORT))
+    ran = runs.run('cut', LD_PRELOAD=preload('signal_in_metis'))
+    faults = expected('exit code', 75, ran.returncode) + ([] if 'stopped by SIGTERM' in ran.stderr else [ran.stderr])
+    runs.run('cut', '--resume')
+    return faults + runs.same('cut')
+
+
 def tests(program):
     """One test a way to be stopped"""
     functions = {'signals': signals, 'interrupted twice': interrupted_twice, 'while reading': while_reading,
                  'STOP file': stop_file, 'states that are refused': refused, 'states that are forgotten': forgotten,
-                 'written already': written_already, 'states that cannot be written': disk_full,
+                 'written already': written_already, 'states that cannot be written': disk_full, 'while METIS works': signal_in_metis,
                  '--checkpoint': option_faults}
     found = [Test(f'resumed: {what}', lambda folder, check=check: check(program, folder))
              for what, check in functions.items()]
