@@ -208,7 +208,11 @@ contains
       call keep_claim(model, structure, history, results, error)
       call check_stop(error)  ! iterations may have ended for it
       if (allocated(error)) return
-      results%states = [history%states, last_state(history)]
+      associate (n => size(history%states))
+         allocate (results%states(n + 1))  ! [..., f()] would never give back what f() allocated
+         results%states(:n) = history%states
+         results%states(n + 1) = last_state(history)
+      end associate
       results%residuals = history%residuals
       results%residual_part_node = model%mesh%node_label(structure%condensed%measure%part_node)
       call name_idle_motions(model, structure, history, results)

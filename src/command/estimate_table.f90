@@ -8,7 +8,7 @@ module axijoint_command_estimate_table
    use axijoint_estimate_machine, only : machine_type, reference
    use axijoint_estimate_study, only : study_size_type
    use axijoint_estimate_terms, only : terms, n_terms, n_phases, phase_names
-   use axijoint_estimate_work, only : n_yielding
+   use axijoint_estimate_joint_work, only : n_yielding
    use axijoint_job_job, only : deck_name
    use axijoint_model_model, only : model_type, method_names
    implicit none
@@ -61,20 +61,23 @@ contains
       !> The line
       character(len=:), allocatable :: text
 
-      integer :: k
+      integer :: k, n_unknowns, n_points
 
       associate (equations => structure%equations)
-         text = deck_name(deck)//': '//to_text(sum([(equations%classes(equations%systems(equations%system(k))%class) &
-                              %dofs%n_equations, k=1, size(structure%modes))]))// &
-            ' unknowns in '//count_of(size(structure%modes), 'harmonic')//', '// &
-            trim(equations%solver%name)
+         n_unknowns = 0
+         do k = 1, size(structure%modes)
+            associate (system => equations%systems(equations%system(k)))
+               n_unknowns = n_unknowns + equations%classes(system%class)%dofs%n_equations
+            end associate
+         end do
+         text = deck_name(deck)//': '//to_text(n_unknowns)//' unknowns in '// &
+            count_of(size(structure%modes), 'harmonic')//', '//trim(equations%solver%name)
          if (equations%n_kept > 0 .and. equations%n_kept < size(equations%systems)) text = text// &
             ', '//to_text(equations%n_kept)//' factors kept'
       end associate
-      associate (n => n_yielding(model, structure))
-         if (n > 0) text = text//', '//count_of(n, 'joint point')//' on '// &
-            count_of(model%n_planes, 'plane')
-      end associate
+      n_points = n_yielding(model, structure)
+      if (n_points > 0) text = text//', '//count_of(n_points, 'joint point')//' on '// &
+         count_of(model%n_planes, 'plane')
       if (size(model%increments) > 1) text = text//', '// &
          count_of(size(model%increments), 'increment')
       if (size(model%combinations) > 1) text = text//', '// &

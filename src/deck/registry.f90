@@ -58,29 +58,69 @@ contains
       !> The sections
       type(read_section_type), allocatable :: sections(:)
 
-      integer :: k
+      integer :: n
 
-      sections = [title_section(), control_section(), increments_section(), output_section(), &
-                  materials_section(), orthotropic_section(), laws_section(), &
-                  law_details_section(), &
-                  gmsh_section(), groups_section(), &
-                  nodes_section(), lines_section(), elements_section(), blocks_section(), &
-                  kinds_section(), &
-                  faces_section(), chains_section(), joints_section(), interfaces_section(), &
-                  harmonics_section(), shapes_section(), restraints_section(), &
-                  fixed_faces_section(), &
-                  case_section(), tractions_section(), pressures_section(), resultants_section(), &
-                  ring_loads_section(), point_loads_section(), gravity_section(), &
-                  rotation_section(), &
-                  temperatures_section(), node_temps_section(), moved_nodes_section(), &
-                  moved_faces_section(), &
-                  in_situ_section(), springs_section(), combine_section(), &
-                  sections_section(), cuts_section(), points_section(), keep_section(), &
-                  sweep_section(), error_section(), &
-                  include_section(), end_section()]
-      do k = 1, size(sections)
-         if (.not. allocated(sections(k)%fields)) allocate (sections(k)%fields(0))
-      end do
+      n = 0
+      allocate (sections(46))
+      call add(title_section())
+      call add(control_section())
+      call add(increments_section())
+      call add(output_section())
+      call add(materials_section())
+      call add(orthotropic_section())
+      call add(laws_section())
+      call add(law_details_section())
+      call add(gmsh_section())
+      call add(groups_section())
+      call add(nodes_section())
+      call add(lines_section())
+      call add(elements_section())
+      call add(blocks_section())
+      call add(kinds_section())
+      call add(faces_section())
+      call add(chains_section())
+      call add(joints_section())
+      call add(interfaces_section())
+      call add(harmonics_section())
+      call add(shapes_section())
+      call add(restraints_section())
+      call add(fixed_faces_section())
+      call add(case_section())
+      call add(tractions_section())
+      call add(pressures_section())
+      call add(resultants_section())
+      call add(ring_loads_section())
+      call add(point_loads_section())
+      call add(gravity_section())
+      call add(rotation_section())
+      call add(temperatures_section())
+      call add(node_temps_section())
+      call add(moved_nodes_section())
+      call add(moved_faces_section())
+      call add(in_situ_section())
+      call add(springs_section())
+      call add(combine_section())
+      call add(sections_section())
+      call add(cuts_section())
+      call add(points_section())
+      call add(keep_section())
+      call add(sweep_section())
+      call add(error_section())
+      call add(include_section())
+      call add(end_section())
+
+   contains
+
+      !> The next section; one by one, as an array of results of functions is never given back
+      subroutine add(section)
+         !> The section
+         type(read_section_type), intent(in) :: section
+
+         n = n + 1
+         sections(n) = section
+         if (.not. allocated(sections(n)%fields)) allocate (sections(n)%fields(0))
+      end subroutine add
+
    end function all_sections
 
    !> What cards look like, for those who read or describe any sections

@@ -88,7 +88,7 @@ contains
          type(model_type), target :: model
          type(structure_type) :: structure
          type(timer_type) :: clock
-         real(wp) :: start, finish
+         real(wp) :: start, finish, numbers
          integer :: again
 
          do again = 1, 2  ! the second time as most rows find it, the mesh being there
@@ -109,12 +109,10 @@ contains
          work(reading, 2) = work(reading, 2) + finish - start
          work(rows, 2) = work(rows, 2) + 1.0_wp
          iterations = iterations + n_iterations(model, each)
-         associate (numbers => size(quantity_names(model))*real(size(model%increments), wp))
-            forecast%disk = max(forecast%disk, &
-               extent%n_rows*(3.0_wp*real_bytes*numbers + row_bytes))
-            forecast%memory = max(forecast%memory, peak_bytes(model, structure) &
-               + nint(2.0_wp*real_bytes*numbers*extent%n_rows, i8))
-         end associate
+         numbers = size(quantity_names(model))*real(size(model%increments), wp)
+         forecast%disk = max(forecast%disk, extent%n_rows*(3.0_wp*real_bytes*numbers + row_bytes))
+         forecast%memory = max(forecast%memory, peak_bytes(model, structure) &
+                               + nint(2.0_wp*real_bytes*numbers*extent%n_rows, i8))
          forecast%n_workers = structure%equations%n_workers
       end subroutine sample
 

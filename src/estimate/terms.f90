@@ -87,6 +87,6 @@ module axijoint_estimate_terms
       term_type('formed_entries', phase_factor, common, .true., &
                 'entries of matrices', 5.7e-9_wp), &
       term_type('rows', phase_write, common, .false., &
-                'rows, each noted at once', 3.0e-4_wp)]
+                'rows, each noted at once', 7.0e-4_wp)]
 
 end module axijoint_estimate_terms

@@ -4,42 +4,28 @@ module axijoint_estimate_work
    use axijoint_analysis_core_structure, only : structure_type, reuses_factors
    use axijoint_assembly_equations, only : planned_seconds
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_estimate_joint_work, only : joint_work, n_yielding
    use axijoint_estimate_terms, only : n_terms, shape_products, fine_nodes, factoring, inverse, &
-      block_entries, solved_entries, node_modes, laws, sums, flexibility, fine_blocks, &
-      stress_modes, row_stresses, formed_entries
+      block_entries, solved_entries, node_modes, fine_blocks, stress_modes, row_stresses, &
+      formed_entries
    use axijoint_fe_reference, only : reference_type
-   use axijoint_joints_planes, only : planes_type, new_planes
-   use axijoint_model_joint_proportion, only : joint_proportions, side_of, side_sensible
    use axijoint_model_mesh, only : n_nodes, element_references
-   use axijoint_model_model, only : model_type, can_yield, can_yield_at, yielding_nodes, &
-      method_newton
+   use axijoint_model_model, only : model_type, can_yield, yielding_nodes
    use axijoint_model_request, only : is_kept
    implicit none
    private
-   public :: structure_work, state_work, row_work, n_shown, &
-      n_points, n_yielding
+   public :: structure_work, state_work, row_work, n_shown, n_points
 
-   !> What an iteration of a loop costs beside one of Newton's method, which multiplies with the
-   !> flexibilities again and again
-   real(wp), parameter :: loop_share = 0.1_wp
    !> Solutions of a mode: displacements with one refinement, condition of the matrix; with joints
-   !> that yield those of the corrections and of what estimates of errors change
-   real(wp), parameter :: linear_solutions = 6.0_wp, yielding_solutions = 14.0_wp
+   !> that yield those of the corrections and of what estimates of errors change, or without these
+   real(wp), parameter :: linear_solutions = 6.0_wp, yielding_solutions = 14.0_wp, &
+      unjudged_solutions = 8.0_wp
    !> Steps down on the fine level, each with a solution on the mesh
    real(wp), parameter :: steps_down = 3.0_wp
-   !> Iterations that the estimates of errors take: to settle; on more planes, then with more
-   !> harmonics, too; after the corrections by the finer mesh; the paper's loop beside it; where
-   !> joints are out of proportion, with others
-   real(wp), parameter :: to_settle = 2.0_wp, on_planes = 2.0_wp, after_mesh = 3.0_wp, &
-      other_loop = 2.0_wp, of_stiffer = 10.0_wp
-   !> Their linear solutions need few digits: products of one of these iterations, over those of an
-   !> iteration of an increment
-   real(wp), parameter :: rough = 0.4_wp
-   !> Loads, displacements, reactions, smoothed stresses of the nodes: of the end, of an increment
-   !> that is shown, of any other, as multiples of one
-   real(wp), parameter :: nodes_last = 4.0_wp, nodes_shown = 2.0_wp, nodes_loaded = 0.5_wp
-   !> Planes for these, times so many
-   integer, parameter :: more_planes = 4
+   !> Loads, displacements, reactions, smoothed stresses of the nodes: of the end with estimates of
+   !> errors and without, of an increment that is shown, of any other, as multiples of one
+   real(wp), parameter :: nodes_judged = 4.0_wp, nodes_last = 1.0_wp, nodes_shown = 1.0_wp, &
+      nodes_loaded = 0.3_wp
    !> Angles at which a row of a study looks for its largest stress
    integer, parameter :: row_angles = 24
 
@@ -129,7 +115,8 @@ contains
       shown = n_shown(model)
       solutions = linear_solutions + 2.0_wp*shown
       if (can_yield(model)) then
-         solutions = yielding_solutions + 2.0_wp*shown + size(model%increments)
+         solutions = merge(yielding_solutions, unjudged_solutions, estimates) + 2.0_wp*shown &
+            + size(model%increments)
          work = joint_work(model, structure, iterations, estimates)
       end if
       entries = 0.0_wp
@@ -141,64 +128,14 @@ contains
       end associate
       associate (mesh => model%mesh, modes => real(size(structure%modes), wp))
          work(solved_entries) = entries*(solutions + merge(steps_down, 0.0_wp, estimates))
-         work(node_modes) = n_nodes(mesh)*modes*(nodes_last + nodes_shown*shown &
+         work(node_modes) = n_nodes(mesh)*modes*(merge(nodes_judged, nodes_last, estimates) &
+                                                 + nodes_shown*shown &
                                                  + nodes_loaded*(size(model%increments) - 1))
          if (estimates) work(fine_blocks) = modes*sum(fine_nodes_of(mesh%element_size) &
                                                       *blocks_of(mesh%element_size))
          work(stress_modes) = n_points(model)*modes*(1.0_wp + shown)
       end associate
    end function state_work
-
-   !> Work of the joints' iterations, and of what the estimates of errors iterate
-   function joint_work(model, structure, iterations, estimates) result(work)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The structure, planned
-      type(structure_type), intent(in) :: structure
-      !> Iterations of all increments
-      real(wp), intent(in) :: iterations
-      !> Whether errors are estimated
-      logical, intent(in) :: estimates
-      !> Counts of all terms
-      real(wp) :: work(n_terms)
-
-      type(planes_type) :: planes
-      real(wp) :: again
-      integer :: k
-
-      work = 0.0_wp
-      planes = new_planes(model%n_planes, structure%modes)
-      call iterate(iterations*merge(1.0_wp, loop_share, model%method == method_newton), 1.0_wp, &
-         size(planes%angle), size(structure%modes))
-      if (.not. estimates) return
-      again = to_settle + after_mesh
-      if (size(model%increments) == 1) again = again + other_loop
-      associate (proportions => joint_proportions(model))
-         again = again + of_stiffer*count([(side_of(model%joint_materials(k)%law, &
-            proportions(k)) /= side_sensible, k=1, size(proportions))])
-      end associate
-      call iterate(again, rough, size(planes%angle), size(structure%modes))
-      if (planes%folds == 0) return
-      call iterate(on_planes, rough, more_planes*size(planes%angle), size(structure%modes))
-      call iterate(on_planes, rough, more_planes*size(planes%angle), 2*size(structure%modes))
-
-   contains
-
-      !> Add iterations on some planes with some modes
-      subroutine iterate(n, share, n_planes, n_modes)
-         !> Iterations, and how many products each makes beside what is usual
-         real(wp), intent(in) :: n, share
-         !> Planes, modes
-         integer, intent(in) :: n_planes, n_modes
-
-         associate (jumps => 3.0_wp*n_yielding(model, structure))
-            work(laws) = work(laws) + n*jumps*n_planes
-            work(sums) = work(sums) + share*n*jumps*n_planes*n_modes
-            work(flexibility) = work(flexibility) + share*n*jumps**2*n_modes
-         end associate
-      end subroutine iterate
-
-   end function joint_work
 
    !> What a row of a study does besides: the fields of all increments, and quantities of them
    function row_work(model, structure) result(work)
@@ -240,15 +177,5 @@ contains
       references = element_references(model%mesh)
       n_points = sum(real(references(model%mesh%element_kind)%n_points, wp))
    end function n_points
-
-   !> Joint points that can yield
-   pure integer function n_yielding(model, structure)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The structure, planned
-      type(structure_type), intent(in) :: structure
-
-      n_yielding = count(can_yield_at(model, structure%joint_points%material))
-   end function n_yielding
 
 end module axijoint_estimate_work
