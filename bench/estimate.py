@@ -7,6 +7,7 @@ import os
 import re
 import resource
 import subprocess
+import sys
 import tempfile
 
 from estimate_decks import fitted, shown, studies
@@ -21,6 +22,11 @@ GROUPS = {"start, write": ("beginning", "files", "lines", "array_bytes", "swept_
                     "fine_blocks", "stress_modes", "row_stresses")}
 # The processor clocks of the listing that these are; what is left of a run is the first
 CLOCKS = {"read": ("read",), "assemble": ("assemble",), "factor": ("factor",), "solve": ("joints", "recover")}
+# Processor seconds and peak memory [KiB] of a command
+USED = """import resource, subprocess, sys
+subprocess.run(sys.argv[1:], check=True)
+used = resource.getrusage(resource.RUSAGE_CHILDREN)
+print(used.ru_utime + used.ru_stime, used.ru_maxrss)"""
 STAY = 0.02  # what a change of a constant counts beside what is missing
 MEASURED = ("reading", "ordering", "factoring")  # their counts are seconds already
 
@@ -111,10 +117,10 @@ def measure_studies(program, folder):
         for _ in range(REPEATS):
             out = tempfile.mkdtemp(dir=folder)
             told = counts(program, paths[1], ["--study", paths[0], *options])
-            process = subprocess.Popen([program, "study", *paths, "-o", out, "--quiet", *options])
-            _, _, used = os.wait4(process.pid, 0)
-            process.returncode = 0
-            tries.append((pace(told), len(tries), used.ru_utime + used.ru_stime, used.ru_maxrss/1024.0, told))
+            # a process begins with the peak memory of the one that starts it: a small one in between
+            used = subprocess.run([sys.executable, "-c", USED, program, "study", *paths, "-o", out, "--quiet", *options],
+                                  capture_output=True, text=True, check=True).stdout.split()
+            tries.append((pace(told), len(tries), float(used[0]), float(used[1])/1024.0, told))
         _, _, total, memory, told = max(tries)
         size = re.match(r".*: (\d+) rows? on (\d+)", subprocess.run(
             [program, "estimate", paths[1], "--study", paths[0]], capture_output=True, text=True, check=True).stdout)

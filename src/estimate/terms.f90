@@ -45,47 +45,47 @@ module axijoint_estimate_terms
    !> All of them, at the places above
    type(term_type), parameter :: terms(n_terms) = [ &
       term_type('beginning', phase_read, common, .false., &
-                'start of the program', 3.7e-2_wp), &
+                'start of the program', 4.0e-2_wp), &
       term_type('reading', phase_read, measured, .false., &
                 'reading, as measured now', 1.0_wp), &
       term_type('ordering', phase_assemble, measured, .false., &
                 'orders and plan of the equations, as measured now', 1.0_wp), &
       term_type('shape_products', phase_assemble, common, .false., &
-                'pairs of nodes at Gauss points, both meshes', 3.2e-9_wp), &
+                'pairs of nodes at Gauss points, both meshes', 5.8e-9_wp), &
       term_type('fine_nodes', phase_assemble, common, .false., &
                 'nodes of the mesh half as large', 5.9e-6_wp), &
       term_type('factoring', phase_factor, measured, .true., &
-                'factors, by operations and entries', 1.9_wp), &
+                'factors, by operations and entries', 1.7_wp), &
       term_type('inverse', phase_condense, products, .true., &
-                'operations on the block of the joints', 2.5e-10_wp), &
+                'operations on the block of the joints', 2.2e-10_wp), &
       term_type('block_entries', phase_condense, common, .true., &
-                'entries of flexibilities', 2.3e-9_wp), &
+                'entries of flexibilities', 3.0e-9_wp), &
       term_type('solved_entries', phase_joints, common, .true., &
-                'entries of factors, solution by solution', 1.2e-9_wp), &
+                'entries of factors, solution by solution', 1.8e-9_wp), &
       term_type('node_modes', phase_joints, common, .false., &
                 'loads and displacements, node by mode', 1.5e-6_wp), &
       term_type('laws', phase_joints, common, .false., &
-                'laws at points and planes', 3.2e-7_wp), &
+                'laws at points and planes', 1.6e-7_wp), &
       term_type('sums', phase_joints, common, .false., &
-                'sums of harmonics on planes', 3.6e-8_wp), &
+                'sums of harmonics on planes', 1.3e-8_wp), &
       term_type('flexibility', phase_joints, common, .false., &
-                'products with flexibilities', 4.2e-8_wp), &
+                'products with flexibilities', 1.8e-8_wp), &
       term_type('fine_blocks', phase_errors, common, .true., &
-                'stiffness of the mesh half as large', 4.0e-7_wp), &
+                'stiffness of the mesh half as large', 2.5e-7_wp), &
       term_type('stress_modes', phase_recover, common, .false., &
-                'stresses at Gauss points, mode by mode', 8.3e-7_wp), &
+                'stresses at Gauss points, mode by mode', 1.2e-7_wp), &
       term_type('files', phase_write, common, .false., &
-                'files opened, closed and named', 1.6e-2_wp), &
+                'files opened, closed and named', 9.5e-3_wp), &
       term_type('lines', phase_write, common, .false., &
-                'lines of the listing', 3.2e-6_wp), &
+                'lines of the listing', 2.7e-6_wp), &
       term_type('array_bytes', phase_write, common, .false., &
-                'bytes of the results file', 8.6e-9_wp), &
+                'bytes of the results file', 1.4e-8_wp), &
       term_type('swept_values', phase_write, common, .false., &
-                'numbers for ParaView', 8.4e-7_wp), &
+                'numbers for ParaView', 8.0e-7_wp), &
       term_type('row_stresses', phase_recover, common, .false., &
-                'quantities of rows', 1.0e-8_wp), &
+                'quantities of rows', 3.0e-9_wp), &
       term_type('formed_entries', phase_factor, common, .true., &
-                'entries of matrices', 5.7e-9_wp), &
+                'entries of matrices', 5.5e-9_wp), &
       term_type('rows', phase_write, common, .false., &
                 'rows, each noted at once', 7.0e-4_wp)]
 

@@ -26,6 +26,8 @@ module axijoint_estimate_work
    !> errors and without, of an increment that is shown, of any other, as multiples of one
    real(wp), parameter :: nodes_judged = 4.0_wp, nodes_last = 1.0_wp, nodes_shown = 1.0_wp, &
       nodes_loaded = 0.3_wp
+   !> Stresses of the end with estimates of errors, as multiples of those of an increment
+   real(wp), parameter :: points_judged = 2.0_wp
    !> Angles at which a row of a study looks for its largest stress
    integer, parameter :: row_angles = 24
 
@@ -133,7 +135,8 @@ contains
                                                  + nodes_loaded*(size(model%increments) - 1))
          if (estimates) work(fine_blocks) = modes*sum(fine_nodes_of(mesh%element_size) &
                                                       *blocks_of(mesh%element_size))
-         work(stress_modes) = n_points(model)*modes*(1.0_wp + shown)
+         work(stress_modes) = shape_values(model)*modes*(merge(points_judged, 1.0_wp, estimates) &
+                                                         + shown)
       end associate
    end function state_work
 
@@ -149,7 +152,7 @@ contains
       associate (increments => real(size(model%increments), wp), &
                  modes => size(structure%modes))
          work = 0.0_wp
-         work(stress_modes) = n_points(model)*modes*(increments - 1.0_wp - n_shown(model))
+         work(stress_modes) = shape_values(model)*modes*(increments - 1.0_wp - n_shown(model))
          work(row_stresses) = n_points(model)*modes*row_angles*increments
       end associate
    end function row_work
@@ -166,6 +169,18 @@ contains
          if (model%sweep%wanted .or. any(is_kept(model%keep, i, size(model%increments)))) n = n + 1
       end do
    end function n_shown
+
+   !> Shape functions at the Gauss points of all elements
+   pure real(wp) function shape_values(model)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      type(reference_type), allocatable :: references(:)
+
+      references = element_references(model%mesh)
+      shape_values = sum(real(references(model%mesh%element_kind)%n_points, wp) &
+                         *model%mesh%element_size)
+   end function shape_values
 
    !> Gauss points of all elements
    pure real(wp) function n_points(model)
