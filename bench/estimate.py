@@ -114,12 +114,15 @@ def measure_studies(program, folder):
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text)
         tries = []
+        after = counts(program, paths[1], ["--study", paths[0], *options])
         for _ in range(REPEATS):
             out = tempfile.mkdtemp(dir=folder)
-            told = counts(program, paths[1], ["--study", paths[0], *options])
+            before = after
             # a process begins with the peak memory of the one that starts it: a small one in between
             used = subprocess.run([sys.executable, "-c", USED, program, "study", *paths, "-o", out, "--quiet", *options],
                                   capture_output=True, text=True, check=True).stdout.split()
+            after = counts(program, paths[1], ["--study", paths[0], *options])
+            told = min(before, after, key=pace)
             tries.append((pace(told), len(tries), float(used[0]), float(used[1])/1024.0, told))
         _, _, total, memory, told = max(tries)
         size = re.match(r".*: (\d+) rows? on (\d+)", subprocess.run(

@@ -93,7 +93,7 @@ def shown():
 
 
 def studies():
-    """Name: deck, table, options. No constant is fitted to any but the first"""
+    """Name: deck, table, options. The first two were looked at when the constants were set, the others not"""
     case3 = inputs("case3_balanced")
     with open(os.path.join(INPUTS, "friction.csv"), encoding="utf-8") as file:
         friction = file.read()

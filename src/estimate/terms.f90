@@ -45,7 +45,7 @@ module axijoint_estimate_terms
    !> All of them, at the places above
    type(term_type), parameter :: terms(n_terms) = [ &
       term_type('beginning', phase_read, common, .false., &
-                'start of the program', 4.0e-2_wp), &
+                'start of the program', 1.2e-2_wp), &
       term_type('reading', phase_read, measured, .false., &
                 'reading, as measured now', 1.0_wp), &
       term_type('ordering', phase_assemble, measured, .false., &
@@ -75,7 +75,7 @@ module axijoint_estimate_terms
       term_type('stress_modes', phase_recover, common, .false., &
                 'stresses at Gauss points, mode by mode', 1.2e-7_wp), &
       term_type('files', phase_write, common, .false., &
-                'files opened, closed and named', 9.5e-3_wp), &
+                'files opened, closed and named', 2.4e-2_wp), &
       term_type('lines', phase_write, common, .false., &
                 'lines of the listing', 2.7e-6_wp), &
       term_type('array_bytes', phase_write, common, .false., &
@@ -86,7 +86,7 @@ module axijoint_estimate_terms
                 'quantities of rows', 3.0e-9_wp), &
       term_type('formed_entries', phase_factor, common, .true., &
                 'entries of matrices', 5.5e-9_wp), &
-      term_type('rows', phase_write, common, .false., &
-                'rows, each noted at once', 7.0e-4_wp)]
+      term_type('rows', phase_recover, common, .false., &
+                'increments of rows: their fields, quantities, notes', 2.5e-3_wp)]
 
 end module axijoint_estimate_terms

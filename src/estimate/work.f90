@@ -19,12 +19,12 @@ module axijoint_estimate_work
    !> Solutions of a mode: displacements with one refinement, condition of the matrix; with joints
    !> that yield those of the corrections and of what estimates of errors change, or without these
    real(wp), parameter :: linear_solutions = 6.0_wp, yielding_solutions = 14.0_wp, &
-      unjudged_solutions = 8.0_wp
+      unjudged_solutions = 5.0_wp
    !> Steps down on the fine level, each with a solution on the mesh
    real(wp), parameter :: steps_down = 3.0_wp
    !> Loads, displacements, reactions, smoothed stresses of the nodes: of the end with estimates of
    !> errors and without, of an increment that is shown, of any other, as multiples of one
-   real(wp), parameter :: nodes_judged = 4.0_wp, nodes_last = 1.0_wp, nodes_shown = 1.0_wp, &
+   real(wp), parameter :: nodes_judged = 4.0_wp, nodes_last = 0.5_wp, nodes_shown = 1.0_wp, &
       nodes_loaded = 0.3_wp
    !> Stresses of the end with estimates of errors, as multiples of those of an increment
    real(wp), parameter :: points_judged = 2.0_wp
