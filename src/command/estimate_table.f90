@@ -50,7 +50,7 @@ contains
       call print_assumptions(model, forecast, each)
    end subroutine print_forecast
 
-   !> First line: a deck and its size
+   !> First line: a deck and its size; what users of the solver should know
    function deck_text(deck, model, structure) result(text)
       !> The deck
       character(len=*), intent(in) :: deck
@@ -82,6 +82,9 @@ contains
          count_of(size(model%increments), 'increment')
       if (size(model%combinations) > 1) text = text//', '// &
          count_of(size(model%combinations), 'combination')
+      associate (note => structure%equations%solver%note)
+         if (note /= '') text = text//new_line('a')//'  '//trim(note)
+      end associate
    end function deck_text
 
    !> First line: a study and its size
