@@ -60,7 +60,7 @@ contains
 
       call fatal_error(error, exit_memory, 'out of memory: '//what//new_line('a')// &
          'mend: more memory or a larger limit; fewer threads (--threads), another solver '// &
-         '(axijoint estimate compares them), fewer harmonics or a coarser mesh')
+         '(axijoint estimate --solver NAME), fewer harmonics or a coarser mesh')
    end subroutine memory_error
 
 end module axijoint_base_error

@@ -190,7 +190,7 @@ void axijoint_out_of_memory(size_t bytes, const char *what)
    snprintf(text, sizeof text,
             "axijoint: out of memory: %s%s%s%s\n"
             "mend: more memory or a larger limit; fewer threads (--threads), another solver (axijoint estimate "
-            "compares them), fewer harmonics or a coarser mesh\n",
+            "--solver NAME), fewer harmonics or a coarser mesh\n",
             asked, stage[0] ? " while " : "", stage, held);
    end(text, exit_memory);
 }

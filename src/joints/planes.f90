@@ -243,21 +243,7 @@ contains
       !> Sums, shape (points, components, planes)
       real(wp), intent(inout) :: total(n, size(planes%odd), *)
 
-      integer :: i, step
-
-      if (n == 0) return
-      step = n*size(planes%odd)
-      associate (m => size(planes%meridional, 1), p => size(planes%angle))
-         do i = 1, size(planes%odd)
-            if (planes%odd(i)) then
-               call dgemm('N', 'N', n, p, m, 1.0_wp, amplitude(1, i, 1), step, &
-                  planes%circumferential, m, 0.0_wp, total(1, i, 1), step)
-            else
-               call dgemm('N', 'N', n, p, m, 1.0_wp, amplitude(1, i, 1), step, &
-                  planes%meridional, m, 0.0_wp, total(1, i, 1), step)
-            end if
-         end do
-      end associate
+      call multiply(planes%odd, n, amplitude, planes%meridional, planes%circumferential, total)
    end subroutine sum_modes
 
    !> Amplitudes of values that are known on the planes and lie together component by component
@@ -271,21 +257,36 @@ contains
       !> Amplitudes, shape (points, components, modes)
       real(wp), intent(inout) :: amplitude(n, size(planes%odd), *)
 
+      call multiply(planes%odd, n, total, planes%meridional_back, planes%circumferential_back, &
+         amplitude)
+   end subroutine find_modes
+
+   !> Products of each component with the matrix of those that are even or odd
+   subroutine multiply(is_odd, n, values, even, odd, product)
+      !> Whether a component is odd in a symmetric mode
+      logical, intent(in) :: is_odd(:)
+      !> Number of points
+      integer, intent(in) :: n
+      !> Shape (points, components, k)
+      real(wp), intent(in) :: values(n, size(is_odd), *)
+      !> Shape (k, m)
+      real(wp), intent(in), contiguous :: even(:, :), odd(:, :)
+      !> Shape (points, components, m)
+      real(wp), intent(inout) :: product(n, size(is_odd), *)
+
       integer :: i, step
 
       if (n == 0) return
-      step = n*size(planes%odd)
-      associate (m => size(planes%meridional, 1), p => size(planes%angle))
-         do i = 1, size(planes%odd)
-            if (planes%odd(i)) then
-               call dgemm('N', 'N', n, m, p, 1.0_wp, total(1, i, 1), step, &
-                  planes%circumferential_back, p, 0.0_wp, amplitude(1, i, 1), step)
-            else
-               call dgemm('N', 'N', n, m, p, 1.0_wp, total(1, i, 1), step, &
-                  planes%meridional_back, p, 0.0_wp, amplitude(1, i, 1), step)
-            end if
-         end do
-      end associate
-   end subroutine find_modes
+      step = n*size(is_odd)
+      do i = 1, size(is_odd)
+         if (is_odd(i)) then
+            call dgemm('N', 'N', n, size(odd, 2), size(odd, 1), 1.0_wp, values(1, i, 1), step, &
+               odd, size(odd, 1), 0.0_wp, product(1, i, 1), step)
+         else
+            call dgemm('N', 'N', n, size(even, 2), size(even, 1), 1.0_wp, values(1, i, 1), step, &
+               even, size(even, 1), 0.0_wp, product(1, i, 1), step)
+         end if
+      end do
+   end subroutine multiply
 
 end module axijoint_joints_planes

@@ -78,14 +78,12 @@ contains
       end do
       !$omp end parallel do
       call share_fields(structure%equations, results)
-      associate (equations => structure%equations)
-         call share(equations, unbalanced, size(unbalanced, kind=i8))
-         call share(equations, scale, size(scale, kind=i8))
-         call share(equations, applied, size(applied, kind=i8))
-         call share(equations, resultant, size(resultant, kind=i8))
-         call share(equations, reacted, size(reacted, kind=i8))
-         call share(equations, unbalance, size(unbalance, kind=i8))
-      end associate
+      call share(structure%equations, unbalanced, size(unbalanced, kind=i8))
+      call share(structure%equations, scale, size(scale, kind=i8))
+      call share(structure%equations, applied, size(applied, kind=i8))
+      call share(structure%equations, resultant, size(resultant, kind=i8))
+      call share(structure%equations, reacted, size(reacted, kind=i8))
+      call share(structure%equations, unbalance, size(unbalance, kind=i8))
       results%applied = sum(applied, 2)
       results%reacted = sum(reacted, 2)
       results%part_unbalance = sum(unbalance, 3)
