@@ -5,7 +5,7 @@ module axijoint_element_joint_law
    implicit none
    private
    public :: joint_law_type, memory_type, admit_stress, trial_stress, admit, renew, state_of, &
-      lost_at_opening, cuts_back
+      lost_at_opening, loses_at_opening, cuts_back
    public :: law_elastic, law_paper, slip_components, slip_resultant, opening_reversible, &
       opening_bond
    public :: law_names, slip_names, opening_names
@@ -91,6 +91,15 @@ contains
       cuts_back = law%kind == law_elastic .or. law%kind == law_paper
    end function cuts_back
 
+   !> Whether a point loses shear stress at once when it opens, for all its tension is released then
+   elemental logical function loses_at_opening(law) result(loses)
+      !> Properties of the joint
+      type(joint_law_type), intent(in) :: law
+
+      loses = law%kind == law_paper .and. law%cohesion > 0.0_wp .and. &
+         law%opening == opening_reversible .and. .not. law%dilation > 0.0_wp
+   end function loses_at_opening
+
    !> Stress admitted by a point that has no memory
    pure function admit_stress(law, trial) result(stress)
       !> Properties of the joint
@@ -124,8 +133,10 @@ contains
    !> Stress admitted for a trial stress, and its derivatives. Tension releases all
    !> stress unless a bond holds it; otherwise shear is cut to the yield stress
    !> C - sigma tan(phi) (Eq. 16), C under tension. Dilation may press a point whose
-   !> trial stress is tension: it slides up on its asperities.
-   pure subroutine admit(law, memory, trial, stress, tangent)
+   !> trial stress is tension: it slides up on its asperities. A law that loses its
+   !> cohesion at once may have no state with equilibrium; then cohesion fades over
+   !> a small tension of the trial stress, and with it no normal stress is left.
+   pure subroutine admit(law, memory, trial, stress, tangent, fading)
       !> Properties of the joint
       type(joint_law_type), intent(in) :: law
       !> Memory of the point
@@ -136,10 +147,14 @@ contains
       real(wp), intent(out) :: stress(3)
       !> Derivatives of the stress by the trial stress
       real(wp), intent(out) :: tangent(3, 3)
+      !> Tension over which cohesion fades, as a share of it; at once if absent
+      real(wp), intent(in), optional :: fading
 
-      real(wp) :: friction, cohesion
+      real(wp) :: friction, cohesion, span
       logical :: tension
 
+      span = 0.0_wp
+      if (present(fading) .and. loses_at_opening(law)) span = fading*law%cohesion
       call strength(law, memory, cohesion, friction)
       tension = trial(eta) > 0.0_wp
       if (tension .and. law%dilation > 0.0_wp) then
@@ -148,6 +163,10 @@ contains
       end if
       if (law%kind == law_elastic .or. .not. tension) then
          call cut(law, cohesion, friction, trial, stress, tangent)
+      else if (trial(eta) < span .and. .not. memory%broken) then
+         call cut(law, cohesion, cohesion/span, trial, stress, tangent)
+         stress(eta) = 0.0_wp
+         tangent(eta, :) = 0.0_wp
       else if (law%opening == opening_reversible .or. memory%broken) then
          stress = 0.0_wp
          tangent = 0.0_wp

@@ -4,7 +4,7 @@ module axijoint_joints_field
    use axijoint_assembly_loading, only : in_situ_joint_stress
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : joint_law_type, memory_type, trial_stress, admit, renew, &
-      state_of, &
+      state_of, loses_at_opening, &
                                           state_stick, state_slip, state_open, opening_bond, eta
    use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
    use axijoint_model_joint_points, only : model_joint_point_type
@@ -13,7 +13,7 @@ module axijoint_joints_field
    private
    public :: joint_field_type, new_joint_field, admit_jump, admit_trial, judge_states
    public :: set_initial_stress, trial_of, seen_by_law, stress_amplitude
-   public :: commit_field, break_bonds, soften, count_state, n_across_gaps
+   public :: commit_field, break_bonds, soften, count_state, n_across_gaps, n_fading
 
    !> Share of the largest joint stress, or jump, below which a value is rounding
    real(wp), parameter :: noise = 1.0e-9_wp
@@ -40,6 +40,9 @@ module axijoint_joints_field
       !> Share of the elastic stress that joints keep though the laws do not admit it: weak springs
       !> that hold, on the way, what nothing else does
       real(wp) :: leak = 0.0_wp
+      !> Tension over which the cohesion of an opening point fades, as a share of it: none where there
+      !> is a state without
+      real(wp) :: fading = 0.0_wp
       !> Amplitudes of the stress k d - P that was not admitted and has been
       !> transferred to the structure, and of that which has not yet been, shape
       !> (3, points, modes)
@@ -124,7 +127,8 @@ contains
       do j = 1, size(jump, 3)
          do k = 1, size(laws)
             trial = seen_by_law(laws(k), k, j, view(k), field)
-            call admit(laws(k), field%memory(k, j), trial, field%stress(:, k, j), tangent)
+            call admit(laws(k), field%memory(k, j), trial, field%stress(:, k, j), tangent, &
+               view(k)*field%fading)
             excess(:, k, j) = base(:, k)*(jump(:, k, j) - field%moved(:, k, j)) + &
                field%initial(:, k) &
                - field%stress(:, k, j)
@@ -204,9 +208,43 @@ contains
             field%state(k, j) = state_of(laws(k), field%stress(:, k, j), field%jump(:, k, j), &
                small, &
                                          field%memory(k, j))
+            if (fades(laws(k), k, j, field)) field%state(k, j) = state_slip
          end do
       end do
    end subroutine judge_states
+
+   !> Whether a point has a part of its cohesion left, as it opens over a tension at which that fades
+   pure logical function fades(law, k, j, field)
+      !> Law of the point
+      type(joint_law_type), intent(in) :: law
+      !> Point and plane
+      integer, intent(in) :: k, j
+      !> The field
+      type(joint_field_type), intent(in) :: field
+
+      real(wp) :: trial(3)
+
+      fades = .false.
+      if (.not. field%fading > 0.0_wp .or. .not. loses_at_opening(law)) return
+      trial = trial_of(law, k, j, field%jump(:, k, j), field)
+      fades = trial(eta) > 0.0_wp .and. trial(eta) < field%fading*law%cohesion .and. &
+         .not. field%memory(k, j)%broken
+   end function fades
+
+   !> Points times planes that do
+   pure integer function n_fading(laws, field) result(n)
+      !> Laws of the points
+      type(joint_law_type), intent(in) :: laws(:)
+      !> The field
+      type(joint_field_type), intent(in) :: field
+
+      integer :: j, k
+
+      n = 0
+      do j = 1, size(field%state, 2)
+         n = n + count([(fades(laws(k), k, j, field), k=1, size(laws))])
+      end do
+   end function n_fading
 
    !> Break the bonds that are in tension
    pure subroutine break_bonds(laws, field, n)

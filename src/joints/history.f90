@@ -44,6 +44,9 @@ module axijoint_joints_history
       type(joint_field_type) :: field
       !> How the last step ended
       type(verdict_type) :: verdict
+      !> Load steps in equilibrium in which cohesion fades over an opening, for the law has no state
+      !> without that
+      integer :: n_faded = 0
       !> Loads at the end: of the step that failed, or of the last in equilibrium
       !> if joints ran away beyond it
       type(loading_type) :: loading

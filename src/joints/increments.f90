@@ -304,6 +304,7 @@ contains
       history%exchanged = history%exchanged + condensed%team%exchanged()
       call note_residual(condensed, number, load_factor, history)
       if (.not. history%verdict%converged) return
+      if (history%field%fading > 0.0_wp) history%n_faded = history%n_faded + 1
       call move_alloc(stress, history%balanced)
       call move_alloc(start, history%start)
       history%reached = load_factor

@@ -223,7 +223,8 @@ contains
          do k = 1, size(tangent, 3)
             associate (law => scene%laws(k), t => tangent(:, :, k, j))
                call admit(law, field%memory(k, j), &
-                  seen_by_law(scene%laws(k), k, j, view(k), field), admitted, t)
+                  seen_by_law(scene%laws(k), k, j, view(k), field), admitted, t, &
+                  view(k)*field%fading)
                if (.not. sticking .or. .not. t(eta, eta) > 0.0_wp) cycle
                if (law%friction > 0.0_wp .or. law%cohesion > 0.0_wp) t = reshape(identity, [3, 3])
             end associate

@@ -118,7 +118,7 @@ contains
                        law => scene%laws(k))
                call admit(law, field%memory(k, j), &
                   seen_by_law(scene%laws(k), k, j, view(k), field), &
-                          admitted, tangent)
+                          admitted, tangent, view(k)*field%fading)
                missing(:, k, j) = admitted - stress
                inverse = inverse_of(identity - (1.0_wp - view(k)/limit(k))*tangent)
                newton%rest(:, k, j) = matmul(inverse, missing(:, k, j))

@@ -4,9 +4,10 @@ module axijoint_joints_newton_method
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use axijoint_base_kinds, only : wp
    use axijoint_base_stop, only : stop_wished
+   use axijoint_element_joint_law, only : loses_at_opening
    use axijoint_joints_approach, only : approach
    use axijoint_joints_condensed, only : condensed_type
-   use axijoint_joints_field, only : joint_field_type, break_bonds
+   use axijoint_joints_field, only : joint_field_type, break_bonds, n_fading
    use axijoint_joints_mechanism, only : find_mechanism
    use axijoint_joints_method, only : method_type, control_type, verdict_type
    use axijoint_joints_newton, only : newton_type, new_newton, newton_step, step_bounds_type, &
@@ -37,6 +38,11 @@ module axijoint_joints_newton_method
    !> left to it
    real(wp), parameter :: loose = 1.0e-3_wp, closer = 1.0e-4_wp, near = 1.0e-2_wp, &
       strict = 1.0e-9_wp, part = 0.01_wp
+   !> Where a law that jumps has no state, cohesion fades with opening: first over tensions as large
+   !> as it, then over a part of that whenever there is equilibrium, and last. It may be wider where
+   !> iterations do not get there, but not more
+   real(wp), parameter :: first_fading = 1.0_wp, fading_factor = 0.1_wp, last_fading = 1.0e-4_wp, &
+      widest_fading = 1.0e-2_wp
    !> Rounding of the forces of the excess stress
    real(wp), parameter :: rounding = 1.0e2_wp*epsilon(1.0_wp)
    !> A step without a better residual for so many iterations has stalled
@@ -50,9 +56,10 @@ module axijoint_joints_newton_method
 
    !> What to try where the iterations ran away or stalled: nothing more, weaker springs than those
    !> that were taken away too early, the whole stiffness at once, steps as long as they want, weak
-   !> springs
+   !> springs, cohesion that fades, and that fades as much as there was equilibrium for
    enum, bind(c)
-      enumerator :: give_up, weaker_springs, whole_stiffness, long_steps, weak_springs
+      enumerator :: give_up, weaker_springs, whole_stiffness, long_steps, weak_springs, &
+         fading_cohesion, wider_fading
    end enum
 
    !> The method
@@ -74,6 +81,8 @@ module axijoint_joints_newton_method
       !> The state at the start, the last that ran away, and that from which weak springs were taken
       !> away
       type(joint_field_type), allocatable :: start, astray, held
+      !> The last state in equilibrium in which cohesion fades
+      type(joint_field_type), allocatable :: fading
       !> How strong these springs were
       real(wp) :: springs = 0.0_wp
       !> What bounds the steps
@@ -81,6 +90,8 @@ module axijoint_joints_newton_method
       !> Whether the laws see a part of the stiffness first, whether steps are long whatever the
       !> residual does, whether weak springs were tried, and whether the last step was not made
       logical :: in_stages = .false., far = .false., leaked = .false., ran = .false.
+      !> Whether cohesion that fades was tried, and whether it is not to fade faster
+      logical :: faded = .false., wide = .false.
       !> Steps since the task changed
       integer :: n_steps = 0
    end type course_type
@@ -120,7 +131,8 @@ contains
          associate (may_go_on => course%watch%k < control%most)
             if (verdict%ran_away .or. verdict%stalled) then
                if (verdict%ran_away) course%astray = field
-               next = next_attempt(condensed, course, field, verdict%stalled, may_go_on)
+               next = next_attempt(condensed, course, field, verdict%stalled, &
+                  any(loses_at_opening(scene%laws)), may_go_on)
                if (next == give_up) exit
                call try(next, condensed, scene, field, course, verdict)
                cycle
@@ -142,6 +154,7 @@ contains
          field = course%astray
          call evaluate(condensed, scene, field, course%residual)
       end if
+      if (verdict%converged .and. n_fading(scene%laws, field) == 0) field%fading = 0.0_wp
       call end_watch(course%watch, course%residual, field, path, verdict)
       if (verdict%converged .or. .not. verdict%stalled) return
       verdict%at_rounding = course%watch%best <= rounding*(residual_norm(condensed%measure, &
@@ -172,6 +185,7 @@ contains
       share = share_seen_first(condensed, scene)
       course%in_stages = .not. warm .and. share < 1.0_wp
       if (course%in_stages) field%share = share
+      if (.not. warm) field%fading = 0.0_wp
       field%view_limit = newton_view
       course%begun = field%jump
       call look_again(condensed, scene, 1.0_wp, field, course)
@@ -202,21 +216,27 @@ contains
    end function share_seen_first
 
    !> What to try next
-   pure integer function next_attempt(condensed, course, field, stalled, may_go_on) result(next)
+   pure integer function next_attempt(condensed, course, field, stalled, may_fade, may_go_on) &
+      result(next)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> The iteration
       type(course_type), intent(in) :: course
       !> State of the joints
       type(joint_field_type), intent(in) :: field
-      !> Whether the iterations stalled, and whether some are left
-      logical, intent(in) :: stalled, may_go_on
+      !> Whether the iterations stalled, whether there is cohesion to fade, and whether iterations are
+      !> left
+      logical, intent(in) :: stalled, may_fade, may_go_on
 
       next = give_up
       if (course%in_stages) then
          next = whole_stiffness
       else if (.not. may_go_on) then
          return
+      else if (stalled .and. may_fade .and. .not. course%faded) then
+         next = fading_cohesion
+      else if (stalled .and. holds_faded(course)) then
+         next = wider_fading
       else if (.not. field%leak > 0.0_wp .and. course%springs > last_leak) then
          next = weaker_springs
       else if (stalled .and. .not. (course%far .or. course%leaked)) then
@@ -225,6 +245,16 @@ contains
          next = weak_springs
       end if
    end function next_attempt
+
+   !> Whether there is a state in which cohesion fades over little enough
+   pure logical function holds_faded(course) result(holds)
+      !> The iteration
+      type(course_type), intent(in) :: course
+
+      holds = .false.
+      if (allocated(course%fading)) &
+         holds = course%fading%fading <= widest_fading .and. .not. course%wide
+   end function holds_faded
 
    !> Whether weak springs may still help
    pure logical function may_hold_weakly(condensed, course, may_go_on) result(may)
@@ -265,6 +295,15 @@ contains
       case (long_steps)
          course%far = .true.
          field = course%start
+         call begin_again(condensed, scene, 0.0_wp, field, course, verdict)
+      case (fading_cohesion)
+         course%faded = .true.
+         field = course%start
+         field%fading = first_fading
+         call begin_again(condensed, scene, 0.0_wp, field, course, verdict)
+      case (wider_fading)
+         course%wide = .true.
+         field = course%fading
          call begin_again(condensed, scene, 0.0_wp, field, course, verdict)
       case (weak_springs)
          if (verdict%ran_away .or. verdict%stalled) field = course%start
@@ -345,6 +384,10 @@ contains
          else if (field%share < 1.0_wp) then
             again = found%whole <= stage_tolerance
             if (again) call stiffen(condensed, scene, field, course%residual)
+         else if (field%fading > last_fading .and. .not. course%wide) then
+            again = found%ratio <= tolerance
+            if (again) course%fading = field
+            if (again) field%fading = max(last_fading, fading_factor*field%fading)
          else
             if (condensed%proportion > stiff &
                 .and. found%ratio <= merge(loosest_pass, loose_pass, &

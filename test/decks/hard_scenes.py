@@ -448,8 +448,8 @@ def hard_inputs():
             'Exact after the first increment: no displacement, sigma = 0.5 gamma z on the shaft.'),
         'reversible_cycle': with_reference(
             example(2, factor=10.0, bond=False, tolerance=1e-6), "Case 2 with joints ten times as stiff, the paper's law: "
-            'cohesion comes back when a point closes.', 'No state is found: exit code 3, and the remark that points '
-            'change their state for ever; BOND has a state.'),
+            'cohesion comes back when a point closes.', 'The law has no state with equilibrium: '
+            'cohesion fades over a small opening, which a remark says.'),
         'rigid_joints': with_reference(
             example(3, factor=1e6, tolerance=1e-6), 'Case 3 with joints a million times as stiff, k h/E = 1E5.',
             'Converges; the remark says that they are out of proportion.'),

@@ -7,8 +7,8 @@ module axijoint_analysis_core_remarks
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text
-   use axijoint_element_joint_law, only : joint_law_type, opening_reversible
-   use axijoint_joints_field, only : joint_field_type, n_across_gaps
+   use axijoint_element_joint_law, only : joint_law_type, opening_reversible, eta
+   use axijoint_joints_field, only : joint_field_type, n_across_gaps, n_fading
    use axijoint_joints_history, only : history_type
    use axijoint_joints_path, only : iteration_type
    use axijoint_model_model, only : model_type
@@ -86,6 +86,7 @@ contains
                      '; joints are moved by it as little as can be')
          end do
       end if
+      if (history%n_faded > 0) call add(remarks, fading_text(history))
       if (history%verdict%at_rounding) then
          call add(remarks, 'rounding allows no smaller residual ratio: the stress of open '// &
             'joints so '// &
@@ -129,6 +130,22 @@ contains
          'planes change their state for ever'//period_text(results%path)// &
          restless_text(model, structure, history, results)//advice(model, structure))
    end subroutine remark_on_end
+
+   !> Words about cohesion that fades: how many points have a part of it, and how far they are open
+   function fading_text(history) result(text)
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> Words
+      character(len=:), allocatable :: text
+
+      associate (field => history%field, laws => history%scene%laws)
+         text = 'cohesion fades over an opening in '//to_text(history%n_faded)//' of the load '// &
+            'steps, where the law, which loses it at once, has no equilibrium'
+         if (field%fading > 0.0_wp) text = text//'; at the end at '// &
+            to_text(n_fading(laws, field))//' joint points on planes, over '//to_text(maxval( &
+            field%fading*laws%cohesion/laws%stiffness(eta), laws%stiffness(eta) > 0.0_wp))
+      end associate
+   end function fading_text
 
    !> After how many iterations the path repeats itself, in words
    pure function period_text(path) result(text)
