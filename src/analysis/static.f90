@@ -119,7 +119,8 @@ contains
       call timer%pop()
 
       call timer%push(phase_recover)
-      call recover_fields(model, structure, history%loading, history%peak, field, results)
+      call recover_fields(model, structure, history%loading, history%peak, field, results, &
+         smoothed=estimates)
       if (estimates) &
          call estimate_discretization(model, structure, history%loading, field, &
             history%largest_stress, mesh_error, results)

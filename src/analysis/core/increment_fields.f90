@@ -92,7 +92,7 @@ contains
    end subroutine field_of_state
 
    !> All that follows from displacements and joints
-   subroutine recover_fields(model, structure, loading, peak, field, results)
+   subroutine recover_fields(model, structure, loading, peak, field, results, smoothed)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure
@@ -103,10 +103,16 @@ contains
       type(joint_field_type), intent(in) :: field
       !> Results; displacements, without rigid motions of floating parts, are there already
       type(results_type), intent(inout) :: results
+      !> Whether stresses are smoothed to the nodes; true if absent
+      logical, intent(in), optional :: smoothed
 
+      logical :: smooth
+
+      smooth = .true.
+      if (present(smoothed)) smooth = smoothed
       call take_joint_results(structure%joint_points, field, results)
       call recover(model, structure, loading, peak, field, results)
-      call smooth_stress(model, structure%equations, results)
+      if (smooth) call smooth_stress(model, structure%equations, results)
       call cut_resultants(model, structure, loading, field, results)
       results%face_reactions = face_reactions(model, results)
       results%joint_resultants = joint_resultants(model%mesh, structure%joint_points, &

@@ -139,6 +139,11 @@ contains
          text = mark_not_converged//" after "//to_text(size(results%path))// &
             " iterations: a mechanism; results are those of the last equilibrium, residual "// &
             "ratio "//ratio
+      else if (.not. results%converged .and. results%residual_ratio <= results%tolerance .and. &
+               results%mismatch <= results%tolerance) then
+         text = mark_not_converged//" forces are balanced (residual ratio "//ratio// &
+            ", tolerance "//tolerance//"), but iterations or rounding leave displacements or "// &
+            "stresses less certain than that claims"
       else if (.not. results%converged) then
          text = mark_not_converged//" residual ratio "//ratio//", tolerance "//tolerance// &
             ", after "//to_text(size(results%path))//" iterations: these results are no equilibrium"
