@@ -12,7 +12,7 @@ module axijoint_element_yield_stress
    use axijoint_element_yield_planes, only : yield_planes_type, return_to_planes
    implicit none
    private
-   public :: admit_solid, criterion_planes, holds_for_sure, root_j2
+   public :: admit_solid, criterion_planes, holds_for_sure, root_j2, cartesian
 
    !> Order of `principal_axes`, xx, yy, zz, xy, yz, xz
    integer, parameter :: cartesian(6) = [1, 2, 3, 4, 6, 5]

@@ -2,16 +2,16 @@
 module axijoint_plastic_field
    use axijoint_assembly_equations, only : equations_type
    use axijoint_base_kinds, only : wp
-   use axijoint_element_yield_law, only : yield_law_type
+   use axijoint_element_yield_law, only : elastic_strain
    use axijoint_element_yield_stress, only : admit_solid, holds_for_sure, root_j2
    use axijoint_fe_mode, only : mode_type
-   use axijoint_joints_planes, only : planes_type, new_planes, synthesize, analyse
+   use axijoint_joints_planes, only : planes_type, new_planes, synthesize, analyse, plane_weights
    use axijoint_plastic_bodies, only : bodies_type, elastic_stress, add_stress_force
    use axijoint_plastic_elastic, only : n_unknowns, to_vector, to_nodes, stiff_force
    implicit none
    private
    public :: body_field_type, body_load_type, body_planes, new_body_field, no_body_load, evaluate, &
-      yielding_force, elastic_force, commit
+      yielding_force, elastic_force, excess_force, commit
 
    !> Components that are odd in theta in a symmetric mode: r-theta and z-theta
    logical, parameter :: odd_components(6) = [.false., .false., .false., .false., .true., .true.]
@@ -47,13 +47,18 @@ module axijoint_plastic_field
       !> yield on any plane now, shape (points)
       real(wp), allocatable :: slope(:, :, :, :)
       logical, allocatable :: yields(:)
-      !> Amplitudes of the excess, shape (6, points, modes)
-      real(wp), allocatable :: amplitude(:, :, :)
+      !> Amplitudes of the elastic stress, of the excess, and of the excess that the displacements of
+      !> an equilibrium follow from, shape (6, points, modes)
+      real(wp), allocatable :: elastic(:, :, :), amplitude(:, :, :), carried(:, :, :)
       !> Forces of the bodies on components, held ones too, now and at the last increment in
       !> equilibrium, shape (3, nodes, modes)
       real(wp), allocatable :: force(:, :, :), force_before(:, :, :)
+      !> Amplitudes of the elastic stress there, shape (6, points, modes)
+      real(wp), allocatable :: elastic_before(:, :, :)
       !> What residuals were held against there
       real(wp) :: scale = 0.0_wp
+      !> Work that plastic strain has dissipated up to there [force length]
+      real(wp) :: dissipated = 0.0_wp
    end type body_field_type
 
 contains
@@ -96,6 +101,7 @@ contains
          allocate (field%force(3, size(dofs%equation, 2), n_modes), source=0.0_wp)
          field%force_before = field%force
          allocate (field%taken(6, n, n_planes), field%amplitude(6, n, n_modes), source=0.0_wp)
+         allocate (field%elastic, field%carried, field%elastic_before, source=field%amplitude)
          allocate (field%gained(n, n_planes), source=0.0_wp)
          allocate (field%marked(n), field%yields(n), source=.false.)
          allocate (field%on(0))
@@ -131,25 +137,24 @@ contains
       !> Forces on the unknowns out of balance
       real(wp), intent(out) :: residual(:)
 
-      real(wp), allocatable :: elastic(:, :, :), displacement(:, :)
+      real(wp), allocatable :: displacement(:, :)
       logical, allocatable :: all_points(:)
       integer :: k
 
-      allocate (elastic, mold=field%amplitude)
       allocate (all_points(size(bodies%laws)), source=.true.)
       do k = 1, size(equations%modes)
          displacement = to_nodes(equations, field%unknowns, k)
          if (allocated(load%held)) displacement = displacement + load%held(:, :, k)
          call elastic_stress(bodies, equations%modes(k)%harmonic, displacement, all_points, &
-                             elastic(:, :, k))
+                             field%elastic(:, :, k))
       end do
-      elastic = elastic + load%initial
-      field%on = points_on_planes(bodies, equations%modes, elastic, field%marked)
-      call admit_on_planes(bodies, planes, elastic(:, field%on, :), field)
+      field%elastic = field%elastic + load%initial
+      field%on = points_on_planes(bodies, equations%modes, field%elastic, &
+         field%marked)
+      call admit_on_planes(bodies, planes, field)
       residual = load%right - stiff_force(equations, field%unknowns) &
          + to_vector(equations, force_of(equations, bodies, field%amplitude, field%yields))
-      elastic = elastic - field%amplitude
-      field%force = force_of(equations, bodies, elastic, all_points)
+      field%force = force_of(equations, bodies, field%elastic - field%amplitude, all_points)
    end subroutine evaluate
 
    !> Points that may yield: those that have, and those where a bound of the sum of the harmonics
@@ -188,20 +193,18 @@ contains
    end function points_on_planes
 
    !> Stress that is admitted on the planes
-   subroutine admit_on_planes(bodies, planes, elastic, field)
+   subroutine admit_on_planes(bodies, planes, field)
       !> The bodies
       type(bodies_type), intent(in) :: bodies
       !> The planes
       type(planes_type), intent(in) :: planes
-      !> Amplitudes of the elastic stress of the points on planes, shape (6, on, modes)
-      real(wp), intent(in) :: elastic(:, :, :)
-      !> The state
+      !> The state, with its elastic stress
       type(body_field_type), intent(inout) :: field
 
       real(wp), allocatable :: total(:, :, :)
       integer :: n, i, j, p
 
-      total = synthesize(planes, elastic)
+      total = synthesize(planes, field%elastic(:, field%on, :))
       n = size(field%on)
       if (allocated(field%stress)) &
          deallocate (field%stress, field%excess, field%growth, field%slope)
@@ -263,6 +266,23 @@ contains
                                force(:, :, k))
       end do
    end function force_of
+
+   !> Forces on the unknowns of all modes that amplitudes of excess stress give
+   function excess_force(equations, bodies, amplitude) result(force)
+      !> The equations
+      type(equations_type), intent(in) :: equations
+      !> The bodies
+      type(bodies_type), intent(in) :: bodies
+      !> Amplitudes, shape (6, points, modes)
+      real(wp), intent(in) :: amplitude(:, :, :)
+      !> The forces
+      real(wp), allocatable :: force(:)
+
+      logical :: present(size(amplitude, 2))
+
+      present = any(any(abs(amplitude) > 0.0_wp, 3), 1)
+      force = to_vector(equations, force_of(equations, bodies, amplitude, present))
+   end function excess_force
 
    !> What a small displacement changes of the forces of the excess: the tangent of the structure is
    !> K less this
@@ -329,7 +349,11 @@ contains
    end function elastic_force
 
    !> Keep the plastic strain of an increment in equilibrium
-   subroutine commit(load, field)
+   subroutine commit(bodies, planes, load, field)
+      !> The bodies
+      type(bodies_type), intent(in) :: bodies
+      !> The planes
+      type(planes_type), intent(in) :: planes
       !> The loads
       type(body_load_type), intent(in) :: load
       !> The state, evaluated
@@ -337,6 +361,7 @@ contains
 
       integer :: i
 
+      field%dissipated = field%dissipated + dissipation(bodies, planes, field)
       do i = 1, size(field%on)
          associate (p => field%on(i))
             field%taken(:, p, :) = field%excess(:, i, :)
@@ -345,10 +370,38 @@ contains
          end associate
       end do
       field%force_before = field%force
+      field%elastic_before = field%elastic
       field%moved = field%unknowns - field%begun
       field%begun = field%unknowns
       field%pushed = load%right - field%right
       field%right = load%right
    end subroutine commit
+
+   !> Work of the stress on the plastic strain of an increment, by the mean of the stresses at its
+   !> ends: what is hardened by it is in it, too
+   real(wp) function dissipation(bodies, planes, field) result(work)
+      !> The bodies
+      type(bodies_type), intent(in) :: bodies
+      !> The planes
+      type(planes_type), intent(in) :: planes
+      !> The state, evaluated, not committed
+      type(body_field_type), intent(in) :: field
+
+      real(wp), allocatable :: before(:, :, :), weight(:)
+      integer :: i, j
+
+      work = 0.0_wp
+      before = synthesize(planes, field%elastic_before(:, field%on, :))
+      weight = plane_weights(planes)
+      do j = 1, size(weight)
+         do i = 1, size(field%on)
+            associate (p => field%on(i))
+               work = work + weight(j)*bodies%weight(p)*0.5_wp*dot_product( &
+                  before(:, i, j) - field%taken(:, p, j) + field%stress(:, i, j), &
+                  elastic_strain(bodies%laws(p), field%excess(:, i, j) - field%taken(:, p, j)))
+            end associate
+         end do
+      end do
+   end function dissipation
 
 end module axijoint_plastic_field

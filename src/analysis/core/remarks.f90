@@ -56,7 +56,7 @@ contains
       end if
       pins = pin_text(model, structure, history%loading, field, results)
       if (len(pins) > 0) call add(remarks, pins)
-      remarks = [remarks, proportion_remarks(model, results)]
+      if (allocated(results%stiffer)) remarks = [remarks, proportion_remarks(model, results)]
    end function remarks_on
 
    !> Why the increments ended as they did

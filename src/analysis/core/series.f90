@@ -27,8 +27,8 @@ module axijoint_analysis_core_series
       real(wp), allocatable :: displacement(:), pressure(:), shear(:)
       !> Points times planes that slip, and that are open
       integer, allocatable :: n_slip(:), n_open(:)
-      !> Work of loads and given displacements; elastic energy; work dissipated by sliding [force
-      !> length]
+      !> Work of loads and given displacements; elastic energy; work dissipated by sliding and by
+      !> plastic strain [force length]
       real(wp), allocatable :: work(:), energy(:), dissipated(:)
       !> Resultants of loads and reactions, shape (n_resultants, increments)
       real(wp), allocatable :: applied(:, :), reacted(:, :)
@@ -91,6 +91,7 @@ contains
       !> The series
       type(series_type), intent(inout) :: series
 
+      real(wp) :: plastic
       integer :: i
 
       i = series%n + 1
@@ -119,10 +120,12 @@ contains
          call interpolate_points(model, now, series%points(:, :, :, i))
          associate (change => now%displacement - series%before)
             series%work(i) = 0.5_wp*sum((series%acting + now%acting)*change)
-            series%stored = series%stored + 0.5_wp*sum((series%taken + now%taken)*change)
+            plastic = state%bodies%dissipated - series%state%bodies%dissipated
+            series%stored = series%stored + 0.5_wp*sum((series%taken + now%taken)*change) - plastic
          end associate
          series%energy(i) = series%stored + now%joint_energy
-         series%dissipated(i) = sliding_work(model, structure, series%state, state)
+         series%dissipated(i) = sliding_work(model, structure, series%state, state) &
+            + plastic
          if (i > 1) then
             series%work(i) = series%work(i) + series%work(i - 1)
             series%dissipated(i) = series%dissipated(i) + series%dissipated(i - 1)
