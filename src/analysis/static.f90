@@ -126,8 +126,8 @@ contains
       call timer%push(phase_recover)
       call recover_fields(model, structure, history%loading, history%peak, field, results)
       associate (state => results%states(size(results%states)))
-         results%plastic = plastic_fields(model, results%modes, results%point_element, &
-            results%point_position, results%stress, state%bodies)
+         results%plastic = plastic_fields(model, results%modes, results%stress, &
+            state%bodies)
       end associate
       if (estimates) &
          call estimate_discretization(model, structure, history%loading, field, &

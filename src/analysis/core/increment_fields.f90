@@ -181,8 +181,7 @@ contains
          field)
       call stress_plastic_strain(model, state, loading)
       call recover_fields(model, structure, loading, loading, field, results)
-      results%plastic = plastic_fields(model, results%modes, results%point_element, &
-         results%point_position, results%stress, state%bodies)
+      results%plastic = plastic_fields(model, results%modes, results%stress, state%bodies)
       call move_bodies(model, structure, state, results)
    end subroutine solve_increment
 

@@ -221,7 +221,7 @@ contains
       type(plastic_fields_type), intent(in) :: fields
 
       call file%write("/yield/planes", fields%angles, "theta; (plane) [radian]")
-      call file%write("/yield/plastic_strain", fields%strain, "Amplitudes r, z, theta, rz, "// &
+      call file%write("/yield/plastic_strain", fields%amplitude, "Amplitudes r, z, theta, rz, "// &
          "r-theta, z-theta, shear as in engineering; (6, point, mode)")
       call file%write("/yield/equivalent", fields%equivalent, &
          "Equivalent plastic strain sqrt(2/3 e:e); (point, plane)")
