@@ -107,7 +107,7 @@ contains
       stage%joint_points => joint_points
       stage%supports => supports
       stage%combination => combination
-      call new_bodies(model, model%materials%yield, bodies)
+      call new_bodies(model, (model%materials%yield), bodies)
       call begin_history(stage, bodies, history)
       planes = stage%problem%planes%angle
       associate (common => history%joints)

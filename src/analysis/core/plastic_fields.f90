@@ -52,7 +52,7 @@ contains
 
       if (.not. allocated(state%place)) return
       planes = body_planes(modes)
-      call new_bodies(model, model%materials%yield, bodies)
+      call new_bodies(model, (model%materials%yield), bodies)
       fields%angles = planes%angle
       fields%plane_weight = plane_weights(planes)
       fields%point_weight = bodies%weight

@@ -5,7 +5,7 @@ module axijoint_analysis_core_yielding_bodies
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_solution, only : solve_displacements
    use axijoint_analysis_core_structure, only : structure_type
-   use axijoint_base_error, only : error_type
+   use axijoint_base_error, only : error_type, fatal_error, exit_deck
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : progress_type
    use axijoint_base_stop, only : check_stop
@@ -43,6 +43,12 @@ contains
       type(body_history_type) :: bodies
       real(wp), allocatable :: planes(:)
 
+      if (structure%equations%team%size > 1) then
+         call fatal_error(error, exit_deck, 'bodies that yield are not shared by several '// &
+            'processes'//new_line('a')//'mend: run one process, which uses all processors as '// &
+            'threads')
+         return
+      end if
       call run_body_increments(model, structure%equations, structure%condensed, &
          structure%joint_points, structure%support_points, combination, bodies, planes, progress, &
          keeper)

@@ -5,7 +5,9 @@ module axijoint_deck_section_yield
    use axijoint_deck_job_card, only : card_type, cards_of, next_card
    use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_properties
    use axijoint_deck_property_properties, only : find_material
+   use axijoint_deck_section_control, only : keyword_control, field_harmonic, field_method
    use axijoint_deck_text_common_fields, only : number
+   use axijoint_deck_text_diagnostics, only : add_error
    use axijoint_deck_text_entry, only : is_given, integer_of, real_of, is_good, field_fault, &
       first_card
    use axijoint_deck_text_field, only : field_type, real_field, word_field, described
@@ -13,9 +15,10 @@ module axijoint_deck_section_yield
    use axijoint_element_yield_law, only : yield_law_type, yield_tresca, yield_mises, &
       criterion_names
    use axijoint_model_material, only : solid_material_type
+   use axijoint_model_model, only : bodies_yield, can_yield, method_transfer
    implicit none
    private
-   public :: yield_section, keyword_yield
+   public :: yield_section, check_yielding
 
    !> The keyword
    character(len=*), parameter :: keyword_yield = 'YIELD'
@@ -159,6 +162,30 @@ contains
             allowed='blank: the apex of the criterion is at a stress of 0')
       end if
    end subroutine check_law
+
+   !> Check that nothing is asked for that bodies that yield do not go with
+   subroutine check_yielding(deck)
+      !> The deck with its model
+      type(deck_type), intent(inout), target :: deck
+
+      type(card_type) :: card
+
+      associate (model => deck%model)
+         if (.not. bodies_yield(model)) return
+         card = cards_of(deck, keyword_control)
+         card%entry = 1
+         if (model%method == method_transfer .and. can_yield(model)) call field_fault(card, &
+            field_method, 'the loop of TRANSFER accumulates joint stress, which does not go '// &
+            'with bodies that yield', allowed='NEWTON, ANDERSON or TOTAL')
+         if (size(model%harmonics) <= model%max_harmonic) call field_fault(card, field_harmonic, &
+            'bodies that yield couple all harmonics: HARMONICS may leave none out', &
+            mend='no section HARMONICS; loads that repeat round the circle leave harmonics out '// &
+            'by themselves')
+         if (model%error_goal%wanted) call add_error(deck%diagnostics, 0, 0, 0, &
+            'errors are not estimated for bodies that yield: the job has no target to go to', &
+            mend='no section ERROR; compare with a finer run')
+      end associate
+   end subroutine check_yielding
 
    !> Check that a tension cut-off cuts anything off
    subroutine check_tension(card, law)
