@@ -11,7 +11,8 @@ module axijoint_plastic_increments
    use axijoint_base_stop, only : check_stop
    use axijoint_base_text, only : to_text
    use axijoint_joints_condensed, only : condensed_type
-   use axijoint_joints_field, only : new_joint_field, set_initial_stress, count_state, judge_states
+   use axijoint_joints_field, only : joint_field_type, new_joint_field, set_initial_stress, &
+      count_state, judge_states
    use axijoint_joints_history, only : history_type, target_type, new_history, state_of
    use axijoint_joints_keeper, only : keeper_type
    use axijoint_joints_load_steps, only : step_type, first_step, next_step, halfway
@@ -25,7 +26,7 @@ module axijoint_plastic_increments
    use axijoint_model_load, only : combination_type
    use axijoint_model_model, only : model_type
    use axijoint_plastic_bodies, only : bodies_type, new_bodies
-   use axijoint_plastic_elastic, only : to_vector, to_nodes
+   use axijoint_plastic_elastic, only : to_vector, to_nodes, elastic_response
    use axijoint_plastic_field, only : body_field_type, body_load_type, body_planes, &
       new_body_field, no_body_load, commit
    use axijoint_plastic_joint_side, only : commit_joints
@@ -53,8 +54,10 @@ module axijoint_plastic_increments
       !> factor. Not allocated if none did
       real(wp), allocatable :: failing(:, :, :)
       real(wp) :: tried = 0.0_wp
+      !> Its largest displacement over that of elastic bodies
+      real(wp) :: growth = 0.0_wp
       !> Iterations and elastic solutions of the increment at work
-      integer :: iterations = 0, solutions = 0
+      integer :: counts(2) = 0
    end type body_history_type
 
    !> What the increments act on
@@ -124,7 +127,7 @@ contains
             end if
             if (size(common%ahead) == 0) call keep_increment(stage, bodies, history)
             if (.not. present(keeper)) cycle
-            common%beside = bytes_of(history%field)
+            common%beside = bytes_of(history%field, history%counts)
             call keeper%keep(common)
          end do
          common%verdict%converged = history%verdict%converged
@@ -182,7 +185,7 @@ contains
       associate (common => history%joints)
          call keeper%restore(common, restored, common%failure)
          if (.not. restored) return
-         call read_bytes(common%beside, history%field, restored)
+         call read_bytes(common%beside, history%field, history%counts, restored)
          if (.not. restored) then
             call fatal_error(common%failure, exit_state, 'the state is of other bodies that '// &
                'yield than this deck describes'//new_line('a')//'mend: run without --resume')
@@ -221,8 +224,7 @@ contains
                to_text(size(increments)))
          end associate
       end associate
-      history%iterations = 0
-      history%solutions = 0
+      history%counts = 0
    end subroutine begin_increment
 
    !> Go to the loads that lie ahead next. If that finds no equilibrium, half the way there lies
@@ -274,6 +276,7 @@ contains
             common%peak_norm = common%load_norm
             common%peak = common%loading
          end if
+         problem%peak = common%peak_norm
          load = problem%load
          load%right = to_vector(stage%equations, common%loading%right)
          if (allocated(common%loading%held)) load%held = common%loading%held
@@ -349,10 +352,9 @@ contains
             control_type(joint_share*increment%tolerance, increment%max_iterations)
          call balance_bodies(stage%problem, control, history%field, history%verdict, ratios)
          call check_stop(common%failure)
-         call follow(stage%problem, common%increment, step%load_factor, history%iterations, &
+         call follow(stage%problem, common%increment, step%load_factor, history%counts(1), &
             ratios, common)
-         history%iterations = history%iterations + size(ratios)
-         history%solutions = history%solutions + history%verdict%solutions
+         history%counts = history%counts + [size(ratios), history%verdict%solutions]
       end associate
    end subroutine balance
 
@@ -417,12 +419,13 @@ contains
    !> Note where a step ran to that found no equilibrium
    subroutine note_failure(stage, step, history)
       !> What the increments act on
-      type(stage_type), intent(in) :: stage
+      type(stage_type), intent(inout) :: stage
       !> Its loads
       type(step_type), intent(in) :: step
       !> The history
       type(body_history_type), intent(inout) :: history
 
+      real(wp) :: elastic(size(history%field%unknowns))
       integer :: k
 
       history%tried = step%load_factor
@@ -432,6 +435,9 @@ contains
          do k = 1, size(history%failing, 3)
             history%failing(:, :, k) = to_nodes(stage%equations, field%unknowns - field%begun, k)
          end do
+         call elastic_response(stage%equations, stage%problem%load%right - field%right, elastic)
+         if (maxval(abs(elastic)) > 0.0_wp) history%growth = &
+            maxval(abs(field%unknowns - field%begun))/maxval(abs(elastic))
       end associate
    end subroutine note_failure
 
@@ -465,10 +471,13 @@ contains
       !> The state
       type(increment_state_type), intent(out) :: state
 
+      type(joint_field_type) :: joints
+
       associate (common => history%joints, field => history%field)
          if (allocated(stage%problem%joints)) then
-            call stand_where_they_are(stage%condensed, common%scene, common%field)
-            state = state_of(common, common%field, common%increment, common%at%load_factor, &
+            joints = common%field
+            call stand_where_they_are(stage%condensed, common%scene, joints)
+            state = state_of(common, joints, common%increment, common%at%load_factor, &
                              common%at%case_factor)
          else
             state%increment = common%increment
@@ -476,8 +485,8 @@ contains
             state%case_factor = common%at%case_factor
          end if
          state%bodies = snapshot(bodies, stage%problem%planes, field)
-         state%bodies%iterations = history%iterations
-         state%bodies%solutions = history%solutions
+         state%bodies%iterations = history%counts(1)
+         state%bodies%solutions = history%counts(2)
          state%bodies%on_planes = history%verdict%on_planes
          state%bodies%n_yielding = count(any(any(abs(state%bodies%taken) > 0.0_wp, 3), 1))
       end associate

@@ -45,6 +45,8 @@ module axijoint_plastic_problem
       type(joint_side_type), allocatable :: joints
       !> Norm of the forces that the step would add if the bodies held
       real(wp) :: pushed = 0.0_wp
+      !> Norm of the largest loads so far, which no residual is held against more; none if zero
+      real(wp) :: peak = 0.0_wp
       !> Whether plastic strain is normal to all criteria, so that tangents are symmetric
       logical :: associated_flow = .true.
       !> Elastic solutions of all modes so far
@@ -164,6 +166,7 @@ contains
       forces = max(force_norm(problem%equations, field%force - field%force_before), &
          min(problem%pushed, whole))
       if (.not. problem%pushed > 0.0_wp) forces = max(forces, field%scale)
+      if (problem%peak > 0.0_wp) forces = min(forces, problem%peak)
       iterate%ratio = ring_norm(problem%equations, iterate%residual)
       iterate%at_rounding = iterate%ratio <= resolution*whole
       if (iterate%ratio > 0.0_wp) iterate%ratio = iterate%ratio/max(forces, tiny(1.0_wp))

@@ -51,9 +51,11 @@ contains
    end function on_all_points
 
    !> All that the next step starts from
-   function bytes_of(field) result(bytes)
+   function bytes_of(field, counts) result(bytes)
       !> The state, committed
       type(body_field_type), intent(in) :: field
+      !> Iterations and elastic solutions of the increment at work
+      integer, intent(in) :: counts(2)
       !> The bytes
       character(len=:), allocatable :: bytes
 
@@ -73,15 +75,19 @@ contains
       call writer%put(marked)
       call writer%put(field%scale)
       call writer%put(field%dissipated)
+      call writer%put(counts(1))
+      call writer%put(counts(2))
       bytes = writer%bytes()
    end function bytes_of
 
    !> Go back to a state; `fits` is false if it is of other bodies
-   subroutine read_bytes(bytes, field, fits)
+   subroutine read_bytes(bytes, field, counts, fits)
       !> The bytes
       character(len=*), intent(in) :: bytes
       !> The state, new
       type(body_field_type), intent(inout) :: field
+      !> Iterations and elastic solutions of the increment at work
+      integer, intent(out) :: counts(2)
       !> Whether they are of such a state
       logical, intent(out) :: fits
 
@@ -104,6 +110,8 @@ contains
       call reader%get(marked)
       call reader%get(field%scale)
       call reader%get(field%dissipated)
+      call reader%get(counts(1))
+      call reader%get(counts(2))
       fits = .not. reader%failed .and. reader%at_end()
       if (.not. fits) return
       fits = all(shape(field%taken) == taken) .and. size(field%begun) == n

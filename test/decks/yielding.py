@@ -123,7 +123,7 @@ def other_units(folder, program):
     return faults
 
 
-def ring(torque, factors, hardening=0.0, cohesion=None, criterion='MISES'):
+def ring(torque, factors, hardening=0.0, cohesion=None, criterion='MISES', elements=64):
     """A ring of soil, held inside, turned outside: shear stress T/(2 pi r^2 h) follows from equilibrium alone; with a
     joint of a strength round its inside if there is one"""
     strength = STRENGTH*(2.0 if criterion == 'TRESCA' else math.sqrt(3.0))
@@ -151,7 +151,7 @@ MATERIALS
 YIELD
 1, {criterion}, {strength}, , , {hardening}
 {joint}BLOCKS
-1, 1, 8, 16, 1
+1, 1, 8, {elements}, 1
 {INSIDE}, 0.0, {OUTSIDE}, {HEIGHT}
 {inner}FACES
 {held}
@@ -172,8 +172,11 @@ def hardening_ring(folder, program):
     shear = torque/(4.0*math.pi*HEIGHT)
     turned = shear/SHEAR*(INSIDE**-2 - OUTSIDE**-2) \
         + 3.0/hardening*(shear*(INSIDE**-2 - radius**-2) - STRENGTH*math.log(radius/INSIDE))
-    summary = run(program, folder, ring(torque, (0.5, 0.25, 0.25), hardening))
-    return off('displacement outside', summary['increments'][-1]['largest_displacement'], OUTSIDE*turned, 1e-4)
+    errors = []
+    for elements in (8, 16, 32):
+        summary = run(program, folder, ring(torque, (0.5, 0.25, 0.25), hardening, elements=elements))
+        errors.append(abs(summary['increments'][-1]['largest_displacement']/(OUTSIDE*turned) - 1.0))
+    return [] if errors[2] < 2e-4 and errors[2] < 0.4*errors[1] < 0.4*errors[0] else [f'errors {errors}']
 
 
 def weaker_of_both(criterion):
@@ -184,8 +187,8 @@ def weaker_of_both(criterion):
             limit = 2.0*math.pi*INSIDE**2*HEIGHT*min(cohesion, STRENGTH)
             summary = run(program, folder, ring(limit, (0.5, 0.4, 0.2), cohesion=cohesion, criterion=criterion), (4,))
             faults += off(f'C = {cohesion}', summary['increments'][-1]['load_factor'], 1.0, 1e-2)
-            yielded = summary['yielding']['increments'][-1]['yielded']
-            faults += expected(f'C = {cohesion}: whether soil yields', cohesion > STRENGTH, yielded > 0)
+            slips = any('joints came to no equilibrium' in text for text in summary['messages'])
+            faults += expected(f'C = {cohesion}: whether the joint slips', cohesion < STRENGTH, slips)
         return faults
     return check
 
@@ -218,7 +221,7 @@ FIXEDFACES
 2, 111
 3, 111
 RESULTANTS
-1, LATERAL, 250.0, {direction}
+1, LATERAL, 400.0, {direction}
 INCREMENTS
 """ + ''.join(f'{factor},\n' for factor in factors) + 'END\n'
 
@@ -237,9 +240,9 @@ def families(folder, program):
 
 def harmonics(folder, program):
     """More harmonics make the ground softer, by ever less"""
-    moved = [run(program, folder, pile(m, 0, (1.0, 1.0)))['increments'][-1]['largest_displacement'] for m in (1, 2, 3, 5)]
+    moved = [run(program, folder, pile(m, 0, (1.0, 1.0)))['increments'][-1]['largest_displacement'] for m in (1, 3, 5, 7)]
     steps = [after - before for before, after in zip(moved, moved[1:])]
-    return [] if steps[0] > 0.0 and abs(steps[2]) < 0.2*steps[0] else [f'displacements {moved} with M = 1, 2, 3, 5']
+    return [] if steps[0] > 0.0 and abs(steps[2]) < 0.3*steps[0] else [f'displacements {moved} with M = 1, 3, 5, 7']
 
 
 def back_and_forth(folder, program):

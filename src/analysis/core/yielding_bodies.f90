@@ -19,6 +19,11 @@ module axijoint_analysis_core_yielding_bodies
    private
    public :: solve_bodies
 
+   !> Bodies that move so many times farther than elastic ones, and are out of balance, give way
+   real(wp), parameter :: gave_way = 100.0_wp
+   !> Larger multiples are not told
+   real(wp), parameter :: most_told = 1.0e6_wp
+
 contains
 
    !> Run the increments of bodies that yield, with joints or without
@@ -80,8 +85,8 @@ contains
       results%mechanism = failure_text(model, bodies, results)
    end subroutine solve_bodies
 
-   !> Why the increments ended, in words. That there is no equilibrium is said only if displacements
-   !> grew without end
+   !> Why the increments ended, in words. That there is no equilibrium is said only if the bodies
+   !> gave way: moved many times farther than elastic ones would, and were still out of balance
    function failure_text(model, bodies, results) result(text)
       !> The job
       type(model_type), intent(in) :: model
@@ -92,19 +97,16 @@ contains
       !> The sentence
       character(len=:), allocatable :: text
 
-      associate (verdict => bodies%verdict, reached => bodies%joints%reached)
-         text = 'no equilibrium beyond the load factor '//to_text(reached)
-         if (.not. verdict%ran_away) &
-            text = 'no equilibrium was found beyond the load factor '//to_text(reached)
-         text = text//' (not at '//to_text(bodies%tried)//'): '// &
-            motion_text(model%mesh, results%modes, results%failing)
-         if (verdict%joints_failed) then
-            text = text//'; joints came to no equilibrium'
-         else if (.not. verdict%ran_away) then
-            text = text//'; the residual ratio stayed at '//to_text(verdict%ratio)
-         end if
-         text = text//'; results are those there'
-      end associate
+      character(len=:), allocatable :: was
+
+      was = ' was found'
+      if (bodies%growth >= gave_way .or. bodies%verdict%ran_away) was = ''
+      text = 'no equilibrium'//was//' beyond the load factor '//to_text(bodies%joints%reached)// &
+         ': '//motion_text(model%mesh, results%modes, results%failing)//', at '// &
+         to_text(bodies%tried)//' '//to_text(nint(min(bodies%growth, most_told)))// &
+         ' times as far as if all were elastic'
+      if (bodies%verdict%joints_failed) text = text//', and joints came to no equilibrium'
+      text = text//'; results are those there'
    end function failure_text
 
 end module axijoint_analysis_core_yielding_bodies
