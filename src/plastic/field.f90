@@ -3,7 +3,8 @@ module axijoint_plastic_field
    use axijoint_assembly_equations, only : equations_type
    use axijoint_base_kinds, only : wp
    use axijoint_element_yield_law, only : elastic_strain
-   use axijoint_element_yield_stress, only : admit_solid, holds_for_sure, root_j2
+   use axijoint_element_yield_stress, only : admit_solid, admit_stress, holds_for_sure, &
+      root_j2
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_planes, only : planes_type, new_planes, synthesize, analyse, plane_weights
    use axijoint_plastic_bodies, only : bodies_type, elastic_stress, add_stress_force
@@ -11,10 +12,14 @@ module axijoint_plastic_field
    implicit none
    private
    public :: body_field_type, body_load_type, body_planes, new_body_field, no_body_load, evaluate, &
+      linearize, &
       yielding_force, elastic_force, excess_force, commit
 
    !> Components that are odd in theta in a symmetric mode: r-theta and z-theta
    logical, parameter :: odd_components(6) = [.false., .false., .false., .false., .true., .true.]
+
+   !> Points times planes from which on the laws are worth threads
+   integer, parameter :: worth_threads = 500
 
    !> Loads
    type :: body_load_type
@@ -43,10 +48,12 @@ module axijoint_plastic_field
       !> Stress, elastic stress less stress, and growth of plastic strain that hardens at these
       !> points, shapes (6, on, planes) and (on, planes)
       real(wp), allocatable :: stress(:, :, :), excess(:, :, :), growth(:, :)
-      !> Derivatives of the excess by the elastic stress, shape (6, 6, on, planes), and which points
-      !> yield on any plane now, shape (points)
-      real(wp), allocatable :: slope(:, :, :, :)
+      !> Which points yield on any plane now, shape (points)
       logical, allocatable :: yields(:)
+      !> Their places among all, and derivatives of their excess by the elastic stress, shape
+      !> (6, 6, active, planes); up to date after `linearize`
+      integer, allocatable :: active(:)
+      real(wp), allocatable :: slope(:, :, :, :)
       !> Amplitudes of the elastic stress, of the excess, and of the excess that the displacements of
       !> an equilibrium follow from, shape (6, points, modes)
       real(wp), allocatable :: elastic(:, :, :), amplitude(:, :, :), carried(:, :, :)
@@ -206,21 +213,20 @@ contains
 
       total = synthesize(planes, field%elastic(:, field%on, :))
       n = size(field%on)
-      if (allocated(field%stress)) &
-         deallocate (field%stress, field%excess, field%growth, field%slope)
+      if (allocated(field%stress)) deallocate (field%stress, field%excess, field%growth)
       associate (n_planes => size(planes%angle))
          allocate (field%stress(6, n, n_planes), field%excess(6, n, n_planes), &
-            field%growth(n, n_planes), field%slope(6, 6, n, n_planes))
-         do j = 1, n_planes
-            do i = 1, n
-               p = field%on(i)
-               call admit_solid(bodies%laws(p), field%gained(p, j), &
-                  total(:, i, j) - field%taken(:, p, j), field%stress(:, i, j), &
-                  field%slope(:, :, i, j), field%growth(i, j))
+            field%growth(n, n_planes))
+         !$omp parallel do schedule(static) private(j, p) if (n*n_planes > worth_threads)
+         do i = 1, n
+            p = field%on(i)
+            do j = 1, n_planes
+               call admit_stress(bodies%laws(p), field%gained(p, j), &
+                  total(:, i, j) - field%taken(:, p, j), field%stress(:, i, j), field%growth(i, j))
                field%excess(:, i, j) = total(:, i, j) - field%stress(:, i, j)
-               field%slope(:, :, i, j) = identity() - field%slope(:, :, i, j)
             end do
          end do
+         !$omp end parallel do
       end associate
       field%amplitude = 0.0_wp
       field%amplitude(:, field%on, :) = analyse(planes, field%excess)
@@ -229,6 +235,38 @@ contains
          field%yields(field%on(i)) = any(abs(field%excess(:, i, :)) > 0.0_wp)
       end do
    end subroutine admit_on_planes
+
+   !> Find the derivatives of the excess where points yield: only Newton's method asks for them
+   subroutine linearize(bodies, planes, field)
+      !> The bodies
+      type(bodies_type), intent(in) :: bodies
+      !> The planes
+      type(planes_type), intent(in) :: planes
+      !> The state, evaluated
+      type(body_field_type), intent(inout) :: field
+
+      real(wp), allocatable :: total(:, :, :)
+      real(wp) :: stress(6), growth
+      integer :: i, j, p
+
+      field%active = pack([(i, i=1, size(field%yields))], field%yields)
+      total = synthesize(planes, field%elastic(:, field%active, :))
+      if (allocated(field%slope)) deallocate (field%slope)
+      associate (n => size(field%active), n_planes => size(planes%angle))
+         allocate (field%slope(6, 6, n, n_planes))
+         !$omp parallel do schedule(static) private(j, p, stress, growth) &
+         !$omp if (n*n_planes > worth_threads)
+         do i = 1, n
+            p = field%active(i)
+            do j = 1, n_planes
+               call admit_solid(bodies%laws(p), field%gained(p, j), &
+                  total(:, i, j) - field%taken(:, p, j), stress, field%slope(:, :, i, j), growth)
+               field%slope(:, :, i, j) = identity() - field%slope(:, :, i, j)
+            end do
+         end do
+         !$omp end parallel do
+      end associate
+   end subroutine linearize
 
    !> Unit matrix
    pure function identity() result(one)
@@ -293,7 +331,7 @@ contains
       type(bodies_type), intent(in) :: bodies
       !> The planes
       type(planes_type), intent(in) :: planes
-      !> The state, evaluated
+      !> The state, linearized
       type(body_field_type), intent(in) :: field
       !> Unknowns of the displacement
       real(wp), intent(in) :: direction(:)
@@ -301,7 +339,6 @@ contains
       real(wp), intent(out) :: force(:)
 
       real(wp), allocatable :: amplitude(:, :, :), total(:, :, :), displacement(:, :)
-      integer, allocatable :: active(:)
       integer :: i, j, k
 
       allocate (amplitude, mold=field%amplitude)
@@ -310,12 +347,11 @@ contains
          call elastic_stress(bodies, equations%modes(k)%harmonic, displacement, field%yields, &
                              amplitude(:, :, k))
       end do
-      active = pack([(i, i=1, size(field%on))], field%yields(field%on))
-      associate (points => field%on(active))
+      associate (points => field%active)
          total = synthesize(planes, amplitude(:, points, :))
          do j = 1, size(total, 3)
-            do i = 1, size(active)
-               total(:, i, j) = matmul(field%slope(:, :, active(i), j), total(:, i, j))
+            do i = 1, size(points)
+               total(:, i, j) = matmul(field%slope(:, :, i, j), total(:, i, j))
             end do
          end do
          amplitude(:, points, :) = analyse(planes, total)

@@ -6,7 +6,7 @@ module axijoint_plastic_methods
    use axijoint_base_stop, only : stop_wished
    use axijoint_plastic_direction, only : newton_direction
    use axijoint_plastic_elastic, only : ring_norm
-   use axijoint_plastic_field, only : body_field_type, evaluate, excess_force
+   use axijoint_plastic_field, only : body_field_type, evaluate, linearize, excess_force
    use axijoint_plastic_mixing, only : mixing_type, new_mixing, mix
    use axijoint_plastic_problem, only : problem_type, iterate_type, look, whole_force, resolution
    implicit none
@@ -264,6 +264,7 @@ contains
       logical :: moved
 
       allocate (direction, mold=field%unknowns)
+      call linearize(problem%bodies, problem%planes, field)
       call newton_direction(problem, field, iterate, forcing, most_inner, direction)
       start = field%unknowns
       energy = iterate%energy

@@ -1,9 +1,11 @@
 """Bodies that yield, through the whole program: against exact solutions, against elastic decks, in other units, at
 the limit load, with joints that slip"""
+import csv
 import json
 import math
 import os
 
+import listing
 from support import Test, expected, read_text, write
 
 # Thick cylinder in plane strain under pressure from inside, Tresca (Hill, The mathematical theory of plasticity, V.2)
@@ -259,6 +261,137 @@ def back_and_forth(folder, program):
     return faults + off('energy and dissipation', last['energy'] + last['dissipated'], last['work'], 1e-5)
 
 
+def disc(elements, harmonic):
+    """A stiff disc pushed sideways through clay in plane strain, far boundary at 12 radii"""
+    return f"""TITLE
+A stiff disc pushed sideways through clay
+CONTROL
+{harmonic}, , , 2
+MATERIALS
+1, 300.0, 0.49
+2, 3.0E5, 0.2
+YIELD
+1, MISES, {math.sqrt(3.0)}
+BLOCKS
+1, 2, 8, 1, 1
+0.5, 0.0, 1.0, 1.0
+1, 1, 8, {elements}, 1, 100.0
+1.0, 0.0, 12.0, 1.0
+FACES
+1, 1, 0.5, 0.0, 0.5, 1.0
+2, 1, 12.0, 0.0, 12.0, 1.0
+3, 1, 1.0, 0.0, 12.0, 0.0
+4, 1, 1.0, 1.0, 12.0, 1.0
+FIXEDFACES
+2, 111
+3, 010
+4, 010
+MOVEDFACES
+1, 1, 1.0, 0.0, -1.0
+INCREMENTS
+0.01,
+0.02,
+0.03,
+0.04,
+0.1,
+0.1,
+END
+"""
+
+
+def footing(elements):
+    """A rough rigid footing on clay of Tresca, elements graded to its edge"""
+    return f"""TITLE
+A rough rigid footing on clay
+CONTROL
+0, , , 2
+MATERIALS
+1, 300.0, 0.49
+YIELD
+1, TRESCA, 2.0
+BLOCKS
+1, 1, 8, {elements}, {2*elements}, 0.1, 0.05
+0.0, -4.0, 1.0, 0.0
+1, 1, 8, {2*elements}, {2*elements}, 20.0, 0.05
+1.0, -4.0, 6.0, 0.0
+FACES
+1, 1, 0.0, 0.0, 1.0, 0.0
+2, 1, 0.0, -4.0, 6.0, -4.0
+3, 1, 6.0, -4.0, 6.0, 0.0
+FIXEDFACES
+2, 111
+3, 111
+MOVEDFACES
+1, 0, 0.0, -1.0
+INCREMENTS
+0.005,
+0.005,
+0.01,
+0.02,
+0.04,
+0.1,
+0.2,
+END
+"""
+
+
+def reaction(program, folder, deck, name):
+    """A reaction of face 1 at the end of a deck"""
+    run(program, folder, deck)
+    rows = listing.tables(read_text(os.path.join(folder, 'yielding.lis')))['faces']
+    return abs(next(row[name] for row in rows if row['face'] == 1))
+
+
+def disc_in_clay(folder, program):
+    """Randolph and Houlsby: 4 sqrt(2) + 2 pi times width and shear strength; from above with the mesh"""
+    exact = 2.0*(4.0*math.sqrt(2.0) + 2.0*math.pi)
+    found = [reaction(program, folder, disc(n, 7), 'force')/exact for n in (8, 16, 32)]
+    return [] if found[0] > found[1] > found[2] > 1.0 and found[2] < 1.01 else [f'limits over the exact one: {found}']
+
+
+def footing_on_clay(folder, program):
+    """6.05 times area and shear strength; the error halves with the elements, so it can be extrapolated"""
+    found = [reaction(program, folder, footing(n), 'axial')/math.pi/6.05 for n in (3, 6)]
+    extrapolated = 2.0*found[1] - found[0]
+    return [] if found[0] > found[1] > 1.0 and abs(extrapolated - 1.0) < 0.01 else [f'over 6.05: {found}, {extrapolated}']
+
+
+def other_commands(folder, program):
+    """What is not searched or counted for bodies that yield is refused in words"""
+    deck = write(folder, 'refused.dat', cylinder((1.0,)))
+    faults = []
+    for words, text in ((('estimate', deck), 'what bodies that yield take is not estimated'),
+                        (('envelope', deck, '--cases', '1'), 'bodies that yield are not searched')):
+        ran = program.run(*words, folder=folder)
+        faults += ran.ended_with(2)
+        if text not in ran.err:
+            faults.append(f'{words[0]} says {ran.err}')
+    return faults
+
+
+def study(folder, program):
+    """Rows of a study are runs of the decks with their strengths, on one structure"""
+    deck = write(folder, 'studied.dat', cylinder((1.0, 0.4), law='1, TRESCA, {strength}'))
+    table = write(folder, 'strengths.csv', 'YIELD 1 STRENGTH\n240\n300\n')
+    ran = program.run('study', table, deck, '-o', folder, folder=folder)
+    faults = ran.ended_with(0)
+    if '1 structure' not in ran.out + ran.err:
+        faults.append(f'more than one structure: {ran.out}')
+    with open(os.path.join(folder, 'strengths.study.csv'), encoding='utf-8') as file:
+        rows = list(csv.DictReader(file))
+    for row, strength in zip(rows, (240, 300)):
+        wanted = run(program, folder, cylinder((1.0, 0.4), law=f'1, TRESCA, {strength}'))['increments'][-1]
+        for key in ('largest_displacement', 'work', 'dissipated'):
+            faults += off(f'{key} of strength {strength}', float(row[key]), wanted[key], 1e-9)
+    return faults + expected('rows', 2, len(rows))
+
+
+def pictures(folder, program):
+    """Bodies swept round the axis are written of yielding bodies, too"""
+    ran = program.run('run', write(folder, 'swept.dat', pile(2, 0, (1.0, 1.0))), '-o', folder, '--vtk')
+    return ran.ended_with(0) + expected('picture', True, os.path.exists(os.path.join(folder, 'swept.vtkhdf')))
+
+
 def tests(program):
     """All tests"""
     def made(name, check):
@@ -268,4 +401,6 @@ def tests(program):
             made('strong enough', strong_is_elastic), made('other units', other_units),
             made('hardening in torsion', hardening_ring), made('joint or soil, Mises', weaker_of_both('MISES')),
             made('joint or soil, Tresca', weaker_of_both('TRESCA')), made('families', families),
-            made('harmonics', harmonics), made('back and forth', back_and_forth)]
+            made('harmonics', harmonics), made('back and forth', back_and_forth),
+            made('disc in clay', disc_in_clay), made('footing on clay', footing_on_clay),
+            made('other commands', other_commands), made('study', study), made('pictures', pictures)]
