@@ -356,6 +356,13 @@ def footing_on_clay(folder, program):
     return [] if found[0] > found[1] > 1.0 and abs(extrapolated - 1.0) < 0.01 else [f'over 6.05: {found}, {extrapolated}']
 
 
+def strength_with_depth(folder, program):
+    """Ten units below its level the cylinder is as strong as the gradient says"""
+    deck = cylinder((1.0, 0.4), 32, law=f'1, TRESCA, {YIELD_STRESS - 10.0}', more='YIELDDEPTH\n1, 1.0, 10.05\n')
+    row = run(program, folder, deck)['increments'][-1]
+    return off('displacement', row['largest_displacement'], hill(140.0), 5e-4)
+
+
 def other_commands(folder, program):
     """What is not searched or counted for bodies that yield is refused in words"""
     deck = write(folder, 'refused.dat', cylinder((1.0,)))
@@ -398,6 +405,7 @@ def tests(program):
         return Test(f'yielding/{name}', lambda folder: check(folder, program))
 
     return [made('thick cylinder', pressure_displacement), made('collapse', collapse), made('unloading', unloading),
+            made('strength with depth', strength_with_depth),
             made('strong enough', strong_is_elastic), made('other units', other_units),
             made('hardening in torsion', hardening_ring), made('joint or soil, Mises', weaker_of_both('MISES')),
             made('joint or soil, Tresca', weaker_of_both('TRESCA')), made('families', families),
