@@ -347,9 +347,12 @@ contains
       associate (common => history%joints, &
                  increment => stage%model%increments(history%joints%increment))
          control%tolerance = increment%tolerance
-         control%most = max(control%most, increment%max_iterations)
-         if (allocated(stage%problem%joints)) stage%problem%joints%control = &
-            control_type(joint_share*increment%tolerance, increment%max_iterations)
+         control%most = increment%max_iterations
+         if (allocated(stage%problem%joints)) then
+            control%most = 2*control%most  ! elastic solutions, two an iteration
+            stage%problem%joints%control = control_type(joint_share*increment%tolerance, &
+                                                        increment%max_iterations)
+         end if
          call balance_bodies(stage%problem, control, history%field, history%verdict, ratios)
          call check_stop(common%failure)
          call follow(stage%problem, common%increment, step%load_factor, history%counts(1), &

@@ -6,9 +6,10 @@ module axijoint_plastic_methods
    use axijoint_base_stop, only : stop_wished
    use axijoint_plastic_direction, only : newton_direction
    use axijoint_plastic_elastic, only : ring_norm
-   use axijoint_plastic_field, only : body_field_type, evaluate, linearize, excess_force
+   use axijoint_plastic_field, only : body_field_type
    use axijoint_plastic_mixing, only : mixing_type, new_mixing, mix
    use axijoint_plastic_problem, only : problem_type, iterate_type, look, whole_force, resolution
+   use axijoint_plastic_residual, only : evaluate, linearize, excess_force
    implicit none
    private
    public :: body_control_type, body_verdict_type, balance_bodies

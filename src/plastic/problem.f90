@@ -7,8 +7,9 @@ module axijoint_plastic_problem
    use axijoint_joints_planes, only : planes_type
    use axijoint_plastic_bodies, only : bodies_type
    use axijoint_plastic_elastic, only : elastic_response, ring_norm
-   use axijoint_plastic_field, only : body_field_type, body_load_type, evaluate, elastic_force
+   use axijoint_plastic_field, only : body_field_type, body_load_type
    use axijoint_plastic_joint_side, only : joint_side_type, begin_joint_step, balance_joints
+   use axijoint_plastic_residual, only : evaluate, elastic_force
    implicit none
    private
    public :: problem_type, steering_type, iterate_type, put_load, steer, look, turn, &

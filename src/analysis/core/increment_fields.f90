@@ -164,7 +164,7 @@ contains
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      type(loading_type) :: loading
+      type(loading_type) :: loading, loads
       type(mode_solve_type), allocatable :: solves(:)
       type(joint_field_type) :: field
 
@@ -180,7 +180,9 @@ contains
       call field_of_state(model, structure, state, results%plane_angles, results%displacement, &
          field)
       call stress_plastic_strain(model, state, loading)
-      call recover_fields(model, structure, loading, loading, field, results)
+      call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
+                       combination_type(0, state%case_factor), loads)  ! what errors are held against
+      call recover_fields(model, structure, loading, loads, field, results)
       results%plastic = plastic_fields(model, results%modes, results%stress, state%bodies)
       call move_bodies(model, structure, state, results)
    end subroutine solve_increment
