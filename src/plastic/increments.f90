@@ -409,6 +409,7 @@ contains
                loads%stress = max(loads%stress, largest)
                common%largest_stress = max(common%largest_stress, maxval(largest, 1))
             end associate
+            if (side%field%fading > 0.0_wp) common%n_faded = common%n_faded + 1
             common%memory = side%field%memory
             common%verdict = side%verdict
             call commit_joints(side)
