@@ -14,7 +14,8 @@ module axijoint_analysis_core_yielding_bodies
    use axijoint_joints_keeper, only : keeper_type
    use axijoint_model_load, only : combination_type
    use axijoint_model_model, only : model_type
-   use axijoint_plastic_increments, only : run_body_increments, body_history_type
+   use axijoint_plastic_increments, only : run_body_increments
+   use axijoint_plastic_stage, only : body_history_type
    implicit none
    private
    public :: solve_bodies
