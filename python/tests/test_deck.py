@@ -82,7 +82,7 @@ def rewritten(path):
         keyword = re.match("[A-Za-z]*", line)[0].upper()
         if keyword in fields.described():
             if begun and fields.described()[card]["alone"]:
-                getattr(deck, card.lower())()
+                getattr(deck, make.method_name(card))()
             card, begun = keyword, True
             if fields.described()[card]["form"] == "file":
                 deck.gmsh(line[10:].strip())
@@ -90,7 +90,7 @@ def rewritten(path):
         begun = False
         waiting.append(line)
         if len(waiting) == max(field["card"] for field in fields.described()[card]["fields"]):
-            getattr(deck, card.lower())(**values_of(card, waiting))
+            getattr(deck, make.method_name(card))(**values_of(card, waiting))
             waiting = []
     return deck
 
@@ -103,7 +103,7 @@ class Cards(unittest.TestCase):
         self.assertEqual((make.FOLDER/"cards.json").read_text(encoding="utf-8"), make.listed(PROGRAM), mend)
         self.assertEqual((make.FOLDER/"cards.py").read_text(encoding="utf-8"), make.methods(), mend)
         for card in set(fields.described()) - NO_METHOD:
-            self.assertTrue(inspect.getdoc(getattr(Deck, card.lower())).startswith(f"{card}: "))
+            self.assertTrue(inspect.getdoc(getattr(Deck, make.method_name(card))).startswith(f"{card}: "))
 
     def test_decks_written_anew_give_the_same_bits(self):
         used = set()

@@ -3,6 +3,8 @@ module axijoint_analysis_static
    use axijoint_analysis_core_in_situ_balance, only : in_situ_balance
    use axijoint_analysis_core_increment_fields, only : field_of_state, recover_fields, &
       move_bodies
+   use axijoint_analysis_core_plastic_fields, only : plastic_fields
+   use axijoint_analysis_core_yielding_bodies, only : solve_bodies
    use axijoint_analysis_core_left_out, only : what_was_left_out
    use axijoint_analysis_core_motion, only : motion_text
    use axijoint_analysis_core_remarks, only : remarks_on, mechanism_text
@@ -32,7 +34,7 @@ module axijoint_analysis_static
    use axijoint_joints_scene, only : stand_where_they_are
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_load, only : combination_type
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, bodies_yield
    implicit none
    private
    public :: analyse_model, analyse_combination
@@ -90,10 +92,11 @@ contains
       type(joint_field_type) :: field
       type(history_type) :: history
       type(mesh_error_type) :: mesh_error
-      logical :: estimates
+      logical :: estimates, remarks
 
-      estimates = .true.
-      if (present(estimated)) estimates = estimated
+      remarks = .true.
+      if (present(estimated)) remarks = estimated
+      estimates = remarks .and. .not. bodies_yield(model)  ! none that holds with plastic strain
       results%modes = structure%modes
       results%orderings = structure%orderings
       results%left_out = what_was_left_out(model, structure)
@@ -101,7 +104,9 @@ contains
       results%singular = structure%singular
       results%in_situ = in_situ_balance(model, combination)
       call timer%push(phase_joints)
-      if (size(structure%yielding) > 0) then
+      if (bodies_yield(model)) then
+         call solve_bodies(model, structure, combination, history, results, progress, error, keeper)
+      else if (size(structure%yielding) > 0) then
          call solve_joints(model, structure, combination, estimates, history, mesh_error, results, &
             progress, error, keeper)
       else
@@ -121,6 +126,10 @@ contains
       call timer%push(phase_recover)
       call recover_fields(model, structure, history%loading, history%peak, field, results, &
          smoothed=estimates)
+      associate (state => results%states(size(results%states)))
+         results%plastic = plastic_fields(model, results%modes, results%stress, &
+            state%bodies)
+      end associate
       if (estimates) &
          call estimate_discretization(model, structure, history%loading, field, &
             history%largest_stress, mesh_error, results)
@@ -140,7 +149,7 @@ contains
          call timer%pop()
          call check_stop(error)
       end if
-      if (estimates .and. .not. allocated(error)) &
+      if (remarks .and. .not. allocated(error)) &
          results%remarks = remarks_on(model, structure, history, field, results)
       results%exchanged(2) = structure%equations%team%exchanged()
       call timer%pop()

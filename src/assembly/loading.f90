@@ -35,7 +35,7 @@ module axijoint_assembly_loading
 contains
 
    !> Loads of a combination
-   subroutine new_loading(model, joint_points, supports, modes, combination, loading)
+   subroutine new_loading(model, joint_points, supports, modes, combination, loading, taken)
       !> The job
       type(model_type), intent(in) :: model
       !> Points of all joints
@@ -48,6 +48,8 @@ contains
       type(combination_type), intent(in) :: combination
       !> The loads
       type(loading_type), intent(out) :: loading
+      !> Elastic stress that plastic strain takes, shape (6, points, modes); none if not allocated
+      real(wp), intent(in), allocatable, optional :: taken(:, :, :)
 
       real(wp), allocatable :: still(:, :)
       integer :: k
@@ -67,6 +69,7 @@ contains
          end do
       end if
       call new_initial_state(model, modes, combination%factor, loading%initial)
+      if (present(taken)) call take_plastic_strain(taken, loading%initial)
       loading%right = loading%external
       if (.not. allocated(loading%held) .and. .not. loading%initial%present) return
       do k = 1, size(modes)
@@ -90,7 +93,21 @@ contains
       is_in_mode = same_mode(mode, mode_type(0, family_symmetric))
       if (allocated(state%temperature)) &
          is_in_mode = is_in_mode .or. any(abs(state%temperature(:, :, k)) > 0.0_wp)
+      if (allocated(state%taken)) &
+         is_in_mode = is_in_mode .or. any(abs(state%taken(:, :, k)) > 0.0_wp)
    end function is_in_mode
+
+   !> Let plastic strain stress the solids
+   pure subroutine take_plastic_strain(taken, state)
+      !> Elastic stress that it takes, shape (6, points, modes); none if not allocated
+      real(wp), intent(in), allocatable :: taken(:, :, :)
+      !> What stresses the solids
+      type(initial_state_type), intent(inout) :: state
+
+      if (.not. allocated(taken)) return
+      state%taken = taken
+      state%present = .true.
+   end subroutine take_plastic_strain
 
    !> Nodal forces of solids, joints and springs in one mode while the unknowns are zero: of held
    !> displacements and of initial stresses

@@ -25,6 +25,9 @@ module axijoint_assembly_solid_force
       real(wp), allocatable :: temperature(:, :, :)
       !> In-situ stresses, factors of the load cases in them
       type(initial_stress_type), allocatable :: in_situ(:)
+      !> Elastic stress that plastic strain takes, amplitudes at the Gauss points of all elements,
+      !> shape (6, points, modes); not allocated if none
+      real(wp), allocatable :: taken(:, :, :)
    end type initial_state_type
 
 contains
@@ -76,6 +79,7 @@ contains
                if (initial%present) then
                   now = now + thermal_stress(model, initial, k, element, &
                      strain_shape(dilatation, points(i)), d)
+                  if (allocated(initial%taken)) now = now - initial%taken(:, last + i, k)
                end if
                call add_solid_force(points(i), n, mode%harmonic, now, element_force, dilatation)
                if (initial%present) then  ! equilibrium in situ knows of no means

@@ -17,7 +17,7 @@ module axijoint_command_envelope
    use axijoint_job_job, only : job_type, job_name
    use axijoint_job_read, only : read_job
    use axijoint_model_load, only : increment_type, combination_type
-   use axijoint_model_model, only : model_type, can_yield
+   use axijoint_model_model, only : model_type, can_yield, bodies_yield
    use axijoint_output_file_echo, only : deck_text
    use axijoint_study_directions, only : spread_directions
    use axijoint_study_envelope, only : capacity_type, search_direction
@@ -62,6 +62,9 @@ contains
       else
          call read_cases(command%cases, job%model, cases, positive, error)
       end if
+      if (.not. allocated(error) .and. bodies_yield(job%model)) call fatal_error(error, exit_deck, &
+         'envelopes are of joints that open or slip: bodies that yield are not searched'// &
+         new_line('a')//'mend: a study, whose rows end where there is no equilibrium')
       if (.not. allocated(error) .and. .not. can_yield(job%model)) call fatal_error(error, &
          exit_deck, 'no joint can open or slip: there is equilibrium at any load')
       if (.not. allocated(error)) then

@@ -38,6 +38,7 @@ module axijoint_deck_reader
    use axijoint_deck_section_interfaces, only : lay_interfaces
    use axijoint_deck_section_joints, only : keyword_joints
    use axijoint_deck_section_sections, only : place_lines
+   use axijoint_deck_section_yield, only : check_yielding
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
    use axijoint_deck_text_sections, only : sections_type, read_sections, table_of
    use axijoint_deck_text_source, only : source_type
@@ -140,6 +141,7 @@ contains
       call warn_of_locking(deck%properties, model, diagnostics)
       call warn_of_unused(deck)
       call check_planes(deck)
+      call check_yielding(deck)
    end subroutine make_model
 
    !> Make nodes, elements, faces and joints, or take those that are kept

@@ -46,6 +46,8 @@ module axijoint_deck_registry
    use axijoint_deck_section_sweep, only : sweep_section
    use axijoint_deck_section_temperatures, only : temperatures_section
    use axijoint_deck_section_tractions, only : tractions_section
+   use axijoint_deck_section_yield, only : yield_section
+   use axijoint_deck_section_yield_depth, only : yield_depth_section
    use axijoint_deck_text_section, only : section_type
    implicit none
    private
@@ -61,13 +63,15 @@ contains
       integer :: n
 
       n = 0
-      allocate (sections(46))
+      allocate (sections(48))
       call add(title_section())
       call add(control_section())
       call add(increments_section())
       call add(output_section())
       call add(materials_section())
       call add(orthotropic_section())
+      call add(yield_section())
+      call add(yield_depth_section())
       call add(laws_section())
       call add(law_details_section())
       call add(gmsh_section())

@@ -96,10 +96,7 @@ contains
       if (.not. excess(planes, trial, 0.0_wp) > 0.0_wp) return
       least = huge(1.0_wp)
       do s = 1, planes%n_sets
-         associate (n => count(planes%sets(:, s) > 0))
-            call return_to_set(planes, planes%sets(:n, s), trial, candidate, slope, gained, &
-               violation)
-         end associate
+         call return_to_set(planes, planes%sets(:, s), trial, candidate, slope, gained, violation)
          if (violation >= least) cycle
          least = violation
          stress = candidate
@@ -116,8 +113,8 @@ contains
    pure subroutine return_to_set(planes, set, trial, stress, derivative, growth, violation)
       !> The criterion
       type(yield_planes_type), intent(in) :: planes
-      !> The planes
-      integer, intent(in) :: set(:)
+      !> The planes; zero for none, behind the others
+      integer, intent(in) :: set(3)
       !> Trial stress
       real(wp), intent(in) :: trial(3)
       !> Stress on these planes, and its derivatives
@@ -127,32 +124,42 @@ contains
       !> How far it is from a solution, as a share of the stress
       real(wp), intent(out) :: violation
 
-      real(wp) :: relaxed(3, size(set)), matrix(size(set), size(set)), right(size(set), 4), scale
-      integer :: i
+      ! of fixed sizes: this is done for every point on every plane in every iteration
+      real(wp) :: relaxed(3, 3), matrix(3, 3), right(3, 4), scale
+      integer :: n, i, j, k
       logical :: singular
 
-      relaxed = matmul(planes%moduli, planes%flow(:, set))
-      matrix = matmul(transpose(planes%normal(:, set)), relaxed)
-      do i = 1, size(set)
-         matrix(:, i) = matrix(:, i) + &
-            planes%hardening*planes%share(set)*planes%share(set(i))
+      n = count(set > 0)
+      do j = 1, n
+         do i = 1, 3
+            relaxed(i, j) = dot_product(planes%moduli(:, i), planes%flow(:, set(j)))
+         end do
       end do
-      right(:, :3) = transpose(planes%normal(:, set))
-      right(:, 4) = matmul(right(:, :3), trial) - planes%limit(set)
+      do j = 1, n
+         do i = 1, n
+            matrix(i, j) = dot_product(planes%normal(:, set(i)), relaxed(:, j)) &
+               + planes%hardening*planes%share(set(i))*planes%share(set(j))
+         end do
+         right(j, :3) = planes%normal(:, set(j))
+         right(j, 4) = dot_product(planes%normal(:, set(j)), trial) - planes%limit(set(j))
+      end do
       scale = size_of(planes, trial)
       violation = huge(1.0_wp)
       stress = trial
       derivative = identity()
       growth = 0.0_wp
-      call eliminate(matrix, right, singular)
+      call eliminate(n, matrix, right, singular)
       if (singular) return
-      stress = trial - matmul(relaxed, right(:, 4))
-      derivative = derivative - matmul(relaxed, right(:, :3))
-      growth = dot_product(planes%share(set), right(:, 4))
-      violation = max(excess(planes, stress, growth)/scale, 0.0_wp)
-      do i = 1, size(set)
-         violation = max(violation, -right(i, 4)*maxval(abs(relaxed(:, i)))/scale)
+      violation = 0.0_wp
+      do j = 1, n
+         stress = stress - right(j, 4)*relaxed(:, j)
+         do k = 1, 3
+            derivative(:, k) = derivative(:, k) - right(j, k)*relaxed(:, j)
+         end do
+         growth = growth + planes%share(set(j))*right(j, 4)
+         violation = max(violation, -right(j, 4)*maxval(abs(relaxed(:, j)))/scale)
       end do
+      violation = max(violation, excess(planes, stress, growth)/scale)
    end subroutine return_to_set
 
    !> Return a trial stress to the apex. A plastic strain of volume lowers the mean stress, and
@@ -221,36 +228,39 @@ contains
    end function identity
 
    !> Solve a small system by elimination, rows exchanged
-   pure subroutine eliminate(matrix, right, singular)
+   pure subroutine eliminate(n, matrix, right, singular)
+      !> Number of equations
+      integer, intent(in) :: n
       !> The matrix; destroyed
-      real(wp), intent(inout) :: matrix(:, :)
+      real(wp), intent(inout) :: matrix(3, 3)
       !> Right sides, then solutions
-      real(wp), intent(inout) :: right(:, :)
+      real(wp), intent(inout) :: right(3, 4)
       !> Whether there is none
       logical, intent(out) :: singular
 
-      real(wp) :: row(size(matrix, 1)), other(size(right, 2)), factor, least
+      real(wp) :: row(3), other(4), factor, least
       integer :: i, k, pivot
 
-      least = 1.0e-13_wp*maxval(abs(matrix))
-      do k = 1, size(matrix, 1)
-         pivot = k - 1 + maxloc(abs(matrix(k:, k)), 1)
+      least = 1.0e-13_wp*maxval(abs(matrix(:n, :n)))
+      singular = .false.
+      do k = 1, n
+         pivot = k - 1 + maxloc(abs(matrix(k:n, k)), 1)
          singular = .not. abs(matrix(pivot, k)) > least
          if (singular) return
-         row = matrix(k, :)
-         matrix(k, :) = matrix(pivot, :)
-         matrix(pivot, :) = row
+         row(:n) = matrix(k, :n)
+         matrix(k, :n) = matrix(pivot, :n)
+         matrix(pivot, :n) = row(:n)
          other = right(k, :)
          right(k, :) = right(pivot, :)
          right(pivot, :) = other
-         do i = 1, size(matrix, 1)
+         do i = 1, n
             if (i == k) cycle
             factor = matrix(i, k)/matrix(k, k)
-            matrix(i, :) = matrix(i, :) - factor*matrix(k, :)
+            matrix(i, :n) = matrix(i, :n) - factor*matrix(k, :n)
             right(i, :) = right(i, :) - factor*right(k, :)
          end do
       end do
-      do k = 1, size(matrix, 1)
+      do k = 1, n
          right(k, :) = right(k, :)/matrix(k, k)
       end do
    end subroutine eliminate

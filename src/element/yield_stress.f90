@@ -12,7 +12,7 @@ module axijoint_element_yield_stress
    use axijoint_element_yield_planes, only : yield_planes_type, return_to_planes
    implicit none
    private
-   public :: admit_solid, criterion_planes, holds_for_sure, root_j2
+   public :: admit_solid, admit_stress, criterion_planes, holds_for_sure, root_j2, cartesian
 
    !> Order of `principal_axes`, xx, yy, zz, xy, yz, xz
    integer, parameter :: cartesian(6) = [1, 2, 3, 4, 6, 5]
@@ -42,9 +42,9 @@ contains
 
       select case (law%criterion)
       case (yield_tresca, yield_mohr)
-         call admit_principal(criterion_planes(law, gained), trial, stress, tangent, growth)
+         call admit_principal(criterion_planes(law, gained), trial, stress, growth, tangent)
       case (yield_mises, yield_drucker)
-         call admit_invariants(criterion_planes(law, gained), trial, stress, tangent, growth)
+         call admit_invariants(criterion_planes(law, gained), trial, stress, growth, tangent)
       case default
          stress = trial
          growth = 0.0_wp
@@ -54,6 +54,29 @@ contains
          end do
       end select
    end subroutine admit_solid
+
+   !> The same without derivatives
+   pure subroutine admit_stress(law, gained, trial, stress, growth)
+      !> Constants of the solid
+      type(yield_law_type), intent(in) :: law
+      !> Plastic strain that has hardened it
+      real(wp), intent(in) :: gained
+      !> Trial stress
+      real(wp), intent(in) :: trial(6)
+      !> Stress that is admitted
+      real(wp), intent(out) :: stress(6)
+      !> What is added to the plastic strain that hardens
+      real(wp), intent(out) :: growth
+
+      stress = trial
+      growth = 0.0_wp
+      select case (law%criterion)
+      case (yield_tresca, yield_mohr)
+         call admit_principal(criterion_planes(law, gained), trial, stress, growth)
+      case (yield_mises, yield_drucker)
+         call admit_invariants(criterion_planes(law, gained), trial, stress, growth)
+      end select
+   end subroutine admit_stress
 
    !> The planes of a criterion
    pure function criterion_planes(law, gained) result(planes)
@@ -77,13 +100,15 @@ contains
    end function criterion_planes
 
    !> A criterion of the principal stresses: the axes stay those of the trial stress
-   pure subroutine admit_principal(planes, trial, stress, tangent, growth)
+   pure subroutine admit_principal(planes, trial, stress, growth, tangent)
       !> The criterion
       type(yield_planes_type), intent(in) :: planes
       !> Trial stress
       real(wp), intent(in) :: trial(6)
-      !> Stress that is admitted, its derivatives, plastic strain that hardens
-      real(wp), intent(out) :: stress(6), tangent(6, 6), growth
+      !> Stress that is admitted, plastic strain that hardens
+      real(wp), intent(out) :: stress(6), growth
+      !> Derivatives of the stress
+      real(wp), intent(out), optional :: tangent(6, 6)
 
       real(wp) :: principal(3), axes(3, 3), returned(3), derivative(3, 3), direction(6, 3), ratio
       real(wp) :: both(6)
@@ -96,6 +121,7 @@ contains
       end do
       stress = matmul(direction, returned)
       if (maxval(abs(returned - principal)) <= 0.0_wp) stress = trial  ! without rounding
+      if (.not. present(tangent)) return
       tangent = 0.0_wp
       do j = 1, 3
          do i = 1, 3
@@ -127,13 +153,15 @@ contains
    end function turning
 
    !> A criterion of sqrt(J2) and the mean stress: the deviator keeps its direction
-   pure subroutine admit_invariants(planes, trial, stress, tangent, growth)
+   pure subroutine admit_invariants(planes, trial, stress, growth, tangent)
       !> The criterion
       type(yield_planes_type), intent(in) :: planes
       !> Trial stress
       real(wp), intent(in) :: trial(6)
-      !> Stress that is admitted, its derivatives, plastic strain that hardens
-      real(wp), intent(out) :: stress(6), tangent(6, 6), growth
+      !> Stress that is admitted, plastic strain that hardens
+      real(wp), intent(out) :: stress(6), growth
+      !> Derivatives of the stress
+      real(wp), intent(out), optional :: tangent(6, 6)
 
       real(wp), parameter :: volume(6) = [1.0_wp, 1.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
       real(wp) :: deviator(6), direction(6), by(6), invariants(3), returned(3), slope(3, 3), share
@@ -151,6 +179,7 @@ contains
       by = 0.5_wp*twice(direction)  ! the derivative of sqrt(J2)
       stress = share*deviator + returned(2)*volume
       if (maxval(abs(returned - invariants)) <= 0.0_wp) stress = trial  ! without rounding
+      if (.not. present(tangent)) return
       tangent = outer(direction, (slope(1, 1) - share)*by + slope(1, 2)/3.0_wp*volume) &
          + outer(volume, slope(2, 1)*by + (slope(2, 2) - share)/3.0_wp*volume)
       do i = 1, 6

@@ -6,6 +6,7 @@ module axijoint_job_read
    use axijoint_deck_text_file_bytes, only : read_input_bytes
    use axijoint_deck_text_source, only : source_type, add_file
    use axijoint_job_in_situ_messages, only : judge_in_situ
+   use axijoint_job_yield_messages, only : judge_in_situ_yield
    use axijoint_job_job, only : job_type, take_options, deck_name, standard_input
    use axijoint_model_request, only : refinement_type
    implicit none
@@ -36,7 +37,10 @@ contains
          call read_deck(path, job%source, job%model, diagnostics, refinement)
       end if
       if (diagnostics%n_errors == 0) then
-         if (size(job%model%initial_stresses) > 0) call judge_in_situ(job%model, diagnostics)
+         if (size(job%model%initial_stresses) > 0) then
+            call judge_in_situ(job%model, diagnostics)
+            call judge_in_situ_yield(job%model, diagnostics)
+         end if
       end if
       call job%timer%pop()
       job%warnings = warning_texts(diagnostics, job%source)

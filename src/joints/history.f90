@@ -85,6 +85,8 @@ module axijoint_joints_history
       type(residual_record_type), allocatable :: residuals(:)
       !> Whether the last of them is of a step in equilibrium
       logical :: noted = .true.
+      !> Bodies that yield beside the joints, as bytes: only their own driver knows more
+      character(len=:), allocatable :: beside
       !> What ended the increments before their time: too little memory
       type(error_type), allocatable :: failure
    end type history_type
@@ -106,6 +108,7 @@ contains
       allocate (history%path(0), history%states(0), history%residuals(0), history%ahead(0))
       allocate (history%largest_stress(size(condensed%points)), source=0.0_wp)
       allocate (history%balanced, source=history%field%excess)  ! zero
+      history%beside = ''
    end subroutine new_history
 
    !> Joints without stress

@@ -12,7 +12,7 @@ module axijoint_joints_history_record
    use axijoint_joints_method, only : control_type, verdict_type
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_residual, only : residual_record_type
-   use axijoint_joints_states, only : increment_state_type
+   use axijoint_joints_states, only : increment_state_type, plastic_state_type
    implicit none
    private
    public :: write_history, read_history
@@ -62,6 +62,7 @@ contains
       do k = 1, size(history%residuals)
          call write_residual(history%residuals(k), writer)
       end do
+      call writer%put(history%beside)
    end subroutine write_history
 
    !> Read a history
@@ -115,6 +116,7 @@ contains
       do k = 1, n
          call read_residual(reader, history%residuals(k))
       end do
+      call reader%get(history%beside)
       if (.not. reader%at_end()) reader%failed = .true.
       if (.not. reader%failed) reader%failed = .not. fits(history%field, fresh)
    end subroutine read_history
@@ -426,6 +428,7 @@ contains
       call writer%put(state%excess)
       call writer%put(state%pending)
       call writer%put(state%offset)
+      call write_bodies(state%bodies, writer)
    end subroutine write_state
 
    !> Read the end of an increment
@@ -444,7 +447,52 @@ contains
       call reader%get(state%excess)
       call reader%get(state%pending)
       call reader%get(state%offset)
+      call read_bodies(reader, state%bodies)
    end subroutine read_state
+
+   !> Write bodies that yield at the end of an increment
+   subroutine write_bodies(bodies, writer)
+      !> Their state
+      type(plastic_state_type), intent(in) :: bodies
+      !> Takes the bytes
+      type(writer_type), intent(inout) :: writer
+
+      integer, allocatable :: place(:, :)
+
+      if (allocated(bodies%place)) place = reshape(bodies%place, [size(bodies%place), 1])
+      call writer%put(place)
+      call writer%put(bodies%taken)
+      call writer%put(bodies%gained)
+      call writer%put(bodies%amplitude)
+      call writer%put(bodies%carried)
+      call writer%put(bodies%dissipated)
+      call writer%put(bodies%iterations)
+      call writer%put(bodies%solutions)
+      call writer%put(bodies%on_planes)
+      call writer%put(bodies%n_yielding)
+   end subroutine write_bodies
+
+   !> Read bodies that yield at the end of an increment
+   subroutine read_bodies(reader, bodies)
+      !> The bytes
+      type(reader_type), intent(inout) :: reader
+      !> Their state
+      type(plastic_state_type), intent(out) :: bodies
+
+      integer, allocatable :: place(:, :)
+
+      call reader%get(place)
+      if (allocated(place)) bodies%place = reshape(place, [size(place)])
+      call reader%get(bodies%taken)
+      call reader%get(bodies%gained)
+      call reader%get(bodies%amplitude)
+      call reader%get(bodies%carried)
+      call reader%get(bodies%dissipated)
+      call reader%get(bodies%iterations)
+      call reader%get(bodies%solutions)
+      call reader%get(bodies%on_planes)
+      call reader%get(bodies%n_yielding)
+   end subroutine read_bodies
 
    !> Write what a step left out of balance
    subroutine write_residual(record, writer)

@@ -7,7 +7,8 @@ module axijoint_joints_planes
    use axijoint_model_modes, only : greatest_divisor
    implicit none
    private
-   public :: planes_type, new_planes, new_view, synthesize, analyse, sum_modes, find_modes, on_all
+   public :: planes_type, new_planes, new_view, synthesize, analyse, sum_modes, find_modes, on_all, &
+      plane_weights
 
    !> Planes and the matrices between them and the modes
    type :: planes_type
@@ -164,6 +165,21 @@ contains
          end do
       end do
    end function on_all
+
+   !> Weights of the planes of one part in an integral round the whole circle: trapezium rule
+   pure function plane_weights(planes) result(weight)
+      !> The planes, made by `new_planes`
+      type(planes_type), intent(in) :: planes
+      !> One a plane; their sum is 2 pi
+      real(wp) :: weight(size(planes%angle))
+
+      associate (n => size(weight))
+         weight = 2.0_wp*pi/n
+         if (size(planes%place) > planes%n) return
+         weight = 2.0_wp*pi/(n - 1)  ! from 0 to pi of a part, which stands for the other half
+         weight([1, n]) = 0.5_wp*weight([1, n])
+      end associate
+   end function plane_weights
 
    !> Planes at any angles, to look at sums but not to go back
    pure function new_view(angles, modes) result(planes)

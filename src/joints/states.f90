@@ -1,9 +1,29 @@
-!> States of the joints that are kept, one an increment
+!> States of the joints, and of bodies that yield, that are kept, one an increment
 module axijoint_joints_states
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: increment_state_type
+   public :: increment_state_type, plastic_state_type
+
+   !> Bodies that yield at the end of an increment
+   type :: plastic_state_type
+      !> Places of the points that have yielded among the Gauss points of all elements; not
+      !> allocated if no body can yield
+      integer, allocatable :: place(:)
+      !> Elastic stress that plastic strain takes of them, shape (6, points, planes), and plastic
+      !> strain by which they have hardened, shape (points, planes)
+      real(wp), allocatable :: taken(:, :, :), gained(:, :)
+      !> Amplitudes of that stress, and of that which the displacements follow from, shape
+      !> (6, points, modes)
+      real(wp), allocatable :: amplitude(:, :, :), carried(:, :, :)
+      !> Work that plastic strain has dissipated so far [force length]
+      real(wp) :: dissipated = 0.0_wp
+      !> Iterations and elastic solutions of the increment, share of the points of these bodies that
+      !> planes were needed for, and how many yield on any plane at its end
+      integer :: iterations = 0, solutions = 0
+      real(wp) :: on_planes = 0.0_wp
+      integer :: n_yielding = 0
+   end type plastic_state_type
 
    !> The end of an increment: what is needed to find all fields again. The arrays of joints are of
    !> those that can yield, and not allocated if there are none
@@ -23,6 +43,8 @@ module axijoint_joints_states
       real(wp), allocatable :: excess(:, :, :), pending(:, :, :)
       !> Where the parts stand from which displacements count: multiples of the floating motions
       real(wp), allocatable :: offset(:)
+      !> Bodies that yield
+      type(plastic_state_type) :: bodies
    end type increment_state_type
 
 end module axijoint_joints_states

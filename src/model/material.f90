@@ -4,6 +4,7 @@ module axijoint_model_material
    use axijoint_element_elasticity, only : isotropic_elasticity, orthotropic_elasticity, &
       directional_expansion
    use axijoint_element_joint_law, only : joint_law_type
+   use axijoint_element_yield_law, only : yield_law_type
    implicit none
    private
    public :: solid_material_type, joint_material_type, elasticity, thermal_strain
@@ -40,6 +41,8 @@ module axijoint_model_material
       real(wp) :: density = 0.0_wp
       !> Thermal expansion along 1, 2, 3 [1/temperature]
       real(wp) :: expansion(3) = 0.0_wp
+      !> How it yields; not, unless a card says so
+      type(yield_law_type) :: yield
    end type solid_material_type
 
    !> Joint: its law and the points where the law is checked

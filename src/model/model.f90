@@ -4,6 +4,7 @@ module axijoint_model_model
    use axijoint_base_memory, only : no_limit
    use axijoint_base_team, only : team_type
    use axijoint_element_joint_law, only : law_elastic
+   use axijoint_element_yield_law, only : yield_none
    use axijoint_fe_mode, only : mode_type
    use axijoint_model_interface, only : interface_type
    use axijoint_model_load, only : edge_load_type, ring_load_type, body_load_type, &
@@ -18,7 +19,8 @@ module axijoint_model_model
    use axijoint_solver_entry, only : solver_entry_type
    implicit none
    private
-   public :: model_type, held_components, held_at, can_yield, can_yield_at, yielding_nodes, on_axis
+   public :: model_type, held_components, held_at, can_yield, can_yield_at, yielding_nodes, &
+      bodies_yield, on_axis
    public :: method_newton, method_total, method_anderson, method_transfer, method_names
 
    !> How joints are brought to equilibrium: Newton's method; the paper's loop on
@@ -162,6 +164,15 @@ contains
 
       can_yield_at = model%joint_materials(material)%law%kind /= law_elastic
    end function can_yield_at
+
+   !> Whether any solid can yield
+   pure logical function bodies_yield(model)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      bodies_yield = any(model%materials(model%mesh%element_material)%yield%criterion &
+                         /= yield_none)
+   end function bodies_yield
 
    !> Nodes of the joints that can yield: ordered last, they are condensed to
    pure function yielding_nodes(model) result(yields)

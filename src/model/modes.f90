@@ -1,7 +1,7 @@
 !> Fourier modes that a job needs
 module axijoint_model_modes
    use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric, family_antisymmetric
-   use axijoint_model_model, only : model_type, can_yield
+   use axijoint_model_model, only : model_type, can_yield, bodies_yield
    implicit none
    private
    public :: used_modes, greatest_divisor
@@ -9,11 +9,11 @@ module axijoint_model_modes
 contains
 
    !> Modes to solve, ascending, the symmetric before the antisymmetric; at least
-   !> one. A linear job needs the loaded ones only. Opening and slip couple the
-   !> harmonics, but what repeats g times round the circle stays so: only
+   !> one. A linear job needs the loaded ones only. Opening, slip and yielding couple
+   !> the harmonics, but what repeats g times round the circle stays so: only
    !> multiples of g = gcd of the loaded harmonics are excited. One family stays
-   !> alone if the loads are symmetric; under antisymmetric loads, joints that
-   !> yield answer in both.
+   !> alone if the loads are symmetric; under antisymmetric loads, what yields answers
+   !> in both.
    pure function used_modes(model) result(modes)
       !> The job
       type(model_type), intent(in) :: model
@@ -25,7 +25,7 @@ contains
       integer :: k, g
 
       loaded = loaded_modes(model)
-      if (.not. can_yield(model)) then
+      if (.not. (can_yield(model) .or. bodies_yield(model))) then
          modes = loaded
       else
          g = 0

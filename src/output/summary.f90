@@ -27,6 +27,7 @@ module axijoint_output_summary
    use axijoint_output_table_joint_proportion, only : proportions_json
    use axijoint_output_table_modes, only : modes_json, truncations_json
    use axijoint_output_table_residuals, only : residuals_json
+   use axijoint_output_table_yielding, only : yielding_json
    implicit none
    private
    public :: write_summary, write_failure_summary
@@ -70,6 +71,7 @@ contains
          call put_pair(file, "residual_ratio", json_number(results%residual_ratio))
          call put_pair(file, "residuals", residuals_json(results))
          call put_pair(file, "increments", increments_json(series))
+         call put_pair(file, "yielding", yielding_json(results))
          call put_pair(file, "mismatch", json_number(results%mismatch))
          call put_pair(file, "tolerance", json_number(results%tolerance))
          call put_pair(file, "method", json_string(lower(trim(method_names(model%method)))))

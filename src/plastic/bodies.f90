@@ -4,7 +4,7 @@ module axijoint_plastic_bodies
    use axijoint_element_dilatation, only : dilatation_type, formulated_points
    use axijoint_element_solid, only : solid_stress, add_solid_force
    use axijoint_element_solid_point, only : solid_point_type
-   use axijoint_element_yield_law, only : yield_law_type, yield_none
+   use axijoint_element_yield_law, only : yield_law_type, law_at, yield_none
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_fe_reference, only : reference_type
    use axijoint_model_material, only : elasticity
@@ -33,8 +33,12 @@ module axijoint_plastic_bodies
       type(body_element_type), allocatable :: elements(:)
       !> Law of each of their points
       type(yield_law_type), allocatable :: laws(:)
+      !> Weight of each in an integral over the meridional plane, r included
+      real(wp), allocatable :: weight(:)
       !> Place of each among the points of all elements
       integer, allocatable :: place(:)
+      !> Number of all of these
+      integer :: n_all = 0
    end type bodies_type
 
 contains
@@ -56,7 +60,7 @@ contains
          associate (yields => laws(mesh%element_material)%criterion /= yield_none)
             allocate (bodies%elements(count(yields)))
             n = sum(references(mesh%element_kind)%n_points, yields)
-            allocate (bodies%laws(n), bodies%place(n))
+            allocate (bodies%laws(n), bodies%weight(n), bodies%place(n))
             n = 0
             before = 0
             do e = 1, n_elements(mesh)
@@ -67,14 +71,21 @@ contains
                      bodies%elements(n)%before = 0
                      if (n > 1) bodies%elements(n)%before = bodies%elements(n - 1)%before &
                         + size(bodies%elements(n - 1)%points)
-                     do i = 1, reference%n_points
-                        bodies%laws(bodies%elements(n)%before + i) = laws(mesh%element_material(e))
-                        bodies%place(bodies%elements(n)%before + i) = before + i
-                     end do
+                     associate (element => bodies%elements(n))
+                        do i = 1, reference%n_points
+                           associate (p => element%before + i, point => element%points(i))
+                              bodies%laws(p) = law_at(laws(mesh%element_material(e)), &
+                                                      point%position(2))
+                              bodies%weight(p) = point%weight
+                              bodies%place(p) = before + i
+                           end associate
+                        end do
+                     end associate
                   end if
                   before = before + reference%n_points
                end associate
             end do
+            bodies%n_all = before
          end associate
       end associate
    end subroutine new_bodies

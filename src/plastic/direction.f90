@@ -2,8 +2,9 @@
 !> steps of a Krylov method in the energy of the elastic structure, whose factors precondition it
 module axijoint_plastic_direction
    use axijoint_base_kinds, only : wp
-   use axijoint_plastic_field, only : body_field_type, yielding_force
+   use axijoint_plastic_field, only : body_field_type
    use axijoint_plastic_problem, only : problem_type, iterate_type, turn
+   use axijoint_plastic_residual, only : yielding_force
    implicit none
    private
    public :: newton_direction

@@ -5,9 +5,11 @@ module axijoint_plastic_methods
    use axijoint_base_kinds, only : wp
    use axijoint_base_stop, only : stop_wished
    use axijoint_plastic_direction, only : newton_direction
+   use axijoint_plastic_elastic, only : ring_norm
    use axijoint_plastic_field, only : body_field_type
    use axijoint_plastic_mixing, only : mixing_type, new_mixing, mix
-   use axijoint_plastic_problem, only : problem_type, iterate_type, look
+   use axijoint_plastic_problem, only : problem_type, iterate_type, look, whole_force, resolution
+   use axijoint_plastic_residual, only : evaluate, linearize, excess_force
    implicit none
    private
    public :: body_control_type, body_verdict_type, balance_bodies
@@ -65,10 +67,27 @@ module axijoint_plastic_methods
       real(wp) :: on_planes = 0.0_wp
    end type body_verdict_type
 
+   !> The way to equilibrium
+   type :: course_type
+      !> When it ends
+      type(body_control_type) :: control
+      !> What the last iterate leaves out of balance
+      type(iterate_type) :: iterate
+      !> How it ended
+      type(body_verdict_type) :: verdict
+      !> Elastic solutions before it, the displacement that counts as running away, the least
+      !> residual so far, and at how many solutions it was
+      integer :: begun = 0
+      real(wp) :: largest = 0.0_wp, best = huge(1.0_wp)
+      integer :: best_at = 0
+      !> Ratios of the residual forces, one an iterate
+      real(wp), allocatable :: ratios(:)
+   end type course_type
+
 contains
 
    !> Bring a load step to equilibrium
-   subroutine balance_bodies(problem, control, field, verdict)
+   subroutine balance_bodies(problem, control, field, verdict, ratios)
       !> The problem
       type(problem_type), intent(inout) :: problem
       !> When to end
@@ -77,74 +96,147 @@ contains
       type(body_field_type), intent(inout) :: field
       !> How it ended
       type(body_verdict_type), intent(out) :: verdict
+      !> Ratios of the residual forces on the way
+      real(wp), allocatable, intent(out), optional :: ratios(:)
 
-      type(iterate_type) :: iterate
-      real(wp) :: before, largest, best
-      integer :: begun, best_at
+      type(course_type) :: course
+      logical :: mixes_only
 
-      begun = problem%solutions
-      largest = runaway*max(maxval(abs(field%unknowns)), maxval(abs(field%begun)), tiny(1.0_wp))
-      best = huge(1.0_wp)
-      best_at = begun
-      call look(problem, field, iterate)
+      course%control = control
+      course%begun = problem%solutions
+      course%best_at = problem%solutions
+      course%largest = runaway*max(maxval(abs(field%unknowns)), maxval(abs(field%begun)), &
+         tiny(1.0_wp))
+      allocate (course%ratios(0))
+      call look(problem, field, course%iterate)
+      mixes_only = allocated(problem%joints)  ! the tangent of Newton's method knows no joints
       do
-         if (ended()) exit
-         select case (control%method)
-         case (method_newton)  ! its tangent knows no joints
-            if (allocated(problem%joints)) then
-               call mix_steps(depth, huge(1))
-               cycle
+         if (ended(problem, field, course)) exit
+         if (control%method == method_loop) then
+            call mix_steps(problem, field, course, 0, huge(1))
+         else if (mixes_only) then
+            call mix_steps(problem, field, course, depth, huge(1))
+         else
+            if (control%method == method_mix) then
+               call mix_steps(problem, field, course, depth, huge(1))
+               if (ended(problem, field, course)) exit
             end if
-            before = iterate%energy
-            call newton_step(problem, field, iterate)
-            verdict%iterations = verdict%iterations + 1
-            if (iterate%energy > enough*before) call mix_steps(depth, substitute)
-         case (method_mix)
-            call mix_steps(depth, huge(1))
-            if (ended()) exit
-            if (.not. allocated(problem%joints)) call newton_step(problem, field, iterate)
-         case default
-            call mix_steps(0, huge(1))
-         end select
+            call newton_and_mix(problem, field, course)
+         end if
       end do
-      verdict%ratio = iterate%ratio
-      field%scale = iterate%scale
-      verdict%solutions = problem%solutions - begun
+      verdict = course%verdict
+      verdict%ratio = course%iterate%ratio
+      verdict%solutions = problem%solutions - course%begun
       verdict%on_planes = real(size(field%on), wp)/max(1, size(field%marked))
+      field%scale = course%iterate%scale
+      if (present(ratios)) call move_alloc(course%ratios, ratios)
+   end subroutine balance_bodies
 
-   contains
+   !> Whether there is equilibrium, or no more to try
+   logical function ended(problem, field, course)
+      !> The problem
+      type(problem_type), intent(in) :: problem
+      !> The state
+      type(body_field_type), intent(inout) :: field
+      !> The way so far
+      type(course_type), intent(inout) :: course
 
-      !> Whether there is equilibrium, or no more to try
-      logical function ended()
+      ended = course%verdict%converged
+      if (ended) return
+      associate (verdict => course%verdict, iterate => course%iterate, control => course%control)
+         if (size(course%ratios) <= verdict%iterations) &
+            course%ratios = [course%ratios, iterate%ratio]
          if (allocated(problem%joints)) &
             verdict%joints_failed = .not. problem%joints%verdict%converged
          verdict%converged = .not. verdict%joints_failed &
             .and. (iterate%ratio <= control%tolerance .or. iterate%at_rounding)
-         verdict%ran_away = maxval(abs(field%unknowns)) > largest
-         if (iterate%ratio < halved*best) then
-            best = iterate%ratio
-            best_at = problem%solutions
+         if (verdict%converged) call settle(problem, control%tolerance, field, iterate, &
+                                            verdict%converged)
+         verdict%ran_away = maxval(abs(field%unknowns)) > course%largest
+         if (iterate%ratio < halved*course%best) then
+            course%best = iterate%ratio
+            course%best_at = problem%solutions
          end if
-         verdict%stalled = problem%solutions > best_at + patience .and. .not. verdict%converged
+         verdict%stalled = problem%solutions > course%best_at + patience &
+            .and. .not. verdict%converged
          ended = stop_wished()  ! nobody uses what was reached
          ended = ended .or. verdict%converged .or. verdict%ran_away .or. verdict%stalled &
             .or. verdict%joints_failed .or. .not. ieee_is_finite(iterate%ratio) &
-            .or. problem%solutions - begun >= control%most
-      end function ended
+            .or. problem%solutions - course%begun >= control%most
+      end associate
+   end function ended
 
-      !> Some steps of the mix
-      subroutine mix_steps(remembered, most)
-         !> Iterates remembered, and steps at most
-         integer, intent(in) :: remembered, most
+   !> Let the bodies go where their last excess takes them: displacements follow from that excess,
+   !> stresses from the displacements. It is equilibrium if the excess there is about the same
+   subroutine settle(problem, tolerance, field, iterate, settled)
+      !> The problem
+      type(problem_type), intent(in) :: problem
+      !> Tolerance on the residual forces
+      real(wp), intent(in) :: tolerance
+      !> The state
+      type(body_field_type), intent(inout) :: field
+      !> The iterate, in equilibrium
+      type(iterate_type), intent(in) :: iterate
+      !> Whether it is equilibrium; else the state is as before
+      logical, intent(out) :: settled
 
-         type(mixing_type) :: memory
-         real(wp) :: least
-         integer :: k, least_at
+      real(wp), allocatable :: residual(:), start(:), carried(:, :, :)
 
-         memory = new_mixing(size(field%unknowns), remembered)
-         least = huge(1.0_wp)
+      start = field%unknowns
+      carried = field%amplitude
+      allocate (residual, mold=start)
+      field%unknowns = start + iterate%response
+      call evaluate(problem%equations, problem%bodies, problem%planes, problem%load, field, residual)
+      residual = excess_force(problem%equations, problem%bodies, field%amplitude - carried)
+      settled = ring_norm(problem%equations, residual) &
+         <= max(tolerance*iterate%scale, resolution*whole_force(problem, field))
+      if (settled) then
+         field%carried = carried
+         return
+      end if
+      field%unknowns = start
+      call evaluate(problem%equations, problem%bodies, problem%planes, problem%load, field, residual)
+   end subroutine settle
+
+   !> A step of Newton's method, then some of the mix if it leaves much
+   subroutine newton_and_mix(problem, field, course)
+      !> The problem
+      type(problem_type), intent(inout) :: problem
+      !> The state
+      type(body_field_type), intent(inout) :: field
+      !> The way so far
+      type(course_type), intent(inout) :: course
+
+      real(wp) :: before
+
+      before = course%iterate%energy
+      call newton_step(problem, field, course%iterate)
+      course%verdict%iterations = course%verdict%iterations + 1
+      if (course%iterate%energy > enough*before) &
+         call mix_steps(problem, field, course, depth, substitute)
+   end subroutine newton_and_mix
+
+   !> Some steps of the mix
+   subroutine mix_steps(problem, field, course, remembered, most)
+      !> The problem
+      type(problem_type), intent(inout) :: problem
+      !> The state
+      type(body_field_type), intent(inout) :: field
+      !> The way so far
+      type(course_type), intent(inout) :: course
+      !> Iterates remembered, and steps at most
+      integer, intent(in) :: remembered, most
+
+      type(mixing_type) :: memory
+      real(wp) :: least
+      integer :: k, least_at
+
+      memory = new_mixing(size(field%unknowns), remembered)
+      least = huge(1.0_wp)
+      least_at = problem%solutions
+      associate (iterate => course%iterate)
          do k = 1, most
-            if (ended()) exit
+            if (ended(problem, field, course)) exit
             if (iterate%ratio < halved*least) then
                least = iterate%ratio
                least_at = problem%solutions
@@ -152,11 +244,10 @@ contains
             if (problem%solutions > least_at + restless .and. remembered > 0) exit
             call mix(memory, field%unknowns, iterate%residual, iterate%response)
             call look(problem, field, iterate)
-            verdict%iterations = verdict%iterations + 1
+            course%verdict%iterations = course%verdict%iterations + 1
          end do
-      end subroutine mix_steps
-
-   end subroutine balance_bodies
+      end associate
+   end subroutine mix_steps
 
    !> A step of Newton's method, cut until the residual is smaller or, where there is a potential,
    !> most of the way down is behind; none if no cut helps
@@ -174,6 +265,7 @@ contains
       logical :: moved
 
       allocate (direction, mold=field%unknowns)
+      call linearize(problem%bodies, problem%planes, field)
       call newton_direction(problem, field, iterate, forcing, most_inner, direction)
       start = field%unknowns
       energy = iterate%energy

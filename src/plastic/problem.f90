@@ -7,12 +7,13 @@ module axijoint_plastic_problem
    use axijoint_joints_planes, only : planes_type
    use axijoint_plastic_bodies, only : bodies_type
    use axijoint_plastic_elastic, only : elastic_response, ring_norm
-   use axijoint_plastic_field, only : body_field_type, body_load_type, evaluate, elastic_force
+   use axijoint_plastic_field, only : body_field_type, body_load_type
    use axijoint_plastic_joint_side, only : joint_side_type, begin_joint_step, balance_joints
+   use axijoint_plastic_residual, only : evaluate, elastic_force
    implicit none
    private
    public :: problem_type, steering_type, iterate_type, put_load, steer, look, turn, &
-      go_to_displacement
+      go_to_displacement, whole_force, resolution
 
    !> Increments are repeated so often at most, for the start of the next
    real(wp), parameter :: most_repeated = 10.0_wp
@@ -45,6 +46,8 @@ module axijoint_plastic_problem
       type(joint_side_type), allocatable :: joints
       !> Norm of the forces that the step would add if the bodies held
       real(wp) :: pushed = 0.0_wp
+      !> Norm of the largest loads so far, which no residual is held against more; none if zero
+      real(wp) :: peak = 0.0_wp
       !> Whether plastic strain is normal to all criteria, so that tangents are symmetric
       logical :: associated_flow = .true.
       !> Elastic solutions of all modes so far
@@ -160,32 +163,43 @@ contains
       problem%steering%factor = problem%steering%factor + change
       if (allocated(problem%joints)) call add_joints(problem, field, iterate)
       iterate%energy = sqrt(max(0.0_wp, dot_product(iterate%residual, iterate%response)))
-      whole = size_of(field%force)
-      forces = max(size_of(field%force - field%force_before), min(problem%pushed, whole))
+      whole = whole_force(problem, field)
+      forces = max(force_norm(problem%equations, field%force - field%force_before), &
+         min(problem%pushed, whole))
       if (.not. problem%pushed > 0.0_wp) forces = max(forces, field%scale)
+      if (problem%peak > 0.0_wp) forces = min(forces, problem%peak)
       iterate%ratio = ring_norm(problem%equations, iterate%residual)
       iterate%at_rounding = iterate%ratio <= resolution*whole
       if (iterate%ratio > 0.0_wp) iterate%ratio = iterate%ratio/max(forces, tiny(1.0_wp))
       iterate%scale = forces
-
-   contains
-
-      !> Norm of forces on all components
-      real(wp) function size_of(force)
-         !> Shape (3, nodes, modes)
-         real(wp), intent(in) :: force(:, :, :)
-
-         integer :: k
-
-         size_of = 0.0_wp
-         do k = 1, size(force, 3)
-            size_of = size_of + sum(force(:, :, k)**2) &
-               /circle_integral(problem%equations%modes(k)%harmonic)
-         end do
-         size_of = sqrt(size_of)
-      end function size_of
-
    end subroutine look
+
+   !> Norm of the forces of the bodies
+   pure real(wp) function whole_force(problem, field)
+      !> The problem
+      type(problem_type), intent(in) :: problem
+      !> The state, evaluated
+      type(body_field_type), intent(in) :: field
+
+      whole_force = force_norm(problem%equations, field%force)
+   end function whole_force
+
+   !> Norm of forces on all components
+   pure real(wp) function force_norm(equations, force)
+      !> The equations, for the modes
+      type(equations_type), intent(in) :: equations
+      !> Shape (3, nodes, modes)
+      real(wp), intent(in) :: force(:, :, :)
+
+      integer :: k
+
+      force_norm = 0.0_wp
+      do k = 1, size(force, 3)
+         force_norm = force_norm + sum(force(:, :, k)**2) &
+            /circle_integral(equations%modes(k)%harmonic)
+      end do
+      force_norm = sqrt(force_norm)
+   end function force_norm
 
    !> Let joints give way to what is out of balance: they are in equilibrium where the response
    !> goes. The residual is then what the bodies have of it, elastic forces of the response

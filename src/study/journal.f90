@@ -207,7 +207,7 @@ contains
    pure function on_a_line(text) result(line)
       !> The text
       character(len=*), intent(in) :: text
-      !> The line: ends of lines are \n, and \ is \\
+      !> The line: ends of lines are \n, and each \ stands twice there
       character(len=:), allocatable :: line
 
       integer :: k

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import time
 
+import yielding
 from commits import Place
 from same_bits import digests
 from support import INPUTS, Test, expected, input_deck, preload, read_bytes, read_text, write
@@ -37,6 +38,8 @@ JOBS = {
                                                                                    '       1.0      30.0'),
     'gap': history(SHORT, details=('RESULTANT', '', '', '', '', '1.0E-5', '')),
     'two combinations': history(SHORT, lines='COMBINE\n    1    1       1.0\n    2    1       0.7\n'),
+    'yielding': history(SHORT, lines='YIELD\n1, MISES, 2.5\n'),
+    'yielding without joints': yielding.pile(2, 0, (1.0, 0.5, 0.5, -2.0)),
     'rounds': history(SHORT[:3], lines='ERROR\n2.0, DISPL\n'),
 }
 

@@ -7,7 +7,8 @@ from support import HERE, Test, read_text
 
 SCHEMA = os.path.join(HERE, '..', '..', 'doc', 'summary.schema.json')
 DECKS = (('inputs', 'first.dat'), ('inputs', 'chimney.dat'), ('inputs', 'monopile.dat'),
-         ('inputs/hard', 'ground_stress.dat'), ('test/decks/bad', 'keep_all_number.dat'))
+         ('inputs/hard', 'ground_stress.dat'), ('test/decks/good', 'yield_column.dat'),
+         ('test/decks/bad', 'keep_all_number.dat'))
 KINDS = {'null': type(None), 'boolean': bool, 'integer': int, 'number': (int, float), 'string': str, 'array': list,
          'object': dict}
 

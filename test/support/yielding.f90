@@ -109,7 +109,7 @@ contains
       !> The structure, in equilibrium
       type(yielding_type), intent(inout) :: yielding
 
-      call commit(yielding%problem%load, yielding%field)
+      call commit(yielding%bodies, yielding%problem%planes, yielding%problem%load, yielding%field)
       if (allocated(yielding%problem%joints)) &
          call commit_joints(yielding%problem%joints)
    end subroutine keep

@@ -87,6 +87,36 @@ class Cards:
         """
         self._entry("ORTHOTROPIC", material, young, angle, density, expansion, poisson, shear, expansion_3)
 
+    def yield_(self, material: int, criterion: Literal["TRESCA", "MISES", "MOHR", "DRUCKER"],
+               strength: float, *, friction: float | None = None, dilation: float | None = None,
+               hardening: float | None = None, tension: float | None = None) -> None:
+        """YIELD: solids that yield: criterion, strength, friction, dilation, hardening.
+
+        material: material; allowed: of MATERIALS
+        criterion: criterion: TRESCA, MISES; MOHR (Mohr and Coulomb), DRUCKER (Drucker and Prager, the cone
+            through MOHR in triaxial compression); allowed: TRESCA, MISES, MOHR, DRUCKER
+        strength: strength [stress]: of TRESCA and MISES the uniaxial yield stress (2 s_u and √3 s_u for an
+            undrained shear strength s_u), of MOHR and DRUCKER the cohesion c; allowed: ≥ 0; > 0 without
+            friction
+        friction: friction angle φ of MOHR and DRUCKER [degree]; if not given: 0; allowed: 0 ≤ φ < 90
+        dilation: angle of dilation ψ of MOHR and DRUCKER [degree]; if not given: 0; allowed: 0 ≤ ψ ≤ φ
+        hardening: hardening H': what the strength gains by a plastic strain of one [stress]; if not given: 0;
+            allowed: H' ≥ 0
+        tension: tension that is borne at most [stress]: of TRESCA and MOHR the largest principal stress, of
+            MISES and DRUCKER the mean stress; if not given: what the criterion allows; allowed: ≥ 0; below the
+            apex of MOHR and DRUCKER
+        """
+        self._entry("YIELD", material, criterion, strength, friction, dilation, hardening, tension)
+
+    def yielddepth(self, material: int, gradient: float, z: float) -> None:
+        """YIELDDEPTH: strength of solids that yield, growing with depth.
+
+        material: material; allowed: of YIELD
+        gradient: what the strength of YIELD gains by a unit of depth below z_s [stress/length]; allowed: > 0
+        z: z_s [length]; above it the strength is that of YIELD; allowed: any
+        """
+        self._entry("YIELDDEPTH", material, gradient, z)
+
     def laws(self, law: int, k_xi: float, k_eta: float, k_theta: float, *, cohesion: float | None = None,
              friction: float | None = None, kind: Literal["PAPER", "ELASTIC"] | None = None,
              rule: Literal["CENTROID", "GAUSS", "LOBATTO"] | None = None) -> None:

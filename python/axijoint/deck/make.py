@@ -4,6 +4,7 @@
 """
 from __future__ import annotations
 
+import keyword
 import pathlib
 import subprocess
 import sys
@@ -41,6 +42,12 @@ def listed(program):
                           encoding="utf-8").stdout
 
 
+def method_name(card):
+    """Name of the method of a card; `yield` is a word of Python."""
+    name = card.lower()
+    return name + "_" if keyword.iskeyword(name) else name
+
+
 def methods():
     """The text of `cards.py`."""
     parts = [HEAD]
@@ -48,7 +55,7 @@ def methods():
         if section["form"] == "entries":
             parts.append(_entry(card, section))
         elif section["form"] in ("include", "file"):
-            parts.append(f'    def {card.lower()}(self, path: Path) -> None:\n'
+            parts.append(f'    def {method_name(card)}(self, path: Path) -> None:\n'
                          + _docstring([f"{card}: {section['purpose']}."]) + f'        self._path("{card}", path)\n')
     return "\n".join(parts)
 
@@ -80,7 +87,7 @@ def _entry(card, section):
         words += [f"if not given: {first['blank']}"] if first["blank"] else []
         words += [f"allowed: {first['allowed']}"] if first["allowed"] else []
         told.append(f"{name}: {'; '.join(words)}")
-    head = f"    def {card.lower()}("
+    head = f"    def {method_name(card)}("
     call = f'        self._entry("{card}", '
     values = [name for name, _ in rows(card)]
     return (head + _wrapped(arguments, len(head)) + ") -> None:\n"

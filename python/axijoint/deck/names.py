@@ -9,6 +9,8 @@ NAMES = {card: names.split() for card, names in {
     "OUTPUT": "angles",
     "MATERIALS": "material young poisson density expansion",
     "ORTHOTROPIC": "material young angle density expansion poisson shear expansion_3",
+    "YIELD": "material criterion strength friction dilation hardening tension",
+    "YIELDDEPTH": "material gradient z",
     "LAWS": "law k_xi k_eta k_theta cohesion friction kind rule",
     "LAWDETAILS": "law slip opening residual_cohesion residual_friction dilation gap initial_stress",
     "GROUPS": "kind number material name",

@@ -6,6 +6,7 @@ module axijoint_analysis_core_increment_fields
    use axijoint_analysis_core_joint_resultants, only : joint_resultants
    use axijoint_analysis_core_joint_work, only : joint_energy
    use axijoint_analysis_core_nodal_stress, only : smooth_stress
+   use axijoint_analysis_core_plastic_fields, only : plastic_fields
    use axijoint_analysis_core_recovery, only : recover
    use axijoint_analysis_core_results, only : results_type, mode_solve_type, n_resultants
    use axijoint_analysis_core_solution, only : solve_displacements
@@ -14,16 +15,20 @@ module axijoint_analysis_core_increment_fields
    use axijoint_assembly_loading, only : loading_type, new_loading
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
+   use axijoint_fe_reference, only : reference_type
    use axijoint_joints_field, only : joint_field_type, new_joint_field, set_initial_stress
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_planes, only : planes_type, new_view, synthesize
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type
+   use axijoint_model_mesh, only : element_references
    use axijoint_model_model, only : model_type
+   use axijoint_plastic_record, only : on_all_points
    implicit none
    private
    public :: elastic_field, field_of_state, recover_fields, move_bodies, solve_increment
+   public :: load_plastic_strain, stress_plastic_strain
 
 contains
 
@@ -165,7 +170,7 @@ contains
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      type(loading_type) :: loading
+      type(loading_type) :: loading, loads
       type(mode_solve_type), allocatable :: solves(:)
       type(joint_field_type) :: field
 
@@ -173,17 +178,64 @@ contains
       results%plane_angles = final%plane_angles
       results%converged = .true.
       allocate (results%displacement, mold=final%displacement)
-      call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
-                       combination_type(0, state%case_factor), loading)
+      call load_plastic_strain(model, structure, state, loading)
       ! where no joint yields there is no excess stress
       call solve_displacements(structure, model, loading, results%displacement, solves, error, &
          state%excess)
       if (allocated(error)) return
       call field_of_state(model, structure, state, results%plane_angles, results%displacement, &
          field)
-      call recover_fields(model, structure, loading, loading, field, results)
+      call stress_plastic_strain(model, state, loading)
+      call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
+                       combination_type(0, state%case_factor), loads)  ! what errors are held against
+      call recover_fields(model, structure, loading, loads, field, results)
+      results%plastic = plastic_fields(model, results%modes, results%stress, state%bodies)
       call move_bodies(model, structure, state, results)
    end subroutine solve_increment
+
+   !> Loads of a state, with the stress of the plastic strain that its displacements follow from
+   subroutine load_plastic_strain(model, structure, state, loading)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> The state
+      type(increment_state_type), intent(in) :: state
+      !> The loads
+      type(loading_type), intent(out) :: loading
+
+      real(wp), allocatable :: taken(:, :, :)
+
+      if (allocated(state%bodies%place)) taken = on_all_points(state%bodies%place, &
+         state%bodies%carried, n_points(model))
+      call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
+                       combination_type(0, state%case_factor), loading, taken)
+   end subroutine load_plastic_strain
+
+   !> Put the plastic strain of the state itself in the place of that which displacements follow
+   !> from: what the two differ by is left out of balance
+   subroutine stress_plastic_strain(model, state, loading)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The state
+      type(increment_state_type), intent(in) :: state
+      !> The loads
+      type(loading_type), intent(inout) :: loading
+
+      if (allocated(state%bodies%place)) loading%initial%taken = &
+         on_all_points(state%bodies%place, state%bodies%amplitude, n_points(model))
+   end subroutine stress_plastic_strain
+
+   !> Number of the Gauss points of all elements
+   pure integer function n_points(model)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      type(reference_type), allocatable :: references(:)
+
+      references = element_references(model%mesh)
+      n_points = sum(references(model%mesh%element_kind)%n_points)
+   end function n_points
 
    !> Joint points and their state into the results
    subroutine take_joint_results(points, field, results)

@@ -5,7 +5,7 @@ module axijoint_analysis_core_left_out
    use axijoint_base_text, only : to_text
    use axijoint_fe_mode, only : mode_type, family_symmetric, family_antisymmetric, is_torsion
    use axijoint_joints_planes, only : planes_type, new_planes
-   use axijoint_model_model, only : model_type, can_yield_at
+   use axijoint_model_model, only : model_type, can_yield_at, bodies_yield
    implicit none
    private
    public :: what_was_left_out
@@ -23,14 +23,15 @@ contains
       type(remark_type), allocatable :: sentences(:)
 
       type(planes_type) :: planes
-      logical :: yields
+      logical :: yields, coupled
       integer :: n_elastic, n_harmonics
 
       allocate (sentences(0))
       yields = size(structure%yielding) > 0
+      coupled = yields .or. bodies_yield(model)
       associate (modes => structure%modes)
          n_harmonics = count_unused(model%harmonics, modes)
-         if (n_harmonics > 0 .and. .not. yields) then
+         if (n_harmonics > 0 .and. .not. coupled) then
             call add(sentences, to_text(n_harmonics)//' harmonics of '// &
                to_text(size(model%harmonics))// &
                      ': they are not loaded, and no joint that opens or slips couples them')

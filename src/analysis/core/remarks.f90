@@ -11,7 +11,7 @@ module axijoint_analysis_core_remarks
    use axijoint_joints_field, only : joint_field_type, n_across_gaps, n_fading
    use axijoint_joints_history, only : history_type
    use axijoint_joints_path, only : iteration_type
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, bodies_yield
    use axijoint_model_request, only : goal_names
    implicit none
    private
@@ -56,7 +56,7 @@ contains
       end if
       pins = pin_text(model, structure, history%loading, field, results)
       if (len(pins) > 0) call add(remarks, pins)
-      remarks = [remarks, proportion_remarks(model, results)]
+      if (allocated(results%stiffer)) remarks = [remarks, proportion_remarks(model, results)]
    end function remarks_on
 
    !> Why the increments ended as they did
@@ -110,7 +110,8 @@ contains
          return
       end if
       if (history%verdict%converged) then
-         call add(remarks, 'the joints are balanced to the tolerance, the whole structure is '// &
+         call add(remarks, trim(merge('bodies that yield', 'the joints       ', &
+            bodies_yield(model)))//' are balanced to the tolerance, the whole structure is '// &
             'not: rounding; '// &
                   'a tolerance of '//to_text(10.0_wp*max(results%residual_ratio, &
                   results%mismatch))//' can be reached')

@@ -2,6 +2,7 @@
 module axijoint_analysis_core_results
    use axijoint_analysis_core_discretization_error, only : discretization_error_type
    use axijoint_analysis_core_in_situ, only : in_situ_type
+   use axijoint_analysis_core_plastic_fields, only : plastic_fields_type
    use axijoint_analysis_fine_singular_places, only : singular_place_type
    use axijoint_base_kinds, only : wp, i8
    use axijoint_fe_mode, only : mode_type
@@ -182,6 +183,12 @@ module axijoint_analysis_core_results
       real(wp), allocatable :: stress(:, :, :)
       !> The same smoothed to the nodes
       type(nodal_stress_type) :: nodal
+      !> Plastic strain and yield margin, if bodies can yield
+      type(plastic_fields_type) :: plastic
+      !> Displacements of the step that found no equilibrium, counted from the last that did, shape
+      !> (3, nodes, modes) [length], and its load factor; not allocated if none failed
+      real(wp), allocatable :: failing(:, :, :)
+      real(wp) :: tried = 0.0_wp
       !> Angles of the planes of the joint results [radian]
       real(wp), allocatable :: plane_angles(:)
       !> Joint (index) of each joint point, ascending

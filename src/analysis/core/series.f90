@@ -1,6 +1,7 @@
 !> What is followed from increment to increment: one entry for each
 module axijoint_analysis_core_series
    use axijoint_analysis_core_joint_work, only : sliding_work
+   use axijoint_analysis_core_plastic_fields, only : plastic_fields_type, plastic_work
    use axijoint_analysis_core_results, only : results_type, n_resultants
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_base_kinds, only : wp
@@ -27,8 +28,8 @@ module axijoint_analysis_core_series
       real(wp), allocatable :: displacement(:), pressure(:), shear(:)
       !> Points times planes that slip, and that are open
       integer, allocatable :: n_slip(:), n_open(:)
-      !> Work of loads and given displacements; elastic energy; work dissipated by sliding [force
-      !> length]
+      !> Work of loads and given displacements; elastic energy; work dissipated by sliding and by
+      !> plastic strain [force length]
       real(wp), allocatable :: work(:), energy(:), dissipated(:)
       !> Resultants of loads and reactions, shape (n_resultants, increments)
       real(wp), allocatable :: applied(:, :), reacted(:, :)
@@ -44,6 +45,7 @@ module axijoint_analysis_core_series
       !> shape (3, nodes, modes); state; energy of solids and springs [force length]
       real(wp), allocatable, private :: before(:, :, :), acting(:, :, :), taken(:, :, :)
       type(increment_state_type), private :: state
+      type(plastic_fields_type), private :: plastic
       real(wp), private :: stored = 0.0_wp
    end type series_type
 
@@ -91,6 +93,7 @@ contains
       !> The series
       type(series_type), intent(inout) :: series
 
+      real(wp) :: plastic
       integer :: i
 
       i = series%n + 1
@@ -119,10 +122,12 @@ contains
          call interpolate_points(model, now, series%points(:, :, :, i))
          associate (change => now%displacement - series%before)
             series%work(i) = 0.5_wp*sum((series%acting + now%acting)*change)
-            series%stored = series%stored + 0.5_wp*sum((series%taken + now%taken)*change)
+            plastic = plastic_work(series%plastic, now%plastic)
+            series%stored = series%stored + 0.5_wp*sum((series%taken + now%taken)*change) - plastic
          end associate
          series%energy(i) = series%stored + now%joint_energy
-         series%dissipated(i) = sliding_work(model, structure, series%state, state)
+         series%dissipated(i) = sliding_work(model, structure, series%state, state) &
+            + plastic
          if (i > 1) then
             series%work(i) = series%work(i) + series%work(i - 1)
             series%dissipated(i) = series%dissipated(i) + series%dissipated(i - 1)
@@ -130,6 +135,7 @@ contains
          series%before = now%displacement
          series%acting = now%acting
          series%taken = now%taken
+         series%plastic = now%plastic
          series%state = state
       end associate
    end subroutine append_increment

@@ -22,7 +22,8 @@ module axijoint_analysis_core_structure
    use axijoint_joints_planes, only : planes_type, new_planes
    use axijoint_linalg_blas_buffers, only : reserve_blas_buffers
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points
-   use axijoint_model_model, only : model_type, can_yield, can_yield_at, yielding_nodes
+   use axijoint_model_model, only : model_type, can_yield, can_yield_at, yielding_nodes, &
+      bodies_yield
    use axijoint_model_modes, only : used_modes
    use axijoint_order_graph, only : bandwidth, profile, fill
    use axijoint_order_orders, only : orders_type, new_orders
@@ -177,14 +178,14 @@ contains
                         model%memory_limit, error)
    end subroutine plan_structure
 
-   !> Whether the factors are needed more than once: by several load combinations, or by joints,
-   !> which take flexibilities, then displacements, or to show earlier increments
+   !> Whether the factors are needed more than once: by several load combinations, by bodies that
+   !> yield, or by joints, which take flexibilities, then displacements, or to show earlier increments
    pure logical function reuses_factors(model)
       !> The job
       type(model_type), intent(in) :: model
 
       reuses_factors = size(model%combinations) > 1 .or. can_yield(model) &
-         .or. size(model%increments) > 1
+         .or. bodies_yield(model) .or. size(model%increments) > 1
    end function reuses_factors
 
    !> Bandwidth, profile and fill of the orders side by side

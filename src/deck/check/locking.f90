@@ -4,6 +4,7 @@ module axijoint_deck_check_locking
    use axijoint_base_text, only : to_text
    use axijoint_deck_property_properties, only : properties_type
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_warning
+   use axijoint_element_yield_law, only : yield_none
    use axijoint_fe_element_kind, only : locks
    use axijoint_model_material, only : solid_material_type, elasticity
    use axijoint_model_model, only : model_type
@@ -35,7 +36,12 @@ contains
          end associate
       end do
       do k = 1, size(model%materials)
-         if (.not. any(used(k, :)) .or. effective_ratio(model%materials(k)) <= largest_ratio) cycle
+         if (.not. any(used(k, :))) cycle
+         if (model%materials(k)%yield%criterion /= yield_none) then
+            call warn_of_limit(k)
+            cycle
+         end if
+         if (effective_ratio(model%materials(k)) <= largest_ratio) cycle
          if (used(k, 4)) call warn(k, 'plain 4-node', &
                                    'write BBAR in columns 31-40 of CONTROL, or use 8-node '// &
                                    'elements '// &
@@ -47,6 +53,20 @@ contains
       end do
 
    contains
+
+      !> Warn of a material that yields: plastic strain keeps the volume, or dilates by as much as
+      !> the law says, which these elements cannot
+      subroutine warn_of_limit(material)
+         !> The material
+         integer, intent(in) :: material
+
+         call add_warning(diagnostics, properties%material_card(material), 0, 0, &
+                          'material '//to_text(model%materials(material)%label)// &
+                          ' yields in elements that lock: plain 4-node elements carried 26 to '// &
+                          '65 % more than the limit load of a disc in clay', &
+                          mend='use 8-node elements with 2 in columns 16-20 of CONTROL, or '// &
+                          'BBAR in columns 31-40')
+      end subroutine warn_of_limit
 
       !> Warn of one material
       subroutine warn(material, kind, mend)

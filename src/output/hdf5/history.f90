@@ -5,7 +5,7 @@ module axijoint_output_hdf5_history
    use axijoint_analysis_core_series, only : series_type
    use axijoint_base_kinds, only : i8
    use axijoint_base_text, only : to_text
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, bodies_yield
    use axijoint_model_request, only : is_kept, keep_displacement, keep_joints, keep_stress, &
       keep_series
    use axijoint_output_file_hdf5, only : hdf5_file_type, kind_real, kind_byte
@@ -178,7 +178,7 @@ contains
 
       character(len=*), parameter :: resultants = "Axial force, lateral force, moment, torque, "// &
          "lateral force and moment at 90 degrees"
-      character(len=:), allocatable :: names
+      character(len=:), allocatable :: names, dissipated
       integer :: k
 
       call file%write(group//"/increment", series%increment, "Increment; (increment)")
@@ -202,9 +202,10 @@ contains
          "Of loads and given displacements, by the mean of their ends; (increment) [force length]")
       call file%write(group//"/energy", series%energy, "Elastic: what solids, springs and "// &
          "joints hold of the work; (increment) [force length]")
-      call file%write(group//"/dissipated", series%dissipated, &
-         "By sliding in joints, by the mean of the stresses at the ends; (increment) [force "// &
-         "length]")
+      dissipated = "By sliding in joints"
+      if (bodies_yield(model)) dissipated = dissipated//" and plastic strain"
+      call file%write(group//"/dissipated", series%dissipated, dissipated// &
+         ", by the mean of the stresses at the ends; (increment) [force length]")
       call file%write(group//"/applied", series%applied, resultants// &
          " of the loads; (6, increment)")
       call file%write(group//"/reacted", series%reacted, &

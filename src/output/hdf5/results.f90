@@ -18,6 +18,7 @@ module axijoint_output_hdf5_results
    use axijoint_output_table_interfaces, only : write_interface_group
    use axijoint_output_table_joint_proportion, only : write_proportion_arrays
    use axijoint_output_table_residuals, only : write_residual_arrays
+   use axijoint_output_table_yielding, only : write_yield_group
    implicit none
    private
    public :: write_results
@@ -61,6 +62,7 @@ contains
       call write_errors(file, results)
       call write_stress(file, results)
       call write_discretization(file, results)
+      call write_yield_group(file, model, results)
       call write_joints(file, results)
       call write_section_groups(file, model, results)
       call write_cut_group(file, model, results)
@@ -299,6 +301,7 @@ contains
 
       call file%group("/error")
       call file%group("/error/discretization")
+      if (.not. allocated(results%discretization%energy)) return  ! not estimated
       associate (estimate => results%discretization)
          call file%write("/error/discretization/error_energy", estimate%error_energy, &
             "Estimated energy of the error; (mode) [force length]")

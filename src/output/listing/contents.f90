@@ -31,6 +31,7 @@ module axijoint_output_listing_contents
    use axijoint_output_table_increments, only : write_increment_table
    use axijoint_output_table_joint_proportion, only : write_proportions
    use axijoint_output_table_residuals, only : write_residuals
+   use axijoint_output_table_yielding, only : write_yielding, write_unestimated
    implicit none
    private
    public :: write_listing
@@ -80,6 +81,7 @@ contains
          call write_convergence(file, results)
          call write_residuals(file, results)
          call write_increment_table(file, series)
+         call write_yielding(file, model, results)
          call write_displacements(file, model, results)
          call write_total_displacements(file, model, results)
          call write_stresses(file, model, results)
@@ -91,6 +93,7 @@ contains
          call write_face_reactions(file, model, results)
          call write_equilibrium(file, model, results)
          call write_budget(file, results)
+         call write_unestimated(file, results)
          call write_singular(file, model, results)
          call write_rounds(file, results)
          call write_pictures(file, size(results%states), pictures)

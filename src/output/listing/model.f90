@@ -3,6 +3,7 @@ module axijoint_output_listing_model
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text
    use axijoint_element_joint_law, only : law_elastic, law_names, slip_names, opening_names
+   use axijoint_element_yield_law, only : yield_none, criterion_names
    use axijoint_fe_element_kind, only : formulations
    use axijoint_model_material, only : rule_names
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, n_joints, element_references
@@ -139,7 +140,40 @@ contains
          end associate
       end do
       call write_orthotropic(file, model)
+      call write_yield(file, model)
    end subroutine write_materials
+
+   !> How solids yield
+   subroutine write_yield(file, model)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+
+      character(len=:), allocatable :: text
+      character(len=10) :: label
+      integer :: i
+
+      if (all(model%materials%yield%criterion == yield_none)) return
+      call write_heading(file, "MATERIALS THAT YIELD")
+      call file%put("  material  criterion       strength      phi [deg]      psi [deg]"// &
+         "             H'        tension       gradient            z_s")
+      do i = 1, size(model%materials)
+         associate (material => model%materials(i), law => model%materials(i)%yield)
+            if (law%criterion == yield_none) cycle
+            write (label, format_label) material%label
+            text = label//"    "//criterion_names(law%criterion)//columns([law%strength, &
+               law%friction/degree, law%dilation/degree, law%hardening], wide)
+            if (law%tension < huge(1.0_wp)) then
+               text = text//columns([law%tension], wide)
+            else
+               text = text//repeat(" ", wide - 1)//"-"
+            end if
+            if (law%gradient > 0.0_wp) text = text//columns([law%gradient, law%level], wide)
+            call file%put(text)
+         end associate
+      end do
+   end subroutine write_yield
 
    !> Orthotropic materials of the solids
    subroutine write_orthotropic(file, model)

@@ -30,7 +30,7 @@ contains
       call write_heading(file, "INCREMENTS")
       call file%put("  (largest amplitude of displacement; largest pressure in joints; work of "// &
          "loads and given displacements, elastic energy,")
-      call file%put("  work dissipated by sliding: forces by the mean of both ends)")
+      call file%put("  work dissipated by sliding and plastic strain: forces by the mean of both ends)")
       call file%put(" increment iterations   load factor       residual   displacement       "// &
          "pressure           work         energy     dissipated")
       do i = 1, series%n

@@ -1,0 +1,113 @@
+!> Bodies that yield: the increments, then the displacements of the whole at the last equilibrium
+module axijoint_analysis_core_yielding_bodies
+   use axijoint_analysis_core_increment_fields, only : load_plastic_strain, stress_plastic_strain
+   use axijoint_analysis_core_motion, only : motion_text
+   use axijoint_analysis_core_results, only : results_type
+   use axijoint_analysis_core_solution, only : solve_displacements
+   use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_base_error, only : error_type, fatal_error, exit_deck
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_progress, only : progress_type
+   use axijoint_base_stop, only : check_stop
+   use axijoint_base_text, only : to_text
+   use axijoint_joints_history, only : history_type
+   use axijoint_joints_keeper, only : keeper_type
+   use axijoint_model_load, only : combination_type
+   use axijoint_model_model, only : model_type
+   use axijoint_plastic_increments, only : run_body_increments
+   use axijoint_plastic_stage, only : body_history_type
+   implicit none
+   private
+   public :: solve_bodies
+
+   !> Bodies that move so many times farther than elastic ones, and are out of balance, give way
+   real(wp), parameter :: gave_way = 100.0_wp
+   !> Larger multiples are not told
+   real(wp), parameter :: most_told = 1.0e6_wp
+
+contains
+
+   !> Run the increments of bodies that yield, with joints or without
+   subroutine solve_bodies(model, structure, combination, history, results, progress, error, keeper)
+      !> The job
+      type(model_type), intent(in), target :: model
+      !> The structure, factored and condensed
+      type(structure_type), intent(inout), target :: structure
+      !> Factors of the load cases
+      type(combination_type), intent(in) :: combination
+      !> Takes the loads, and what the increments came to at the joints
+      type(history_type), intent(out) :: history
+      !> Results that take displacements and convergence
+      type(results_type), intent(inout) :: results
+      !> Where to show progress
+      type(progress_type), intent(inout) :: progress
+      !> Singular stiffness, or out of memory
+      type(error_type), allocatable, intent(out) :: error
+      !> Who keeps what the increments come to
+      class(keeper_type), intent(inout), optional :: keeper
+
+      type(body_history_type) :: bodies
+      real(wp), allocatable :: planes(:)
+
+      if (structure%equations%team%size > 1) then
+         call fatal_error(error, exit_deck, 'bodies that yield are not shared by several '// &
+            'processes'//new_line('a')//'mend: run one process, which uses all processors as '// &
+            'threads')
+         return
+      end if
+      call run_body_increments(model, structure%equations, structure%condensed, &
+         structure%joint_points, structure%support_points, combination, bodies, planes, progress, &
+         keeper)
+      history = bodies%joints
+      if (allocated(history%failure)) then
+         error = history%failure
+         return
+      end if
+      results%converged = history%verdict%converged
+      results%tolerance = model%increments(size(model%increments))%tolerance
+      results%path = history%path
+      results%states = history%states
+      allocate (results%residuals(0), results%residual_part_node(0), results%idle(0))
+      allocate (results%displacement, mold=history%loading%right)
+      associate (state => results%states(size(results%states)))
+         call load_plastic_strain(model, structure, state, history%loading)
+         ! where no joint yields there is no excess stress
+         call solve_displacements(structure, model, history%loading, results%displacement, &
+            results%solves, error, state%excess)
+         if (allocated(error)) return
+         call stress_plastic_strain(model, state, history%loading)
+      end associate
+      results%plane_angles = model%output_angles
+      if (size(structure%yielding) > 0) results%plane_angles = structure%planes%angle
+      call check_stop(error)
+      if (allocated(error) .or. results%converged) return
+      results%failing = bodies%failing
+      results%tried = bodies%tried
+      results%mechanism = failure_text(model, bodies, results)
+   end subroutine solve_bodies
+
+   !> Why the increments ended, in words. That there is no equilibrium is said only if the bodies
+   !> gave way: moved many times farther than elastic ones would, and were still out of balance
+   function failure_text(model, bodies, results) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> What the increments came to
+      type(body_history_type), intent(in) :: bodies
+      !> Results with the displacements that failed
+      type(results_type), intent(in) :: results
+      !> The sentence
+      character(len=:), allocatable :: text
+
+      character(len=:), allocatable :: was
+
+      was = ' was found'
+      if (bodies%growth >= gave_way .or. bodies%verdict%ran_away) was = ''
+      text = 'no equilibrium'//was//' beyond the load factor '//to_text(bodies%joints%reached)// &
+         ': '//motion_text(model%mesh, results%modes, results%failing)//', at '// &
+         to_text(bodies%tried)//' '//to_text(nint(min(bodies%growth, most_told)))// &
+         ' times as far as if all were elastic'
+      if (bodies%verdict%joints_failed) text = text//', and joints came to no equilibrium'
+      text = text//'; results are those there'
+   end function failure_text
+
+end module axijoint_analysis_core_yielding_bodies

@@ -1,0 +1,173 @@
+!> What the increments of bodies that yield act on, and what they append to
+module axijoint_plastic_stage
+   use axijoint_assembly_equations, only : equations_type
+   use axijoint_assembly_factors, only : report_failure
+   use axijoint_assembly_loading, only : loading_type, new_loading
+   use axijoint_assembly_solid_force, only : solid_force
+   use axijoint_assembly_support, only : support_point_type
+   use axijoint_base_kinds, only : wp
+   use axijoint_joints_condensed, only : condensed_type
+   use axijoint_joints_field, only : new_joint_field, set_initial_stress
+   use axijoint_joints_history, only : history_type, new_history
+   use axijoint_joints_load_steps, only : step_type, first_step
+   use axijoint_joints_methods, only : new_method
+   use axijoint_joints_residual, only : load_norm
+   use axijoint_model_joint_points, only : model_joint_point_type
+   use axijoint_model_load, only : combination_type
+   use axijoint_model_model, only : model_type
+   use axijoint_plastic_bodies, only : bodies_type
+   use axijoint_plastic_elastic, only : to_vector
+   use axijoint_plastic_field, only : body_field_type, body_load_type, body_planes, &
+      new_body_field, no_body_load
+   use axijoint_plastic_methods, only : body_verdict_type
+   use axijoint_plastic_problem, only : problem_type, put_load
+   implicit none
+   private
+   public :: stage_type, body_history_type, begin_history, put, put_on_nodes
+
+   !> What the increments came to
+   type :: body_history_type
+      !> What bodies and joints have in common, and the joints
+      type(history_type) :: joints
+      !> State of the bodies: at the last equilibrium, if there was one
+      type(body_field_type) :: field
+      !> How the last step ended
+      type(body_verdict_type) :: verdict
+      !> What the step that failed changed of the displacements, shape (3, nodes, modes); its load
+      !> factor. Not allocated if none did
+      real(wp), allocatable :: failing(:, :, :)
+      real(wp) :: tried = 0.0_wp
+      !> Its largest displacement over that of elastic bodies
+      real(wp) :: growth = 0.0_wp
+      !> Iterations and elastic solutions of the increment at work
+      integer :: counts(2) = 0
+   end type body_history_type
+
+   !> What the increments act on
+   type :: stage_type
+      !> The job, and the factors of its load cases
+      type(model_type), pointer :: model => null()
+      type(combination_type), pointer :: combination => null()
+      !> Equations of all modes, and the condensed structure
+      type(equations_type), pointer :: equations => null()
+      type(condensed_type), pointer :: condensed => null()
+      !> Points of all joints, and of all springs
+      type(model_joint_point_type), pointer :: joint_points(:) => null()
+      type(support_point_type), pointer :: supports(:) => null()
+      !> Bodies and joints, as methods see them
+      type(problem_type) :: problem
+   end type stage_type
+
+contains
+
+   !> Nothing has happened yet
+   subroutine begin_history(stage, bodies, history)
+      !> What the increments act on
+      type(stage_type), intent(inout) :: stage
+      !> The bodies
+      type(bodies_type), intent(in), target :: bodies
+      !> The history
+      type(body_history_type), intent(inout) :: history
+
+      associate (problem => stage%problem, common => history%joints)
+         problem%equations => stage%equations
+         problem%bodies => bodies
+         problem%planes = body_planes(stage%equations%modes)
+         problem%load = no_body_load(stage%equations, bodies)
+         problem%associated_flow = all(abs(bodies%laws%friction - bodies%laws%dilation) <= 0.0_wp)
+         history%field = new_body_field(stage%equations, bodies, problem%planes)
+         if (size(stage%condensed%points) > 0) then
+            call new_history(stage%model, stage%condensed, common)
+            allocate (problem%joints)
+            problem%joints%condensed => stage%condensed
+            problem%joints%scene = common%scene
+            problem%joints%method = new_method(stage%model%method)
+            problem%joints%before = common%field
+            problem%joints%field = common%field
+         else
+            common%field = new_joint_field(0, 1, size(stage%equations%modes), 0)
+            common%method = new_method(stage%model%method)
+            common%beside = ''
+            allocate (common%path(0), common%states(0), common%residuals(0), common%ahead(0), &
+               common%largest_stress(0))
+         end if
+         common%at = first_step(stage%combination)
+      end associate
+   end subroutine begin_history
+
+   !> Put loads on
+   subroutine put(stage, step, history)
+      !> What the increments act on
+      type(stage_type), intent(inout) :: stage
+      !> Loads
+      type(step_type), intent(in) :: step
+      !> The history
+      type(body_history_type), intent(inout) :: history
+
+      type(body_load_type) :: load
+      integer :: k
+
+      associate (common => history%joints, problem => stage%problem)
+         call put_on_nodes(stage, step%case_factor, common%loading)
+         common%load_norm = load_norm(stage%equations, common%loading)
+         if (common%load_norm >= common%peak_norm) then
+            common%peak_norm = common%load_norm
+            common%peak = common%loading
+         end if
+         problem%peak = common%peak_norm
+         load = problem%load
+         load%right = to_vector(stage%equations, common%loading%right)
+         if (allocated(common%loading%held)) load%held = common%loading%held
+         do k = 1, size(stage%equations%modes)
+            load%initial(:, :, k) = stress_without_strain(stage, problem%bodies, common%loading, k)
+         end do
+         call put_load(problem, load, common%loading%external, history%field)
+         call report_failure(stage%equations, stage%model, common%failure)
+         if (.not. allocated(problem%joints)) return
+         call set_initial_stress(stage%model, stage%condensed%points, step%case_factor, &
+            problem%joints%field)
+      end associate
+   end subroutine put
+
+   !> Stress amplitudes of one mode that the bodies have without strain: in-situ stress and
+   !> temperature
+   function stress_without_strain(stage, bodies, loading, k) result(stress)
+      !> What the increments act on
+      type(stage_type), intent(in) :: stage
+      !> The bodies
+      type(bodies_type), intent(in) :: bodies
+      !> The loads
+      type(loading_type), intent(in) :: loading
+      !> Place of the mode
+      integer, intent(in) :: k
+      !> Shape (6, points of the bodies)
+      real(wp), allocatable :: stress(:, :)
+
+      real(wp), allocatable :: everywhere(:, :), force(:, :), still(:, :)
+
+      if (.not. loading%initial%present) then
+         allocate (stress(6, size(bodies%laws)), source=0.0_wp)
+         return
+      end if
+      allocate (still(3, size(loading%external, 2)), source=0.0_wp)
+      allocate (force, mold=still)
+      allocate (everywhere(6, bodies%n_all))
+      call solid_force(stage%model, loading%initial, k, stage%equations%modes(k), still, force, &
+         everywhere)
+      stress = everywhere(:, bodies%place)
+   end function stress_without_strain
+
+   !> Loads on the nodes
+   subroutine put_on_nodes(stage, case_factor, loading)
+      !> What the increments act on
+      type(stage_type), intent(in) :: stage
+      !> Factor of each load case
+      real(wp), intent(in) :: case_factor(:)
+      !> The loads
+      type(loading_type), intent(out) :: loading
+
+      call new_loading(stage%model, stage%joint_points, stage%supports, stage%equations%modes, &
+                       combination_type(stage%combination%label, case_factor), loading)
+   end subroutine put_on_nodes
+
+end module axijoint_plastic_stage

@@ -1,0 +1,414 @@
+"""Bodies that yield, through the whole program: against exact solutions, against elastic decks, in other units, at
+the limit load, with joints that slip"""
+import csv
+import json
+import math
+import os
+
+import listing
+from support import Test, expected, read_text, write
+
+# Thick cylinder in plane strain under pressure from inside, Tresca (Hill, The mathematical theory of plasticity, V.2)
+YIELD_STRESS, YOUNG, POISSON, INSIDE, OUTSIDE = 240.0, 2.1e5, 0.3, 1.0, 2.0
+COLLAPSE = YIELD_STRESS*math.log(OUTSIDE/INSIDE)
+# A ring of soil that is turned at its outside: shear modulus, shear strength, height
+SHEAR, STRENGTH, HEIGHT = 100.0, 0.5, 0.3
+
+
+def run(program, folder, deck, codes=(0,), name='yielding'):
+    """Summary of a deck that must end with one of some exit codes"""
+    ran = program.run('run', write(folder, f'{name}.dat', deck), '-o', folder)
+    if ran.code not in codes:
+        raise AssertionError(f'exit code {ran.code}: {ran.err}{ran.out}')
+    return json.loads(read_text(os.path.join(folder, f'{name}.json')))
+
+
+def off(what, found, wanted, tolerance):
+    """A fault if a value is off by more than a share"""
+    if abs(found/wanted - 1.0) <= tolerance:
+        return []
+    return [f'{what}: {found} instead of {wanted}, off by {found/wanted - 1.0:.1E}']
+
+
+def cylinder(factors, elements=16, scale=1.0, law='1, TRESCA, {strength}', more=''):
+    """The cylinder under 100 times the sums of the factors; stresses in units of 1/scale"""
+    law = law.format(strength=YIELD_STRESS*scale)
+    return f"""TITLE
+Thick cylinder
+CONTROL
+0, , , 2
+MATERIALS
+1, {YOUNG*scale}, {POISSON}
+{'YIELD' if law else '!'}
+{law or '!'}
+BLOCKS
+1, 1, 8, {elements}, 1
+{INSIDE}, 0.0, {OUTSIDE}, 0.1
+FACES
+1, 1, {INSIDE}, 0.0, {INSIDE}, 0.1
+2, 1, {INSIDE}, 0.0, {OUTSIDE}, 0.0
+3, 1, {INSIDE}, 0.1, {OUTSIDE}, 0.1
+FIXEDFACES
+2, 010
+3, 010
+PRESSURES
+1, 0, {100.0*scale}
+{more}INCREMENTS
+""" + ''.join(f'{factor}, 1E-8\n' for factor in factors) + 'END\n'
+
+
+def hill(pressure):
+    """Radial displacement of the inside"""
+    low, high = INSIDE, OUTSIDE
+    for _ in range(200):
+        radius = 0.5*(low + high)
+        if YIELD_STRESS*(math.log(radius/INSIDE) + 0.5*(1.0 - (radius/OUTSIDE)**2)) < pressure:
+            low = radius
+        else:
+            high = radius
+    return ((1.0 - POISSON**2)*YIELD_STRESS*radius**2/INSIDE - (1.0 - 2.0*POISSON)*(1.0 + POISSON)*pressure*INSIDE)/YOUNG
+
+
+def pressure_displacement(folder, program):
+    """Pressures between first yield and collapse: displacement on two meshes, balance of energy"""
+    faults, worst = [], []
+    for elements, tolerance in ((8, 2e-3), (32, 1e-4)):
+        summary = run(program, folder, cylinder((1.0, 0.2, 0.2, 0.2), elements))
+        found = [(100.0*row['load_factor'], row['largest_displacement']) for row in summary['increments']]
+        for pressure, moved in found:
+            faults += off(f'{elements} elements, p = {pressure}', moved, hill(pressure), tolerance)
+        worst.append(max(abs(moved/hill(pressure) - 1.0) for pressure, moved in found))
+        last = summary['increments'][-1]
+        faults += off('energy and dissipation', last['energy'] + last['dissipated'], last['work'], 1e-6)
+    return faults + ([] if worst[1] < 0.25*worst[0] else [f'errors do not fall with the mesh: {worst}'])
+
+
+def collapse(folder, program):
+    """The limit load: exit code 4, in words, the curve up to it, bracketed by what was reached and what was tried"""
+    summary = run(program, folder, cylinder((1.0, 0.4, 0.2, 0.05, 0.01, 0.01), 32), (4,))
+    reached = 100.0*summary['increments'][-1]['load_factor']
+    tried = 100.0*summary['yielding']['no_equilibrium_at']
+    faults = off('collapse', reached, COLLAPSE, 1e-3) + off('beyond it', tried, COLLAPSE, 1e-3)
+    if not reached < tried:
+        faults.append(f'reached {reached}, tried {tried}')
+    if not any('no equilibrium beyond the load factor' in text for text in summary['messages']):
+        faults.append(f'no word of it: {summary["messages"]}')
+    loads = [row['load_factor'] for row in summary['increments']]
+    return faults + expected('curve', True, loads == sorted(loads) and len(loads) > 3)
+
+
+def unloading(folder, program):
+    """Taken off, the load leaves the plastic strain: the way back is that of the elastic cylinder"""
+    summary = run(program, folder, cylinder((1.0, 0.4, -0.7, -0.5)))
+    elastic = run(program, folder, cylinder((0.7,), law=''))
+    first, second, half = (row['largest_displacement'] for row in summary['increments'][:3])
+    faults = off('way back', second - half, elastic['increments'][0]['largest_displacement'], 1e-6)
+    before, after = (row['dissipated'] for row in summary['yielding']['increments'][1:3])
+    return faults + off('dissipation', after, before, 1e-9) + ([] if first < half < second else ['no plastic strain'])
+
+
+def strong_is_elastic(folder, program):
+    """A strength that is never reached leaves displacements and energy of the elastic deck"""
+    one = run(program, folder, cylinder((1.0,), law='1, MISES, 1E6'))['increments'][0]
+    other = run(program, folder, cylinder((1.0,), law=''))['increments'][0]
+    return sum((off(key, one[key], other[key], 1e-13) for key in ('largest_displacement', 'energy', 'work')), [])
+
+
+def other_units(folder, program):
+    """Stresses a million times larger or smaller: the same iterations, the same displacements"""
+    wanted = run(program, folder, cylinder((1.0, 0.4)))['increments']
+    faults = []
+    for scale in (1e-6, 1e6):
+        found = run(program, folder, cylinder((1.0, 0.4), scale=scale))['increments']
+        faults += expected('iterations', [row['iterations'] for row in wanted], [row['iterations'] for row in found])
+        faults += off('displacement', found[1]['largest_displacement'], wanted[1]['largest_displacement'], 1e-12)
+    return faults
+
+
+def ring(torque, factors, hardening=0.0, cohesion=None, criterion='MISES', elements=64):
+    """A ring of soil, held inside, turned outside: shear stress T/(2 pi r^2 h) follows from equilibrium alone; with a
+    joint of a strength round its inside if there is one"""
+    strength = STRENGTH*(2.0 if criterion == 'TRESCA' else math.sqrt(3.0))
+    joint = '' if cohesion is None else f"""LAWS
+1, 1E5, 1E5, 1E5, {cohesion}, 0.0
+LAWDETAILS
+1, RESULTANT, , , , , , -1.0
+"""
+    inner = '' if cohesion is None else f"""2, 2, 8, 1, 1
+0.5, 0.0, {INSIDE}, {HEIGHT}
+"""
+    held = f'1, 1, {INSIDE}, 0.0, {INSIDE}, {HEIGHT}' if cohesion is None else f'1, 2, 0.5, 0.0, 0.5, {HEIGHT}'
+    sides = '' if cohesion is None else f"""3, 1, {INSIDE}, 0.0, {INSIDE}, {HEIGHT}
+4, 2, {INSIDE}, 0.0, {INSIDE}, {HEIGHT}
+INTERFACES
+1, 4, 3
+"""
+    return f"""TITLE
+A ring that is turned
+CONTROL
+0, , , 2
+MATERIALS
+1, {2.6*SHEAR}, 0.3
+2, {260*SHEAR}, 0.3
+YIELD
+1, {criterion}, {strength}, , , {hardening}
+{joint}BLOCKS
+1, 1, 8, {elements}, 1
+{INSIDE}, 0.0, {OUTSIDE}, {HEIGHT}
+{inner}FACES
+{held}
+2, 1, {OUTSIDE}, 0.0, {OUTSIDE}, {HEIGHT}
+{sides}FIXEDFACES
+1, 111
+RESULTANTS
+2, TORQUE, {torque}
+INCREMENTS
+""" + ''.join(f'{factor}, 1E-8\n' for factor in factors) + 'END\n'
+
+
+def hardening_ring(folder, program):
+    """Plastic shear strain 3 (tau - tau_y)/H' of Mises, none beyond the radius where tau = tau_y"""
+    hardening, yields = 60.0, 2.0*math.pi*INSIDE**2*HEIGHT*STRENGTH
+    torque = 1.6*yields
+    radius = math.sqrt(torque/yields)*INSIDE
+    shear = torque/(4.0*math.pi*HEIGHT)
+    turned = shear/SHEAR*(INSIDE**-2 - OUTSIDE**-2) \
+        + 3.0/hardening*(shear*(INSIDE**-2 - radius**-2) - STRENGTH*math.log(radius/INSIDE))
+    errors = []
+    for elements in (8, 16, 32):
+        summary = run(program, folder, ring(torque, (0.5, 0.25, 0.25), hardening, elements=elements))
+        errors.append(abs(summary['increments'][-1]['largest_displacement']/(OUTSIDE*turned) - 1.0))
+    return [] if errors[2] < 2e-4 and errors[2] < 0.4*errors[1] < 0.4*errors[0] else [f'errors {errors}']
+
+
+def weaker_of_both(criterion):
+    """A joint in the soil: the torque at the limit is that of the joint, or of the soil beside it"""
+    def check(folder, program):
+        faults = []
+        for cohesion in (0.6*STRENGTH, 3.0*STRENGTH):
+            limit = 2.0*math.pi*INSIDE**2*HEIGHT*min(cohesion, STRENGTH)
+            summary = run(program, folder, ring(limit, (0.5, 0.4, 0.2), cohesion=cohesion, criterion=criterion), (4,))
+            faults += off(f'C = {cohesion}', summary['increments'][-1]['load_factor'], 1.0, 1e-2)
+            slips = any('joints came to no equilibrium' in text for text in summary['messages'])
+            faults += expected(f'C = {cohesion}: whether the joint slips', cohesion < STRENGTH, slips)
+        return faults
+    return check
+
+
+def pile(harmonic, direction, factors, law='2, MISES, 86.6'):
+    """A pile in soil, pushed sideways in a direction"""
+    return f"""TITLE
+A pile pushed sideways
+CONTROL
+{harmonic}, , , 2
+MATERIALS
+1, 3.0E7, 0.2
+2, 3.0E4, 0.45
+YIELD
+{law}
+BLOCKS
+1, 1, 8, 1, 3
+0.0, -3.0, 0.5, 0.0
+1, 2, 8, 4, 3
+0.5, -3.0, 4.0, 0.0
+1, 2, 8, 1, 1
+0.0, -4.0, 0.5, -3.0
+1, 2, 8, 4, 1
+0.5, -4.0, 4.0, -3.0
+FACES
+1, 1, 0.0, 0.0, 0.5, 0.0
+2, 1, 0.0, -4.0, 4.0, -4.0
+3, 1, 4.0, -4.0, 4.0, 0.0
+FIXEDFACES
+2, 111
+3, 111
+RESULTANTS
+1, LATERAL, 400.0, {direction}
+INCREMENTS
+""" + ''.join(f'{factor},\n' for factor in factors) + 'END\n'
+
+
+def families(folder, program):
+    """Pushed along theta = 0, 90 degrees: one family, both; the same curve"""
+    wanted = run(program, folder, pile(2, 0, (1.0, 1.0, -1.0)))
+    found = run(program, folder, pile(2, 90, (1.0, 1.0, -1.0)))
+    faults = expected('families', (1, 2), (len(wanted['families']), len(found['families'])))
+    for one, other in zip(wanted['increments'], found['increments']):
+        for key in ('work', 'energy', 'dissipated'):
+            if one[key] > 0.0:
+                faults += off(key, other[key], one[key], 1e-4)
+    return faults + ([] if wanted['yielding']['increments'][-1]['yielded'] > 5 else ['hardly anything yields'])
+
+
+def harmonics(folder, program):
+    """Ever more harmonics, and planes with them, change the displacement ever less"""
+    moved = [run(program, folder, pile(m, 0, (1.0, 1.0)))['increments'][-1]['largest_displacement'] for m in (1, 3, 5, 7)]
+    changes = [abs(value/moved[-1] - 1.0) for value in moved[:-1]]
+    return [] if max(changes) < 2e-2 and changes[2] < 2e-3 else [f'displacements {moved} with M = 1, 3, 5, 7']
+
+
+def back_and_forth(folder, program):
+    """Twice to and fro: no drift, dissipation never falls, energy balances"""
+    factors = (1.0, 1.0, -2.0, -2.0, 2.0, 2.0, -2.0, -2.0, 2.0, 2.0)
+    summary = run(program, folder, pile(3, 0, factors))
+    rows = summary['increments']
+    faults = off('displacement after the second cycle', rows[9]['largest_displacement'], rows[5]['largest_displacement'],
+                 2e-3)
+    spent = [row['dissipated'] for row in summary['yielding']['increments']]
+    if any(after < before*(1.0 - 1e-9) for before, after in zip(spent, spent[1:])):
+        faults.append(f'dissipation falls: {spent}')
+    last = rows[-1]
+    return faults + off('energy and dissipation', last['energy'] + last['dissipated'], last['work'], 1e-5)
+
+
+def disc(elements, harmonic):
+    """A stiff disc pushed sideways through clay in plane strain, far boundary at 12 radii"""
+    return f"""TITLE
+A stiff disc pushed sideways through clay
+CONTROL
+{harmonic}, , , 2
+MATERIALS
+1, 300.0, 0.49
+2, 3.0E5, 0.2
+YIELD
+1, MISES, {math.sqrt(3.0)}
+BLOCKS
+1, 2, 8, 1, 1
+0.5, 0.0, 1.0, 1.0
+1, 1, 8, {elements}, 1, 100.0
+1.0, 0.0, 12.0, 1.0
+FACES
+1, 1, 0.5, 0.0, 0.5, 1.0
+2, 1, 12.0, 0.0, 12.0, 1.0
+3, 1, 1.0, 0.0, 12.0, 0.0
+4, 1, 1.0, 1.0, 12.0, 1.0
+FIXEDFACES
+2, 111
+3, 010
+4, 010
+MOVEDFACES
+1, 1, 1.0, 0.0, -1.0
+INCREMENTS
+0.01,
+0.02,
+0.03,
+0.04,
+0.1,
+0.1,
+END
+"""
+
+
+def footing(elements):
+    """A rough rigid footing on clay of Tresca, elements graded to its edge"""
+    return f"""TITLE
+A rough rigid footing on clay
+CONTROL
+0, , , 2
+MATERIALS
+1, 300.0, 0.49
+YIELD
+1, TRESCA, 2.0
+BLOCKS
+1, 1, 8, {elements}, {2*elements}, 0.1, 0.05
+0.0, -4.0, 1.0, 0.0
+1, 1, 8, {2*elements}, {2*elements}, 20.0, 0.05
+1.0, -4.0, 6.0, 0.0
+FACES
+1, 1, 0.0, 0.0, 1.0, 0.0
+2, 1, 0.0, -4.0, 6.0, -4.0
+3, 1, 6.0, -4.0, 6.0, 0.0
+FIXEDFACES
+2, 111
+3, 111
+MOVEDFACES
+1, 0, 0.0, -1.0
+INCREMENTS
+0.005,
+0.005,
+0.01,
+0.02,
+0.04,
+0.1,
+0.2,
+END
+"""
+
+
+def reaction(program, folder, deck, name):
+    """A reaction of face 1 at the end of a deck"""
+    run(program, folder, deck)
+    rows = listing.tables(read_text(os.path.join(folder, 'yielding.lis')))['faces']
+    return abs(next(row[name] for row in rows if row['face'] == 1))
+
+
+def disc_in_clay(folder, program):
+    """Randolph and Houlsby: 4 sqrt(2) + 2 pi times width and shear strength; from above with the mesh"""
+    exact = 2.0*(4.0*math.sqrt(2.0) + 2.0*math.pi)
+    found = [reaction(program, folder, disc(n, 7), 'force')/exact for n in (8, 16, 32)]
+    return [] if found[0] > found[1] > found[2] > 1.0 and found[2] < 1.01 else [f'limits over the exact one: {found}']
+
+
+def footing_on_clay(folder, program):
+    """6.05 times area and shear strength; the error halves with the elements, so it can be extrapolated"""
+    found = [reaction(program, folder, footing(n), 'axial')/math.pi/6.05 for n in (3, 6)]
+    extrapolated = 2.0*found[1] - found[0]
+    return [] if found[0] > found[1] > 1.0 and abs(extrapolated - 1.0) < 0.01 else [f'over 6.05: {found}, {extrapolated}']
+
+
+def strength_with_depth(folder, program):
+    """Ten units below its level the cylinder is as strong as the gradient says"""
+    deck = cylinder((1.0, 0.4), 32, law=f'1, TRESCA, {YIELD_STRESS - 10.0}', more='YIELDDEPTH\n1, 1.0, 10.05\n')
+    row = run(program, folder, deck)['increments'][-1]
+    return off('displacement', row['largest_displacement'], hill(140.0), 5e-4)
+
+
+def other_commands(folder, program):
+    """What is not searched or counted for bodies that yield is refused in words"""
+    deck = write(folder, 'refused.dat', cylinder((1.0,)))
+    faults = []
+    for words, text in ((('estimate', deck), 'what bodies that yield take is not estimated'),
+                        (('envelope', deck, '--cases', '1'), 'bodies that yield are not searched')):
+        ran = program.run(*words, folder=folder)
+        faults += ran.ended_with(2)
+        if text not in ran.err:
+            faults.append(f'{words[0]} says {ran.err}')
+    return faults
+
+
+def study(folder, program):
+    """Rows of a study are runs of the decks with their strengths, on one structure"""
+    deck = write(folder, 'studied.dat', cylinder((1.0, 0.4), law='1, TRESCA, {strength}'))
+    table = write(folder, 'strengths.csv', 'YIELD 1 STRENGTH\n240\n300\n')
+    ran = program.run('study', table, deck, '-o', folder, folder=folder)
+    faults = ran.ended_with(0)
+    if '1 structure' not in ran.out + ran.err:
+        faults.append(f'more than one structure: {ran.out}')
+    with open(os.path.join(folder, 'strengths.study.csv'), encoding='utf-8') as file:
+        rows = list(csv.DictReader(file))
+    for row, strength in zip(rows, (240, 300)):
+        wanted = run(program, folder, cylinder((1.0, 0.4), law=f'1, TRESCA, {strength}'))['increments'][-1]
+        for key in ('largest_displacement', 'work', 'dissipated'):
+            faults += off(f'{key} of strength {strength}', float(row[key]), wanted[key], 1e-9)
+    return faults + expected('rows', 2, len(rows))
+
+
+def pictures(folder, program):
+    """Bodies swept round the axis are written of yielding bodies, too"""
+    ran = program.run('run', write(folder, 'swept.dat', pile(2, 0, (1.0, 1.0))), '-o', folder, '--vtk')
+    return ran.ended_with(0) + expected('picture', True, os.path.exists(os.path.join(folder, 'swept.vtkhdf')))
+
+
+def tests(program):
+    """All tests"""
+    def made(name, check):
+        return Test(f'yielding/{name}', lambda folder: check(folder, program))
+
+    return [made('thick cylinder', pressure_displacement), made('collapse', collapse), made('unloading', unloading),
+            made('strength with depth', strength_with_depth),
+            made('strong enough', strong_is_elastic), made('other units', other_units),
+            made('hardening in torsion', hardening_ring), made('joint or soil, Mises', weaker_of_both('MISES')),
+            made('joint or soil, Tresca', weaker_of_both('TRESCA')), made('families', families),
+            made('harmonics', harmonics), made('back and forth', back_and_forth),
+            made('disc in clay', disc_in_clay), made('footing on clay', footing_on_clay),
+            made('other commands', other_commands), made('study', study), made('pictures', pictures)]
