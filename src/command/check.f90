@@ -28,7 +28,10 @@ contains
 
       exit_code = exit_ok
       do k = 1, size(command%decks)
+         job = job_type()
+         job%options = command%options
          call read_job(command%decks(k)%text, job, diagnostics)
+         if (allocated(job%conversion)) write (error_unit, '(a)') job%conversion
          if (diagnostics%n_errors + diagnostics%n_warnings > 0) then
             write (error_unit, '(a)') render(diagnostics, job%source)
          end if

@@ -14,6 +14,7 @@ module axijoint_command_line
    use axijoint_deck_text_token, only : read_integer, read_real, token_good
    use axijoint_job_checkpoint, only : whenever_cheap
    use axijoint_job_job, only : options_type
+   use axijoint_legacy_layout, only : dialect_type, read_dialect
    use axijoint_study_parts, only : part_type
    use axijoint_solver_entry, only : solver_entry_type
    use axijoint_solver_registry, only : find_solver, solver_words
@@ -53,6 +54,8 @@ module axijoint_command_line
       integer :: iterations = 0
       logical :: job_lines = .false., counts = .false.
       character(len=:), allocatable :: table
+      !> File of the formats of an old deck
+      character(len=:), allocatable :: formats
       !> Of an envelope: load cases as given, number of directions, part of a capacity that is left
       !> open
       character(len=:), allocatable :: cases
@@ -89,7 +92,7 @@ contains
       if (size(words) == 0) return
 
       select case (words(1)%text)
-      case ('run', 'check', 'estimate', 'study', 'envelope')
+      case ('run', 'check', 'estimate', 'study', 'envelope', 'convert')
          call read_arguments(words(2:), topics(topic_named(topics, words(1)%text)), command, error)
       case ('compare')
          call read_compare_words(words(2:), topics, command)
@@ -222,6 +225,20 @@ contains
             if (allocated(error)) return
          end associate
       end do
+      if (command%name == 'convert' .and. .not. allocated(command%options%legacy)) &
+         command%options%legacy = dialect_type()
+      if (allocated(command%formats)) then
+         if (allocated(command%options%legacy)) then
+            call read_dialect(command%formats, command%options%legacy, error)
+            if (allocated(error)) return
+         else
+            call fatal_error(error, exit_deck, 'option --format goes with --legacy owen-hinton')
+         end if
+      end if
+      if (command%name == 'convert' .and. size(command%decks) /= 2) &
+         call fatal_error(error, exit_deck, 'an old deck and the name of the new one are needed; '// &
+         'use: '//program_name//' convert OLD NEW')
+      if (allocated(error)) return
       if (command%quiet .and. command%verbose) call fatal_error(error, exit_deck, &
          'only one of --quiet and --verbose can be had')
       if (allocated(command%table)) then
@@ -291,6 +308,14 @@ contains
             command%options%solver_given)
          if (.not. command%options%solver_given) &
             call unknown('solver', value, lower_all(solver_words(command%solvers)), error)
+      case ('--legacy')
+         if (lower(value) == 'owen-hinton') then
+            command%options%legacy = dialect_type()
+         else
+            call unknown('program', value, [character(len=11) :: 'owen-hinton'], error)
+         end if
+      case ('--format')
+         command%formats = value
       case ('--cases')
          command%cases = value
       case ('--study')

@@ -51,14 +51,18 @@ contains
       !> The commands, in the order of the help
       type(topic_type), allocatable :: topics(:)
 
-      type(option_type) :: threads, memory, quiet
+      type(option_type) :: threads, memory, quiet, legacy, formats
 
       threads = option_type('--threads', 'N', &
          'harmonics at once (default: OMP_NUM_THREADS, or all processors)')
       memory = option_type('--memory', 'MIB', 'memory that the process may take: fewer factors '// &
          'at once then (default: what the machine, its control group and limits leave)')
       quiet = option_type('--quiet', '', 'nothing but errors and warnings')
-      allocate (topics(7))
+      legacy = option_type('--legacy', 'PROGRAM', 'the deck is one of an older program: '// &
+         'owen-hinton (axisymmetric plasticity, 1980)', takes_word, 'owen-hinton')
+      formats = option_type('--format', 'FILE', 'formats of its cards, where they are not those '// &
+         'of the book: lines with a card and its format', takes_file)
+      allocate (topics(8))
       topics(1) = topic_type('run', 'DECK...', 'solve decks', &
          'Solves each deck and writes NAME.lis (listing), NAME.json (summary) and NAME.h5 '// &
          '(results), NAME being the name of the deck without its ending. The deck - is read '// &
@@ -68,7 +72,7 @@ contains
                       'is not there (default: the current one)', takes_folder), &
           option_type('--solver', 'NAME', alternatives(solvers)//' (default: as the deck says)', &
                       takes_word, joined(solvers)), &
-          threads, memory, &
+          threads, memory, legacy, formats, &
           option_type('--vtk', '', 'NAME.vtkhdf for ParaView, too (whole circle; SWEEP of the '// &
                       'deck says more)'), &
           option_type('--resume', '', 'go on from NAME.state, which a run that was stopped or '// &
@@ -86,7 +90,7 @@ contains
       topics(2) = topic_type('check', 'DECK...', 'read and check decks only', &
          'Reads and checks each deck, prints all its errors and what it describes, and solves '// &
          'nothing. The deck - is read from the standard input.', &
-         [quiet], '0 ok; 2 deck or usage.')
+         [quiet, legacy, formats], '0 ok; 2 deck or usage.')
       topics(3) = estimate_topic(solvers, threads, memory)
       topics(4) = study_topic(solvers, threads, memory, quiet)
       topics(5) = envelope_topic(solvers, threads, memory, quiet)
@@ -96,7 +100,12 @@ contains
          'numbers of the nodes. Values are the same if they differ by no more than the largest '// &
          'of the tolerances, and the rounding of the digits printed.', compare_options(), &
          '0 same; 1 different; 2 a file that cannot be read, or usage.')
-      topics(7) = topic_type('help', '[COMMAND]', 'help on a command', &
+      topics(7) = topic_type('convert', 'OLD NEW', 'write a deck of an older program anew', &
+         'Reads OLD, a deck of the axisymmetric plasticity program of Owen and Hinton, and writes '// &
+         'NEW, a deck with comments that gives the same results as run --legacy owen-hinton OLD. '// &
+         'What is understood in another way is told.', [formats], &
+         '0 ok; 2 deck or usage; 5 input or output.')
+      topics(8) = topic_type('help', '[COMMAND]', 'help on a command', &
          'Without COMMAND, what commands there are. `help card` prints an index of all cards '// &
          'of a deck, `help card NAME` the fields of one.', &
          [option_type('--markdown', '', 'of cards: as they stand in doc/deck.md'), &

@@ -8,6 +8,7 @@ module axijoint_command_program
    use axijoint_command_check, only : check_decks
    use axijoint_command_compare, only : compare_files
    use axijoint_command_envelope, only : run_envelope
+   use axijoint_command_convert, only : convert_old
    use axijoint_command_estimate, only : estimate_decks
    use axijoint_command_line, only : command_type, read_command
    use axijoint_command_study, only : run_study
@@ -90,6 +91,8 @@ contains
       case ('study')
          call keep_freed_memory()
          call run_study(command, exit_code)
+      case ('convert')
+         call convert_old(command, exit_code)
       case ('compare')
          call compare_files(command%decks, exit_code)
       case default

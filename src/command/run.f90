@@ -227,6 +227,7 @@ contains
       call show_progress(job%progress, 'reading '//deck_name(deck))
       call read_job(deck, job, diagnostics)
       call clear_progress(job%progress)
+      if (allocated(job%conversion)) write (error_unit, '(a)') job%conversion
       if (diagnostics%n_errors > 0) then
          call fatal_error(error, exit_deck, render(diagnostics, job%source))
       else if (diagnostics%n_warnings > 0) then

@@ -9,6 +9,7 @@ module axijoint_job_job
    use axijoint_base_timer, only : timer_type
    use axijoint_deck_text_source, only : source_type, add_file, add_card
    use axijoint_job_checkpoint, only : checkpoint_type
+   use axijoint_legacy_layout, only : dialect_type
    use axijoint_model_model, only : model_type
    use axijoint_solver_entry, only : solver_entry_type
    implicit none
@@ -32,6 +33,8 @@ module axijoint_job_job
       logical :: swept = .false.
       !> Processes that share the work; this one alone if there is none
       class(team_type), allocatable :: team
+      !> Where values stand on the cards, if the deck is one of Owen and Hinton's program
+      type(dialect_type), allocatable :: legacy
    end type options_type
 
    !> A job
@@ -40,6 +43,8 @@ module axijoint_job_job
       character(len=:), allocatable :: deck
       !> What came from the standard input, if the deck stands there; it comes only once
       character(len=:), allocatable :: input
+      !> What is to be said about a deck of an older program, if the deck is one
+      character(len=:), allocatable :: conversion
       !> What is asked for beside it
       type(options_type) :: options
       !> Its cards, and warnings about them

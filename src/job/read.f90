@@ -2,12 +2,15 @@
 module axijoint_job_read
    use axijoint_base_timer, only : phase_read
    use axijoint_deck_reader, only : read_deck
-   use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, warning_texts
-   use axijoint_deck_text_file_bytes, only : read_input_bytes
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, add_warning, render, &
+      warning_texts
+   use axijoint_deck_text_file_bytes, only : read_bytes, read_input_bytes
    use axijoint_deck_text_source, only : source_type, add_file
    use axijoint_job_in_situ_messages, only : judge_in_situ
    use axijoint_job_yield_messages, only : judge_in_situ_yield
    use axijoint_job_job, only : job_type, take_options, deck_name, standard_input
+   use axijoint_legacy_cards, only : cards_type
+   use axijoint_legacy_convert, only : convert_deck, looks_old
    use axijoint_model_request, only : refinement_type
    implicit none
    private
@@ -31,11 +34,15 @@ contains
       if (.not. allocated(job%options%directory)) job%options%directory = '.'
       if (allocated(job%structure)) deallocate (job%structure)
       call job%timer%push(phase_read)
-      if (path == standard_input) then
+      if (allocated(job%options%legacy)) then
+         call read_legacy(path, job, diagnostics, refinement)
+      else if (path == standard_input) then
          call read_input(job, diagnostics, refinement)
       else
          call read_deck(path, job%source, job%model, diagnostics, refinement)
       end if
+      if (diagnostics%n_errors > 0 .and. .not. allocated(job%options%legacy)) &
+         call offer_legacy(job%source, diagnostics)
       if (diagnostics%n_errors == 0) then
          if (size(job%model%initial_stresses) > 0) then
             call judge_in_situ(job%model, diagnostics)
@@ -46,6 +53,58 @@ contains
       job%warnings = warning_texts(diagnostics, job%source)
       call take_options(job%options, job%model)
    end subroutine read_job
+
+   !> Read a deck of Owen and Hinton's program: written anew in memory, then read as any
+   subroutine read_legacy(path, job, diagnostics, refinement)
+      !> The deck
+      character(len=*), intent(in) :: path
+      !> The job
+      type(job_type), intent(inout) :: job
+      !> Errors and warnings
+      type(diagnostics_type), intent(inout) :: diagnostics
+      !> Refinement of what the deck says
+      type(refinement_type), intent(in), optional :: refinement
+
+      character(len=:), allocatable :: bytes, failure, text
+      type(cards_type) :: cards
+
+      if (path == standard_input) then
+         failure = ''
+         if (.not. allocated(job%input)) call read_once(job, failure)
+         bytes = job%input
+      else
+         call read_bytes(path, bytes, failure)
+      end if
+      if (len(failure) > 0) then
+         job%source = source_type()
+         call add_file(job%source, deck_name(path), bytes, 0)
+         call add_error(diagnostics, 0, 0, 0, failure)
+         return
+      end if
+      call convert_deck(deck_name(path), bytes, job%options%legacy, cards, text)
+      if (cards%diagnostics%n_errors > 0) then
+         job%source = cards%source
+         diagnostics = cards%diagnostics
+         return
+      end if
+      job%conversion = render(cards%diagnostics, cards%source)
+      call read_deck(deck_name(path)//' (converted)', job%source, job%model, diagnostics, &
+         refinement, text)
+   end subroutine read_legacy
+
+   !> Offer to read a deck of Owen and Hinton's program as one
+   subroutine offer_legacy(source, diagnostics)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> Take the offer
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      if (source%n_files == 0) return
+      if (.not. looks_old(source%files(1)%bytes)) return
+      call add_warning(diagnostics, 0, 0, 0, 'this looks like a deck of the plasticity program of '// &
+         'Owen and Hinton', mend='axijoint run --legacy owen-hinton DECK solves it, axijoint '// &
+         'convert OLD NEW writes it anew')
+   end subroutine offer_legacy
 
    !> Read the deck that comes from the standard input, or has come from it before
    subroutine read_input(job, diagnostics, refinement)

@@ -1,0 +1,158 @@
+"""Decks in the format of Owen and Hinton's plasticity program: inputs/legacy, and what is exact of them"""
+import math
+import os
+
+from support import INPUTS
+
+YOUNG, POISSON, YIELD = 21000.0, 0.3, 24.0
+TRESCA, MISES, MOHR, DRUCKER = 1, 2, 3, 4
+
+
+def grid(rs, zs, place=None):
+    """Numbers and coordinates of 8-node elements over two rows of coordinates, elements. Mid-side nodes have no card
+    unless places are moved"""
+    number, cards, count = {}, {}, 0
+    for i in range(2*len(rs) - 1):
+        for j in range(2*len(zs) - 1):
+            if i % 2 and j % 2:
+                continue
+            count += 1
+            number[i, j] = count
+            r, z = (rs[i//2] + rs[(i + 1)//2])/2, (zs[j//2] + zs[(j + 1)//2])/2
+            if place:
+                cards[count] = place(r, z)
+            elif not (i % 2 or j % 2):
+                cards[count] = (r, z)
+    ring = ((0, 0), (1, 0), (2, 0), (2, 1), (2, 2), (1, 2), (0, 2), (0, 1))
+    elements = [[number[2*i + a, 2*j + b] for a, b in ring] for i in range(len(rs) - 1) for j in range(len(zs) - 1)]
+    return number, cards, elements
+
+
+def real(value, width, decimals):
+    """A number with its point, as many decimals as fit"""
+    text = f'{value:{width}.{decimals}f}'
+    return text if len(text) == width else f'{value:{width}.1f}'
+
+
+def deck(title, mesh, held, properties, load, increments, criterion, gauss=2):
+    """The cards. held: node, code, values; load: cards; increments: FACTO"""
+    _, cards, elements = mesh
+    points = max(max(e) for e in elements)
+    control = (points, len(elements), len(held), 3, 8, 1, gauss, 2, criterion, len(increments), 4)
+    lines = [title, ''.join(f'{v:5d}' for v in control)]
+    lines += [''.join(f'{v:5d}' for v in (k + 1, 1, *e)) for k, e in enumerate(elements)]
+    lines += [f'{k:5d}{real(r, 10, 5)}{real(z, 10, 5)}' for k, (r, z) in sorted(cards.items())]
+    lines += [f' {k:4d}     {code:>5s}     {real(u, 10, 6)}{real(v, 10, 6)}' for k, code, u, v in held]
+    lines += ['    1', ''.join(real(v, 10, 5) for v in properties), *load]
+    lines += [f'{real(factor, 10, 5)}{0.01:10.5f}{50:5d}{3:5d}{3:5d}' for factor in increments]
+    return '\n'.join(lines) + '\n'
+
+
+def pressed(title, sides, value):
+    """Cards of a pressure on sides: element, three nodes"""
+    lines = [title, ''.join(f'{v:5d}' for v in (0, 0, 1)), f'{len(sides):5d}']
+    for element, nodes in sides:
+        lines += [''.join(f'{v:5d}' for v in (element, *nodes)), 3*(real(value, 10, 3) + real(0.0, 10, 3))]
+    return lines
+
+
+def even(first, last, n):
+    """n intervals"""
+    return [first + (last - first)*k/n for k in range(n + 1)]
+
+
+def cylinder(criterion, increments, strength=YIELD, angle=0.0):
+    """b = 2a, plane strain, pressed from within by FACTO"""
+    mesh = grid(even(1.0, 2.0, 16), [0.0, 0.1])
+    number = mesh[0]
+    held = [(k, '01', 0.0, 0.0) for (i, j), k in sorted(number.items()) if j in (0, 2)]
+    return deck('THICK CYLINDER', mesh, held, (YOUNG, POISSON, 0.0, 0.0, strength, 0.0, angle),
+                pressed('PRESSURE FROM WITHIN', [(1, (number[0, 2], number[0, 1], number[0, 0]))], 1.0), increments, criterion)
+
+
+def sphere(criterion, increments):
+    """b = 2a, pressed from within"""
+    n = 8
+
+    def place(radius, angle):
+        r, z = radius*math.cos(angle), radius*math.sin(angle)
+        return (0.0 if abs(angle - math.pi/2) < 1e-9 else r, 0.0 if abs(angle) < 1e-9 else z)
+    mesh = grid(even(1.0, 2.0, 12), even(0.0, math.pi/2, n), place)
+    number = mesh[0]
+    held = [(k, '01', 0.0, 0.0) for (i, j), k in sorted(number.items()) if j == 0]
+    held += [(k, '10', 0.0, 0.0) for (i, j), k in sorted(number.items()) if j == 2*n]
+    sides = [(j + 1, (number[0, 2*j + 2], number[0, 2*j + 1], number[0, 2*j])) for j in range(n)]
+    return deck('THICK SPHERE', mesh, held, (YOUNG, POISSON, 0.0, 0.0, YIELD, 0.0, 0.0),
+                pressed('PRESSURE FROM WITHIN', sides, 1.0), increments, criterion)
+
+
+def plate(increments):
+    """Circular plate, radius 10, 1 thick, held at the middle of its rim, pressed on its top by FACTO"""
+    n = 12
+    mesh = grid(even(0.0, 10.0, n), [0.0, 0.5, 1.0])
+    number = mesh[0]
+    held = [(number[2*n, 2], '01', 0.0, 0.0)] + [(number[0, j], '10', 0.0, 0.0) for j in range(5)]
+    sides = [(2*i + 2, (number[2*i + 2, 4], number[2*i + 1, 4], number[2*i, 4])) for i in range(n)]
+    return deck('CIRCULAR PLATE', mesh, held, (YOUNG, POISSON, 0.0, 0.0, YIELD, 0.0, 0.0),
+                pressed('PRESSURE ON TOP', sides, 1.0), increments, TRESCA)
+
+
+def footing(increments):
+    """Rough rigid footing of radius 1 on clay, pushed down by FACTO times 0.01"""
+    rs, zs = even(0.0, 1.0, 6) + [1.15, 1.4, 1.8, 2.5, 3.5, 5.0], [-5.0, -3.5, -2.4, -1.6, -1.0, -0.6, -0.35, -0.15, 0.0]
+    mesh = grid(rs, zs)
+    number, top, last = mesh[0], 2*len(zs) - 2, 2*len(rs) - 2
+    held = []
+    for (i, j), k in sorted(number.items()):
+        if j == top and i <= 12:
+            held.append((k, '11', 0.0, -0.01))
+        elif j == 0:
+            held.append((k, '11', 0.0, 0.0))
+        elif i in (0, last):
+            held.append((k, '10', 0.0, 0.0))
+    return deck('ROUGH FOOTING', mesh, held, (1000.0, 0.49, 0.0, 0.0, 2.0, 0.0, 0.0), ['NO LOADS', f'{0:5d}{0:5d}{0:5d}'],
+                increments, TRESCA)
+
+
+def column(increments):
+    """A column that hangs from its top under gravity of 10, density 2.5, 4 long; free at its sides"""
+    mesh = grid([0.0, 0.5, 1.0], even(0.0, 4.0, 4))
+    number = mesh[0]
+    held = [(number[i, 8], '01', 0.0, 0.0) for i in range(5)] + [(number[0, j], '10', 0.0, 0.0) for j in range(8)]
+    return deck('HANGING COLUMN', mesh, held, (YOUNG, 0.0, 0.0, 2.5, 1000.0, 0.0, 0.0),
+                ['GRAVITY', f'{0:5d}{1:5d}{0:5d}', real(0.0, 10, 3) + real(10.0, 10, 3)], increments, DRUCKER, gauss=3)
+
+
+def traps():
+    """The cylinder with all that the format allows: numbers without points, blanks for zeros, a node given twice"""
+    lines = cylinder(MISES, (6.0, 2.0)).split('\n')
+    at = lines.index('    1')
+    lines[at + 1] = f'{"21000.":>10s}{"30000":>10s}{"":10s}{"":10s}{"24.":>10s}'
+    lines[at + 6] = '   1000' .rjust(10) + '          ' + '   1000'.rjust(10) + '          ' + '1.0E0'.rjust(10)
+    first = 2 + 16
+    lines.insert(first, '    1    100000')
+    return '\n'.join(lines)
+
+
+DECKS = {
+    'cylinder.dat': cylinder(MISES, (8.0, 4.0, 4.0)),
+    'cylinder_mohr.dat': cylinder(MOHR, (4.0, 4.0, 1.5), 10.0, 30.0),
+    'sphere.dat': sphere(TRESCA, (12.0, 8.0, 6.0)),
+    'plate.dat': plate((0.1, 0.22, 0.02, 0.02, 0.02, 0.02)),
+    'footing.dat': footing((0.2, 0.3, 0.5, 1.0, 1.0)),
+    'column.dat': column((0.5, 0.5)),
+    'traps.dat': traps(),
+}
+
+
+def write_inputs():
+    """Write inputs/legacy"""
+    folder = os.path.join(INPUTS, 'legacy')
+    os.makedirs(folder, exist_ok=True)
+    for name, text in DECKS.items():
+        with open(os.path.join(folder, name), 'w', encoding='utf-8') as file:
+            file.write(text)
+
+
+if __name__ == '__main__':
+    write_inputs()
