@@ -48,7 +48,7 @@ class Fuzz:
     def __init__(self, program, folder, seed):
         self.program, self.folder, self.dice = program, folder, random.Random(seed)
         # sanitizers reserve all of the address space
-        self.limits = () if b'__asan_init' in read_bytes(program.path) else ((resource.RLIMIT_AS, SPACE),)
+        self.limits = () if program.sanitized else ((resource.RLIMIT_AS, SPACE),)
         self.found = []
         self.counts = {}
 
