@@ -66,9 +66,9 @@ class Program:
         # Of `scripts/build sanitized`: what the compiler forgets to give back is no fault of the program
         self.sanitized = b'__asan_init' in read_bytes(self.path)
         if self.sanitized:
-            self.environment.update(ASAN_OPTIONS='detect_leaks=0', UBSAN_OPTIONS='halt_on_error=1:print_stacktrace=1')
+            self.environment.update(ASAN_OPTIONS='detect_leaks=0:verify_asan_link_order=0', UBSAN_OPTIONS='halt_on_error=1:print_stacktrace=1')
 
-    def run(self, *arguments, folder='.', limits=(), path=None, time_limit=TIME_LIMIT, **options):
+    def run(self, *arguments, folder='.', limits=(), path=None, time_limit=None, **options):
         """Run it in a folder. limits: pairs of a limit of `resource` and its value"""
 
         def set_limits():
@@ -76,6 +76,7 @@ class Program:
                 resource.setrlimit(limit, (value, resource.getrlimit(limit)[1]))
 
         options.setdefault('stdout', subprocess.PIPE)
+        time_limit = (time_limit or TIME_LIMIT)*(5 if self.sanitized else 1)
         done = subprocess.run([path or self.path, *arguments], cwd=folder, env=self.environment,
                               stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, timeout=time_limit,
                               preexec_fn=set_limits if limits else None, **options)
