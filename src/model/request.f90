@@ -74,10 +74,10 @@ module axijoint_model_request
    integer, parameter :: print_deck = 1, print_nodes = 2, print_elements = 3, print_joints = 4, &
       print_loads = 5, print_path = 6, print_amplitude = 7, print_totals = 8, print_stresses = 9, &
       print_nodal = 10, print_states = 11, print_reactions = 12, print_all = 13
-   !> Their names on cards
-   character(len=9), parameter :: print_names(print_all) = [character(len=9) :: 'DECK', 'NODES', &
-      'ELEMENTS', 'JOINTS', 'LOADS', 'PATH', 'AMPLITUDE', 'TOTALS', 'STRESSES', 'NODAL', &
-      'STATES', 'REACTIONS', 'TABLES']
+   !> Their names on cards: no keywords, which cards of data must not begin with
+   character(len=10), parameter :: print_names(print_all) = [character(len=10) :: 'DECK', &
+      'COORDS', 'INCIDENCE', 'JOINTNODES', 'LOADS', 'PATH', 'AMPLITUDE', 'TOTALS', 'STRESSES', &
+      'NODAL', 'STATES', 'REACTIONS', 'TABLES']
    !> Rows of a table that are listed: all, every n-th, all if they are n at most, none
    integer, parameter :: rows_all = 1, rows_every = 2, rows_upto = 3, rows_none = 4
    !> Their names on cards

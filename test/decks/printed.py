@@ -94,7 +94,7 @@ def long_tables(program, folder):
             '2, 1, 1, 1, 2, 1\nFIXEDFACES\n1, 111\nTRACTIONS\n2, 0, 0, 1, 1, , , 1\n')
     deck = deck.replace('2, 0, 0, 1, 1, , , 1', '2, 0, 0, 1')
     faults, lengths = [], []
-    for cards in ('', 'PRINT\n NODES, ALL\n'):
+    for cards in ('', 'PRINT\n COORDS, ALL\n'):
         ran = program.run('run', write(folder, 'large.dat', deck + cards + 'END\n'), '-o', folder)
         faults += ran.ended_with(0)
         lengths.append(len(re.findall('\n', read_text(os.path.join(folder, 'large.lis')))))

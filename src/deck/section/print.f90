@@ -34,8 +34,8 @@ contains
       section%read => read_print
       section%fields = &
          [described(word_field('the table', 1, 10, print_names), &
-                    'table: DECK; NODES, ELEMENTS, JOINTS; LOADS; PATH of convergence; AMPLITUDE of '// &
-                    'displacements; TOTALS of them; STRESSES at Gauss points; NODAL stresses; '// &
+                    'table: DECK; COORDS, INCIDENCE, JOINTNODES of the mesh; LOADS; PATH of convergence; '// &
+                    'AMPLITUDE, TOTALS of displacements; STRESSES at Gauss points; NODAL stresses; '// &
                     'STATES of joints; REACTIONS; all TABLES'), &
           described(word_field('the rows', 11, 20, rows_names), &
                     'its rows', &

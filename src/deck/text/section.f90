@@ -87,24 +87,21 @@ contains
    end function keyword_fields
 
    !> Words that the first field of a card may hold: such a card is no keyword card though it
-   !> begins with a letter. Those that are keywords, too, are keywords there
+   !> begins with a letter
    pure function first_words(sections) result(words)
       !> The sections
       type(section_type), intent(in) :: sections(:)
       !> The words
       character(len=keyword_length), allocatable :: words(:)
 
-      integer :: i, k
+      integer :: k
 
       allocate (words(0))
       do k = 1, size(sections)
          if (size(sections(k)%fields) == 0) cycle
          associate (field => sections(k)%fields(1))
             if (field%kind /= kind_word) cycle
-            do i = 1, count(field%words /= '')
-               if (section_named(sections, field%words(i)) == 0) &
-                  words = [character(len=keyword_length) :: words, field%words(i)]
-            end do
+            words = [character(len=keyword_length) :: words, pack(field%words, field%words /= '')]
          end associate
       end do
    end function first_words
