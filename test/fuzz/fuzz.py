@@ -48,7 +48,8 @@ class Fuzz:
     def __init__(self, program, folder, seed):
         self.program, self.folder, self.dice = program, folder, random.Random(seed)
         # sanitizers reserve all of the address space
-        self.limits = () if program.sanitized else ((resource.RLIMIT_AS, SPACE),)
+        # of the processor's time, as others may use the machine
+        self.limits = ((resource.RLIMIT_CPU, HANGS),) + (() if program.sanitized else ((resource.RLIMIT_AS, SPACE),))
         self.found = []
         self.counts = {}
         self.judge = Judge()
@@ -56,7 +57,7 @@ class Fuzz:
     def run(self, *words, folder=None):
         """Run the program: exit code and all that it said"""
         try:
-            return self.program.run(*words, folder=folder or self.folder, limits=self.limits, time_limit=HANGS)
+            return self.program.run(*words, folder=folder or self.folder, limits=self.limits, time_limit=20*HANGS)
         except subprocess.TimeoutExpired:
             return None
 

@@ -524,14 +524,14 @@ class Cards:
         self._entry("KEEP", what, when, increments)
 
     def print(self,
-              table: Literal["DECK", "NODES", "ELEMENTS", "JOINTS", "LOADS", "PATH", "AMPLITUDE", "TOTALS", "STRESSES", "NODAL", "STATES", "REACTIONS", "TABLES"],
+              table: Literal["DECK", "COORDS", "INCIDENCE", "JOINTNODES", "LOADS", "PATH", "AMPLITUDE", "TOTALS", "STRESSES", "NODAL", "STATES", "REACTIONS", "TABLES"],
               rows: Literal["ALL", "EVERY", "UPTO", "NONE"], *, number: int | None = None,
               body: int | None = None, rectangle: Reals | None = None) -> None:
         """PRINT: how much of long tables the listing shows; without the section tables of up to 10000 rows.
 
-        table: table: DECK; NODES, ELEMENTS, JOINTS of the mesh; LOADS; PATH of convergence; AMPLITUDE of
-            displacements; TOTALS of them; STRESSES at Gauss points; NODAL stresses; STATES of joints;
-            REACTIONS; TABLES; allowed: DECK, NODES, ELEMENTS, JOINTS, LOADS, PATH, AMPLITUDE, TOTALS, STRESSES,
+        table: table: DECK; COORDS, INCIDENCE, JOINTNODES of the mesh; LOADS; PATH of iterations; AMPLITUDE,
+            TOTALS of displacements; STRESSES at Gauss points; NODAL stresses; STATES of joints; REACTIONS; all
+            TABLES; allowed: DECK, COORDS, INCIDENCE, JOINTNODES, LOADS, PATH, AMPLITUDE, TOTALS, STRESSES,
             NODAL, STATES, REACTIONS, TABLES
         rows: its rows; allowed: ALL, EVERY n-th, UPTO n: all if they are so many at most, NONE
         number: n of EVERY and UPTO; if not given: 10000
