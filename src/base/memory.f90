@@ -85,14 +85,72 @@ contains
       integer(i8) :: limit, used
 
       bytes = scaled(number_after('/proc/meminfo', 'MemAvailable:'), 1024_i8)
-      limit = number_after('/sys/fs/cgroup/memory.max', '')
-      used = number_after('/sys/fs/cgroup/memory.current', '')
-      if (limit /= unknown .and. used /= unknown) bytes = min(bytes, max(limit - used, 0_i8))
+      bytes = min(bytes, left_of_groups('0::', '/sys/fs/cgroup', 'memory.max', 'memory.current', &
+                                 'inactive_file'), &
+                  left_of_groups(':memory:', '/sys/fs/cgroup/memory', 'memory.limit_in_bytes', &
+                                 'memory.usage_in_bytes', 'total_inactive_file'))
       if (present(sharers)) bytes = bytes/sharers
       limit = number_after('/proc/self/limits', 'Max address space')
       used = scaled(number_after('/proc/self/status', 'VmSize:'), 1024_i8)
       if (limit /= unknown .and. used /= unknown) bytes = min(bytes, max(limit - used, 0_i8))
    end function available_memory
+
+   !> Bytes that the control groups of this process leave: the one it is in, and those around it
+   function left_of_groups(label, root, limit_file, used_file, unused) result(bytes)
+      !> What stands before its group in /proc/self/cgroup: of the second version, or of the first
+      character(len=*), intent(in) :: label
+      !> Where groups are, names of the files that tell a limit and what is used of it, and what a
+      !> line of memory.stat calls contents of files, which the system gives up for other use
+      character(len=*), intent(in) :: root, limit_file, used_file, unused
+      !> Bytes
+      integer(i8) :: bytes
+
+      character(len=:), allocatable :: group
+      integer(i8) :: limit, used, files
+
+      bytes = unknown
+      group = text_after('/proc/self/cgroup', label)
+      do
+         limit = number_after(root//group//'/'//limit_file, '')
+         used = number_after(root//group//'/'//used_file, '')
+         files = number_after(root//group//'/memory.stat', unused//' ')
+         if (files == unknown) files = 0
+         if (limit /= unknown .and. used /= unknown) &
+            bytes = min(bytes, max(limit - max(used - files, 0_i8), 0_i8))
+         if (len(group) == 0) exit
+         group = group(:index(group, '/', back=.true.) - 1)
+      end do
+   end function left_of_groups
+
+   !> What follows a label in the first line of a file that has it, without slashes at its end
+   function text_after(path, label) result(text)
+      !> The file
+      character(len=*), intent(in) :: path
+      !> The label
+      character(len=*), intent(in) :: label
+      !> The rest of the line; empty if there is none
+      character(len=:), allocatable :: text
+
+      character(len=4096) :: line
+      integer :: unit, stat, place
+
+      text = ''
+      open (newunit=unit, file=path, status='old', action='read', iostat=stat)
+      if (stat /= 0) return
+      do
+         read (unit, '(a)', iostat=stat) line
+         if (stat /= 0) exit
+         place = index(line, label)
+         if (place == 0) cycle
+         text = trim(line(place + len(label):))
+         exit
+      end do
+      close (unit)
+      do while (len(text) > 0)
+         if (text(len(text):) /= '/') exit
+         text = text(:len(text) - 1)
+      end do
+   end function text_after
 
    !> First number after a label at the beginning of a line of a file
    function number_after(path, label) result(number)

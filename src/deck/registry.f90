@@ -35,6 +35,7 @@ module axijoint_deck_registry
    use axijoint_deck_section_output, only : output_section
    use axijoint_deck_section_points, only : points_section
    use axijoint_deck_section_point_loads, only : point_loads_section
+   use axijoint_deck_section_print, only : print_section
    use axijoint_deck_section_pressures, only : pressures_section
    use axijoint_deck_section_restraints, only : restraints_section
    use axijoint_deck_section_resultants, only : resultants_section
@@ -63,7 +64,7 @@ contains
       integer :: n
 
       n = 0
-      allocate (sections(48))
+      allocate (sections(49))
       call add(title_section())
       call add(control_section())
       call add(increments_section())
@@ -108,6 +109,7 @@ contains
       call add(cuts_section())
       call add(points_section())
       call add(keep_section())
+      call add(print_section())
       call add(sweep_section())
       call add(error_section())
       call add(include_section())

@@ -55,7 +55,8 @@ contains
       do k = 0, nint((most - least)/step)
          x = least + k*step
          value = [value(2:3), determinant_at(x)]
-         if (k > 0 .and. value(2)*value(3) <= 0.0_wp) then
+         if (k < 1) cycle
+         if (value(2)*value(3) <= 0.0_wp) then
             lambda = bisected(x - step, x)
             return
          end if

@@ -8,7 +8,9 @@ module axijoint_estimate_volume
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type, can_yield
-   use axijoint_model_request, only : is_kept, keep_displacement, keep_joints, keep_stress
+   use axijoint_model_request, only : is_kept, keep_displacement, keep_joints, keep_stress, &
+      rows_expected, print_deck, print_nodes, print_elements, print_joints, print_states, &
+      print_amplitude, print_reactions, print_totals, print_nodal, print_stresses
    use axijoint_output_vtkhdf_grid, only : sweep_planes
    implicit none
    private
@@ -76,16 +78,35 @@ contains
       !> Modes; joint points times planes
       integer, intent(in) :: n_modes, n_places
 
+      real(wp) :: nodes
       integer :: k
 
-      associate (mesh => model%mesh)
-         n = source%n_cards + n_nodes(mesh) + n_elements(mesh) + n_joints(mesh) + n_places &
-            + n_modes*(real(n_nodes(mesh), wp) + count(any(model%fixed, 1))) &
-            + size(model%output_angles)*(2.0_wp*n_nodes(mesh) + n_points(model))
+      associate (mesh => model%mesh, angles => size(model%output_angles))
+         nodes = n_nodes(mesh)
+         n = rows(print_deck, real(source%n_cards, wp)) + rows(print_nodes, nodes) &
+            + rows(print_elements, real(n_elements(mesh), wp)) &
+            + rows(print_joints, real(n_joints(mesh), wp)) + rows(print_states, real(n_places, wp)) &
+            + n_modes*(rows(print_amplitude, nodes) &
+                       + rows(print_reactions, real(count(any(model%fixed, 1)), wp))) &
+            + angles*(rows(print_totals, nodes) + rows(print_nodal, nodes) &
+                      + rows(print_stresses, n_points(model)))
       end associate
       do k = 1, size(model%lines)
          n = n + size(model%lines(k)%points)*size(model%lines(k)%angles)
       end do
+
+   contains
+
+      !> Rows of a table that are listed
+      pure real(wp) function rows(what, n)
+         !> The table, one of the `print_` parameters
+         integer, intent(in) :: what
+         !> Its rows
+         real(wp), intent(in) :: n
+
+         rows = rows_expected(model%print, what, n)
+      end function rows
+
    end function listing_lines
 
    !> Numbers in the results file

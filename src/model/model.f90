@@ -13,7 +13,7 @@ module axijoint_model_model
    use axijoint_model_material, only : solid_material_type, joint_material_type
    use axijoint_model_mesh, only : mesh_type
    use axijoint_model_request, only : line_type, point_type, keep_type, keep_names, cut_type, &
-      supported_face_type, sweep_type, &
+      print_type, supported_face_type, sweep_type, &
       error_goal_type
    use axijoint_model_restraint, only : restraint_type, acts_in
    use axijoint_solver_entry, only : solver_entry_type
@@ -97,6 +97,8 @@ module axijoint_model_model
       type(point_type), allocatable :: points(:)
       !> Of which increments what is kept, in the order of `keep_names`
       type(keep_type) :: keep(size(keep_names))
+      !> Rows of long tables of the listing that are wanted, as the deck says
+      type(print_type), allocatable :: print(:)
       !> Cuts whose resultants are listed
       type(cut_type), allocatable :: cuts(:)
       !> Range of theta that the bodies are swept through

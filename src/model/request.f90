@@ -5,9 +5,14 @@ module axijoint_model_request
    implicit none
    private
    public :: line_type, line_point_type, point_type, cut_type, supported_face_type, sweep_type, &
-      error_goal_type, refinement_type, keep_type, default_keep, is_kept
+      error_goal_type, refinement_type, keep_type, default_keep, is_kept, cards_about, rows_expected
    public :: keep_series, keep_displacement, keep_joints, keep_stress, keep_names
    public :: which_all, which_every, which_last, which_only, which_names
+   public :: print_type, print_names, usual_rows
+   public :: print_deck, print_nodes, print_elements, print_joints, print_loads, print_path, &
+      print_amplitude, print_totals, print_stresses, print_nodal, print_states, print_reactions, &
+      print_all
+   public :: rows_all, rows_every, rows_upto, rows_none, rows_names
    public :: goal_joints, goal_displacement, goal_energy, goal_names
 
    !> What the error of a job may be asked of: of joint stress, of displacements, of the
@@ -62,6 +67,36 @@ module axijoint_model_request
       !> Those that are named
       integer, allocatable :: named(:)
    end type keep_type
+
+   !> Tables of the listing that grow with the job: deck, mesh, loads, convergence path, amplitudes
+   !> of displacement, totals at angles, stresses at Gauss points and nodes, joint points on planes,
+   !> reactions; all of them
+   integer, parameter :: print_deck = 1, print_nodes = 2, print_elements = 3, print_joints = 4, &
+      print_loads = 5, print_path = 6, print_amplitude = 7, print_totals = 8, print_stresses = 9, &
+      print_nodal = 10, print_states = 11, print_reactions = 12, print_all = 13
+   !> Their names on cards: no keywords, which cards of data must not begin with
+   character(len=10), parameter :: print_names(print_all) = [character(len=10) :: 'DECK', &
+      'COORDS', 'INCIDENCE', 'JOINTNODES', 'LOADS', 'PATH', 'AMPLITUDE', 'TOTALS', 'STRESSES', &
+      'NODAL', 'STATES', 'REACTIONS', 'TABLES']
+   !> Rows of a table that are listed: all, every n-th, all if they are n at most, none
+   integer, parameter :: rows_all = 1, rows_every = 2, rows_upto = 3, rows_none = 4
+   !> Their names on cards
+   character(len=5), parameter :: rows_names(4) = &
+      [character(len=5) :: 'ALL', 'EVERY', 'UPTO', 'NONE']
+   !> Rows of a table that is listed whole unless the deck says otherwise
+   integer, parameter :: usual_rows = 10000
+
+   !> Rows of a table of the listing that are wanted
+   type :: print_type
+      !> The table, one of the `print_` parameters, and its rows, one of the `rows_` parameters
+      integer :: what = print_all, which = rows_upto
+      !> n of every n-th row, or most rows
+      integer :: n = usual_rows
+      !> Body that they belong to; 0 for any
+      integer :: body = 0
+      !> Least and largest r and z of their places
+      real(wp) :: least(2) = -huge(1.0_wp), largest(2) = huge(1.0_wp)
+   end type print_type
 
    !> A point with a name, whose displacements are followed
    type :: point_type
@@ -165,5 +200,49 @@ contains
          is_kept = is_kept .or. any(keep%named == increment)
       end select
    end function is_kept
+
+   !> What a deck says of a table of the listing, else of all tables, else what is usual
+   pure function cards_about(print, what) result(cards)
+      !> What it says of all tables; nothing if absent
+      type(print_type), intent(in), optional :: print(:)
+      !> The table, one of the `print_` parameters
+      integer, intent(in) :: what
+      !> At least one
+      type(print_type), allocatable :: cards(:)
+
+      allocate (cards(0))
+      if (present(print)) then
+         cards = pack(print, print%what == what)
+         if (size(cards) == 0) cards = pack(print, print%what == print_all)
+      end if
+      if (size(cards) == 0) cards = [print_type(what, rows_upto, usual_rows)]
+   end function cards_about
+
+   !> Rows of a table that are listed, at most: those of a body or a rectangle are counted as if it
+   !> were all there is
+   pure real(wp) function rows_expected(print, what, n) result(rows)
+      !> What the deck says of all tables; nothing if absent
+      type(print_type), intent(in), optional :: print(:)
+      !> The table, one of the `print_` parameters
+      integer, intent(in) :: what
+      !> Its rows
+      real(wp), intent(in) :: n
+
+      type(print_type), allocatable :: cards(:)
+      integer :: k
+
+      cards = cards_about(print, what)
+      rows = 0.0_wp
+      do k = 1, size(cards)
+         select case (cards(k)%which)
+          case (rows_all)
+            rows = n
+          case (rows_every)
+            rows = max(rows, n/cards(k)%n)
+          case (rows_upto)
+            if (n <= cards(k)%n) rows = n
+         end select
+      end do
+   end function rows_expected
 
 end module axijoint_model_request

@@ -92,8 +92,8 @@ contains
       integer :: errno
 
       if (is_directory(join_path(directory, "."))) return
-      call make_directories(trim(directory), errno)
-      if (errno /= 0) call fatal_error(error, exit_io, "the directory "//trim(directory)// &
+      call make_directories(directory, errno)
+      if (errno /= 0) call fatal_error(error, exit_io, "the directory "//directory// &
          " for the results cannot be made: "//error_text(errno)//new_line("a")// &
          "mend: make it first, or choose another with -o")
    end subroutine make_place

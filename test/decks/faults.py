@@ -6,11 +6,13 @@ of one run, earlier or new, and what is left besides is gone after the next run.
 makes the calls fail. As deck tests some of all calls fail, by `scripts/faults` all of them:
 
 Usage: scripts/faults [--all | --sample N] [JOB...]
+       scripts/faults --space STEPS [COMMAND...]
 """
 import errno
 import os
 import random
 import re
+import resource
 import subprocess
 import sys
 import tempfile
@@ -28,6 +30,8 @@ ERRORS = {'memory': (errno.ENOMEM,), 'map': (errno.ENOMEM,), 'open': (errno.EMFI
 CODES = {'memory': (6,), 'map': (6,), 'open': (2, 5, 7, 8), 'short': ()}
 RAW = re.compile(CRASH.pattern + r'|HDF5-DIAG|rror allocating|llocation would|libgomp|OpenBLAS|MPI_|\*\*\*|Operating system')
 HANGS = 30
+# Requests for memory that fail in one run of a sweep
+PIECE = 5000
 HISTORY = 'INCREMENTS\n' + ''.join(f'{factor:10}{"1.0E-7":>10}{400:5d}\n' for factor in (0.5, 0.5, -0.5)) + 'END\n'
 # Jobs of the deck tests
 SAMPLED = ('check', 'run ring', 'run two', 'run vtk', 'run history', 'resume', 'study', 'compare')
@@ -213,7 +217,10 @@ def whole(program, name, every):
                 start = time.time()
                 n = place.calls(kind)
                 if kind == 'memory':
-                    tried, faults = sweep(place, step=every, on=on)
+                    tried, faults = 0, []
+                    for first in range(1, n + 1, PIECE*every):  # each in a time that a hang would stand out from
+                        more = sweep(place, first, first + PIECE*every - 1, every, on)
+                        tried, faults = tried + more[0], faults + more[1]
                 else:
                     tried = 0
                     faults = []
@@ -226,6 +233,41 @@ def whole(program, name, every):
                       f'{len(faults):5} not in order {time.time() - start:7.0f} s', flush=True)
                 print('\n'.join('   ' + fault for fault in faults[:12]), end='\n' if faults else '', flush=True)
                 bad += len(faults)
+    return bad
+
+
+BLOCK = ('TITLE\nA block of 999 by 999\nCONTROL\n0\nMATERIALS\n1, 1E4, 0.2\nBLOCKS\n1, 1, 4, 999, 999\n1, 0, 2, 1\nFACES\n1, 1, 1, 0, 2, 0\n'
+         '2, 1, 1, 1, 2, 1\nFIXEDFACES\n1, 111\nTRACTIONS\n2, 0, 0, 1\nEND\n')
+# Least and largest address space of the sweep [MiB]; what a command is given to end [s]
+LEAST_SPACE, MOST_SPACE, SPACE_TIME = 60, {'check': 1500, 'run': 16000}, 1200
+
+
+def spaces(program, command, steps):
+    """A large block under limits of the address space, from too little for the libraries to enough; prints a row for each"""
+    bad = 0
+    ratio = (MOST_SPACE[command]/LEAST_SPACE)**(1/(steps - 1))
+    for step in range(steps):
+        space = round(LEAST_SPACE*ratio**step)
+        with tempfile.TemporaryDirectory(prefix='axijoint-faults-') as folder:
+            deck = write(folder, 'block.dat', BLOCK)
+            start = time.time()
+            words = [command, deck] + (['-o', folder] if command == 'run' else [])
+            try:
+                ran = program.run(*words, folder=folder, time_limit=SPACE_TIME, limits=[(resource.RLIMIT_AS, space*2**20)])
+                # 127: the system's loader finds no room for the libraries
+                faults = [] if ran.code in (0, 6) or ran.code == 127 and 'shared librar' in ran.err else [f'exit code {ran.code}']
+                faults += ['words of the run-time library'] if RAW.search(ran.out + ran.err) or ran.code < 0 else []
+                if ran.code == 6 and ran.err.count('mend: ') != 1:
+                    faults.append('not one message')
+                if ran.code != 0:
+                    faults += [f'left {name}' for name in os.listdir(folder) if name not in ('block.dat', 'block.json')]
+                words = f'exit {ran.code:3}  {ran.err.strip()[:110]}'
+            except subprocess.TimeoutExpired:
+                faults, words = ['hangs'], ''
+        bad += len(faults)
+        print(f'{command:6} {space:6} MiB {time.time() - start:6.0f} s  {words}' + ''.join('\n   ' + fault for fault in faults), flush=True)
+        if not faults and ran.code == 0:
+            break  # enough
     return bad
 
 
@@ -247,6 +289,13 @@ def main(arguments):
         every = int(arguments[at + 1])
         del arguments[at:at + 2]
     program = Program(arguments[0])
+    if '--space' in arguments:
+        at = arguments.index('--space')
+        steps = int(arguments[at + 1])
+        del arguments[at:at + 2]
+        bad = sum(spaces(program, command, steps) for command in MOST_SPACE if not arguments[1:] or command in arguments[1:])
+        print(f'{bad} not in order')
+        return bad > 0
     names = [name for name in jobs() if not arguments[1:] or any(word in name for word in arguments[1:])]
     bad = sum(whole(program, name, every) for name in names)
     print(f'{bad} not in order')

@@ -186,7 +186,7 @@ def tests(program):
         test('included link to nothing', lambda folder: included_link(
             program, folder, 'nothing', 'this is a link that leads to no file')),
         test('symbolic link to itself', lambda folder: refused(
-            program, folder, made(folder, loop), 'job.dat: error: the file cannot be opened')),
+            program, folder, made(folder, loop), 'job.dat: error: the file cannot be read')),
         test('unreadable', lambda folder: unreadable(program, folder)),
         test('many errors', lambda folder: many_errors(program, folder)),
     ]

@@ -99,7 +99,7 @@ def predicted_memory(program, deck, *options):
 def memory_changes_nothing(program, folder):
     """With less memory fewer factors are there at once, and every number stays: a linear job, one
     with several combinations, which keeps its factors, and one with joints"""
-    fine = RING.replace('1, 1, 8, 20, 20', '1, 1, 8, 70, 70')
+    fine = RING.replace('1, 1, 8, 20, 20', '1, 1, 8, 70, 70').replace('END', 'PRINT\n TABLES, ALL\nEND')
     decks = {'linear': (fine, 2, 1),
              'combined': (fine.replace('TRACTIONS', 'CASE\n1, all\nTRACTIONS').replace(
                  'END', 'COMBINE\n1, 1, 1\n2, 1, 2\nEND'), 4, 1),

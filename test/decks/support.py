@@ -17,7 +17,7 @@ PYTHONS = (os.path.join(HERE, '..', '..', '.tools', 'venv', 'bin', 'python3'), '
 # Seconds after which a program counts as hanging, and after which one of a long test does
 TIME_LIMIT, LONG_LIMIT = 60, 1200
 # What the run-time library prints where the program has lost control
-CRASH = re.compile(r'Fortran runtime|Backtrace|rror termination|SIG[A-Z]{3,}|\nAt line')
+CRASH = re.compile(r'Fortran runtime|Backtrace|rror termination|SIG[A-Z]{3,}|\nAt line|AddressSanitizer|: runtime error:')
 # User that may neither read nor write what the test keeps from it
 NOBODY = 65534
 
@@ -63,8 +63,12 @@ class Program:
         if not os.access(self.path, os.X_OK):
             raise SystemExit(f'{path} is no program')
         self.environment = dict(os.environ, OPENBLAS_NUM_THREADS='1', LC_ALL='C')
+        # Of `scripts/build sanitized`: what the compiler forgets to give back is no fault of the program
+        self.sanitized = b'__asan_init' in read_bytes(self.path)
+        if self.sanitized:
+            self.environment.update(ASAN_OPTIONS='detect_leaks=0:verify_asan_link_order=0', UBSAN_OPTIONS='halt_on_error=1:print_stacktrace=1')
 
-    def run(self, *arguments, folder='.', limits=(), path=None, time_limit=TIME_LIMIT, **options):
+    def run(self, *arguments, folder='.', limits=(), path=None, time_limit=None, **options):
         """Run it in a folder. limits: pairs of a limit of `resource` and its value"""
 
         def set_limits():
@@ -72,6 +76,7 @@ class Program:
                 resource.setrlimit(limit, (value, resource.getrlimit(limit)[1]))
 
         options.setdefault('stdout', subprocess.PIPE)
+        time_limit = (time_limit or TIME_LIMIT)*(5 if self.sanitized else 1)
         done = subprocess.run([path or self.path, *arguments], cwd=folder, env=self.environment,
                               stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, timeout=time_limit,
                               preexec_fn=set_limits if limits else None, **options)

@@ -48,14 +48,16 @@ class Fuzz:
     def __init__(self, program, folder, seed):
         self.program, self.folder, self.dice = program, folder, random.Random(seed)
         # sanitizers reserve all of the address space
-        self.limits = () if b'__asan_init' in read_bytes(program.path) else ((resource.RLIMIT_AS, SPACE),)
+        # of the processor's time, as others may use the machine
+        self.limits = ((resource.RLIMIT_CPU, HANGS),) + (() if program.sanitized else ((resource.RLIMIT_AS, SPACE),))
         self.found = []
         self.counts = {}
+        self.judge = Judge()
 
     def run(self, *words, folder=None):
         """Run the program: exit code and all that it said"""
         try:
-            return self.program.run(*words, folder=folder or self.folder, limits=self.limits, time_limit=HANGS)
+            return self.program.run(*words, folder=folder or self.folder, limits=self.limits, time_limit=20*HANGS)
         except subprocess.TimeoutExpired:
             return None
 
@@ -105,7 +107,7 @@ class Fuzz:
             return
         stem = os.path.join(output, os.path.basename(path)[:-4])
         for summary in glob.glob(glob.escape(stem) + '*.json'):
-            faults = faults_of_results(summary)
+            faults = faults_of_results(summary, self.judge)
             if faults:
                 self.note(kind, '; '.join(faults), [path])
         for file in glob.glob(os.path.join(output, '*')):
@@ -114,27 +116,56 @@ class Fuzz:
 
 JUDGE = '''
 import json, sys, h5py, numpy
-faults = []
-with h5py.File(sys.argv[1]) as file:
-    def look(name, item):
-        if isinstance(item, h5py.Dataset) and item.dtype.kind == "f" and not numpy.isfinite(item[()]).all():
-            faults.append("not finite: " + name)
-    file.visititems(look)
-    if "joints/stress" in file and "joint_materials/kind" in file and len(file["joints/joint"]):
-        stress, state = file["joints/stress"][()], file["joints/state"][()]  # (plane, point, 3), (plane, point)
-        law = file["mesh/joint_material"][()][file["joints/joint"][()] - 1] - 1
-        yields = file["joint_materials/kind"][()][law] == 1
-        size = abs(stress).max() or 1.0
-        if (abs(stress[state == 2]) > 1e-6*size).any():
-            faults.append("stress in open joints")
-        bond = file["joint_materials/opening"][()][law] == 2
-        if (stress[:, :, 1][:, yields & ~bond] > 1e-6*size).any():
-            faults.append("tension without bond")
-print(json.dumps(faults))
+
+def faults_of(path):
+    faults = []
+    with h5py.File(path) as file:
+        def look(name, item):
+            if isinstance(item, h5py.Dataset) and item.dtype.kind == "f" and not numpy.isfinite(item[()]).all():
+                faults.append("not finite: " + name)
+        file.visititems(look)
+        if "joints/stress" in file and "joint_materials/kind" in file and len(file["joints/joint"]):
+            stress, state = file["joints/stress"][()], file["joints/state"][()]  # (plane, point, 3), (plane, point)
+            law = file["mesh/joint_material"][()][file["joints/joint"][()] - 1] - 1
+            yields = file["joint_materials/kind"][()][law] == 1
+            size = abs(stress).max() or 1.0
+            if (abs(stress[state == 2]) > 1e-6*size).any():
+                faults.append("stress in open joints")
+            bond = file["joint_materials/opening"][()][law] == 2
+            if (stress[:, :, 1][:, yields & ~bond] > 1e-6*size).any():
+                faults.append("tension without bond")
+    return faults
+
+for line in sys.stdin:
+    try:
+        print(json.dumps(faults_of(line[:-1])), flush=True)
+    except Exception as fault:
+        print(json.dumps([repr(fault)]), flush=True)
 '''
 
 
-def faults_of_results(path):
+class Judge:
+    """A Python that reads results files, one after the other; without NumPy and h5py there is none"""
+
+    def __init__(self):
+        python = python_with('numpy, h5py')
+        self.process = python and subprocess.Popen([python, '-B', '-c', JUDGE], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+    def faults(self, path):
+        """What is wrong with a file"""
+        if not self.process:
+            return []
+        self.process.stdin.write(path + '\n')
+        self.process.stdin.flush()
+        return json.loads(self.process.stdout.readline() or '["no judgement"]')
+
+    def end(self):
+        """End the Python"""
+        if self.process:
+            self.process.communicate()
+
+
+def faults_of_results(path, judge):
     """What a summary and its arrays must not hold: NaN, forces out of balance, stress that the laws do not admit"""
     faults = []
     with open(path, encoding='utf-8') as file:
@@ -143,11 +174,7 @@ def faults_of_results(path):
     for name in ('equilibrium_error', 'part_equilibrium_error')[:1 if summary.get('method') == 'transfer' else 2]:
         if summary.get(name) is not None and summary['exit_code'] == 0 and not summary[name] < allowed:
             faults.append(f'{name} {summary[name]}')
-    python = python_with('numpy, h5py')
-    if python:
-        done = subprocess.run([python, '-B', '-c', JUDGE, path[:-5] + '.h5'], capture_output=True, text=True, check=False)
-        faults += json.loads(done.stdout) if done.returncode == 0 else [done.stderr[-200:]]
-    return faults
+    return faults + judge.faults(path[:-5] + '.h5')
 
 
 GOOD = ('inputs/*.dat', 'inputs/hard/*.dat', 'test/decks/good/*.dat', 'test/decks/alike/*.dat', 'test/decks/unsolved/*.dat')
@@ -250,6 +277,7 @@ def one_kind(program, kind, count, seed):
             try_corpus(fuzz)
         else:
             KINDS[kind][0](fuzz, count)
+        fuzz.judge.end()
         return fuzz
 
 

@@ -46,6 +46,7 @@ NAMES = {card: names.split() for card, names in {
     "CUTS": "cut z body last number",
     "POINTS": "point place body name",
     "KEEP": "what when increments",
+    "PRINT": "table rows number body rectangle",
     "SWEEP": "first last sectors",
     "ERROR": "target quantity rounds unknowns",
     "GMSH": "path",

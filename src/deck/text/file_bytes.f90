@@ -1,9 +1,9 @@
 !> A text file as one string of bytes
 module axijoint_deck_text_file_bytes
-   use axijoint_base_kinds, only : i8
    use axijoint_base_system, only : path_kind, target_kind, path_absent, path_directory, &
       path_other, read_standard_input, error_text
    use axijoint_base_text, only : to_text
+   use axijoint_base_whole_file, only : file_size, read_whole_file
    implicit none
    private
    public :: read_bytes, read_input_bytes, line_end, next_line, control_byte
@@ -24,33 +24,16 @@ contains
       !> What is wrong, empty if nothing
       character(len=:), allocatable, intent(out) :: failure
 
-      character(len=256) :: message
-      integer(i8) :: size
-      integer :: unit, status
+      integer :: errno
 
       bytes = ''
       failure = path_failure(path)
       if (len(failure) > 0) return
-      open (newunit=unit, file=path, access='stream', form='unformatted', action='read', &
-            status='old', iostat=status, iomsg=message)
-      if (status /= 0) then
-         failure = 'the file cannot be opened: '//trim(message)
-         return
-      end if
-      inquire (unit=unit, size=size)
-      if (size > huge(0)) then
+      if (file_size(path) > huge(0)) &
          failure = 'the file is larger than '//to_text(huge(0))//' bytes'
-      else if (size > 0) then
-         deallocate (bytes)
-         allocate (character(len=int(size)) :: bytes, stat=status)
-         if (status /= 0) failure = 'no memory for the '//to_text(size)//' bytes of the file'
-         if (status == 0) read (unit, iostat=status, iomsg=message) bytes
-         if (status /= 0 .and. len(failure) == 0) then
-            failure = 'the file cannot be read: '//trim(message)
-         end if
-      end if
-      close (unit, iostat=status)
-      if (len(failure) > 0) bytes = ''
+      if (len(failure) > 0) return
+      call read_whole_file(path, bytes, errno)
+      if (errno /= 0) failure = 'the file cannot be read: '//error_text(errno)
       if (len(failure) == 0 .and. index(bytes, byte_order_mark) == 1) bytes = bytes(4:)
       if (len(failure) == 0 .and. len(bytes) == 0) failure = 'the file is empty'
    end subroutine read_bytes

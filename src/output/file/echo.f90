@@ -12,12 +12,14 @@ module axijoint_output_file_echo
 
 contains
 
-   !> Every card with its line number; a change of file is marked
-   subroutine write_echo(file, source)
+   !> Cards with their line numbers; a change of file is marked
+   subroutine write_echo(file, source, listed)
       !> The listing
       class(text_file_type), intent(inout) :: file
       !> Cards of the deck
       type(source_type), intent(in) :: source
+      !> Which of them
+      logical, intent(in) :: listed(:)
 
       character(len=9) :: margin
       integer :: card, last_file
@@ -25,6 +27,7 @@ contains
       call write_heading(file, "DECK")
       last_file = 0
       do card = 1, source%n_cards
+         if (.not. listed(card)) cycle
          if (source%cards(card)%file /= last_file) then
             call write_lines(file, "  file: ", card_file(source, card))
             last_file = source%cards(card)%file

@@ -78,7 +78,7 @@ contains
 
       integer :: length
 
-      length = len_trim(directory)
+      length = len(directory)
       if (length == 0) then
          path = name
       else if (directory(length:length) == "/") then

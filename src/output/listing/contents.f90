@@ -4,14 +4,17 @@ module axijoint_output_listing_contents
    use axijoint_analysis_core_series, only : series_type
    use axijoint_base_text, only : to_text
    use axijoint_base_version, only : program_name, program_version
+   use axijoint_deck_text_source, only : source_type, card_keyword
    use axijoint_job_job, only : job_type
    use axijoint_model_model, only : model_type
+   use axijoint_model_request, only : print_deck
    use axijoint_output_file_echo, only : write_echo
    use axijoint_output_file_headings, only : write_lines, rule, mark_not_converged
    use axijoint_output_file_run, only : run_type
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_listing_budget, only : write_left_out, write_budget, write_singular, &
       write_rounds
+   use axijoint_output_listing_choice, only : chosen_lines, none_asked, write_left
    use axijoint_output_listing_loads, only : write_loads, write_truncations, write_supports, &
       write_combinations
    use axijoint_output_listing_mesh, only : write_nodes, write_restraints, write_elements, &
@@ -36,6 +39,9 @@ module axijoint_output_listing_contents
    private
    public :: write_listing
 
+   !> Cards below a keyword that are listed of a long deck, too
+   integer, parameter :: first_cards = 20
+
 contains
 
    !> All tables in order
@@ -57,18 +63,18 @@ contains
 
       associate (model => job%model)
          call write_header(file, run, model, results)
-         call write_echo(file, job%source)
+         call write_deck(file, model, job%source)
          call write_warnings(file, warnings)
 
          call write_model(file, model)
          call write_materials(file, model)
          call write_joint_materials(file, model)
          call write_proportions(file, model)
-         call write_nodes(file, model)
-         call write_restraints(file, model)
-         call write_elements(file, model)
+         call write_nodes(file, model, results)
+         call write_restraints(file, model, results)
+         call write_elements(file, model, results)
          call write_interfaces(file, model)
-         call write_joints(file, model)
+         call write_joints(file, model, results)
          call write_supports(file, model)
          call write_loads(file, model)
          call write_truncations(file, model)
@@ -78,7 +84,7 @@ contains
          call write_in_situ(file, model, results%in_situ)
          call write_equations(file, results)
          call write_left_out(file, results)
-         call write_convergence(file, results)
+         call write_convergence(file, model, results)
          call write_residuals(file, results)
          call write_increment_table(file, series)
          call write_yielding(file, model, results)
@@ -125,6 +131,32 @@ contains
       call write_lines(file, "status  ", convergence_text(results))
       call file%put(rule)
    end subroutine write_header
+
+   !> The deck; of one that is too long keywords, and the first cards below them
+   subroutine write_deck(file, model, source)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Cards of the deck
+      type(source_type), intent(in) :: source
+
+      logical, allocatable :: listed(:)
+      integer :: card, n
+
+      if (none_asked(model, print_deck)) return
+      listed = chosen_lines(model, print_deck, source%n_cards)
+      if (.not. all(listed)) then
+         n = 0
+         do card = 1, source%n_cards
+            n = n + 1
+            if (source%cards(card)%kind == card_keyword) n = 0
+            listed(card) = listed(card) .or. n <= first_cards
+         end do
+      end if
+      call write_echo(file, source, listed)
+      call write_left(file, "DECK", count(listed), size(listed))
+   end subroutine write_deck
 
    !> Last line: the listing is whole, and whether it converged
    subroutine write_end(file, results)

@@ -6,9 +6,11 @@ module axijoint_output_listing_loads
    use axijoint_fe_mode, only : mode_type, family_symmetric
    use axijoint_model_load, only : initial_stress_type, any_material
    use axijoint_model_model, only : model_type
+   use axijoint_model_request, only : print_loads
    use axijoint_output_file_columns, only : columns
    use axijoint_output_file_headings, only : write_heading, write_lines
    use axijoint_output_file_text, only : text_file_type
+   use axijoint_output_listing_choice, only : chosen_lines, none_asked, write_left
    implicit none
    private
    public :: write_loads, write_truncations, write_supports, write_combinations
@@ -31,6 +33,7 @@ contains
       !> The job
       type(model_type), intent(in) :: model
 
+      if (none_asked(model, print_loads)) return
       call write_heading(file, "LOADS (amplitudes for load factor 1; S symmetric, A antisymmetric)")
       if (size(model%edge_loads) + size(model%ring_loads) + size(model%body_loads) &
           + size(model%thermal_loads) + size(model%prescribed) + &
@@ -67,13 +70,16 @@ contains
       !> The job
       type(model_type), intent(in) :: model
 
+      logical, allocatable :: listed(:)
       integer :: i, k
 
       call file%put("  tractions on edges: first, last and middle node of each edge")
       call file%put(label_heading//"      node             r             z            "// &
          "t_r            t_z"// &
          "        t_theta")
+      listed = chosen_lines(model, print_loads, size(model%edge_loads))
       do i = 1, size(model%edge_loads)
+         if (.not. listed(i)) cycle
          associate (load => model%edge_loads(i))
             do k = 1, count(load%nodes > 0)
                call file%put(label(load%mode, model%load_cases(load%case)%label, &
@@ -83,6 +89,7 @@ contains
             end do
          end associate
       end do
+      call write_left(file, "", count(listed), size(listed))
    end subroutine write_edge_loads
 
    !> Loads on nodal circles
@@ -92,6 +99,7 @@ contains
       !> The job
       type(model_type), intent(in) :: model
 
+      logical, allocatable :: listed(:)
       integer :: i
 
       call file%put("  loads on nodal circles: generalized forces (work over the circle on "// &
@@ -100,13 +108,16 @@ contains
       call file%put(label_heading//"      node             r             z            "// &
          "F_u            F_v"// &
          "            F_w")
+      listed = chosen_lines(model, print_loads, size(model%ring_loads))
       do i = 1, size(model%ring_loads)
+         if (.not. listed(i)) cycle
          associate (load => model%ring_loads(i))
             call file%put(label(load%mode, model%load_cases(load%case)%label, &
                model%mesh%node_label(load%node))// &
                columns(model%mesh%coordinates(:, load%node), narrow)//columns(load%force, wide))
          end associate
       end do
+      call write_left(file, "", count(listed), size(listed))
    end subroutine write_ring_loads
 
    !> Accelerations of all solids
@@ -159,13 +170,16 @@ contains
       type(model_type), intent(in) :: model
 
       character(len=1), parameter :: component(3) = ["u", "v", "w"]
+      logical, allocatable :: listed(:)
       integer :: i
 
       call file%put("  prescribed displacements (the component is zero in all other modes and "// &
          "cases)")
       call file%put(label_heading//"      node             r             z   component      "// &
          "amplitude")
+      listed = chosen_lines(model, print_loads, size(model%prescribed))
       do i = 1, size(model%prescribed)
+         if (.not. listed(i)) cycle
          associate (load => model%prescribed(i))
             call file%put(label(load%mode, model%load_cases(load%case)%label, &
                model%mesh%node_label(load%node))// &
@@ -173,6 +187,7 @@ contains
                component(load%component)//columns([load%value], wide))
          end associate
       end do
+      call write_left(file, "", count(listed), size(listed))
    end subroutine write_prescribed
 
    !> In-situ stresses

@@ -1,14 +1,17 @@
 !> Tables of the listing that show the mesh
 module axijoint_output_listing_mesh
+   use axijoint_analysis_core_results, only : results_type
    use axijoint_base_text, only : to_text
    use axijoint_fe_mode, only : family_symmetric
    use axijoint_model_interface, only : interface_name
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type
+   use axijoint_model_request, only : print_nodes, print_elements, print_joints
    use axijoint_model_restraint, only : restraint_type, any_family
    use axijoint_output_file_columns, only : columns
    use axijoint_output_file_headings, only : write_heading, width
    use axijoint_output_file_text, only : text_file_type
+   use axijoint_output_listing_choice, only : chosen_places, none_asked, write_left
    implicit none
    private
    public :: write_nodes, write_restraints, write_elements, write_joints
@@ -27,48 +30,63 @@ module axijoint_output_listing_mesh
 contains
 
    !> Nodes with their restraints
-   subroutine write_nodes(file, model)
+   subroutine write_nodes(file, model, results)
       !> The listing
       class(text_file_type), intent(inout) :: file
       !> The job
       type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
 
       character(len=10) :: label
       character(len=6) :: code
+      logical :: listed(n_nodes(model%mesh))
       integer :: i
 
-      call write_heading(file, "NODES (fixed components u v w: 1)")
-      call file%put("      node             r             z   uvw")
+      if (none_asked(model, print_nodes)) return
+      listed = chosen_places(model, results, print_nodes)
+      if (any(listed)) then
+         call write_heading(file, "NODES (fixed components u v w: 1)")
+         call file%put("      node             r             z   uvw")
+      end if
       do i = 1, n_nodes(model%mesh)
+         if (.not. listed(i)) cycle
          write (label, format_label) model%mesh%node_label(i)
          code = ""
          if (any(model%fixed(:, i))) write (code, format_restraint) merge(1, 0, model%fixed(:, i))
          call file%put(label//columns(model%mesh%coordinates(:, i), narrow)//code)
       end do
+      call write_left(file, "NODES", count(listed), size(listed))
    end subroutine write_nodes
 
    !> Restraints that hold in some modes only
-   subroutine write_restraints(file, model)
+   subroutine write_restraints(file, model, results)
       !> The listing
       class(text_file_type), intent(inout) :: file
       !> The job
       type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
 
       character(len=16) :: row
+      logical :: there(n_nodes(model%mesh)), listed(n_nodes(model%mesh))
       integer :: k, i
 
       if (.not. allocated(model%restraints)) return
-      if (size(model%restraints) == 0) return
+      if (size(model%restraints) == 0 .or. none_asked(model, print_nodes)) return
       call write_heading(file, "RESTRAINTS IN SOME HARMONICS (fixed components u v w: 1)")
       call file%put("      node   uvw   harmonics")
       do k = 1, size(model%restraints)
          associate (restraint => model%restraints(k))
+            there = any(restraint%held, 1)
+            listed = chosen_places(model, results, print_nodes, there=there)
             do i = 1, n_nodes(model%mesh)
-               if (.not. any(restraint%held(:, i))) cycle
+               if (.not. listed(i)) cycle
                write (row, '(i10, 3x, 3i1)') model%mesh%node_label(i), &
                   merge(1, 0, restraint%held(:, i))
                call file%put(row//"   "//range_text(restraint))
             end do
+            call write_left(file, "", count(listed), count(there))
          end associate
       end do
    end subroutine write_restraints
@@ -92,42 +110,58 @@ contains
    end function range_text
 
    !> Elements
-   subroutine write_elements(file, model)
+   subroutine write_elements(file, model, results)
       !> The listing
       class(text_file_type), intent(inout) :: file
       !> The job
       type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
 
       character(len=width) :: line
+      logical :: listed(n_elements(model%mesh))
       integer :: i
 
-      call write_heading(file, "ELEMENTS (corners counterclockwise, mid-sides, centre)")
-      call file%put("   element  material      body         nodes")
+      if (none_asked(model, print_elements)) return
+      listed = chosen_places(model, results, print_elements)
+      if (any(listed)) then
+         call write_heading(file, "ELEMENTS (corners counterclockwise, mid-sides, centre)")
+         call file%put("   element  material      body         nodes")
+      end if
       associate (mesh => model%mesh)
          do i = 1, n_elements(mesh)
+            if (.not. listed(i)) cycle
             write (line, format_element) mesh%element_label(i), &
                model%materials(mesh%element_material(i))%label, mesh%element_body(i), &
                mesh%node_label(mesh%element_nodes(:mesh%element_size(i), i))
             call file%put(line)
          end do
       end associate
+      call write_left(file, "ELEMENTS", count(listed), size(listed))
    end subroutine write_elements
 
    !> Joints
-   subroutine write_joints(file, model)
+   subroutine write_joints(file, model, results)
       !> The listing
       class(text_file_type), intent(inout) :: file
       !> The job
       type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
 
       character(len=width) :: line
+      logical :: listed(n_joints(model%mesh))
       integer :: i
 
-      if (n_joints(model%mesh) == 0) return
-      call write_heading(file, "JOINTS (side 1-2, side 4-3 opposite, mid-sides 5 and 6)")
-      call file%put("     joint       law         nodes 1-4 (1-6), name of the interface")
+      if (n_joints(model%mesh) == 0 .or. none_asked(model, print_joints)) return
+      listed = chosen_places(model, results, print_joints)
+      if (any(listed)) then
+         call write_heading(file, "JOINTS (side 1-2, side 4-3 opposite, mid-sides 5 and 6)")
+         call file%put("     joint       law         nodes 1-4 (1-6), name of the interface")
+      end if
       associate (mesh => model%mesh)
          do i = 1, n_joints(mesh)
+            if (.not. listed(i)) cycle
             write (line, format_joint) mesh%joint_label(i), &
                model%joint_materials(mesh%joint_material(i))%label, &
                mesh%node_label(mesh%joint_nodes(:mesh%joint_size(i), i))
@@ -136,6 +170,7 @@ contains
             call file%put(trim(line))
          end do
       end associate
+      call write_left(file, "JOINTS", count(listed), size(listed))
    end subroutine write_joints
 
 end module axijoint_output_listing_mesh

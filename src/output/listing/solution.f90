@@ -7,11 +7,15 @@ module axijoint_output_listing_solution
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type, n_phases, phase_names, phase_total
    use axijoint_fe_mode, only : mode_type, mode_name, family_symmetric
+   use axijoint_model_mesh, only : n_nodes
    use axijoint_model_model, only : model_type
+   use axijoint_model_request, only : print_amplitude, print_totals, print_reactions, print_path
    use axijoint_output_file_columns, only : columns
    use axijoint_output_file_headings, only : write_heading, write_result_heading, mark_not_converged
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_file_totals, only : circle_type, new_circle, total_displacement, n_unknowns
+   use axijoint_output_listing_choice, only : chosen_places, chosen_lines, none_asked, write_left
+   use axijoint_output_listing_extremes, only : extremes_type, begin_table
    implicit none
    private
    public :: write_equations, write_convergence, write_displacements, write_total_displacements
@@ -41,6 +45,8 @@ module axijoint_output_listing_solution
    !> Columns of coordinates and of results
    integer, parameter :: narrow = 13, wide = 15
 
+   !> Names of the components of displacement
+   character(len=1), parameter :: components(3) = ["u", "v", "w"]
    !> Names of the resultants, in the order of the results
    character(len=34), parameter :: resultant_names(n_resultants) = [character(len=34) :: &
       "axial force (along z)", "lateral force (along theta = 0)", &
@@ -86,29 +92,36 @@ contains
    end subroutine write_equations
 
    !> Convergence path (Fig. 17), and how it ended
-   subroutine write_convergence(file, results)
+   subroutine write_convergence(file, model, results)
       !> The listing
       class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
       !> Results
       type(results_type), intent(in) :: results
 
       character(len=24) :: steps, states
+      logical :: listed(size(results%path))
       integer :: i
 
       call write_result_heading(file, "CONVERGENCE PATH", results%converged)
-      if (size(results%path) > 0) then
+      listed = chosen_lines(model, print_path, size(results%path))
+      if (any(listed)) then
          call file%put("  ("//to_text(size(results%joint_state))// &
             " states: joint points times planes)")
          call file%put("   increment   iteration    load factor residual ratio        slip"// &
             "        open")
       end if
       do i = 1, size(results%path)
+         if (.not. listed(i)) cycle
          associate (step => results%path(i))
             write (steps, format_iteration) step%increment, step%iteration
             write (states, format_states) step%n_slip, step%n_open
             call file%put(steps//columns([step%load_factor, step%ratio], wide)//states)
          end associate
       end do
+      if (.not. none_asked(model, print_path)) &
+         call write_left(file, "", count(listed), size(listed))
       call file%put("  "//convergence_text(results))
       if (.not. results%other_loop >= 0.0_wp) return
       if (results%accumulated) then
@@ -164,17 +177,15 @@ contains
       !> Results
       type(results_type), intent(in) :: results
 
-      integer :: i, node
+      logical :: listed(n_nodes(model%mesh))
+      integer :: i
 
+      if (none_asked(model, print_amplitude)) return
+      listed = chosen_places(model, results, print_amplitude)
       do i = 1, size(results%modes)
-         call write_result_heading(file, "DISPLACEMENT AMPLITUDES, harmonic "// &
+         call write_nodes(file, model, "DISPLACEMENT AMPLITUDES, harmonic "// &
             mode_name(results%modes(i))//" ("//factors_text(results%modes(i))//")", &
-            results%converged)
-         call file%put("      node            r            z              u              v"// &
-            "              w")
-         do node = 1, size(results%displacement, 2)
-            call write_node(file, model, node, results%displacement(:, node, i))
-         end do
+            components, results%converged, listed, results%displacement(:, :, i))
       end do
    end subroutine write_displacements
 
@@ -187,19 +198,21 @@ contains
       !> Results
       type(results_type), intent(in) :: results
 
+      real(wp), allocatable :: total(:, :)
       type(circle_type) :: circle
+      logical :: listed(n_nodes(model%mesh))
       integer :: i, node
 
+      if (none_asked(model, print_totals)) return
+      listed = chosen_places(model, results, print_totals)
+      allocate (total(3, size(listed)))
       do i = 1, size(model%output_angles)
          circle = new_circle(results%modes, model%output_angles(i))
-         call write_result_heading(file, "TOTAL DISPLACEMENTS, theta = "// &
-            to_text(circle%angle/degree)//" degrees", results%converged)
-         call file%put("      node            r            z              u              v"// &
-            "              w")
-         do node = 1, size(results%displacement, 2)
-            call write_node(file, model, node, &
-               total_displacement(results%displacement(:, node, :), circle))
+         do node = 1, size(listed)
+            total(:, node) = total_displacement(results%displacement(:, node, :), circle)
          end do
+         call write_nodes(file, model, "TOTAL DISPLACEMENTS, theta = "// &
+            to_text(circle%angle/degree)//" degrees", components, results%converged, listed, total)
       end do
    end subroutine write_total_displacements
 
@@ -212,18 +225,18 @@ contains
       !> Results
       type(results_type), intent(in) :: results
 
+      logical :: there(n_nodes(model%mesh)), listed(n_nodes(model%mesh))
       integer :: i, node
 
+      if (none_asked(model, print_reactions)) return
       do i = 1, size(results%modes)
-         call write_result_heading(file, "REACTIONS, harmonic "//mode_name(results%modes(i))// &
-            " (work over the circle on unit amplitudes)", results%converged)
-         call file%put("      node            r            z            R_u            R_v"// &
-            "            R_w")
-         do node = 1, size(results%reaction, 2)
-            if (.not. any(model%fixed(:, node) .or. abs(results%reaction(:, node, i)) > 0.0_wp)) &
-               cycle
-            call write_node(file, model, node, results%reaction(:, node, i))
+         do node = 1, size(there)
+            there(node) = any(model%fixed(:, node) .or. abs(results%reaction(:, node, i)) > 0.0_wp)
          end do
+         listed = chosen_places(model, results, print_reactions, there=there)
+         call write_nodes(file, model, "REACTIONS, harmonic "//mode_name(results%modes(i))// &
+            " (work over the circle on unit amplitudes)", ["R_u", "R_v", "R_w"], &
+            results%converged, listed, results%reaction(:, :, i), there)
       end do
    end subroutine write_reactions
 
@@ -302,6 +315,41 @@ contains
       write (line, format_memory) "in joints", results%exchanged(1)/megabyte, " MB"
       call file%put(line)
    end subroutine write_times
+
+   !> A table of three components at nodes
+   subroutine write_nodes(file, model, title, names, converged, listed, values, there)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Title, and names of the components
+      character(len=*), intent(in) :: title, names(3)
+      !> Whether the results are in equilibrium
+      logical, intent(in) :: converged
+      !> Nodes that are listed
+      logical, intent(in) :: listed(:)
+      !> Components along r, z, theta, shape (3, nodes)
+      real(wp), intent(in) :: values(:, :)
+      !> Nodes that belong to the table; all if absent
+      logical, intent(in), optional :: there(:)
+
+      character(len=15) :: wide_names(3)
+      type(extremes_type) :: extremes
+      logical :: belongs(size(listed))
+      integer :: node
+
+      belongs = .true.
+      if (present(there)) belongs = there
+      wide_names = adjustr([character(len=15) :: names])
+      call begin_table(file, title, "      node            r            z"//wide_names(1)// &
+         wide_names(2)//wide_names(3), converged, pack(listed, belongs), names, extremes)
+      do node = 1, size(listed)
+         if (listed(node)) call write_node(file, model, node, values(:, node))
+         if (belongs(node)) call extremes%note(model%mesh%node_label(node), &
+            model%mesh%coordinates(:, node), values(:, node))
+      end do
+      call extremes%write(file, count(listed), "node")
+   end subroutine write_nodes
 
    !> Line of a node: number, r, z, three components
    subroutine write_node(file, model, node, components)

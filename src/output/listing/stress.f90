@@ -1,15 +1,17 @@
 !> Tables of the listing that show stresses of the solids and of the joints
 module axijoint_output_listing_stress
    use axijoint_analysis_core_results, only : results_type
-   use axijoint_base_kinds, only : degree
+   use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text
    use axijoint_element_joint_law, only : state_stick, state_slip, state_open
    use axijoint_model_interface, only : interface_name
    use axijoint_model_model, only : model_type
+   use axijoint_model_request, only : print_stresses, print_nodal, print_states
    use axijoint_output_file_columns, only : columns
-   use axijoint_output_file_headings, only : write_result_heading
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_file_totals, only : circle_type, new_circle, total_stress
+   use axijoint_output_listing_choice, only : chosen_places, none_asked
+   use axijoint_output_listing_extremes, only : extremes_type, begin_table
    implicit none
    private
    public :: write_stresses, write_nodal_stresses, write_joint_results
@@ -22,6 +24,14 @@ module axijoint_output_listing_stress
    character(len=*), parameter :: format_angle = '(f8.3)'
    !> Columns of coordinates, joint results, solid stresses
    integer, parameter :: narrow = 12, middle = 13, wide = 14
+   !> Names of stresses of solids; of stresses and relative displacements of joints
+   character(len=11), parameter :: stress_names(6) = [character(len=11) :: "sigma_r", "sigma_z", &
+      "sigma_theta", "tau_rz", "tau_rtheta", "tau_ztheta"]
+   character(len=9), parameter :: joint_names(6) = [character(len=9) :: "tau_xi", "sigma", &
+      "tau_theta", "d_xi", "d_eta", "d_theta"]
+   !> Heading of coordinates and stresses
+   character(len=*), parameter :: stress_header = "           r           z       sigma_r"// &
+      "       sigma_z   sigma_theta        tau_rz    tau_rtheta    tau_ztheta"
 
 contains
 
@@ -36,23 +46,31 @@ contains
       type(results_type), intent(in) :: results
 
       type(circle_type) :: circle
+      type(extremes_type) :: extremes
       character(len=13) :: label
-      integer :: i, point, local
+      logical :: listed(size(results%point_element))
+      real(wp) :: stress(6)
+      integer :: i, point, local, element
 
+      if (none_asked(model, print_stresses)) return
+      listed = chosen_places(model, results, print_stresses)
       do i = 1, size(model%output_angles)
          circle = new_circle(results%modes, model%output_angles(i))
-         call write_result_heading(file, "TOTAL STRESSES AT GAUSS POINTS, theta = "// &
-            to_text(circle%angle/degree)//" degrees", results%converged)
-         call file%put("   element pt           r           z       sigma_r       sigma_z"// &
-            "   sigma_theta        tau_rz    tau_rtheta    tau_ztheta")
+         call begin_table(file, "TOTAL STRESSES AT GAUSS POINTS, theta = "// &
+            to_text(circle%angle/degree)//" degrees", "   element pt"//stress_header, &
+            results%converged, listed, stress_names, extremes)
          local = 0
-         do point = 1, size(results%point_element)
+         do point = 1, size(listed)
             local = next_local(results%point_element, point, local)
-            write (label, format_point) &
-               model%mesh%element_label(results%point_element(point)), local
+            element = model%mesh%element_label(results%point_element(point))
+            stress = total_stress(results%stress(:, point, :), circle)
+            call extremes%note(element, results%point_position(:, point), stress)
+            if (.not. listed(point)) cycle
+            write (label, format_point) element, local
             call file%put(label//columns(results%point_position(:, point), narrow)// &
-               columns(total_stress(results%stress(:, point, :), circle), wide))
+               columns(stress, wide))
          end do
+         call extremes%write(file, count(listed), "element")
       end do
    end subroutine write_stresses
 
@@ -67,23 +85,32 @@ contains
       type(results_type), intent(in) :: results
 
       type(circle_type) :: circle
+      type(extremes_type) :: extremes
       character(len=16) :: label
+      logical :: listed(size(results%nodal%node))
+      real(wp) :: stress(6)
       integer :: i, k
 
+      if (none_asked(model, print_nodal)) return
+      listed = chosen_places(model, results, print_nodal)
       do i = 1, size(model%output_angles)
          circle = new_circle(results%modes, model%output_angles(i))
-         call write_result_heading(file, "TOTAL STRESSES AT NODES, theta = "// &
-            to_text(circle%angle/degree)//" degrees", results%converged)
-         call file%put("      node  mat.           r           z       sigma_r       sigma_z"// &
-            "   sigma_theta        tau_rz    tau_rtheta    tau_ztheta")
-         do k = 1, size(results%nodal%node)
+         call begin_table(file, "TOTAL STRESSES AT NODES, theta = "// &
+            to_text(circle%angle/degree)//" degrees", "      node  mat."//stress_header, &
+            results%converged, listed, stress_names, extremes)
+         do k = 1, size(listed)
             associate (node => results%nodal%node(k))
+               stress = total_stress(results%nodal%amplitude(:, k, :), circle)
+               call extremes%note(model%mesh%node_label(node), &
+                  model%mesh%coordinates(:, node), stress)
+               if (.not. listed(k)) cycle
                write (label, format_node) model%mesh%node_label(node), &
                   model%materials(results%nodal%material(k))%label
                call file%put(label//columns(model%mesh%coordinates(:, node), narrow)// &
-                  columns(total_stress(results%nodal%amplitude(:, k, :), circle), wide))
+                  columns(stress, wide))
             end associate
          end do
+         call extremes%write(file, count(listed), "node")
       end do
    end subroutine write_nodal_stresses
 
@@ -96,48 +123,58 @@ contains
       !> Results
       type(results_type), intent(in) :: results
 
+      type(extremes_type) :: extremes
       character(len=8) :: angle
       character(len=13) :: label
-      integer :: point, plane, local
+      logical :: listed(size(results%joint_point_joint))
+      real(wp) :: values(6)
+      integer :: point, plane, local, joint, last
 
-      if (size(results%joint_point_joint) == 0) return
-      call write_result_heading(file, "JOINT STRESSES, RELATIVE DISPLACEMENTS AND STATES ON "// &
-         "PLANES", results%converged)
-      call file%put("     joint pt           r           z   theta       tau_xi        sigma"// &
-         "    tau_theta         d_xi        d_eta      d_theta state")
+      if (size(listed) == 0 .or. none_asked(model, print_states)) return
+      listed = chosen_places(model, results, print_states, size(results%plane_angles))
+      call begin_table(file, "JOINT STRESSES, RELATIVE DISPLACEMENTS AND STATES ON PLANES", &
+         "     joint pt           r           z   theta       tau_xi        sigma"// &
+         "    tau_theta         d_xi        d_eta      d_theta state", &
+         results%converged, listed, joint_names, extremes, on_planes=.true.)
       local = 0
-      do point = 1, size(results%joint_point_joint)
+      last = 0
+      do point = 1, size(listed)
          local = next_local(results%joint_point_joint, point, local)
-         call write_new_interface(file, model, results%joint_point_joint, point)
-         write (label, format_point) &
-            model%mesh%joint_label(results%joint_point_joint(point)), local
+         joint = model%mesh%joint_label(results%joint_point_joint(point))
+         if (listed(point)) call write_new_interface(file, model, results%joint_point_joint, &
+            point, last)
+         write (label, format_point) joint, local
          do plane = 1, size(results%plane_angles)
+            values = [results%joint_stress(:, point, plane), results%joint_jump(:, point, plane)]
+            call extremes%note(joint, results%joint_point_position(:, point), values, &
+               results%plane_angles(plane))
+            if (.not. listed(point)) cycle
             write (angle, format_angle) results%plane_angles(plane)/degree
             call file%put(label//columns(results%joint_point_position(:, point), narrow)//angle// &
-               columns([results%joint_stress(:, point, plane), &
-               results%joint_jump(:, point, plane)], middle)//" "// &
-               state_name(results%joint_state(point, plane)))
+               columns(values, middle)//" "//state_name(results%joint_state(point, plane)))
          end do
+         if (listed(point)) last = point
       end do
+      call extremes%write(file, count(listed)*size(results%plane_angles), "joint")
    end subroutine write_joint_results
 
    !> The name of the interface where the joints of another one begin
-   subroutine write_new_interface(file, model, joints, point)
+   subroutine write_new_interface(file, model, joints, point, last)
       !> The listing
       class(text_file_type), intent(inout) :: file
       !> The job
       type(model_type), intent(in) :: model
       !> Joint of each point
       integer, intent(in) :: joints(:)
-      !> The point
-      integer, intent(in) :: point
+      !> The point, and the one that was listed before; 0 if none was
+      integer, intent(in) :: point, last
 
       associate (interface => model%mesh%joint_interface)
-         if (point > 1) then
-            if (interface(joints(point)) == interface(joints(point - 1))) return
+         if (last > 0) then
+            if (interface(joints(point)) == interface(joints(last))) return
          end if
          if (interface(joints(point)) == 0) then
-            if (point > 1) call file%put("interface: none")
+            if (last > 0) call file%put("interface: none")
          else
             call file%put("interface: "//interface_name(model%interfaces, &
                                                         interface(joints(point))))
