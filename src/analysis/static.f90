@@ -125,7 +125,7 @@ contains
 
       call timer%push(phase_recover)
       call recover_fields(model, structure, history%loading, history%peak, field, results, &
-         smoothed=estimates)
+         smoothed=remarks)
       associate (state => results%states(size(results%states)))
          results%plastic = plastic_fields(model, results%modes, results%stress, &
             state%bodies)
