@@ -36,7 +36,7 @@ contains
          [described(word_field('the table', 1, 10, print_names), &
                     'table: DECK; COORDS, INCIDENCE, JOINTNODES of the mesh; LOADS; PATH of '// &
                     'iterations; AMPLITUDE, TOTALS of displacements; STRESSES at Gauss points; '// &
-                    'NODAL stresses; STATES of joints; REACTIONS; all TABLES'), &
+                    'NODAL ones; STATES of joints; REACTIONS; all TABLES'), &
           described(word_field('the rows', 11, 20, rows_names), &
                     'its rows', &
                     limits='ALL, EVERY n-th, UPTO n: all if they are so many at most, NONE'), &
