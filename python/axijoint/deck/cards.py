@@ -560,7 +560,7 @@ class Cards:
         """PRINT: how much of long tables the listing shows; without the section tables of up to 10000 rows.
 
         table: table: DECK; COORDS, INCIDENCE, JOINTNODES of the mesh; LOADS; PATH of iterations; AMPLITUDE,
-            TOTALS of displacements; STRESSES at Gauss points; NODAL stresses; STATES of joints; REACTIONS; all
+            TOTALS of displacements; STRESSES at Gauss points; NODAL ones; STATES of joints; REACTIONS; all
             TABLES; allowed: DECK, COORDS, INCIDENCE, JOINTNODES, LOADS, PATH, AMPLITUDE, TOTALS, STRESSES,
             NODAL, STATES, REACTIONS, TABLES
         rows: its rows; allowed: ALL, EVERY n-th, UPTO n: all if they are so many at most, NONE
