@@ -130,7 +130,14 @@ contains
 
       x(:, :n) = draft%position(:, draft%element_nodes(:n, element))
       sine = sines(sample, x(:, :n))
-      if (all(sine > least_sine)) return
+      if (all(sine > least_sine)) then
+         if (.not. corner_area(x(:, :n_corners(n))) > 0.0_wp) call add_error(diagnostics, &
+            draft%element_card(element), 0, 0, 'the corners of element '// &
+            to_text(draft%element_label(element))//' enclose no area: only its bent sides do', &
+            allowed='corners counterclockwise in the r-z plane, sides that do not cross', &
+            mend='check the order of the nodes')
+         return
+      end if
       i = minloc(sine, 1)
       associate (c => n_corners(n))
          if (any(sine(:c) <= least_sine)) i = minloc(sine(:c), 1)
@@ -261,6 +268,21 @@ contains
       end do
       text = text(2:)
    end function numbers_text
+
+   !> Area of the polygon of the corners, positive if they run counterclockwise
+   pure real(wp) function corner_area(corners) result(area)
+      !> r and z of each, shape (2, corners)
+      real(wp), intent(in) :: corners(:, :)
+
+      integer :: i
+
+      area = 0.0_wp
+      do i = 2, size(corners, 2) - 1
+         associate (a => corners(:, i) - corners(:, 1), b => corners(:, i + 1) - corners(:, 1))
+            area = area + 0.5_wp*(a(1)*b(2) - b(1)*a(2))
+         end associate
+      end do
+   end function corner_area
 
    !> Report an element whose Jacobian is not positive
    subroutine report_jacobian(draft, element, n, sine, worst, place, diagnostics)
