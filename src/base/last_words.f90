@@ -8,7 +8,7 @@ module axijoint_base_last_words
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
    implicit none
    private
-   public :: note_stage, note_lock, forget_lock, let_fail, heed_faults, lost_output
+   public :: note_stage, note_reading, note_lock, forget_lock, let_fail, heed_faults, lost_output
 
    interface
       !> Note what is done; last_words_shim.c
@@ -16,6 +16,12 @@ module axijoint_base_last_words
          import :: c_char
          character(kind=c_char), intent(in) :: text(*)
       end subroutine c_note_stage
+
+      !> Note what a library reads; last_words_shim.c
+      subroutine c_note_reading(path) bind(c, name='axijoint_note_reading')
+         import :: c_char
+         character(kind=c_char), intent(in) :: path(*)
+      end subroutine c_note_reading
 
       !> Note a lock; last_words_shim.c
       subroutine c_note_lock(path, host, process) bind(c, name='axijoint_note_lock')
@@ -56,6 +62,14 @@ contains
 
       call c_note_stage(trim(text)//c_null_char)
    end subroutine note_stage
+
+   !> Note which file a library reads from now on that trusts what it finds there: a fault on the way is the file's
+   subroutine note_reading(path)
+      !> The file; empty when the library is left
+      character(len=*), intent(in) :: path
+
+      call c_note_reading(path//c_null_char)
+   end subroutine note_reading
 
    !> Note that a lock is going to be taken, by a process that the lock then names
    subroutine note_lock(path, host, process)

@@ -19,10 +19,12 @@
 #include <ucontext.h>
 #endif
 
-enum { most_names = 64, exit_memory = 6, exit_internal = 70 };
+enum { most_names = 64, exit_deck = 2, exit_memory = 6, exit_internal = 70 };
 
 /* What the program is doing */
 static char stage[128];
+/* The file that a library reads at the moment, which trusts what it finds there; empty if none does */
+static char foreign[PATH_MAX];
 /* Locks that this process holds or asks for, each NAME.lock or a file that becomes one; the lines of a lock that tell
    whose it is; the end of the names of this process's temporary files */
 static char locks[most_names][PATH_MAX];
@@ -35,6 +37,11 @@ static int ending = 0;
 void axijoint_note_stage(const char *text)
 {
    snprintf(stage, sizeof stage, "%s", text);
+}
+
+void axijoint_note_reading(const char *path)
+{
+   snprintf(foreign, sizeof foreign, "%s", path);
 }
 
 /* From here to the same with -1, requests of this thread for memory may fail: who asks looks at what comes
@@ -215,10 +222,16 @@ static int near_stack(const void *address, const void *context) { return (void)a
 /* A signal that only a fault of the program raises, or a stack that cannot grow */
 static void fault(int number, siginfo_t *about, void *context)
 {
-   static char text[512];
+   static char text[PATH_MAX + 512];
    if (number == SIGSEGV && near_stack(about->si_addr, context))
       axijoint_out_of_memory(0, "the stack (ulimit -s, OMP_STACKSIZE) cannot grow");
    begin_to_end();
+   if (foreign[0]) {
+      snprintf(text, sizeof text,
+               "%s: error: the file is damaged: the library that reads it was led beyond its memory (signal %d)\n"
+               "mend: write the file again\n", foreign, number);
+      end(text, exit_deck);
+   }
    snprintf(text, sizeof text,
             "axijoint: internal error: signal %d%s%s\nmend: this is a fault of the program, please report it with "
             "the deck and the command line\n", number, stage[0] ? " while " : "", stage);

@@ -34,6 +34,8 @@ module axijoint_command_line
       character(len=:), allocatable :: name
       !> Decks to run or check; of `compare`, all words that follow it
       type(word_type), allocatable :: decks(:)
+      !> All words after the command
+      type(word_type), allocatable :: words(:)
       !> Solvers that can be asked for
       type(solver_entry_type), allocatable :: solvers(:)
       !> Directory for results, solver, memory, sweep
@@ -46,9 +48,10 @@ module axijoint_command_line
       logical :: resume = .false.
       !> Whether nothing but errors and warnings is to be told; whether a log is to say what is done
       logical :: quiet = .false., verbose = .false.
-      !> Of a study: whether errors are estimated; the part to solve
+      !> Of a study: whether errors are estimated; the part to solve; processes that solve it
       logical :: estimates = .false.
       type(part_type) :: part
+      integer :: n_processes = 1
       !> Of an estimate: iterations of an increment, 0 for what is usual; whether lines of a job
       !> script are wanted, or all counts; the table of a study
       integer :: iterations = 0
@@ -197,6 +200,7 @@ contains
       integer :: k, option
 
       command%name = trim(topic%name)
+      command%words = words
       only_decks = .false.
       k = 0
       do while (k < size(words))
@@ -257,6 +261,8 @@ contains
       if (command%name == 'envelope' .and. .not. allocated(command%cases)) call fatal_error(error, &
          exit_deck, 'an envelope needs --cases: the load cases whose factors span it, such as '// &
          '--cases 1,2, or 1+,2 if the first acts with positive factors alone')
+      if (command%n_processes > 1 .and. command%part%n > 0) call fatal_error(error, exit_deck, &
+         'only one of --processes and --part can be had')
       if (command%name == 'study' .and. size(command%decks) > 2) &
          call fatal_error(error, exit_deck, &
          'a study has one table and one deck; use: '//program_name//' study TABLE [DECK]')
@@ -322,6 +328,8 @@ contains
          command%table = value
       case ('--iterations')
          call read_number(option, value, command%iterations, error)
+      case ('--processes')
+         call read_number(option, value, command%n_processes, error)
       case ('--directions')
          call read_number(option, value, command%n_directions, error)
       case ('--tolerance')

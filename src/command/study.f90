@@ -1,7 +1,8 @@
 !> `axijoint study`: many states of a deck, as a table says
 module axijoint_command_study
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
-   use axijoint_base_error, only : error_type, exit_ok, exit_singular, exit_not_converged
+   use axijoint_base_error, only : error_type, exit_ok, exit_singular, exit_not_converged, &
+      exit_stopped
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_progress, only : show_progress, clear_progress
    use axijoint_base_stop, only : check_stop
@@ -10,14 +11,16 @@ module axijoint_command_study
    use axijoint_base_version, only : program_version
    use axijoint_command_line, only : command_type
    use axijoint_command_run, only : print_error
+   use axijoint_command_study_processes, only : solve_in_processes
    use axijoint_deck_text_field, only : kind_word
    use axijoint_job_job, only : job_name
    use axijoint_model_model, only : model_type
    use axijoint_output_file_echo, only : deck_text
    use axijoint_study_files, only : write_study
-   use axijoint_study_journal, only : journal_type, open_journal, append_row, close_journal
+   use axijoint_study_journal, only : journal_type, open_journal, read_journal, append_row, &
+      close_journal
    use axijoint_study_open, only : open_study, deck_beside
-   use axijoint_study_parts, only : part_type, part_name, journal_path, first_row, last_row, &
+   use axijoint_study_parts, only : part_type, whole, part_name, journal_path, first_row, last_row, &
       gather_parts, remove_parts
    use axijoint_study_quantities, only : quantity_names, name_length
    use axijoint_study_rows, only : rows_type, row_type, solve_row, row_order
@@ -72,7 +75,9 @@ contains
       end if
       call clear_progress(study%rows%progress)
       if (allocated(error)) then
-         call print_error(command%decks(1)%text, error)
+         ! who started a part has words of his own when all are told to end
+         if (.not. (error%code == exit_stopped .and. command%quiet .and. command%part%number > 0)) &
+            call print_error(command%decks(1)%text, error)
          exit_code = error%code
          return
       end if
@@ -141,6 +146,7 @@ contains
 
       type(journal_type) :: journal
       integer, allocatable :: order(:)
+      logical, allocatable :: before(:)
       integer(i8) :: start, now, rate
       integer :: i, n_before, last, n_shown
 
@@ -151,6 +157,18 @@ contains
       if (allocated(error)) return
       last = last_row(command%part, size(order))
       n_shown = 0
+      if (command%n_processes > 1 .and. any(done%number == 0)) then
+         before = done%number > 0
+         call solve_in_processes(command, study%undertaking, study%key, size(study%names), &
+            order, done, study%rows%progress, error)
+         if (allocated(error)) return
+         if (.not. command%quiet) then
+            do i = 1, last
+               if (done(order(i))%number > 0 .and. .not. before(order(i))) &
+                  call tell_row(study, done(order(i)), n_shown)
+            end do
+         end if
+      end if
       do i = first_row(command%part, size(order)), last
          if (done(order(i))%number > 0) cycle
          call show_progress(study%rows%progress, 'row '//to_text(i)//' of '//to_text(last))
@@ -167,7 +185,8 @@ contains
             new_statistics(done, size(study%names)), error)
          if (allocated(error)) return
          call close_journal(journal)
-         call remove_parts(study%undertaking%stem, study%key, size(study%names), command%part%n)
+         call remove_parts(study%undertaking%directory, study%undertaking%name, study%key, &
+            size(study%names), command%part%n)
       end if
       call clear_progress(study%rows%progress)
       if (.not. command%quiet) &
@@ -190,13 +209,19 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: put_aside
+      logical :: there, ours, torn
 
       associate (stem => study%undertaking%stem, part => command%part)
          call open_journal(journal_path(stem, part), study%key, size(study%names), journal, done, &
             put_aside, error)
          if (allocated(error)) return
-         if (part%number == 0) &
-            call gather_parts(stem, study%key, size(study%names), part%n, done)
+         if (part%number == 0) then
+            call gather_parts(study%undertaking%directory, study%undertaking%name, study%key, &
+               size(study%names), done)
+         else
+            call read_journal(journal_path(stem, whole), study%key, size(study%names), done, there, &
+               ours, torn)
+         end if
          n_before = count(done%number > 0)
          if (len(put_aside) > 0) &
             write (error_unit, '(a)') 'axijoint: the rows of another study '// &
@@ -262,12 +287,17 @@ contains
       !> Time of the others
       real(wp), intent(in) :: seconds
 
+      character(len=:), allocatable :: means
       integer :: n
 
       n = count(done%number > 0)
+      if (command%n_processes > 1) then
+         means = to_text(command%n_processes)//' processes'
+      else
+         means = count_of(study%rows%n_structures, 'structure')
+      end if
       write (output_unit, '(a)') 'study                 '//count_of(n, 'row')//', '// &
-         to_text(n - n_before)//' solved now with '// &
-         count_of(study%rows%n_structures, 'structure'), &
+         to_text(n - n_before)//' solved now with '//means, &
          'status                '//to_text(ended(exit_ok))//' converged, '// &
          to_text(ended(exit_not_converged))//' not converged, '// &
          to_text(ended(exit_singular))//' mechanisms, '//to_text(n - ended(exit_ok) - &

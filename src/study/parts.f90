@@ -1,8 +1,11 @@
 !> Parts of a study, which processes solve each by itself, and their journals
 module axijoint_study_parts
    use axijoint_base_kinds, only : i8
-   use axijoint_base_system, only : unlink_path
+   use axijoint_base_system, only : path_kind, path_absent, unlink_path
    use axijoint_base_text, only : to_text
+   use axijoint_base_whole_file, only : names_in
+   use axijoint_output_file_names, only : lock_ending
+   use axijoint_output_file_pending, only : join_path
    use axijoint_study_journal, only : read_journal
    use axijoint_study_rows, only : row_type
    implicit none
@@ -18,6 +21,9 @@ module axijoint_study_parts
 
    !> All rows, by one process
    type(part_type), parameter :: whole = part_type(0, 0)
+
+   !> Ending of a journal
+   character(len=*), parameter :: rows_ending = '.rows'
 
 contains
 
@@ -43,7 +49,7 @@ contains
       !> The path
       character(len=:), allocatable :: path
 
-      path = part_name(stem, part)//'.rows'
+      path = part_name(stem, part)//rows_ending
    end function journal_path
 
    !> Place of its first row in the order of the rows
@@ -68,40 +74,52 @@ contains
       if (part%number > 0) last_row = int(int(n_rows, i8)*part%number/part%n)
    end function last_row
 
-   !> Take the rows that parts have done
-   subroutine gather_parts(stem, key, n_quantities, n_parts, rows)
-      !> Path of the study's files without ending, and what tells it from others
-      character(len=*), intent(in) :: stem, key
+   !> Take the rows that parts have done, however many there are
+   subroutine gather_parts(directory, name, key, n_quantities, rows)
+      !> Directory and name of the study's files, and what tells it from others
+      character(len=*), intent(in) :: directory, name, key
       !> Quantities of a row
       integer, intent(in) :: n_quantities
-      !> Number of parts
-      integer, intent(in) :: n_parts
       !> Rows by number; takes those that are done
       type(row_type), intent(inout) :: rows(:)
 
+      character(len=:), allocatable :: names
       logical :: there, ours, torn
-      integer :: k
+      integer :: first, last
 
-      do k = 1, n_parts
-         call read_journal(journal_path(stem, part_type(k, n_parts)), key, n_quantities, rows, &
-            there, ours, torn)
+      names = names_in(directory, name//'.', rows_ending)
+      first = 1
+      do while (first < len(names))
+         last = first + index(names(first:), new_line('a')) - 2
+         call read_journal(join_path(directory, names(first:last)), key, n_quantities, rows, there, &
+            ours, torn)
+         first = last + 2
       end do
    end subroutine gather_parts
 
    !> Remove the journals of parts: their rows stand in the files of the study. Those of another
-   !> study stay
-   subroutine remove_parts(stem, key, n_quantities, n_parts)
+   !> study stay, and those that others write now
+   subroutine remove_parts(directory, name, key, n_quantities, n_own)
       !> As for `gather_parts`
-      character(len=*), intent(in) :: stem, key
-      integer, intent(in) :: n_quantities, n_parts
+      character(len=*), intent(in) :: directory, name, key
+      integer, intent(in) :: n_quantities
+      !> Number of parts whose names this process has
+      integer, intent(in) :: n_own
 
       type(row_type) :: none(0)
-      character(len=:), allocatable :: path
-      logical :: there, ours, torn
-      integer :: k, errno
+      character(len=:), allocatable :: names, path
+      logical :: there, ours, torn, own
+      integer :: first, last, errno
 
-      do k = 1, n_parts
-         path = journal_path(stem, part_type(k, n_parts))
+      names = names_in(directory, name//'.', rows_ending)
+      first = 1
+      do while (first < len(names))
+         last = first + index(names(first:), new_line('a')) - 2
+         path = join_path(directory, names(first:last))
+         own = index(names(first:last), 'of'//to_text(n_own)//rows_ending) > 0
+         first = last + 2
+         if (path_kind(path(:len(path) - len(rows_ending))//lock_ending) /= path_absent .and. &
+            .not. own) cycle
          call read_journal(path, key, n_quantities, none, there, ours, torn)
          if (ours) call unlink_path(path, errno)
       end do

@@ -167,6 +167,37 @@ def order_does_not_matter(program, folder):
     return faults + expected('journals that are left', [], left)
 
 
+def processes(program, folder):
+    """Rows by three processes have the digits of one, also when one of them is killed; told to end, all end, and the
+    same study by two goes on"""
+    deck = os.path.join(INPUTS, 'case3_balanced.dat')
+    table = CASE3.format(lines='0:38/6, 0;0.2, 0.2;0.4')
+    whole, faults = study(program, folder, table, deck, name='whole')
+    apart, more = study(program, folder, table, deck, '--processes', '3', name='apart')
+    faults += more + same_rows(whole, apart)
+    path = write(folder, 'lost.csv', table)
+    command = [program.path, 'study', path, deck, '-o', folder, '--processes', '3']
+    for number, words in ((signal.SIGKILL, 'was ended by signal 9'), (signal.SIGTERM, 'stopped by SIGTERM')):
+        parent = subprocess.Popen(command, env=program.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        children = []
+        while parent.poll() is None and not all(os.path.exists(os.path.join(folder, f'lost.study.{k}of3.rows')) for k in (1, 2, 3)):
+            time.sleep(0.002)
+        if parent.poll() is None:
+            with open(f'/proc/{parent.pid}/task/{parent.pid}/children', encoding='ascii') as file:
+                children = [int(child) for child in file.read().split()]
+            os.kill(children[1] if number == signal.SIGKILL else parent.pid, number)
+        _, said = parent.communicate()
+        if said.count(words) != 1:
+            faults.append(f'{words!r} is not said once: {said}')
+        faults += expected('exit code', 0 if number == signal.SIGKILL else 75, parent.returncode)
+        if number == signal.SIGKILL:
+            faults += same_rows(whole, rows_of(os.path.join(folder, 'lost.study.csv')))
+    again = program.run(*command[1:-1], '2', folder=folder, time_limit=300)
+    faults += again.ended_with(0) + same_rows(whole, rows_of(os.path.join(folder, 'lost.study.csv')))
+    left = [name for name in os.listdir(folder) if name.endswith(('.rows', '.lock', '.tmp'))]
+    return faults + expected('journals that are left', [], left)
+
+
 def killed(program, folder, rounds, lines='0:38/20, 0:0.4/5, 0.2;0.4'):
     """Kill a study at random moments: what was done stays, and the end is the same to the last digit"""
     deck = os.path.join(INPUTS, 'case3_balanced.dat')
@@ -347,6 +378,7 @@ def tests(program):
              for deck in VARIED]
     return found + [
         Test('studies/order and parts', lambda folder: order_does_not_matter(program, folder)),
+        Test('studies/processes', lambda folder: processes(program, folder)),
         Test('studies/wrong tables', lambda folder: wrong_tables(program, folder)),
         Test('studies/bad rows', lambda folder: bad_rows(program, folder)),
         Test('studies/samples', lambda folder: samples(program, folder)),

@@ -4,7 +4,7 @@ accepts and solves has no NaN, balances, and obeys the laws of its joints
 
 Usage: scripts/fuzz [--count N] [--seed S] [KIND...]
 
-Kinds: decks, meshes (Gmsh), tables (of studies), listings and arrays (for compare), states (for --resume). Seeds are the
+Kinds: decks, legacy (decks of an older program), meshes (Gmsh), tables (of studies), listings and arrays (for compare), states (for --resume). Seeds are the
 decks of inputs/ and test/decks; what once failed lies in test/fuzz/corpus and is tried first. Inputs that fail are kept in
 build/fuzz.
 """
@@ -81,15 +81,15 @@ class Fuzz:
             return True
         return False
 
-    def decks(self, paths, kind):
+    def decks(self, paths, kind, options=()):
         """Check decks, many in a process; then solve some of those that are accepted"""
         accepted = []
         for first in range(0, len(paths), PORTION):
             portion = paths[first:first + PORTION]
-            ran = self.run('check', *portion)
+            ran = self.run('check', *options, *portion)
             if ran is None or ran.code not in (0, 2) or RAW.search(ran.err):
                 for path in portion:  # one of them did it
-                    alone = self.run('check', path)
+                    alone = self.run('check', *options, path)
                     if self.judged(kind, 'check', alone, [path]) and alone.code == 0:
                         accepted += re.findall(r'^(.*): ok, (\d+) nodes', alone.out, re.M)
             else:
@@ -97,12 +97,12 @@ class Fuzz:
                 accepted += re.findall(r'^(.*): ok, (\d+) nodes', ran.out, re.M)
         chosen = [path for path, nodes in accepted if int(nodes) <= MOST_NODES and self.dice.random() < SOLVED]
         for path in chosen:
-            self.solve(path, kind)
+            self.solve(path, kind, options)
 
-    def solve(self, path, kind):
+    def solve(self, path, kind, options):
         """Run a deck, and look at its results"""
         output = os.path.join(self.folder, 'results')
-        ran = self.run('run', path, '-o', output, '--threads', '1')
+        ran = self.run('run', *options, path, '-o', output, '--threads', '1')
         if not self.judged(f'{kind} solved', 'run', ran, [path]) or ran.code != 0:
             return
         stem = os.path.join(output, os.path.basename(path)[:-4])
@@ -196,6 +196,14 @@ def fuzz_decks(fuzz, count):
     fuzz.decks(paths, 'decks')
 
 
+def fuzz_legacy(fuzz, count):
+    """Decks of an older program"""
+    seeds = [read_bytes(name) for name in sorted(glob.glob(os.path.join(INPUTS, 'legacy', '*.dat')))]
+    seeds = [data for data in seeds if len(data) < 20000]
+    paths = [write(fuzz.folder, f'old{k}.dat', text_changed(fuzz.dice.choice(seeds), fuzz.dice)) for k in range(count)]
+    fuzz.decks(paths, 'legacy', ('--legacy', 'owen-hinton'))
+
+
 def fuzz_meshes(fuzz, count):
     """Mesh files as text, and as bytes"""
     seeds = [gmsh_decks.FORMAT_2.encode(), gmsh_decks.FORMAT_4.encode(),
@@ -256,7 +264,7 @@ def fuzz_states(fuzz, count):
         fuzz.judged('states', 'resume', fuzz.run('run', deck, '-o', folder, '--resume'), [path])
 
 
-KINDS = {'decks': (fuzz_decks, 0.75), 'meshes': (fuzz_meshes, 0.15), 'tables': (fuzz_tables, 0.02),
+KINDS = {'decks': (fuzz_decks, 0.70), 'legacy': (fuzz_legacy, 0.05), 'meshes': (fuzz_meshes, 0.15), 'tables': (fuzz_tables, 0.02),
          'listings': (fuzz_listings, 0.03), 'arrays': (fuzz_arrays, 0.03), 'states': (fuzz_states, 0.02)}
 
 

@@ -1,11 +1,12 @@
 !> Memory that a job takes besides its equations
 module axijoint_analysis_core_footprint
+   use axijoint_analysis_fine_smoother, only : is_slender
    use axijoint_base_kinds, only : wp, i8
    use axijoint_fe_element_kind, only : is_reduced
    use axijoint_fe_mode, only : mode_type, family_antisymmetric
    use axijoint_fe_reference, only : reference_type
    use axijoint_model_joint_points, only : model_joint_point_type
-   use axijoint_model_mesh, only : n_nodes, element_references
+   use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, element_references
    use axijoint_model_model, only : model_type, can_yield_at, yielding_nodes
    use axijoint_model_modes, only : used_modes
    implicit none
@@ -24,10 +25,8 @@ module axijoint_analysis_core_footprint
    integer(i8), parameter :: newton_vectors = 100
    !> Bytes of a node in the mesh, its elements, graph, orders and equations, as measured
    integer(i8), parameter :: mesh_bytes = 520
-   !> Bytes of a node of the fine mesh besides its stiffness, and what its vectors and blocks take,
-   !> as measured
+   !> Bytes of a node of the fine mesh besides its stiffness, as measured
    integer(i8), parameter :: fine_mesh_bytes = 250
-   real(wp), parameter :: fine_work_bytes = 650.0_wp
 
    !> Bytes
    type :: footprint_type
@@ -72,7 +71,7 @@ contains
       ! displacements, two kinds of loads twice, errors of nodes
       footprint%loads = 21*nodes*n_modes*real_bytes
       footprint%fine = sum(fine_bytes(model%mesh%element_size))
-      footprint%fine_work = nint(sum(fine_nodes(model%mesh%element_size))*fine_work_bytes, i8)
+      footprint%fine_work = fine_work_bytes(model%mesh)
       footprint%stresses = 9*nodes + 6*sum(int(references(model%mesh%element_kind)%n_points, i8)) &
          + 6*nodes &  ! smoothed to nodes
          + 6*sum(merge(1_i8, 4_i8, model%mesh%element_size <= 4))  ! at samples
@@ -110,6 +109,31 @@ contains
 
       bytes = nint(fine_nodes(n_nodes)*(blocks_of(n_nodes)*block_bytes + fine_mesh_bytes), i8)
    end function fine_bytes
+
+   !> What a thread works with on the fine level: factors of blocks of nodes, and vectors of all nodes
+   pure integer(i8) function fine_work_bytes(mesh) result(bytes)
+      !> The coarse mesh
+      type(mesh_type), intent(in) :: mesh
+
+      !> Numbers of the factors for a fine node, of elements of 3 to 9 nodes: where each side and each
+      !> inside is a block, and where slender elements make lines; as counted in squares of them
+      real(wp), parameter :: compact(3:9) = [9.0_wp, 9.0_wp, 0.0_wp, 20.0_wp, 0.0_wp, 25.0_wp, &
+         38.0_wp], slender(3:9) = [13.0_wp, 13.0_wp, 0.0_wp, 65.0_wp, 0.0_wp, 47.0_wp, 65.0_wp]
+      !> Vectors of three components: two a step, of which two to four are made, others, and memory
+      !> between them that nobody uses; as measured
+      real(wp), parameter :: vectors = 14.4_wp
+      real(wp) :: numbers
+      integer :: element
+
+      numbers = 0.0_wp
+      do element = 1, n_elements(mesh)
+         associate (n => mesh%element_size(element))
+            numbers = numbers + fine_nodes(n)*(3.0_wp*vectors + merge(slender(n), compact(n), &
+                                                                      is_slender(mesh, element)))
+         end associate
+      end do
+      bytes = nint(real_bytes*numbers, i8)
+   end function fine_work_bytes
 
    !> Fine nodes of an element among many
    elemental real(wp) function fine_nodes(n_nodes)

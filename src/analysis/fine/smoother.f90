@@ -13,7 +13,8 @@ module axijoint_analysis_fine_smoother
    use axijoint_order_rcm, only : reverse_cuthill_mckee
    implicit none
    private
-   public :: smoother_type, new_blocks, order_by_blocks, new_smoother, factor_blocks, solve_blocks
+   public :: smoother_type, new_blocks, order_by_blocks, new_smoother, factor_blocks, solve_blocks, &
+      is_slender
 
    !> An element longer than this times its width is strongly coupled to its neighbours across its
    !> long sides
@@ -130,6 +131,16 @@ contains
          long(:n) = length(:n) > slender*minval(length(:n))
       end if
    end function long_sides
+
+   !> Whether an element is strongly coupled to its neighbours across its long sides
+   pure logical function is_slender(mesh, element)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The element
+      integer, intent(in) :: element
+
+      is_slender = any(long_sides(mesh, element))
+   end function is_slender
 
    !> Order of the fine nodes, block by block and neighbours close in each; blocks of one coarse
    !> element are close, too

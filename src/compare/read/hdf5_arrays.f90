@@ -2,6 +2,7 @@
 module axijoint_compare_read_hdf5_arrays
    use, intrinsic :: iso_c_binding, only : c_loc, c_int, c_ptr
    use axijoint_base_kinds, only : wp
+   use axijoint_base_last_words, only : note_reading
    use hdf5, only : hid_t, hsize_t, size_t, h5open_f, h5close_f, h5eset_auto_f, h5fopen_f, &
       h5fclose_f, &
       h5f_acc_rdonly_f, h5lexists_f, h5dopen_f, h5dclose_f, h5dread_f, h5dget_space_f, h5sclose_f, &
@@ -20,6 +21,8 @@ module axijoint_compare_read_hdf5_arrays
       private
       !> Handle
       integer(hid_t) :: file = no_handle
+      !> Path
+      character(len=:), allocatable :: path
       !> What could not be read first; empty if all is well
       character(len=:), allocatable, public :: failure
    contains
@@ -55,11 +58,14 @@ contains
       integer :: status
 
       self%failure = ''
+      self%path = path
+      call note_reading(path)
       status = int(c_dont_atexit())
       call h5open_f(status)
       call h5eset_auto_f(0, status)
       call h5fopen_f(path, h5f_acc_rdonly_f, self%file, status)
       if (status < 0) self%failure = 'the file cannot be opened: it is damaged or cut off'
+      call note_reading('')
    end subroutine open_file
 
    !> Close the file
@@ -69,9 +75,11 @@ contains
 
       integer :: status
 
+      call note_reading(self%path)
       if (self%file >= 0) call h5fclose_f(self%file, status)
       self%file = no_handle
       call h5close_f(status)
+      call note_reading('')
    end subroutine close_file
 
    !> Whether there is a dataset or group
@@ -84,7 +92,10 @@ contains
       integer :: status
 
       has = .false.
-      if (len(self%failure) == 0) call h5lexists_f(self%file, name, has, status)
+      if (len(self%failure) > 0) return
+      call note_reading(self%path)
+      call h5lexists_f(self%file, name, has, status)
+      call note_reading('')
    end function has
 
    !> Read a dataset
@@ -106,9 +117,11 @@ contains
       extent = 0
       allocate (values(0))
       if (len(self%failure) > 0) return
+      call note_reading(self%path)
       call h5dopen_f(self%file, name, dataset, status)
       if (status < 0) then
          self%failure = 'the file has no '//name
+         call note_reading('')
          return
       end if
       call h5dget_space_f(dataset, space, status)
@@ -129,6 +142,7 @@ contains
       if (status < 0) self%failure = name//' cannot be read: the file is damaged'
       call h5sclose_f(space, status)
       call h5dclose_f(dataset, status)
+      call note_reading('')
    end subroutine read_array
 
    !> Read an attribute of the file that is a text
@@ -148,8 +162,12 @@ contains
 
       text = ''
       if (len(self%failure) > 0) return
+      call note_reading(self%path)
       call h5aopen_by_name_f(self%file, '/', name, attribute, status)
-      if (status < 0) return
+      if (status < 0) then
+         call note_reading('')
+         return
+      end if
       buffer = ''
       call h5aget_type_f(attribute, type, status)
       call h5tget_size_f(type, length, status)
@@ -159,6 +177,7 @@ contains
       if (scan(text, achar(0)) > 0) text = text(:scan(text, achar(0)) - 1)
       call h5tclose_f(type, status)
       call h5aclose_f(attribute, status)
+      call note_reading('')
    end subroutine read_text
 
 end module axijoint_compare_read_hdf5_arrays
