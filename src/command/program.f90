@@ -70,8 +70,8 @@ contains
       end if
       if (present(team)) then
          allocate (command%options%team, source=team)
-         if (team%size > 1 .and. command%name /= 'run') then
-            call fatal_error(error, exit_deck, 'only `run` works in several processes'// &
+         if (team%size > 1 .and. .not. any(command%name == ['run  ', 'study'])) then
+            call fatal_error(error, exit_deck, 'only `run` and `study` work in several processes'// &
                              new_line('a')//'mend: one process for `'//command%name//'`')
             call print_error('', error)
             exit_code = error%code

@@ -25,7 +25,7 @@ module axijoint_command_run
    use omp_lib, only : omp_set_num_threads
    implicit none
    private
-   public :: run_decks, print_error
+   public :: run_decks, print_error, speaks
 
 contains
 

@@ -7,10 +7,11 @@ module axijoint_command_study
    use axijoint_base_progress, only : show_progress, clear_progress
    use axijoint_base_stop, only : check_stop
    use axijoint_base_system, only : error_output_is_terminal
+   use axijoint_base_team, only : team_type
    use axijoint_base_text, only : to_text, count_of
    use axijoint_base_version, only : program_version
    use axijoint_command_line, only : command_type
-   use axijoint_command_run, only : print_error
+   use axijoint_command_run, only : print_error, speaks
    use axijoint_command_study_processes, only : solve_in_processes
    use axijoint_deck_text_field, only : kind_word
    use axijoint_job_job, only : job_name
@@ -58,31 +59,104 @@ contains
       !> Largest exit code of all rows
       integer, intent(out) :: exit_code
 
-      type(study_type), target :: study
-      type(row_type), allocatable :: done(:)
       type(error_type), allocatable :: error
-      character(len=:), allocatable :: notes
 
       if (command%threads > 0) call omp_set_num_threads(command%threads)
+      if (allocated(command%options%team)) then
+         call run_by_groups(command, exit_code, error)
+      else
+         call run_part(command, exit_code, error)
+      end if
+      if (.not. allocated(error)) return
+      exit_code = error%code
+      ! who started a part has words of his own when all are told to end
+      if (error%code == exit_stopped .and. command%quiet .and. command%part%number > 0) return
+      call print_error(command%decks(1)%text, error)
+   end subroutine run_study
+
+   !> Run a study, or a part of it, by this process and its team
+   subroutine run_part(command, exit_code, error)
+      !> Table, deck and options
+      type(command_type), intent(in) :: command
+      !> Largest exit code of all rows
+      integer, intent(out) :: exit_code
+      !> Errors of deck, table or files; the program is to end
+      type(error_type), allocatable, intent(out) :: error
+
+      type(study_type), target :: study
+      type(row_type), allocatable :: done(:)
+      character(len=:), allocatable :: notes
+
+      exit_code = exit_ok
       call begin_study(command, study, error)
       if (.not. allocated(error)) then
-         call begin_undertaking(command%options%directory, study%name, &
-            claimed_names(study%name, command%part), 'study '//command%decks(1)%text, &
-            study%undertaking, notes, error)
-         if (len(notes) > 0) write (error_unit, '(a)') notes
+         if (speaks(command)) then
+            call begin_undertaking(command%options%directory, study%name, &
+               claimed_names(study%name, command%part), 'study '//command%decks(1)%text, &
+               .not. allocated(command%options%team), study%undertaking, notes, error)
+            if (len(notes) > 0) write (error_unit, '(a)') notes
+         end if
+         call agree(command, error)
          if (.not. allocated(error)) call solve_rows(command, study, done, error)
-         call end_undertaking(study%undertaking, error)
+         if (speaks(command)) call end_undertaking(study%undertaking, error)
       end if
       call clear_progress(study%rows%progress)
-      if (allocated(error)) then
-         ! who started a part has words of his own when all are told to end
-         if (.not. (error%code == exit_stopped .and. command%quiet .and. command%part%number > 0)) &
-            call print_error(command%decks(1)%text, error)
-         exit_code = error%code
-         return
-      end if
-      exit_code = max(exit_ok, maxval(done%code, mask=done%number > 0))
-   end subroutine run_study
+      if (.not. allocated(error)) &
+         exit_code = max(exit_ok, maxval(done%code, mask=done%number > 0))
+   end subroutine run_part
+
+   !> Run a study by groups of ranks, each a part; the first rank gathers them
+   subroutine run_by_groups(command, exit_code, error)
+      !> Table, deck and options; `n_processes` groups, or every rank by itself
+      type(command_type), intent(in) :: command
+      !> Largest exit code of all rows
+      integer, intent(out) :: exit_code
+      !> Errors of deck, table or files; the program is to end; on the first rank only
+      type(error_type), allocatable, intent(out) :: error
+
+      type(command_type) :: own
+      class(team_type), allocatable :: group
+      real(wp) :: code(1)
+      integer :: n
+
+      exit_code = exit_ok
+      associate (team => command%options%team)
+         n = team%size
+         if (command%n_processes > 1) n = min(n, command%n_processes)
+         call team%split(team%rank*n/team%size, group)
+         own = command
+         own%n_processes = 1
+         own%quiet = own%quiet .or. n > 1
+         own%part = part_type(team%rank*n/team%size + 1, n)
+         deallocate (own%options%team)
+         if (group%size > 1) allocate (own%options%team, source=group)
+         call run_part(own, exit_code, error)
+         call team%agree(error)
+         if (.not. allocated(error) .and. team%rank == 0) then
+            own = command
+            own%n_processes = 1
+            own%part = part_type(0, n)
+            deallocate (own%options%team)
+            call run_part(own, exit_code, error)
+         end if
+         call team%agree(error)
+         if (allocated(error)) exit_code = error%code
+         code = real(exit_code, wp)
+         call team%broadcast(code, size(code, kind=i8), 0)
+         exit_code = nint(code(1))
+         if (team%rank > 0 .and. allocated(error)) deallocate (error)  ! the first rank says why
+      end associate
+   end subroutine run_by_groups
+
+   !> Agree on an error, if there is a team
+   subroutine agree(command, error)
+      !> Options
+      type(command_type), intent(in) :: command
+      !> Error of this rank; then of all
+      type(error_type), allocatable, intent(inout) :: error
+
+      if (allocated(command%options%team)) call command%options%team%agree(error)
+   end subroutine agree
 
    !> Names that a study, or a part of it, must have for itself: who gathers parts waits for none
    !> that is under way
@@ -128,8 +202,8 @@ contains
       study%key = program_version//new_line('a')//deck_text(study%rows%source)//new_line('a')// &
          deck_text(study%table%source)//merge('estimates', '         ', command%estimates)
       if (command%options%solver_given) study%key = study%key//command%options%solver%name
-      study%rows%progress%logged = command%verbose
-      study%rows%progress%enabled = error_output_is_terminal() .and. &
+      study%rows%progress%logged = command%verbose .and. speaks(command)
+      study%rows%progress%enabled = error_output_is_terminal() .and. speaks(command) .and. &
                                     .not. (command%quiet .or. command%verbose)
    end subroutine begin_study
 
@@ -153,8 +227,10 @@ contains
       call system_clock(start, rate)
       order = row_order(study%table, study%rows%keeps_structure)
       allocate (done(size(order)))
-      call find_done(command, study, journal, done, n_before, error)
+      if (speaks(command)) call find_done(command, study, journal, done, n_before, error)
+      call agree(command, error)
       if (allocated(error)) return
+      if (allocated(command%options%team)) call share_done(command%options%team, done)
       last = last_row(command%part, size(order))
       n_shown = 0
       if (command%n_processes > 1 .and. any(done%number == 0)) then
@@ -175,9 +251,12 @@ contains
          call check_stop(error)
          if (.not. allocated(error)) &
             call solve_row(study%table, order(i), study%rows, done(order(i)), error)
-         if (.not. allocated(error)) call append_row(journal, done(order(i)), error)
+         if (.not. allocated(error) .and. speaks(command)) &
+            call append_row(journal, done(order(i)), error)
+         call agree(command, error)
          if (allocated(error)) return
-         if (.not. command%quiet) call tell_row(study, done(order(i)), n_shown)
+         if (.not. command%quiet .and. speaks(command)) &
+            call tell_row(study, done(order(i)), n_shown)
       end do
       call system_clock(now)
       if (command%part%number == 0) then
@@ -189,9 +268,27 @@ contains
             size(study%names), command%part%n)
       end if
       call clear_progress(study%rows%progress)
-      if (.not. command%quiet) &
+      if (.not. command%quiet .and. speaks(command)) &
          call tell_end(command, study, done, n_before, real(now - start, wp)/rate)
    end subroutine solve_rows
+
+   !> Let all ranks know which rows are done
+   subroutine share_done(team, done)
+      !> The team
+      class(team_type), intent(in) :: team
+      !> Rows by number; those that are done are there on the first rank
+      type(row_type), intent(inout) :: done(:)
+
+      real(wp) :: known(2, size(done))
+      integer :: k
+
+      do k = 1, size(done)
+         known(:, k) = [real(done(k)%number, wp), real(done(k)%code, wp)]
+      end do
+      call team%broadcast(known, size(known, kind=i8), 0)
+      done%number = nint(known(1, :))
+      done%code = nint(known(2, :))
+   end subroutine share_done
 
    !> Find the rows that are done already, and say so
    subroutine find_done(command, study, journal, done, n_before, error)
@@ -226,8 +323,9 @@ contains
          if (len(put_aside) > 0) &
             write (error_unit, '(a)') 'axijoint: the rows of another study '// &
             'of this name, deck or table changed, are '//put_aside//' now'
-         if (n_before > 0 .and. .not. command%quiet) write (error_unit, '(a)') 'axijoint: '// &
-            count_of(n_before, 'row')//' of '//to_text(size(done))//' were done before'
+         ! rows of parts are no surprise to who gathers them
+         if (n_before > 0 .and. .not. (command%quiet .or. part%n > 0 .and. part%number == 0)) &
+            write (error_unit, '(a)') 'axijoint: '//count_of(n_before, 'row')//' of '//to_text(size(done))//' were done before'
       end associate
    end subroutine find_done
 
@@ -295,6 +393,8 @@ contains
          means = to_text(command%n_processes)//' processes'
       else
          means = count_of(study%rows%n_structures, 'structure')
+         if (command%part%number == 0 .and. command%part%n > 0) &
+            means = means//', the others by '//to_text(command%part%n)//' parts'
       end if
       write (output_unit, '(a)') 'study                 '//count_of(n, 'row')//', '// &
          to_text(n - n_before)//' solved now with '//means, &

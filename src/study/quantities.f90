@@ -122,26 +122,31 @@ contains
       type(results_type), intent(in) :: results
 
       real(wp), parameter :: step = pi/12.0_wp
-      real(wp), allocatable :: stress(:, :)
-      real(wp) :: angle
-      integer :: j, k, n
+      !> Points that are looked at together: a fast memory has room for them
+      integer, parameter :: portion = 128
+      real(wp) :: all_there(6, portion), angle
+      integer :: first, last, j, k, n
 
       n = 12
       if (any(results%modes%family /= results%modes(1)%family)) n = 23
       largest = 0.0_wp
-      allocate (stress(6, size(results%stress, 2)))
-      do j = 0, n
-         angle = j*step
-         stress = 0.0_wp
-         do k = 1, size(results%modes)
-            stress(:4, :) = stress(:4, :) + meridional(results%modes(k), angle) &
-               *results%stress(:4, :, k)
-            stress(5:, :) = stress(5:, :) + circumferential(results%modes(k), angle) &
-               *results%stress(5:, :, k)
-         end do
-         largest = max(largest, maxval(0.5_wp*((stress(1, :) - stress(2, :))**2 + &
-            (stress(2, :) - stress(3, :))**2 + (stress(3, :) - stress(1, :))**2) + &
-            3.0_wp*sum(stress(4:, :)**2, 1)))
+      do first = 1, size(results%stress, 2), portion
+         last = min(first + portion - 1, size(results%stress, 2))
+         associate (stress => all_there(:, :last - first + 1))
+            do j = 0, n
+               angle = j*step
+               stress = 0.0_wp
+               do k = 1, size(results%modes)
+                  stress(:4, :) = stress(:4, :) + meridional(results%modes(k), angle) &
+                     *results%stress(:4, first:last, k)
+                  stress(5:, :) = stress(5:, :) + circumferential(results%modes(k), angle) &
+                     *results%stress(5:, first:last, k)
+               end do
+               largest = max(largest, maxval(0.5_wp*((stress(1, :) - stress(2, :))**2 + &
+                  (stress(2, :) - stress(3, :))**2 + (stress(3, :) - stress(1, :))**2) + &
+                  3.0_wp*sum(stress(4:, :)**2, 1)))
+            end do
+         end associate
       end do
       largest = sqrt(largest)
    end function largest_mises

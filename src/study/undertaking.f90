@@ -26,7 +26,7 @@ module axijoint_study_undertaking
 contains
 
    !> Take a name, and heed signals and its STOP file from now on
-   subroutine begin_undertaking(directory, name, claimed, purpose, undertaking, notes, error)
+   subroutine begin_undertaking(directory, name, claimed, purpose, heeds, undertaking, notes, error)
       !> Directory, made if it is not there
       character(len=*), intent(in) :: directory
       !> Name of the files without ending
@@ -35,6 +35,8 @@ contains
       character(len=*), intent(in) :: claimed(:)
       !> What it is, a line that others are told
       character(len=*), intent(in) :: purpose
+      !> Whether signals and the STOP file end it: one of several processes would leave the others
+      logical, intent(in) :: heeds
       !> What is under way
       type(undertaking_type), intent(out) :: undertaking
       !> What was found and done, a line each; may be empty
@@ -48,7 +50,7 @@ contains
       undertaking%directory = directory
       undertaking%name = name
       undertaking%stem = join_path(directory, name)
-      call heed_signals()
+      if (heeds) call heed_signals()
       call make_directories(directory, errno)
       if (errno /= 0) then
          call io_error(error, 'make', directory, errno)
@@ -57,7 +59,7 @@ contains
       call claim_names(directory, claimed, purpose, undertaking%claim, notes, error)
       if (allocated(error)) return
       call unlink_path(undertaking%stem//stop_ending, errno)  ! of an earlier one
-      call heed_file(undertaking%stem//stop_ending)
+      if (heeds) call heed_file(undertaking%stem//stop_ending)
    end subroutine begin_undertaking
 
    !> Give the name back; an end before its time says how to go on

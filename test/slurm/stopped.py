@@ -17,7 +17,7 @@ class History:
     def __init__(self, program, folder):
         self.folder, self.count = folder, 40
         took = self.run(program)
-        self.count = min(2000, int(self.count*5/took))
+        self.count = min(4000, int(self.count*12/took))
         self.run(program)
 
     def text(self):
@@ -111,7 +111,7 @@ def study_warned(place):
     place.cluster.finish(array, gather)
     text = place.output(array)
     faults = [f'{words!r} is not said' for words in ('stopped by SIGUSR1', 'The job goes back to the queue',
-                                                     'rows of 400 stand in') if words not in text]
+                                                     'rows of 400 were done before') if words not in text]
     if '400 rows, 0 solved now' not in place.output(gather):
         faults.append('the last job has not waited')
     place.program.run('study', 'states.csv', deck, '-o', 'whole', folder=place.folder, time_limit=300)

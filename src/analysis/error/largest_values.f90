@@ -11,6 +11,8 @@ module axijoint_analysis_error_largest_values
 
    !> Most angles at which it is looked for
    integer, parameter :: most_angles = 64
+   !> Nodes that are looked at together: a fast memory has room for them
+   integer, parameter :: portion = 256
 
 contains
 
@@ -21,21 +23,28 @@ contains
       !> Displacement amplitudes, shape (3, nodes, modes)
       real(wp), intent(in) :: amplitude(:, :, :)
 
-      real(wp), allocatable :: total(:, :)
-      real(wp) :: angle
-      integer :: j, k, n
+      real(wp) :: total(3, portion), angle
+      integer :: first, last, j, k, n, n_angles
 
-      allocate (total(3, size(amplitude, 2)))
       n = min(4*(maxval(modes%harmonic) + 1), most_angles)
+      n_angles = n
+      if (all(modes%family == modes(1)%family)) n_angles = n/2 + 1  ! the other half mirrors this one
       largest = 0.0_wp
-      do j = 0, n - 1
-         angle = 2.0_wp*pi*j/n
-         total = 0.0_wp
-         do k = 1, size(modes)
-            total(:2, :) = total(:2, :) + meridional(modes(k), angle)*amplitude(:2, :, k)
-            total(3, :) = total(3, :) + circumferential(modes(k), angle)*amplitude(3, :, k)
-         end do
-         largest = max(largest, maxval(sum(total**2, 1)))
+      do first = 1, size(amplitude, 2), portion
+         last = min(first + portion - 1, size(amplitude, 2))
+         associate (there => total(:, :last - first + 1))
+            do j = 0, n_angles - 1
+               angle = 2.0_wp*pi*j/n
+               there = 0.0_wp
+               do k = 1, size(modes)
+                  there(:2, :) = there(:2, :) + meridional(modes(k), angle) &
+                     *amplitude(:2, first:last, k)
+                  there(3, :) = there(3, :) + circumferential(modes(k), angle) &
+                     *amplitude(3, first:last, k)
+               end do
+               largest = max(largest, maxval(sum(there**2, 1)))
+            end do
+         end associate
       end do
       largest = sqrt(largest)
    end function largest_vector
