@@ -11,7 +11,7 @@ module axijoint_model_request
    public :: print_type, print_names, usual_rows
    public :: print_deck, print_nodes, print_elements, print_joints, print_loads, print_path, &
       print_amplitude, print_totals, print_stresses, print_nodal, print_states, print_reactions, &
-      print_all
+      print_orders, print_all
    public :: rows_all, rows_every, rows_upto, rows_none, rows_names
    public :: goal_joints, goal_displacement, goal_energy, goal_names
 
@@ -70,14 +70,14 @@ module axijoint_model_request
 
    !> Tables of the listing that grow with the job: deck, mesh, loads, convergence path, amplitudes
    !> of displacement, totals at angles, stresses at Gauss points and nodes, joint points on planes,
-   !> reactions; all of them
+   !> reactions; orders of the nodes side by side, whose rows are the nodes; all of them
    integer, parameter :: print_deck = 1, print_nodes = 2, print_elements = 3, print_joints = 4, &
       print_loads = 5, print_path = 6, print_amplitude = 7, print_totals = 8, print_stresses = 9, &
-      print_nodal = 10, print_states = 11, print_reactions = 12, print_all = 13
+      print_nodal = 10, print_states = 11, print_reactions = 12, print_orders = 13, print_all = 14
    !> Their names on cards: no keywords, which cards of data must not begin with
    character(len=10), parameter :: print_names(print_all) = [character(len=10) :: 'DECK', &
       'COORDS', 'INCIDENCE', 'JOINTNODES', 'LOADS', 'PATH', 'AMPLITUDE', 'TOTALS', 'STRESSES', &
-      'NODAL', 'STATES', 'REACTIONS', 'TABLES']
+      'NODAL', 'STATES', 'REACTIONS', 'ORDERS', 'TABLES']
    !> Rows of a table that are listed: all, every n-th, all if they are n at most, none
    integer, parameter :: rows_all = 1, rows_every = 2, rows_upto = 3, rows_none = 4
    !> Their names on cards

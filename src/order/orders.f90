@@ -13,14 +13,14 @@ module axijoint_order_orders
    type :: orders_type
       !> Graph of the nodes
       type(graph_type) :: graph
-      !> Reverse Cuthill-McKee, Sloan, nested dissection
+      !> Reverse Cuthill-McKee, Sloan, nested dissection; Sloan's may be left out
       integer, allocatable :: cuthill_mckee(:), sloan(:), dissection(:)
    end type orders_type
 
 contains
 
    !> Order the nodes in every way
-   subroutine new_orders(orders, graph, last, error)
+   subroutine new_orders(orders, graph, last, error, by_sloan)
       !> The orders
       type(orders_type), intent(out) :: orders
       !> Graph of the nodes
@@ -30,10 +30,16 @@ contains
       logical, intent(in), optional :: last(:)
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
+      !> Whether Sloan's order is wanted; true if absent
+      logical, intent(in), optional :: by_sloan
 
+      logical :: wanted
+
+      wanted = .true.
+      if (present(by_sloan)) wanted = by_sloan
       orders%graph = graph
       call reverse_cuthill_mckee(graph, orders%cuthill_mckee)
-      call sloan(graph, orders%sloan)
+      if (wanted) call sloan(graph, orders%sloan)
       if (present(last)) then
          associate (k => orders%cuthill_mckee)
             call nested_dissection(graph, orders%dissection, pack(k, last(k)), error)

@@ -103,7 +103,25 @@ def long_tables(program, folder):
     return faults
 
 
+def orders(program, folder):
+    """Orders of the nodes: all side by side for so few nodes, else that of the solver, with the same figures"""
+    def rows(text):
+        table = text.split('order of the nodes')[1].split('harmonic')[0]
+        return [line.strip() for line in table.split('\n')[1:-1]]
+
+    whole = rows(run(program, folder, 'whole'))
+    faults = expected('orders', ['reverse Cuthill-McKee', 'Sloan', 'nested dissection'],
+                      [re.split(r'  +', row)[0] for row in whole])
+    for solver, place in (('SPARSE', 2), ('BAND', 0), ('SKYLINE', 1)):
+        for name, cards, wanted in (('none', ' ORDERS, NONE\n', [whole[place]]), ('few', ' ORDERS, UPTO, 20\n', [whole[place]]),
+                                    ('all', ' ORDERS, ALL\n', whole)):
+            deck = input_deck('first.dat').replace('\nEND\n', f'\nPRINT\n{cards}END\n')
+            ran = program.run('run', write(folder, f'{name}.dat', deck), '-o', folder, '--solver', solver)
+            faults += ran.ended_with(0) + expected(f'{solver}, {name}', wanted, rows(read_text(os.path.join(folder, f'{name}.lis'))))
+    return faults
+
+
 def tests(program):
     """The tests of this module"""
     return [Test(f'print: {name}', lambda folder, check=check: check(program, folder)) for name, check in {
-        'rows': chosen_rows, 'extremes': extremes, 'none': no_table, 'long tables': long_tables}.items()]
+        'rows': chosen_rows, 'extremes': extremes, 'none': no_table, 'long tables': long_tables, 'orders': orders}.items()]

@@ -25,8 +25,10 @@ module axijoint_analysis_core_structure
    use axijoint_model_model, only : model_type, can_yield, can_yield_at, yielding_nodes, &
       bodies_yield
    use axijoint_model_modes, only : used_modes
-   use axijoint_order_graph, only : bandwidth, profile, fill
-   use axijoint_order_orders, only : orders_type, new_orders
+   use axijoint_model_mesh, only : n_nodes
+   use axijoint_model_request, only : print_orders, rows_expected
+   use axijoint_order_graph, only : graph_type, bandwidth, profile, fill
+   use axijoint_order_orders, only : orders_type, new_orders, least_profile
    use omp_lib, only : omp_get_max_threads
    implicit none
    private
@@ -154,6 +156,7 @@ contains
 
       type(orders_type) :: orders
       type(footprint_type) :: others
+      logical :: compared
 
       structure%joint_points = new_joint_points(model)
       structure%support_points = new_support_points(model)
@@ -165,11 +168,19 @@ contains
                            structure%modes, error)
       if (allocated(error)) return
       call show_progress(progress, 'assembling '//to_text(size(structure%modes))//' modes')
-      call new_orders(orders, node_graph(model%mesh), yielding_nodes(model), error)
+      compared = rows_expected(model%print, print_orders, real(n_nodes(model%mesh), wp)) > 0.0_wp
+      call new_orders(orders, node_graph(model%mesh), yielding_nodes(model), error, &
+         compared .or. needs_sloan(model))
       if (allocated(error)) return
-      structure%orderings = compare_orders(orders)
       call plan_equations(structure%equations, model, structure%modes, orders, error)
       if (allocated(error)) return
+      if (compared) then
+         structure%orderings = compare_orders(orders)
+      else
+         associate (solver => structure%equations%solver)
+            structure%orderings = [measured(solver%order_name, orders%graph, solver%order(orders))]
+         end associate
+      end if
       call check_stop(error)
       if (allocated(error)) return
       others = data_footprint(model, size(structure%modes), &
@@ -195,18 +206,33 @@ contains
       !> Reverse Cuthill-McKee, Sloan, nested dissection
       type(ordering_type) :: orderings(3)
 
-      associate (graph => orders%graph)
-         orderings = [ordering_type('reverse Cuthill-McKee', &
-                                    bandwidth(graph, orders%cuthill_mckee), &
-                                    profile(graph, orders%cuthill_mckee), &
-                                    fill(graph, orders%cuthill_mckee)), &
-                      ordering_type('Sloan', bandwidth(graph, orders%sloan), &
-                                    profile(graph, orders%sloan), &
-                                    fill(graph, orders%sloan)), &
-                      ordering_type('nested dissection', bandwidth(graph, orders%dissection), &
-                                    profile(graph, orders%dissection), &
-                                    fill(graph, orders%dissection))]
-      end associate
+      orderings = [measured('reverse Cuthill-McKee', orders%graph, orders%cuthill_mckee), &
+                   measured('Sloan', orders%graph, orders%sloan), &
+                   measured('nested dissection', orders%graph, orders%dissection)]
    end function compare_orders
+
+   !> Bandwidth, profile and fill of an order
+   pure function measured(name, graph, order) result(ordering)
+      !> Its name
+      character(len=*), intent(in) :: name
+      !> Graph of the nodes
+      type(graph_type), intent(in) :: graph
+      !> order(k) is the k-th node
+      integer, intent(in) :: order(:)
+      !> The figures
+      type(ordering_type) :: ordering
+
+      ordering = ordering_type(name(:scan(name//'(', '(,') - 1), bandwidth(graph, order), profile(graph, order), &
+         fill(graph, order))
+   end function measured
+
+   !> Whether the solver of a job needs Sloan's order
+   logical function needs_sloan(model)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      needs_sloan = .false.
+      if (allocated(model%solver)) needs_sloan = associated(model%solver%order, least_profile)
+   end function needs_sloan
 
 end module axijoint_analysis_core_structure

@@ -9,7 +9,7 @@ module axijoint_deck_section_print
    use axijoint_deck_text_field, only : integer_field, real_field, word_field, described, &
       largest_number
    use axijoint_model_request, only : print_type, print_names, print_deck, print_loads, &
-      print_path, rows_names, rows_every, rows_upto, rows_none, usual_rows
+      print_path, print_orders, rows_names, rows_every, rows_upto, rows_none, usual_rows
    implicit none
    private
    public :: print_section
@@ -36,7 +36,8 @@ contains
          [described(word_field('the table', 1, 10, print_names), &
                     'table: DECK; COORDS, INCIDENCE, JOINTNODES of the mesh; LOADS; PATH of '// &
                     'iterations; AMPLITUDE, TOTALS of displacements; STRESSES at Gauss points; '// &
-                    'NODAL ones; STATES of joints; REACTIONS; all TABLES'), &
+                    'NODAL ones; STATES of joints; REACTIONS; ORDERS of the nodes side by side; '// &
+                    'all TABLES'), &
           described(word_field('the rows', 11, 20, rows_names), &
                     'its rows', &
                     limits='ALL, EVERY n-th, UPTO n: all if they are so many at most, NONE'), &
@@ -136,7 +137,7 @@ contains
 
       do field = field_body, field_window + 3
          if (.not. is_given(card, field)) cycle
-         if (any(wanted%what == [print_deck, print_loads, print_path])) then
+         if (any(wanted%what == [print_deck, print_loads, print_path, print_orders])) then
             call field_fault(card, field, 'rows of '//trim(print_names(wanted%what))// &
                              ' have no place', mend='leave the field blank')
             return
