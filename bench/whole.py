@@ -1,0 +1,188 @@
+"""Whole runs: what of their time is the analysis, assembly, factorization and one solution that nobody can do without, and what
+is all the rest; a history with joints beside its elastic analysis; and both beside earlier commits. See scripts/bench."""
+import argparse
+import csv
+import json
+import os
+import re
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+
+import estimate_decks
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+RECORD = os.path.join(HERE, "history.csv")
+COLUMNS = ("processor", "commit", "threads", "job", "unknowns", "processor_seconds", "seconds", "error_percent", "load")
+PHASES = ("read", "assemble", "factor", "joints", "recover", "write")
+
+
+def linear(across, along):
+    """A body held below, with tractions of two harmonics above: 8-node elements"""
+    return estimate_decks.solid(0.0, 3.0, 4.0, across, along, [0, 1], nodes=8)
+
+
+def case3(factor):
+    """The paper's case 3, finer by a factor"""
+    return estimate_decks.finer(estimate_decks.inputs("case3_balanced"), factor)
+
+
+def monopile(factor, elastic=False):
+    """A pile with weight, stress of the ground before it, gap and friction, pushed and half let go; or its elastic analysis,
+    all loads at once on joints that neither open nor slip"""
+    text = estimate_decks.finer(estimate_decks.with_harmonics(estimate_decks.inputs("monopile"), 8, 33), factor)
+    if elastic:
+        text = re.sub(r"^(LAWS.*\n +1 +100.0 +200.0 +100.0) +0.0 +26.0$", r"\1" + " "*20 + "ELASTIC", text, flags=re.MULTILINE)
+        text = re.sub(r"^(LAWDETAILS|INCREMENTS).*\n(?: .*\n)+", "", text, flags=re.MULTILINE)
+    return text
+
+
+JOBS = {"linear 10k": lambda: linear(30, 37), "linear 30k": lambda: linear(50, 67), "linear 100k": lambda: linear(90, 123),
+        "linear 300k": lambda: linear(160, 208), "linear 1M": lambda: linear(290, 382),
+        **{f"case 3, {n} times": lambda n=n: case3(n) for n in (1, 2, 4, 8)}}
+HISTORIES = {f"monopile, {n} times": lambda n=n: (monopile(n), monopile(n, True)) for n in (1, 2, 3)}
+
+
+class Run:
+    """A job that is run some times: medians of its times, and what its summary says"""
+
+    def __init__(self, program, text, rounds):
+        times, clocks, phases = [], [], []
+        with tempfile.TemporaryDirectory() as folder:
+            deck = os.path.join(folder, "job.dat")
+            with open(deck, "w", encoding="utf-8") as file:
+                file.write(text)
+            for _ in range(rounds):
+                before = resource.getrusage(resource.RUSAGE_CHILDREN)
+                done = subprocess.run([program, "run", deck, "-o", folder, "--quiet"], check=False, capture_output=True, text=True)
+                after = resource.getrusage(resource.RUSAGE_CHILDREN)
+                if done.returncode:
+                    raise SystemExit(f"exit code {done.returncode}: {done.stderr}")
+                with open(deck[:-4] + ".json", encoding="utf-8") as file:
+                    self.summary = json.load(file)
+                times.append(after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime)
+                clocks.append(self.summary["seconds"]["total"])
+                phases.append([*(self.summary["seconds"][name] for name in PHASES), sum(self.summary["error_seconds"].values())])
+        self.processor, self.clock = statistics.median(times), statistics.median(clocks)
+        *self.phases, self.estimates = (statistics.median(column) for column in zip(*phases))
+        self.unknowns = self.summary["unknowns"]
+        errors = self.summary.get("errors") or {}
+        total = errors.get("sum", {}) if isinstance(errors, dict) else {}
+        self.error = 100*(total.get("displacement") or 0.0)
+        self.iterations = self.summary["iterations"]
+
+    def needed(self):
+        """Seconds of assembling, with orders and analysis, factorization and solution, without estimates of errors"""
+        return sum(self.phases[1:4]) - self.estimates
+
+
+def processor():
+    """The make of the processor"""
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        names = [line.split(":")[1].strip() for line in file if line.startswith("model name")]
+    return names[0] if names else "unknown"
+
+
+def commit():
+    """The commit, with a plus if files were changed since"""
+    short = subprocess.run(["git", "-C", HERE, "describe", "--always", "--dirty=+"], check=False, capture_output=True, text=True)
+    return short.stdout.strip() or "unknown"
+
+
+def threads():
+    """Threads that runs may take"""
+    return os.environ.get("OMP_NUM_THREADS") or str(os.cpu_count())
+
+
+def record(rows):
+    """Append lines of jobs"""
+    new = not os.path.exists(RECORD)
+    with open(RECORD, "a", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        if new:
+            writer.writerow(COLUMNS)
+        for job, run in rows:
+            writer.writerow([processor(), commit(), threads(), job, run.unknowns, f"{run.processor:.3f}", f"{run.clock:.3f}",
+                             f"{run.error:.3g}", f"{os.getloadavg()[0]:.1f}"])
+
+
+def head():
+    """What the figures are of"""
+    print(f"{processor()}, {threads()} threads, load average {os.getloadavg()[0]:.1f}, commit {commit()}")
+
+
+def whole(args):
+    """Linear jobs and case 3: shares of the phases, and the whole over what is needed"""
+    head()
+    print(f"{'job':16} {'unknowns':>9} {'seconds':>8} {'processor':>9} " + " ".join(f"{name:>8}" for name in PHASES)
+          + "  estimates  whole/needed  estimated error")
+    rows = []
+    for job, make in JOBS.items():
+        if args.quick and job in ("linear 300k", "linear 1M", "case 3, 8 times") or not args.full and job == "linear 1M":
+            continue
+        run = Run(args.axijoint, make(), args.rounds)
+        rows.append((job, run))
+        print(f"{job:16} {run.unknowns:9} {run.clock:8.3f} {run.processor:9.3f} "
+              + " ".join(f"{100*part/run.clock:7.1f}%" for part in run.phases)
+              + f"  {100*run.estimates/run.clock:8.1f}%  {run.clock/max(run.needed(), 1e-9):12.2f}  {run.error:.3g} %", flush=True)
+    return rows
+
+
+def history(args):
+    """Histories with joints beside their elastic analyses"""
+    head()
+    print(f"{'job':18} {'unknowns':>9} {'iterations':>10} {'seconds':>8} {'processor':>9} {'elastic':>8} {'ratio':>6}  estimated error")
+    rows = []
+    for job, make in HISTORIES.items():
+        if args.quick and job != "monopile, 1 times":
+            continue
+        run, elastic = (Run(args.axijoint, text, args.rounds) for text in make())
+        rows.append((job, run))
+        print(f"{job:18} {run.unknowns:9} {run.iterations:10} {run.clock:8.3f} {run.processor:9.3f} {elastic.processor:8.3f} "
+              f"{run.processor/elastic.processor:6.2f}  {run.error:.3g} %", flush=True)
+    return rows
+
+
+def check(args):
+    """Some jobs beside the last line of the same make of processor and number of threads"""
+    head()
+    if not os.path.exists(RECORD):
+        raise SystemExit("there is no bench/history.csv yet: scripts/bench whole --record writes it")
+    with open(RECORD, encoding="utf-8") as file:
+        last = {row["job"]: row for row in csv.DictReader(file)
+                if row["processor"] == processor() and row["threads"] == threads()}
+    if not last:
+        raise SystemExit("bench/history.csv has no line of this make and number of threads yet: scripts/bench whole --record")
+    print(f"{'job':18} {'processor':>9} {'before':>8} {'ratio':>6}  estimated error, before  commit")
+    for job, make in {**JOBS, **HISTORIES}.items():
+        if job not in last or args.quick and float(last[job]["processor_seconds"]) > 3.0:
+            continue
+        text = make()
+        run = Run(args.axijoint, text if isinstance(text, str) else text[0], args.rounds)
+        before = last[job]
+        print(f"{job:18} {run.processor:9.3f} {float(before['processor_seconds']):8.3f} "
+              f"{run.processor/float(before['processor_seconds']):6.2f}  {run.error:.3g} %, {before['error_percent']} %  {before['commit']}",
+              flush=True)
+    return []
+
+
+def main():
+    """The command"""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("question", choices=("whole", "history", "check"))
+    parser.add_argument("--axijoint", required=True)
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--full", action="store_true")
+    parser.add_argument("--record", action="store_true")
+    args = parser.parse_args()
+    args.rounds = 3 if args.quick else 5
+    rows = {"whole": whole, "history": history, "check": check}[args.question](args)
+    if args.record:
+        record(rows)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
