@@ -31,7 +31,7 @@ import resumed
 from mutate import DECK_KEYWORD, MESH_KEYWORD, bytes_changed, text_changed
 from support import CRASH, INPUTS, Program, preload, python_with, read_bytes, write
 
-PORTION, HANGS = 100, 60
+PORTION, HANGS = 100, 180
 # Words that are not the program's
 RAW = re.compile(CRASH.pattern + r'|HDF5-DIAG|rror allocating|libgomp|OpenBLAS|AddressSanitizer|runtime error')
 # Accepted decks that are solved: so many of those accepted, of at most so many nodes
