@@ -322,6 +322,10 @@ contains
          end if
       case ('--format')
          command%formats = value
+      case ('--listing')
+         command%options%old_listing = lower(value) == 'owen-hinton'
+         if (.not. command%options%old_listing) &
+            call unknown('listing', value, [character(len=11) :: 'owen-hinton'], error)
       case ('--cases')
          command%cases = value
       case ('--study')

@@ -73,6 +73,8 @@ contains
           option_type('--solver', 'NAME', alternatives(solvers)//' (default: as the deck says)', &
                       takes_word, joined(solvers)), &
           threads, memory, legacy, formats, &
+          option_type('--listing', 'PROGRAM', 'NAME.owen-hinton.lis, too: the listing as that '// &
+                      'program prints it (harmonic 0, no joints)', takes_word, 'owen-hinton'), &
           option_type('--vtk', '', 'NAME.vtkhdf for ParaView, too (whole circle; SWEEP of the '// &
                       'deck says more)'), &
           option_type('--resume', '', 'go on from NAME.state, which a run that was stopped or '// &

@@ -31,6 +31,7 @@ module axijoint_deck_registry
    use axijoint_deck_section_moved_nodes, only : moved_nodes_section
    use axijoint_deck_section_node_temps, only : node_temps_section
    use axijoint_deck_section_nodes, only : nodes_section
+   use axijoint_deck_section_old_listing, only : old_listing_section
    use axijoint_deck_section_orthotropic, only : orthotropic_section
    use axijoint_deck_section_output, only : output_section
    use axijoint_deck_section_points, only : points_section
@@ -64,7 +65,7 @@ contains
       integer :: n
 
       n = 0
-      allocate (sections(49))
+      allocate (sections(50))
       call add(title_section())
       call add(control_section())
       call add(increments_section())
@@ -110,6 +111,7 @@ contains
       call add(points_section())
       call add(keep_section())
       call add(print_section())
+      call add(old_listing_section())
       call add(sweep_section())
       call add(error_section())
       call add(include_section())

@@ -166,7 +166,8 @@ contains
 
       n = 0
       do i = 1, size(model%increments) - 1
-         if (model%sweep%wanted .or. any(is_kept(model%keep, i, size(model%increments)))) n = n + 1
+         if (model%sweep%wanted .or. model%old_listing .or. &
+             any(is_kept(model%keep, i, size(model%increments)))) n = n + 1
       end do
    end function n_shown
 

@@ -31,6 +31,8 @@ module axijoint_job_job
       integer(i8) :: memory_limit = no_limit
       !> Whether the bodies are to be swept through theta, whatever the deck says
       logical :: swept = .false.
+      !> Whether a listing in an old layout is wanted, too
+      logical :: old_listing = .false.
       !> Processes that share the work; this one alone if there is none
       class(team_type), allocatable :: team
       !> Where values stand on the cards, if the deck is one of Owen and Hinton's program
@@ -99,6 +101,7 @@ contains
       if (allocated(options%team)) allocate (model%team, source=options%team)
       model%memory_limit = options%memory_limit
       model%sweep%wanted = model%sweep%wanted .or. options%swept
+      model%old_listing = options%old_listing
    end subroutine take_options
 
    !> What a deck is called in messages

@@ -174,9 +174,38 @@ contains
                increment%tolerance))//', '//to_text(max(500, increment%iterations)))
          end associate
       end do
+      call put_outputs(deck, new)
       call put(new, 'END')
       text = new%letters(:new%used)
    end subroutine write_deck
+
+   !> What the old program prints of increments: NOUTP of their last iterations. Stresses that it
+   !> prints are kept in the results file
+   subroutine put_outputs(deck, new)
+      !> The old deck
+      type(old_deck_type), intent(in) :: deck
+      !> The new one
+      type(text_type), intent(inout) :: new
+
+      integer, parameter :: stresses = 3
+      integer :: amount(deck%n_increments), k
+
+      amount = min(stresses, max(0, [(deck%increments(k)%output(2), k=1, size(amount))]))
+      call put(new, 'OLDLISTING')
+      call put(new, '! NOUTP of the last iterations: what --listing owen-hinton shows')
+      do k = 1, size(amount)
+         call put(new, to_text(amount(k))//', '//to_text(k))
+      end do
+      if (.not. any(amount(:size(amount) - 1) == stresses)) return
+      call put(new, 'KEEP')
+      if (all(amount == stresses)) then
+         call put(new, ' STRESSES, ALL')
+      else
+         do k = 1, size(amount)
+            if (amount(k) == stresses) call put(new, ' STRESSES, ONLY, '//to_text(k))
+         end do
+      end if
+   end subroutine put_outputs
 
    !> Card of YIELD. Where hardening adds to the uniaxial yield stress of TRESCA and MISES, it adds to
    !> c cos(phi) of MOHR and to 6 c cos(phi)/(sqrt(3) (3 - sin(phi))) of DRUCKER there

@@ -99,6 +99,10 @@ module axijoint_model_model
       type(keep_type) :: keep(size(keep_names))
       !> Rows of long tables of the listing that are wanted, as the deck says
       type(print_type), allocatable :: print(:)
+      !> Whether a listing in an old layout is wanted, too, and what it shows of each increment,
+      !> NOUTP; all if not allocated
+      logical :: old_listing = .false.
+      integer, allocatable :: old_output(:)
       !> Cuts whose resultants are listed
       type(cut_type), allocatable :: cuts(:)
       !> Range of theta that the bodies are swept through

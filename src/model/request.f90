@@ -13,6 +13,7 @@ module axijoint_model_request
       print_amplitude, print_totals, print_stresses, print_nodal, print_states, print_reactions, &
       print_orders, print_all
    public :: rows_all, rows_every, rows_upto, rows_none, rows_names
+   public :: old_output, most_output
    public :: goal_joints, goal_displacement, goal_energy, goal_names
 
    !> What the error of a job may be asked of: of joint stress, of displacements, of the
@@ -97,6 +98,10 @@ module axijoint_model_request
       !> Least and largest r and z of their places
       real(wp) :: least(2) = -huge(1.0_wp), largest(2) = huge(1.0_wp)
    end type print_type
+
+   !> Most that a listing in an old layout shows of an increment: NOUTP 0 nothing, 1 displacements,
+   !> 2 reactions, too, 3 stresses, too
+   integer, parameter :: most_output = 3
 
    !> A point with a name, whose displacements are followed
    type :: point_type
@@ -200,6 +205,17 @@ contains
          is_kept = is_kept .or. any(keep%named == increment)
       end select
    end function is_kept
+
+   !> What a listing in an old layout shows of an increment, NOUTP; all unless the deck says less
+   pure integer function old_output(asked, increment)
+      !> What the deck says, one value an increment; nothing if absent
+      integer, intent(in), optional :: asked(:)
+      !> The increment
+      integer, intent(in) :: increment
+
+      old_output = most_output
+      if (present(asked)) old_output = asked(increment)
+   end function old_output
 
    !> What a deck says of a table of the listing, else of all tables, else what is usual
    pure function cards_about(print, what) result(cards)

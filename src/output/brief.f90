@@ -10,6 +10,7 @@ module axijoint_output_brief
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type
    use axijoint_output_file_headings, only : mark_not_converged
+   use axijoint_output_file_names, only : endings, files_of, file_arrays, file_listing, file_summary
    use axijoint_output_file_pending, only : join_path
    use axijoint_output_file_totals, only : peak_type, largest_displacement, largest_pressure, &
       count_states, n_unknowns
@@ -62,22 +63,27 @@ contains
          line("time, peak memory", seconds_text(job%timer%seconds(phase_total))//" s, "// &
          to_text(nint(peak_memory_mb()))//" MB")// &
          line("files", join_path(job%options%directory, result_name(job, results%combination))// &
-         ".lis .json .h5"//picture_endings(job%model))
+         ".lis .json .h5"//further_endings(job%model))
       text = text(:len(text) - 1)
    end function brief_text
 
-   !> Endings of the files of the swept bodies
-   pure function picture_endings(model) result(text)
+   !> Endings of the files that are not always there
+   pure function further_endings(model) result(text)
       !> The job
       type(model_type), intent(in) :: model
       !> Such as " .vtkhdf"
       character(len=:), allocatable :: text
 
+      integer, allocatable :: files(:)
+      integer :: k
+
       text = ""
-      if (.not. model%sweep%wanted) return
-      text = " .vtkhdf"
-      if (n_joints(model%mesh) > 0) text = text//" .joints.vtkhdf"
-   end function picture_endings
+      files = files_of(model)
+      do k = 1, size(files)
+         if (all(files(k) /= [file_listing, file_summary, file_arrays])) &
+            text = text//" "//trim(endings(files(k)))
+      end do
+   end function further_endings
 
    !> Converged, or how it failed
    pure function status_text(results) result(text)

@@ -14,6 +14,7 @@ module axijoint_output_increments
    use axijoint_output_file_hdf5, only : hdf5_file_type
    use axijoint_output_hdf5_history, only : history_fields_type, begin_history, put_history, &
       end_history, write_series
+   use axijoint_output_legacy_listing, only : old_listing_type, put_old_listing
    use axijoint_output_vtkhdf_bodies, only : bodies_type, put_bodies
    use axijoint_output_vtkhdf_joints, only : surfaces_type, put_surfaces
    implicit none
@@ -24,7 +25,8 @@ contains
 
    !> Find the fields of each increment, the last of which are the results, and hand them to all
    !> files
-   subroutine write_increments(job, results, arrays, bodies, surfaces, series, error)
+   subroutine write_increments(job, results, arrays, bodies, surfaces, &
+      old_listing, series, error)
       !> The job; its factors are used again
       type(job_type), intent(inout), target :: job
       !> Results of a combination
@@ -34,6 +36,8 @@ contains
       !> Swept bodies and joints, begun if they are wanted
       type(bodies_type), intent(inout) :: bodies
       type(surfaces_type), intent(inout) :: surfaces
+      !> Listing in an old layout, begun if it is wanted
+      type(old_listing_type), intent(inout) :: old_listing
       !> What is followed from increment to increment
       type(series_type), intent(out) :: series
       !> Out of memory
@@ -78,6 +82,7 @@ contains
             call put_history(arrays, model, results, i, now, fields)
             call put_bodies(bodies, now)
             call put_surfaces(surfaces, model, structure, results%states(i), now)
+            call put_old_listing(old_listing, model, results, i, now)
          end associate
       end subroutine put
 
@@ -110,7 +115,8 @@ contains
       !> The end of the increment, and of the last
       type(increment_state_type), intent(in) :: state, last
 
-      is_shown = any(is_kept(model%keep, state%increment, last%increment)) .or. model%sweep%wanted
+      is_shown = any(is_kept(model%keep, state%increment, last%increment)) .or. model%sweep%wanted &
+         .or. model%old_listing
    end function is_shown
 
 end module axijoint_output_increments

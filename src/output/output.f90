@@ -9,21 +9,23 @@ module axijoint_output_output
    use axijoint_base_system, only : process_id, path_kind, is_directory, same_file, path_absent, path_file, &
       path_directory, path_link, error_text, make_directories
    use axijoint_base_team, only : team_type, take_team
+   use axijoint_base_text, only : to_text
    use axijoint_deck_text_source, only : source_type, card_file
    use axijoint_job_combination, only : combination_label
    use axijoint_job_job, only : job_type, result_name
-   use axijoint_model_mesh, only : n_joints
-   use axijoint_model_model, only : model_type
    use axijoint_output_file_echo, only : deck_path
    use axijoint_output_file_hdf5, only : hdf5_file_type
    use axijoint_output_file_names, only : endings, file_arrays, file_listing, file_summary, &
-      file_bodies, file_joints, final_path, journal_ending, lock_ending
+      file_bodies, file_joints, file_old_listing, files_of, final_path, journal_ending, lock_ending
    use axijoint_output_file_pending, only : join_path
    use axijoint_output_file_run, only : run_type, new_run, exit_code_of
    use axijoint_output_file_set, only : commit_set
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_increments, only : write_increments, help_with_increments
    use axijoint_output_hdf5_results, only : write_results
+   use axijoint_output_legacy_fit, only : check_fit
+   use axijoint_output_legacy_listing, only : old_listing_type, begin_old_listing, &
+      end_old_listing
    use axijoint_output_listing_contents, only : write_listing
    use axijoint_output_listing_solution, only : convergence_text
    use axijoint_output_listing_sweep, only : picture_type, new_picture
@@ -47,24 +49,24 @@ contains
 
       integer :: k
 
+      if (job%model%old_listing) call check_fit(job%model, error)
       do k = 1, size(job%model%combinations)
-         call check_place(job%options%directory, result_name(job, combination_label(job, k)), &
-            job%source, &
-                          n_files(job%model), error)
          if (allocated(error)) return
+         call check_place(job%options%directory, result_name(job, combination_label(job, k)), &
+            job%source, files_of(job%model), error)
       end do
    end subroutine check_output
 
    !> The same for one combination
-   subroutine check_place(directory, name, source, n, error)
+   subroutine check_place(directory, name, source, files, error)
       !> Directory of the files
       character(len=*), intent(in) :: directory
       !> Their name
       character(len=*), intent(in) :: name
       !> Cards of the deck
       type(source_type), intent(in) :: source
-      !> Number of files, by their endings
-      integer, intent(in) :: n
+      !> The files, indices of their endings
+      integer, intent(in) :: files(:)
       !> What stands in the way
       type(error_type), allocatable, intent(out) :: error
 
@@ -72,9 +74,9 @@ contains
 
       call make_place(directory, error)
       if (allocated(error)) return
-      call check_names(directory, name, n, error)
+      call check_names(directory, name, files, error)
       if (allocated(error)) return
-      call spare_sources(directory, name, source, n, error)
+      call spare_sources(directory, name, source, files, error)
       if (allocated(error)) return
       call note_lock(join_path(directory, name//lock_ending), host_name(), process_id())
       call probe%open(final_path(directory, name, file_summary), error)
@@ -99,15 +101,15 @@ contains
    end subroutine make_place
 
    !> Refuse to write over the deck or a file that it includes
-   subroutine spare_sources(directory, name, source, n, error)
+   subroutine spare_sources(directory, name, source, files, error)
       !> Directory of the files
       character(len=*), intent(in) :: directory
       !> Name of the job
       character(len=*), intent(in) :: name
       !> Cards of the deck
       type(source_type), intent(in) :: source
-      !> Number of files, by their endings
-      integer, intent(in) :: n
+      !> The files, indices of their endings
+      integer, intent(in) :: files(:)
       !> The file in danger
       type(error_type), allocatable, intent(out) :: error
 
@@ -118,8 +120,8 @@ contains
       do card = 1, source%n_cards
          if (card_file(source, card) == file) cycle
          file = card_file(source, card)
-         do ending = 1, n
-            if (.not. same_file(final_path(directory, name, ending), file)) cycle
+         do ending = 1, size(files)
+            if (.not. same_file(final_path(directory, name, files(ending)), file)) cycle
             call fatal_error(error, exit_io, "the results would overwrite "//file// &
                ", a file of the deck"//new_line("a")// &
                "mend: another name for the deck, or another directory with -o")
@@ -169,13 +171,16 @@ contains
       type(hdf5_file_type) :: arrays
       type(bodies_type) :: bodies
       type(surfaces_type) :: surfaces
+      type(old_listing_type) :: old_listing
       type(series_type) :: series
       type(picture_type), allocatable :: pictures(:)
       type(text_file_type) :: listing, summary
       character(len=:), allocatable :: directory, name, warnings(:), messages(:)
+      integer, allocatable :: files(:)
       logical :: halfway
 
       directory = job%options%directory
+      files = files_of(job%model)
       name = result_name(job, results%combination)
       run = new_run(deck_path(job%source), exit_code_of(results))
       warnings = all_warnings(job%warnings, results%remarks)
@@ -185,11 +190,19 @@ contains
       call begin_arrays()
       call team%agree(error)
       if (.not. allocated(error)) then
-         call write_increments(job, results, arrays, bodies, surfaces, series, error)
+         call write_increments(job, results, arrays, bodies, surfaces, old_listing, &
+            series, error)
+      end if
+      if (old_listing%page%n_noted > 0) then
+         warnings = with_first(to_text(old_listing%page%n_noted)//' values have no room in the '// &
+            'fields of '//name//trim(endings(file_old_listing))//', which says at its end what '// &
+            'they are', warnings)
+         messages = with_first(warnings(1), messages)
       end if
       if (.not. allocated(error)) call arrays%finish(error)
       if (.not. allocated(error)) call end_bodies(bodies, results, error)
       if (.not. allocated(error)) call end_surfaces(surfaces, results, error)
+      if (.not. allocated(error)) call end_old_listing(old_listing, error)
       if (.not. allocated(error)) &
          call listing%open(final_path(directory, name, file_listing), error)
       if (.not. allocated(error)) then
@@ -204,32 +217,37 @@ contains
          call summary%finish(error)
       end if
 
-      if (.not. allocated(error)) call check_names(directory, name, n_files(job%model), error)
+      if (.not. allocated(error)) call check_names(directory, name, files, error)
       halfway = .false.
       if (.not. allocated(error)) call commit_set(directory, name//journal_ending, &
-         names_of_files(name, n_files(job%model)), halfway, error)
+         names_of_files(name, files), halfway, error)
       if (halfway) return
       call arrays%abandon()
       call bodies%file%abandon()
       call surfaces%file%abandon()
+      call old_listing%page%file%abandon()
       call listing%abandon()
       call summary%abandon()
 
    contains
 
-      !> The results file, and swept bodies and joints if they are wanted, up to what is written
-      !> increment by increment
+      !> The results file, swept bodies and joints and an old listing if they are wanted, up to what
+      !> is written increment by increment
       subroutine begin_arrays()
          call arrays%create(final_path(directory, name, file_arrays), error)
          if (allocated(error)) return
          call write_results(arrays, run, job%source, messages, job%model, results)
-         if (n_files(job%model) >= file_bodies) &
+         if (any(files == file_bodies)) &
             call begin_bodies(final_path(directory, name, file_bodies), run, job%model, results, &
                bodies, error)
          if (allocated(error)) return
-         if (n_files(job%model) >= file_joints) &
+         if (any(files == file_joints)) &
             call begin_surfaces(final_path(directory, name, file_joints), run, job%model, &
                job%structure, results, surfaces, error)
+         if (allocated(error)) return
+         if (any(files == file_old_listing)) &
+            call begin_old_listing(final_path(directory, name, file_old_listing), job%model, &
+               results, old_listing, error)
       end subroutine begin_arrays
 
    end subroutine write_files
@@ -286,31 +304,19 @@ contains
       texts(2:) = others
    end function with_first
 
-   !> Names of the files of a run, the summary last
-   pure function names_of_files(name, n) result(names)
+   !> Names of the files of a run
+   pure function names_of_files(name, files) result(names)
       !> Name of the job
       character(len=*), intent(in) :: name
-      !> Number of files, by their endings
-      integer, intent(in) :: n
+      !> The files, indices of their endings
+      integer, intent(in) :: files(:)
       !> The names
-      character(len=len(name) + len(endings)) :: names(n)
+      character(len=len(name) + len(endings)) :: names(size(files))
 
       integer :: k
 
-      do k = 1, n - 1
-         names(k) = name//endings(merge(k, k + 1, k < file_summary))
-      end do
-      names(n) = name//endings(file_summary)
+      names = [(name//endings(files(k)), k=1, size(files))]
    end function names_of_files
-
-   !> Number of files that a job writes, by their endings
-   pure integer function n_files(model)
-      !> The job
-      type(model_type), intent(in) :: model
-
-      n_files = file_summary
-      if (model%sweep%wanted) n_files = merge(file_joints, file_bodies, n_joints(model%mesh) > 0)
-   end function n_files
 
    !> Summary of a run that failed. Results of an earlier run stay untouched:
    !> nothing is written where its listing or arrays stand, or where another run is at work. A
@@ -339,7 +345,7 @@ contains
       if (same_file(final_path(directory, name, file_summary), deck)) return
       call make_place(directory, error)
       if (allocated(error)) return
-      call check_names(directory, name, file_summary, error)
+      call check_names(directory, name, [file_arrays, file_listing, file_summary], error)
       if (allocated(error)) return
       locked = .false.
       if (present(claimed)) locked = claimed
@@ -358,27 +364,27 @@ contains
 
    !> The final names are free or regular files: a link might lead anywhere,
    !> and a directory or device cannot be replaced
-   subroutine check_names(directory, name, n, error)
+   subroutine check_names(directory, name, files, error)
       !> Directory of the files
       character(len=*), intent(in) :: directory
       !> Name of the job
       character(len=*), intent(in) :: name
-      !> Number of files, by their endings
-      integer, intent(in) :: n
+      !> The files, indices of their endings
+      integer, intent(in) :: files(:)
       !> The name that is taken
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: found
       integer :: i, kind
 
-      do i = 1, n
-         kind = path_kind(final_path(directory, name, i))
+      do i = 1, size(files)
+         kind = path_kind(final_path(directory, name, files(i)))
          if (kind == path_absent .or. kind == path_file) cycle
          found = "is neither a file nor free"
          if (kind == path_link) found = "is a symbolic link"
          if (kind == path_directory) found = "is a directory"
          if (kind < 0) found = "cannot be reached: "//error_text(-kind)
-         call fatal_error(error, exit_io, final_path(directory, name, i)//" "//found// &
+         call fatal_error(error, exit_io, final_path(directory, name, files(i))//" "//found// &
             new_line("a")//"mend: move it away, or choose another directory with -o")
          return
       end do

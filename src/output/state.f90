@@ -13,7 +13,7 @@ module axijoint_output_state
    use axijoint_deck_text_source, only : source_type
    use axijoint_job_combination, only : combination_label
    use axijoint_job_job, only : job_type, job_name, result_name
-   use axijoint_output_file_names, only : endings, final_path, file_summary, state_ending
+   use axijoint_output_file_names, only : files_of, final_path, file_summary, state_ending
    use axijoint_output_file_pending, only : join_path
    implicit none
    private
@@ -229,16 +229,18 @@ contains
       character(len=:), allocatable :: digest
 
       character(len=:), allocatable :: summary
-      integer :: ending, errno
+      integer, allocatable :: files(:)
+      integer :: i, errno
 
+      files = files_of(job%model)
       associate (directory => job%options%directory, &
                  label => combination_label(job, k))
          call read_whole_file(final_path(directory, result_name(job, label), file_summary), &
             summary, errno)
          digest = sha256(summary)
-         do ending = 1, merge(size(endings), file_summary, job%model%sweep%wanted)
+         do i = 1, size(files)
             digest = digest//' '//to_text(file_size(final_path(directory, &
-               result_name(job, label), ending)))
+               result_name(job, label), files(i))))
          end do
       end associate
    end function digest_of

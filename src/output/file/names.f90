@@ -1,16 +1,19 @@
 !> Names of the files of a run
 module axijoint_output_file_names
+   use axijoint_model_mesh, only : n_joints
+   use axijoint_model_model, only : model_type
    use axijoint_output_file_pending, only : join_path
    implicit none
    private
-   public :: endings, file_arrays, file_listing, file_summary, file_bodies, file_joints
-   public :: final_path, journal_ending, lock_ending, state_ending, table_ending
+   public :: endings, file_arrays, file_listing, file_summary, file_bodies, file_joints, &
+      file_old_listing
+   public :: files_of, final_path, journal_ending, lock_ending, state_ending, table_ending
 
    !> Endings of the files
-   character(len=14), parameter :: endings(5) = [character(len=14) :: &
-      ".h5", ".lis", ".json", ".vtkhdf", ".joints.vtkhdf"]
+   character(len=16), parameter :: endings(6) = [character(len=16) :: &
+      ".h5", ".lis", ".json", ".vtkhdf", ".joints.vtkhdf", ".owen-hinton.lis"]
    integer, parameter :: file_arrays = 1, file_listing = 2, file_summary = 3, file_bodies = 4, &
-      file_joints = 5
+      file_joints = 5, file_old_listing = 6
    !> Ending of the table of a study
    character(len=*), parameter :: table_ending = ".csv"
    !> Endings of what is there only while a run is under way, or was not ended: who writes these
@@ -19,6 +22,20 @@ module axijoint_output_file_names
       state_ending = ".state"
 
 contains
+
+   !> Files that a job writes, the summary, which speaks for all, last
+   pure function files_of(model) result(files)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Indices into `endings`
+      integer, allocatable :: files(:)
+
+      files = [file_arrays, file_listing]
+      if (model%sweep%wanted) files = [files, file_bodies]
+      if (model%sweep%wanted .and. n_joints(model%mesh) > 0) files = [files, file_joints]
+      if (model%old_listing) files = [files, file_old_listing]
+      files = [files, file_summary]
+   end function files_of
 
    !> Path of one of the files
    pure function final_path(directory, name, ending) result(path)
