@@ -6,6 +6,8 @@ module axijoint_command_compare
    use axijoint_command_line, only : word_type
    use axijoint_command_run, only : print_error
    use axijoint_compare_compare, only : compare_listings
+   use axijoint_compare_old_layout, only : fit_old_layout
+   use axijoint_compare_read_hdf5_increments, only : add_increments
    use axijoint_compare_read_own_format, only : own_format_text
    use axijoint_compare_read_reader, only : read_file
    use axijoint_compare_table_table, only : listing_type, words_type
@@ -52,8 +54,15 @@ contains
             return
          end if
       end do
-      call add_totals(listings(1), listings(2))
-      call add_totals(listings(2), listings(1))
+      do k = 1, 2
+         call add_increments(listings(k), listings(3 - k), error)
+         if (allocated(error)) then
+            write (error_unit, '(a)') error%message
+            return
+         end if
+         call fit_old_layout(listings(k), listings(3 - k))
+         call add_totals(listings(k), listings(3 - k))
+      end do
       call compare_listings(output_unit, listings(1), listings(2), dictionary, compare%tolerances, &
          same)
       exit_code = merge(exit_ok, exit_different, same)

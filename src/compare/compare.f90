@@ -5,9 +5,10 @@ module axijoint_compare_compare
    use axijoint_compare_judge, only : table_result_type, judge_tables, largest_values
    use axijoint_compare_match, only : match_type, match_rows
    use axijoint_compare_report, only : print_table, print_only
+   use axijoint_compare_table_cell, only : cell_number
    use axijoint_compare_table_numbering, only : numbering_type
    use axijoint_compare_table_table, only : listing_type, table_type, words_type, find_column, &
-      kind_angle, kind_word, kind_names
+      kind_angle, kind_word, kind_displacement, kind_names
    use axijoint_compare_tolerances, only : tolerances_type, is_skipped
    implicit none
    private
@@ -21,6 +22,8 @@ module axijoint_compare_compare
       integer :: n_bad_tables = 0, n_bad = 0, n_unknown = 0
       !> Tables, columns and rows that are in one file only
       integer :: n_tables_only = 0, n_columns_only = 0, n_rows_only = 0
+      !> Tables among these of a harmonic that the other file lacks though it has others
+      integer :: n_harmonics_only = 0
    end type verdict_type
 
 contains
@@ -46,6 +49,8 @@ contains
       allocate (numberings(0))
       scales = min(largest_values(a), largest_values(b))
       write (unit, '(a)') 'A  '//a%path//': '//a%description, 'B  '//b%path//': '//b%description
+      if (allocated(a%note)) write (unit, '(a)') 'A  '//a%note
+      if (allocated(b%note)) write (unit, '(a)') 'B  '//b%note
       do k = 1, a%n_tables
          if (a%tables(k)%left_out .or. is_skipped(tolerances, a%tables(k)%name)) cycle
          other = find_table(b, a%tables(k))
@@ -53,18 +58,70 @@ contains
             call compare_tables(unit, a%tables(k), b%tables(other), words, scales, tolerances, &
                                 numberings, verdict)
          else
-            call print_only(unit, 'A', a%tables(k))
-            verdict%n_tables_only = verdict%n_tables_only + 1
+            call note_only(unit, 'A', a%tables(k), b, verdict)
          end if
       end do
       do k = 1, b%n_tables
          if (b%tables(k)%left_out .or. is_skipped(tolerances, b%tables(k)%name)) cycle
          if (find_table(a, b%tables(k)) > 0) cycle
-         call print_only(unit, 'B', b%tables(k))
-         verdict%n_tables_only = verdict%n_tables_only + 1
+         call note_only(unit, 'B', b%tables(k), a, verdict)
       end do
       call print_verdict(unit, verdict, tolerances, same)
    end subroutine compare_listings
+
+   !> Note a table that one file lacks. A harmonic is not passed over: what it adds to the state is
+   !> not there
+   subroutine note_only(unit, file, table, other, verdict)
+      !> Where the report goes
+      integer, intent(in) :: unit
+      !> A or B: who has it
+      character(len=*), intent(in) :: file
+      !> The table
+      type(table_type), intent(in) :: table
+      !> The file that lacks it
+      type(listing_type), intent(in) :: other
+      !> What was found so far
+      type(verdict_type), intent(inout) :: verdict
+
+      integer :: k
+      logical :: harmonic
+
+      call print_only(unit, file, table)
+      verdict%n_tables_only = verdict%n_tables_only + 1
+      if (index(table%parameters, 'm = ') == 0 .or. .not. any_value(table)) return
+      harmonic = .false.
+      do k = 1, other%n_tables
+         harmonic = harmonic .or. (other%tables(k)%name == table%name .and. &
+            beside_harmonic(other%tables(k)%parameters) == beside_harmonic(table%parameters))
+      end do
+      if (harmonic) verdict%n_harmonics_only = verdict%n_harmonics_only + 1
+   end subroutine note_only
+
+   !> Parameters without harmonic and family
+   pure function beside_harmonic(parameters) result(text)
+      !> Such as "increment = 1, m = 0, family = symmetric"
+      character(len=*), intent(in) :: parameters
+      !> Such as "increment = 1, "
+      character(len=:), allocatable :: text
+
+      text = parameters
+      if (index(text, 'm = ') > 0) text = text(:index(text, 'm = ') - 1)
+   end function beside_harmonic
+
+   !> Whether any value of a table is not zero
+   pure logical function any_value(table)
+      !> The table
+      type(table_type), intent(in) :: table
+
+      integer :: k
+
+      any_value = .false.
+      do k = 1, size(table%columns)
+         if (table%columns(k)%kind < kind_displacement) cycle
+         any_value = any_value .or. any(abs(table%cells(k, :table%n_rows)%value) > 0.0_wp .or. &
+            table%cells(k, :table%n_rows)%state /= cell_number)
+      end do
+   end function any_value
 
    !> Index of the table of the same name and parameters; 0 if there is none
    pure integer function find_table(listing, table) result(found)
@@ -159,7 +216,7 @@ contains
 
       same = verdict%n_bad == 0 .and. verdict%n_values > 0 &
          .and. (verdict%n_tables_only == 0 .or. tolerances%missing_tables) &
-         .and. (verdict%n_columns_only == 0 .or. tolerances%missing_columns) &
+         .and. verdict%n_harmonics_only == 0 .and. (verdict%n_columns_only == 0 .or. tolerances%missing_columns) &
          .and. (verdict%n_rows_only == 0 .or. tolerances%missing_rows)
       write (unit, '(/a)') 'tolerances: relative '//to_text(tolerances%relative)//', absolute '// &
          to_text(tolerances%absolute)//', '//to_text(tolerances%of_table)// &
@@ -182,6 +239,8 @@ contains
          text = text//'; '//to_text(verdict%n_unknown)//' cannot be compared'
       if (verdict%n_tables_only > 0) text = text//'; '//count_of(verdict%n_tables_only, 'table')// &
          ' in one file only'
+      if (verdict%n_harmonics_only > 0) text = text//', '//to_text(verdict%n_harmonics_only)// &
+         ' of them of harmonics, which --allow-missing does not pass over'
       if (verdict%n_columns_only > 0) &
          text = text//'; '//count_of(verdict%n_columns_only, 'column')// &
          ' in one file only'

@@ -1,9 +1,9 @@
 !> Principal stresses and their axes
 module axijoint_element_principal
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, degree
    implicit none
    private
-   public :: principal_stresses, principal_axes
+   public :: principal_stresses, principal_axes, plane_principal
 
    !> Rotations in turn at most; three to five suffice
    integer, parameter :: most_sweeps = 12
@@ -30,6 +30,28 @@ contains
       principal = [maxval([a(1, 1), a(2, 2), a(3, 3)]), 0.0_wp, minval([a(1, 1), a(2, 2), a(3, 3)])]
       principal(2) = max(min(a(1, 1), a(2, 2)), min(max(a(1, 1), a(2, 2)), a(3, 3)))
    end function principal_stresses
+
+   !> Largest and smallest stress in the meridional plane, and the angle from r to the nearer of their
+   !> directions [degree], from -45 to 45
+   pure function plane_principal(stress) result(values)
+      !> r, z, rz
+      real(wp), intent(in) :: stress(3)
+      !> Largest, smallest, angle
+      real(wp) :: values(3)
+
+      real(wp) :: middle, half, radius
+
+      middle = 0.5_wp*(stress(1) + stress(2))
+      half = 0.5_wp*(stress(1) - stress(2))
+      radius = hypot(half, stress(3))
+      values(1:2) = [middle + radius, middle - radius]
+      if (abs(half) > 0.0_wp) then
+         values(3) = 0.5_wp*atan(stress(3)/half)/degree
+      else
+         values(3) = 0.0_wp
+         if (abs(stress(3)) > 0.0_wp) values(3) = sign(45.0_wp, stress(3))
+      end if
+   end function plane_principal
 
    !> Principal stresses, the largest first, and their axes, which are at right angles to each other
    !> even where stresses are equal

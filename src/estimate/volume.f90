@@ -125,7 +125,7 @@ contains
       last = size(model%increments)
       n = 4.0_wp*nodal + stress + joint
       do i = 1, merge(last, 0, last > 1)
-         if (is_kept(model%keep(keep_displacement), i, last)) n = n + nodal
+         if (is_kept(model%keep(keep_displacement), i, last)) n = n + 2.0_wp*nodal
          if (is_kept(model%keep(keep_joints), i, last)) n = n + joint
          if (is_kept(model%keep(keep_stress), i, last)) n = n + stress
       end do

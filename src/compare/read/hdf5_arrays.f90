@@ -107,11 +107,11 @@ contains
       !> All values, the first index fastest
       real(wp), allocatable, intent(out), target :: values(:)
       !> Extents, 1 beyond the rank
-      integer, intent(out) :: extent(3)
+      integer, intent(out) :: extent(4)
 
       type(c_ptr) :: memory
       integer(hid_t) :: dataset, space
-      integer(hsize_t) :: extents(3), largest(3)
+      integer(hsize_t) :: extents(4), largest(4)
       integer :: status, rank
 
       extent = 0
@@ -126,7 +126,7 @@ contains
       end if
       call h5dget_space_f(dataset, space, status)
       call h5sget_simple_extent_ndims_f(space, rank, status)
-      if (status >= 0 .and. rank >= 1 .and. rank <= 3) then
+      if (status >= 0 .and. rank >= 1 .and. rank <= 4) then
          extents = 1
          call h5sget_simple_extent_dims_f(space, extents(:rank), largest(:rank), status)
          extent = int(extents)

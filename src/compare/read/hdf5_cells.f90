@@ -16,7 +16,7 @@ module axijoint_compare_read_hdf5_cells
       !> Values, the first index fastest
       real(wp), allocatable :: value(:)
       !> Extents, 1 beyond the rank
-      integer :: extent(3) = 0
+      integer :: extent(4) = 0
    end type array_type
 
 contains
@@ -34,18 +34,19 @@ contains
    end function array
 
    !> One value of an array; none, NaN, beyond what a damaged file holds of it
-   pure real(wp) function at(array, i, j, k)
+   pure real(wp) function at(array, i, j, k, l)
       !> The array
       type(array_type), intent(in) :: array
       !> Indices; those that are absent are 1
       integer, intent(in) :: i
-      integer, intent(in), optional :: j, k
+      integer, intent(in), optional :: j, k, l
 
       integer :: place
 
       place = i
       if (present(j)) place = place + array%extent(1)*(j - 1)
-      if (present(k)) place = place + array%extent(1)*array%extent(2)*(k - 1)
+      if (present(k)) place = place + product(array%extent(:2))*(k - 1)
+      if (present(l)) place = place + product(array%extent(:3))*(l - 1)
       if (place >= 1 .and. place <= size(array%value)) then
          at = array%value(place)
       else

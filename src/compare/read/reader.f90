@@ -6,6 +6,7 @@ module axijoint_compare_read_reader
    use axijoint_compare_read_format_reader, only : read_format
    use axijoint_compare_read_hdf5_reader, only : read_result_file, hdf5_signature
    use axijoint_compare_read_listing_reader, only : read_listing
+   use axijoint_compare_read_old_listing, only : looks_like_old_listing, read_old_listing
    use axijoint_compare_read_own_format, only : own_format_text, own_format_name
    use axijoint_compare_table_node_places, only : place_nodes
    use axijoint_compare_table_table, only : listing_type, words_type
@@ -51,10 +52,15 @@ contains
          end if
       else
          call check_text(path, bytes, error)
-         if (.not. allocated(error)) call open_format(format_path, format, error)
          if (allocated(error)) return
-         listing%description = format%name
-         call read_listing(path, bytes, format, words, listing, error)
+         if (len(format_path) == 0 .and. looks_like_old_listing(bytes)) then
+            call read_old_listing(path, bytes, listing, error)
+         else
+            call open_format(format_path, format, error)
+            if (allocated(error)) return
+            listing%description = format%name
+            call read_listing(path, bytes, format, words, listing, error)
+         end if
       end if
       if (.not. allocated(error)) call place_nodes(listing)
    end subroutine read_file

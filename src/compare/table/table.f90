@@ -9,7 +9,8 @@ module axijoint_compare_table_table
    public :: open_table, drop_empty_tables, add_row, find_column, word_index, table_title, &
       append_columns
    public :: kind_names, kind_label, kind_key, kind_coordinate, kind_angle, kind_parameter, &
-      kind_skip, kind_word, kind_displacement, kind_jump, kind_stress, kind_force, kind_moment
+      kind_skip, kind_word, kind_displacement, kind_jump, kind_stress, kind_force, kind_moment, &
+      kind_other
 
    !> Number of a node, element, joint or point, which differs between programs
    integer, parameter :: kind_label = 1
@@ -73,6 +74,13 @@ module axijoint_compare_table_table
       character(len=:), allocatable :: description
       !> Whether all tables of amplitudes have the same rows in the same order
       logical :: aligned = .false.
+      !> Whether it is a listing in the layout of Owen and Hinton's program: its tables of results have
+      !> increments among their parameters
+      logical :: old_layout = .false.
+      !> Increments that it names, if so
+      integer, allocatable :: increments(:)
+      !> What the report says of it beside its tables; not allocated if nothing
+      character(len=:), allocatable :: note
       !> Number of tables
       integer :: n_tables = 0
       !> The tables, at least n_tables

@@ -22,7 +22,8 @@ module axijoint_output_hdf5_history
       logical :: wanted = .false.
       !> Whether stresses of more than the last increment are kept: those are in /stress
       logical :: stressed = .false.
-      type(hdf5_series_type) :: displacement, joint_amplitude, joint_stress, joint_state, stress, nodal
+      type(hdf5_series_type) :: displacement, reaction, joint_amplitude, joint_stress, joint_state, &
+         stress, nodal
       !> Of the sections
       type(hdf5_series_type), allocatable :: line_displacement(:), line_stress(:)
    end type history_fields_type
@@ -58,6 +59,9 @@ contains
       call file%begin(fields%displacement, group//"/displacement", kind_real, &
          [shape(results%displacement, i8), size(displaced, kind=i8)], &
          "Amplitudes u, v, w; (3, node, mode, kept) [length]")
+      call file%begin(fields%reaction, group//"/reaction", kind_real, &
+         [shape(results%reaction, i8), size(displaced, kind=i8)], &
+         "As /reaction, of the increments of displacement; (3, node, mode, kept) [force]")
       call file%write(group//"/joint_increment", jointed, "Increment; (kept)")
       call file%begin(fields%joint_amplitude, group//"/joint_amplitude", kind_real, &
          [shape(results%joint_amplitude, i8), size(jointed, kind=i8)], &
@@ -113,7 +117,10 @@ contains
       integer :: k
 
       if (.not. fields%wanted) return
-      if (wants(keep_displacement)) call file%append(fields%displacement, now%displacement)
+      if (wants(keep_displacement)) then
+         call file%append(fields%displacement, now%displacement)
+         call file%append(fields%reaction, now%reaction)
+      end if
       if (wants(keep_joints)) then
          call file%append(fields%joint_amplitude, now%joint_amplitude)
          call file%append(fields%joint_stress, now%joint_stress)
@@ -154,6 +161,7 @@ contains
 
       if (.not. fields%wanted) return
       call file%end(fields%displacement)
+      call file%end(fields%reaction)
       call file%end(fields%joint_amplitude)
       call file%end(fields%joint_stress)
       call file%end(fields%joint_state)

@@ -2,15 +2,14 @@
 module axijoint_output_legacy_states
    use axijoint_analysis_core_results, only : results_type
    use axijoint_base_kinds, only : wp
+   use axijoint_element_principal, only : plane_principal
    use axijoint_model_mesh, only : n_nodes
    use axijoint_model_model, only : model_type
    use axijoint_output_legacy_page, only : page_type
    implicit none
    private
-   public :: put_head, put_displacements, put_reactions, put_stresses, principal
+   public :: put_head, put_displacements, put_reactions, put_stresses
 
-   !> Half a right angle over its arc tangent
-   real(wp), parameter :: half_degrees = 28.647889757_wp
    !> NCHEK: in equilibrium, and not
    integer, parameter :: converged = 0, diverged = 999
 
@@ -137,7 +136,7 @@ contains
             do eta = 1, order
                point = first + xi - 1 + order*(eta - 1)
                stress = now%stress([1, 2, 4, 3], point, 1)
-               others = principal(stress)
+               others = plane_principal(stress(:3))
                call page%whole((xi - 1)*order + eta, 5)
                call page%words('  ')
                do i = 1, 4
@@ -152,27 +151,5 @@ contains
          end do
       end do
    end subroutine put_stresses
-
-   !> Largest and smallest stress in the meridional plane, and the angle from r to the nearer of
-   !> their directions [degree], as there: from -45 to 45
-   pure function principal(stress) result(values)
-      !> r, z, rz, theta
-      real(wp), intent(in) :: stress(4)
-      !> Largest, smallest, angle
-      real(wp) :: values(3)
-
-      real(wp) :: middle, half, radius
-
-      middle = 0.5_wp*(stress(1) + stress(2))
-      half = 0.5_wp*(stress(1) - stress(2))
-      radius = hypot(half, stress(3))
-      values(1:2) = [middle + radius, middle - radius]
-      if (abs(half) > 0.0_wp) then
-         values(3) = atan(stress(3)/half)*half_degrees
-      else
-         values(3) = 0.0_wp
-         if (abs(stress(3)) > 0.0_wp) values(3) = sign(45.0_wp, stress(3))
-      end if
-   end function principal
 
 end module axijoint_output_legacy_states
