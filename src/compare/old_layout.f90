@@ -2,7 +2,7 @@
 !> counts, but no harmonic and no increment is passed over
 module axijoint_compare_old_layout
    use axijoint_base_text, only : to_text
-   use axijoint_compare_table_cell, only : cell_type
+   use axijoint_compare_table_cell, only : cell_type, cell_number
    use axijoint_compare_table_table, only : listing_type, table_type, column_type, open_table, &
       add_row, find_column, kind_angle, kind_displacement, kind_force, kind_label, &
       kind_coordinate, kind_stress, kind_skip
@@ -24,8 +24,11 @@ contains
 
       integer :: k
 
-      if (listing%old_layout .or. .not. old%old_layout) return
-      old%note = 'effective plastic strain is not compared: only listings of this kind have it'
+      if (.not. old%old_layout) return
+      call forget_axis(old)
+      if (listing%old_layout) return
+      old%note = old%note//'; effective plastic strain is not compared: only listings of this '// &
+         'kind have it'
       if (listing%aligned) then
          do k = 1, listing%n_tables
             if (.not. listing%tables(k)%left_out) call leave_unshown(listing%tables(k), old)
@@ -35,6 +38,28 @@ contains
       end if
       call skip_column(old, 'plastic')
    end subroutine fit_old_layout
+
+   !> On the axis R_u works on nothing: the old program prints one, axijoint has none
+   subroutine forget_axis(old)
+      !> The old listing
+      type(listing_type), intent(inout) :: old
+
+      integer :: k, reaction, place, row
+
+      old%note = 'R_u on the axis is not compared: it works on nothing'
+      do k = 1, old%n_tables
+         reaction = find_column(old%tables(k), 'R_u', kind_force)
+         place = find_column(old%tables(k), 'r', kind_coordinate)
+         if (reaction == 0 .or. place == 0) cycle
+         associate (table => old%tables(k))
+            do row = 1, table%n_rows
+               if (table%cells(place, row)%state == cell_number .and. &
+                   .not. abs(table%cells(place, row)%value) > 0.0) &
+                  table%cells(reaction, row) = cell_type(state=cell_number)
+            end do
+         end associate
+      end do
+   end subroutine forget_axis
 
    !> Leave out what the old listing does not show of an increment that it names
    subroutine leave_unshown(table, old)
@@ -77,7 +102,7 @@ contains
             [character(len=11) :: 'sigma_r', 'sigma_z', 'tau_rz', 'sigma_theta'], kind_stress)
       end do
       old%note = 'what the other listing has not is not compared: increments before the last, '// &
-         'effective plastic strain, largest and smallest stresses and angles'
+         'effective plastic strain, R_u on the axis, largest and smallest stresses and angles'
       do k = 1, old%n_tables
          if (index(old%tables(k)%parameters, state) == 0) old%tables(k)%left_out = .true.
       end do

@@ -1,27 +1,19 @@
 !> From an old deck to one of axijoint that gives the same answer
 module axijoint_legacy_convert
-   use axijoint_base_kinds, only : wp, pi, degree
+   use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text
-   use axijoint_legacy_cards, only : cards_type, open_cards, warn, complain
+   use axijoint_legacy_cards, only : cards_type, open_cards, warn
    use axijoint_legacy_check, only : check_old_deck
-   use axijoint_legacy_deck, only : old_deck_type, old_edge_type, read_old_deck, tresca, mises, &
-      mohr, drucker
+   use axijoint_legacy_deck, only : old_deck_type, read_old_deck, tresca, mises, mohr, drucker
    use axijoint_legacy_layout, only : dialect_type
+   use axijoint_legacy_loads, only : put_edges, put_forces
+   use axijoint_legacy_words, only : text_type, put, list, integers, exact
    implicit none
    private
    public :: convert_deck, looks_old
 
    !> Tolerance that residual forces have here, whatever TOLER asks for above it
    real(wp), parameter :: tolerance = 1.0e-6_wp
-   !> Part of a side's length that a mid-side node may be off its middle
-   real(wp), parameter :: straight = 1.0e-6_wp
-
-   !> Text that grows
-   type :: text_type
-      !> Its letters, and how many are used
-      character(len=:), allocatable :: letters
-      integer :: used = 0
-   end type text_type
 
 contains
 
@@ -42,7 +34,6 @@ contains
       call open_cards(path, bytes, dialect, cards)
       call read_old_deck(cards, deck)
       if (cards%diagnostics%n_errors == 0) call check_old_deck(deck, cards)
-      if (cards%diagnostics%n_errors == 0) call check_edges(deck, cards)
       if (cards%diagnostics%n_errors == 0) call write_deck(path, deck, cards, text)
    end subroutine convert_deck
 
@@ -64,53 +55,6 @@ contains
       looks_old = status == 0 .and. any(values(4) == [1, 2, 3]) .and. any(values(5) == [4, 8, 9])
    end function looks_old
 
-   !> See that edges are loaded in a way that cards can say: linear along the edge, and tangential
-   !> loads on straight edges
-   subroutine check_edges(deck, cards)
-      !> The old deck
-      type(old_deck_type), intent(in) :: deck
-      !> Its cards; take messages
-      type(cards_type), intent(inout) :: cards
-
-      integer :: k
-
-      do k = 1, size(deck%edges)
-         associate (edge => deck%edges(k))
-            if (edge%n_nodes == 2) cycle
-            if (.not. (is_mean(edge%normal) .and. is_mean(edge%tangential))) &
-               call complain(cards, 0, 0, 'the load of this edge is not linear along it', &
-               'at the middle node the mean of the others', card=edge%card + 1)
-            if (any(abs(edge%tangential) > 0.0_wp) .and. .not. is_straight(deck, edge)) &
-               call complain(cards, 0, 0, 'a tangential load on a bent edge', &
-               'straight edges', card=edge%card + 1)
-         end associate
-      end do
-   end subroutine check_edges
-
-   !> Whether the middle of three values is the mean of the others
-   pure logical function is_mean(values)
-      !> The values
-      real(wp), intent(in) :: values(3)
-
-      is_mean = abs(values(2) - 0.5_wp*(values(1) + values(3))) <= 1.0e-9_wp*maxval(abs(values))
-   end function is_mean
-
-   !> Whether a side is straight, its middle node in its middle
-   pure logical function is_straight(deck, edge)
-      !> The deck
-      type(old_deck_type), intent(in) :: deck
-      !> The side
-      type(old_edge_type), intent(in) :: edge
-
-      is_straight = .true.
-      if (edge%n_nodes == 2) return
-      if (deck%node_card(edge%nodes(2)) == 0) return
-      associate (a => deck%position(:, edge%nodes(1)), m => deck%position(:, edge%nodes(2)), &
-                 b => deck%position(:, edge%nodes(3)))
-         is_straight = norm2(m - 0.5_wp*(a + b)) <= straight*norm2(b - a)
-      end associate
-   end function is_straight
-
    !> The new deck
    subroutine write_deck(path, deck, cards, text)
       !> Path of the old deck
@@ -127,6 +71,7 @@ contains
       character(len=7), parameter :: criteria(4) = [character(len=7) :: 'TRESCA', 'MISES', &
          'MOHR', 'DRUCKER']
       type(text_type) :: new
+      integer, allocatable :: centre(:)
       integer :: k
 
       cards%at = 2
@@ -149,10 +94,12 @@ contains
          call put(new, yield_card(deck, k, trim(criteria(deck%criterion))))
       end do
       call put(new, 'NODES')
-      if (any(deck%node_card == 0)) call put(new, '! mid-side and centre nodes that are not here '// &
-         'are made')
+      if (any(deck%node_card == 0)) call put(new, '! mid-side nodes that are not here are made')
+      allocate (centre(0))
+      if (deck%n_element_nodes == 9) centre = deck%nodes(9, :)
       do k = 1, deck%n_nodes
-         if (deck%node_card(k) > 0) call put(new, list(deck%position(:, k), k))
+         if (deck%node_card(k) > 0 .or. any(centre == k)) &
+            call put(new, list(deck%position(:, k), k))
       end do
       call put(new, 'ELEMENTS')
       do k = 1, deck%n_elements
@@ -275,146 +222,5 @@ contains
       end function value
 
    end subroutine put_restraints
-
-   !> Loads on edges: a face each
-   subroutine put_edges(deck, new)
-      !> The old deck
-      type(old_deck_type), intent(in) :: deck
-      !> The new one
-      type(text_type), intent(inout) :: new
-
-      real(wp) :: direction(2)
-      integer :: k, n
-
-      if (size(deck%edges) == 0) return
-      call put(new, 'CHAINS')
-      do k = 1, size(deck%edges)
-         associate (edge => deck%edges(k))
-            call put(new, to_text(k)//integers(edge%nodes([1, edge%n_nodes])))
-         end associate
-      end do
-      if (any([(any(abs(deck%edges(k)%normal) > 0.0_wp), k=1, size(deck%edges))])) then
-         call put(new, 'PRESSURES')
-         do k = 1, size(deck%edges)
-            associate (edge => deck%edges(k))
-               n = edge%n_nodes
-               if (any(abs(edge%normal) > 0.0_wp)) call put(new, to_text(k)//', 0, '// &
-                  exact(edge%normal(1))//', '//exact(edge%normal(n)))
-            end associate
-         end do
-      end if
-      if (.not. any([(any(abs(deck%edges(k)%tangential) > 0.0_wp), k=1, size(deck%edges))])) return
-      call put(new, 'TRACTIONS')
-      do k = 1, size(deck%edges)
-         associate (edge => deck%edges(k))
-            if (.not. any(abs(edge%tangential) > 0.0_wp)) cycle
-            n = edge%n_nodes
-            direction = deck%position(:, edge%nodes(n)) - deck%position(:, edge%nodes(1))
-            direction = direction/norm2(direction)
-            call put(new, to_text(k)//', 0, '//exact(edge%tangential(1)*direction(1))//', '// &
-               exact(edge%tangential(1)*direction(2))//', , '// &
-               exact(edge%tangential(n)*direction(1))//', '// &
-               exact(edge%tangential(n)*direction(2)))
-         end associate
-      end do
-   end subroutine put_edges
-
-   !> Forces on nodes, of the whole circle there, of a length of it here
-   subroutine put_forces(deck, new)
-      !> The old deck
-      type(old_deck_type), intent(in) :: deck
-      !> The new one
-      type(text_type), intent(inout) :: new
-
-      real(wp) :: length
-      integer :: k
-
-      if (.not. any(abs(deck%force) > 0.0_wp)) return
-      call put(new, 'RINGLOADS')
-      call put(new, '! forces of the whole circle, divided by its length')
-      do k = 1, deck%n_nodes
-         if (.not. any(abs(deck%force(:, k)) > 0.0_wp)) cycle
-         length = 2.0_wp*pi*deck%position(1, k)
-         if (length > 0.0_wp) then
-            call put(new, to_text(k)//', 0, '//exact(deck%force(1, k)/length)//', '// &
-               exact(deck%force(2, k)/length))
-         else
-            call put(new, to_text(k)//', 0, , '//exact(deck%force(2, k)))
-         end if
-      end do
-   end subroutine put_forces
-
-   !> A number of a thing, and its values, with commas
-   function list(values, number) result(text)
-      !> The values
-      real(wp), intent(in) :: values(:)
-      !> The number
-      integer, intent(in) :: number
-      !> The words
-      character(len=:), allocatable :: text
-
-      integer :: k
-
-      text = to_text(number)
-      do k = 1, size(values)
-         text = text//', '//exact(values(k))
-      end do
-   end function list
-
-   !> Integers, each after a comma
-   function integers(values) result(text)
-      !> The values
-      integer, intent(in) :: values(:)
-      !> The words
-      character(len=:), allocatable :: text
-
-      integer :: k
-
-      text = ''
-      do k = 1, size(values)
-         text = text//', '//to_text(values(k))
-      end do
-   end function integers
-
-   !> As few digits of a number as are read as the same number
-   function exact(value) result(text)
-      !> The number
-      real(wp), intent(in) :: value
-      !> Its digits
-      character(len=:), allocatable :: text
-
-      character(len=32) :: form, digits
-      real(wp) :: again
-      integer :: n, status
-
-      do n = 1, 17
-         write (form, '(a, i0, a)') '(es32.', n, 'e3)'
-         write (digits, form) value
-         read (digits, *, iostat=status) again
-         if (status == 0 .and. .not. abs(again - value) > 0.0_wp) exit
-      end do
-      text = trim(adjustl(digits))
-      n = index(text, 'E+000')
-      if (n > 0) text = text(:n - 1)
-   end function exact
-
-   !> Add a line
-   subroutine put(text, line)
-      !> The text
-      type(text_type), intent(inout) :: text
-      !> The line
-      character(len=*), intent(in) :: line
-
-      character(len=:), allocatable :: larger
-
-      if (.not. allocated(text%letters)) allocate (character(len=65536) :: text%letters)
-      do while (text%used + len(line) + 1 > len(text%letters))
-         allocate (character(len=2*len(text%letters)) :: larger)
-         larger(:text%used) = text%letters(:text%used)
-         call move_alloc(larger, text%letters)
-      end do
-      text%letters(text%used + 1:text%used + len(line) + 1) = line//new_line('a')
-      text%used = text%used + len(line) + 1
-   end subroutine put
 
 end module axijoint_legacy_convert

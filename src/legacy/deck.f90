@@ -46,7 +46,8 @@ module axijoint_legacy_deck
          n_stresses = 0
       !> Elements: number, material, nodes; shape (elements), (nodes, elements)
       integer, allocatable :: element(:), material(:), nodes(:, :), element_card(:)
-      !> Coordinates r, z, shape (2, nodes); the card that gives them, 0 if none does
+      !> Coordinates r, z, shape (2, nodes), those of middles completed; the card that gives them, 0 if
+      !> none does
       real(wp), allocatable :: position(:, :)
       integer, allocatable :: node_card(:)
       !> Restraints: node, whether u and v are held, their values
@@ -79,6 +80,7 @@ contains
       if (cards%diagnostics%n_errors > 0) return  ! nothing that follows can be told apart
       call read_elements(cards, deck)
       call read_nodes(cards, deck)
+      if (cards%diagnostics%n_errors == 0) call complete_nodes(deck)
       call read_restraints(cards, deck)
       call read_materials(cards, deck)
       deck%load_title = text_of(cards, 'the title of the load')
@@ -242,6 +244,29 @@ contains
          if (node == deck%n_nodes) return
       end do
    end subroutine read_nodes
+
+   !> Put mid-side nodes without a card in the middle of their sides, centre nodes in that of the
+   !> corners
+   subroutine complete_nodes(deck)
+      !> The deck
+      type(old_deck_type), intent(inout) :: deck
+
+      integer :: k, i
+
+      if (deck%n_element_nodes == 4) return
+      do k = 1, deck%n_elements
+         associate (nodes => deck%nodes(:, k), place => deck%position)
+            do i = 2, 8, 2
+               if (deck%node_card(nodes(i)) == 0) place(:, nodes(i)) = &
+                  0.5_wp*(place(:, nodes(i - 1)) + place(:, nodes(modulo(i, 8) + 1)))
+            end do
+            if (size(nodes) == 8) cycle
+            if (deck%node_card(nodes(9)) == 0) place(:, nodes(9)) = &
+               0.25_wp*(place(:, nodes(1)) + place(:, nodes(3)) + place(:, nodes(5)) + &
+               place(:, nodes(7)))
+         end associate
+      end do
+   end subroutine complete_nodes
 
    !> The restraints
    subroutine read_restraints(cards, deck)

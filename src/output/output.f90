@@ -9,7 +9,7 @@ module axijoint_output_output
    use axijoint_base_system, only : process_id, path_kind, is_directory, same_file, path_absent, path_file, &
       path_directory, path_link, error_text, make_directories
    use axijoint_base_team, only : team_type, take_team
-   use axijoint_base_text, only : to_text
+   use axijoint_base_text, only : count_of
    use axijoint_deck_text_source, only : source_type, card_file
    use axijoint_job_combination, only : combination_label
    use axijoint_job_job, only : job_type, result_name
@@ -194,10 +194,8 @@ contains
             series, error)
       end if
       if (old_listing%page%n_noted > 0) then
-         warnings = with_first(to_text(old_listing%page%n_noted)//' values have no room in the '// &
-            'fields of '//name//trim(endings(file_old_listing))//', which says at its end what '// &
-            'they are', warnings)
-         messages = with_first(warnings(1), messages)
+         call add_last(warnings, no_room(old_listing, name))
+         call add_last(messages, no_room(old_listing, name))
       end if
       if (.not. allocated(error)) call arrays%finish(error)
       if (.not. allocated(error)) call end_bodies(bodies, results, error)
@@ -290,6 +288,34 @@ contains
          texts(size(warnings) + k) = remarks(k)%text
       end do
    end function all_warnings
+
+   !> Remark on values without room in an old listing
+   pure function no_room(listing, name) result(text)
+      !> The listing
+      type(old_listing_type), intent(in) :: listing
+      !> Name of the job
+      character(len=*), intent(in) :: name
+      !> The remark
+      character(len=:), allocatable :: text
+
+      text = count_of(listing%page%n_noted, 'value')//' without room in the fields of '//name// &
+         trim(endings(file_old_listing))//', which says at its end what is meant'
+   end function no_room
+
+   !> Add a text to others
+   pure subroutine add_last(texts, text)
+      !> The texts
+      character(len=:), allocatable, intent(inout) :: texts(:)
+      !> The new one
+      character(len=*), intent(in) :: text
+
+      character(len=:), allocatable :: longer(:)
+
+      allocate (character(len=max(len(texts), len(text))) :: longer(size(texts) + 1))
+      longer(:size(texts)) = texts
+      longer(size(texts) + 1) = text
+      call move_alloc(longer, texts)
+   end subroutine add_last
 
    !> A text before others
    pure function with_first(first, others) result(texts)

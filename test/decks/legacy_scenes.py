@@ -29,9 +29,15 @@ def grid(rs, zs, place=None):
 
 
 def real(value, width, decimals):
-    """A number with its point, as many decimals as fit"""
+    """A number with its point, as many decimals as fit: as many as are asked for, or all that it needs and a field holds"""
     text = f'{value:{width}.{decimals}f}'
-    return text if len(text) == width else f'{value:{width}.1f}'
+    if len(text) > width:
+        text = f'{value:{width}.1f}'
+    for more in range(decimals + 1, width - 1):
+        longer = f'{value:{width}.{more}f}'
+        if len(longer) <= width and abs(float(text) - value) > 1e-12*abs(value):
+            text = longer
+    return text
 
 
 def deck(title, mesh, held, properties, load, increments, criterion, gauss=2):
@@ -61,29 +67,28 @@ def even(first, last, n):
     return [first + (last - first)*k/n for k in range(n + 1)]
 
 
-def cylinder(criterion, increments, strength=YIELD, angle=0.0):
+def cylinder(criterion, increments, strength=YIELD, angle=0.0, n=16):
     """b = 2a, plane strain, pressed from within by FACTO"""
-    mesh = grid(even(1.0, 2.0, 16), [0.0, 0.1])
+    mesh = grid(even(1.0, 2.0, n), [0.0, 0.1])
     number = mesh[0]
     held = [(k, '01', 0.0, 0.0) for (i, j), k in sorted(number.items()) if j in (0, 2)]
     return deck('THICK CYLINDER', mesh, held, (YOUNG, POISSON, 0.0, 0.0, strength, 0.0, angle),
                 pressed('PRESSURE FROM WITHIN', [(1, (number[0, 2], number[0, 1], number[0, 0]))], 1.0), increments, criterion)
 
 
-def sphere(criterion, increments):
-    """b = 2a, pressed from within"""
-    n = 8
+def sphere(criterion, increments, strength=YIELD, angle=0.0, n=8, gauss=2):
+    """b = 2a, pressed from within, n elements from the equator to the pole"""
 
     def place(radius, angle):
         r, z = radius*math.cos(angle), radius*math.sin(angle)
         return (0.0 if abs(angle - math.pi/2) < 1e-9 else r, 0.0 if abs(angle) < 1e-9 else z)
-    mesh = grid(even(1.0, 2.0, 12), even(0.0, math.pi/2, n), place)
+    mesh = grid(even(1.0, 2.0, 3*n//2), even(0.0, math.pi/2, n), place)
     number = mesh[0]
     held = [(k, '01', 0.0, 0.0) for (i, j), k in sorted(number.items()) if j == 0]
     held += [(k, '10', 0.0, 0.0) for (i, j), k in sorted(number.items()) if j == 2*n]
     sides = [(j + 1, (number[0, 2*j + 2], number[0, 2*j + 1], number[0, 2*j])) for j in range(n)]
-    return deck('THICK SPHERE', mesh, held, (YOUNG, POISSON, 0.0, 0.0, YIELD, 0.0, 0.0),
-                pressed('PRESSURE FROM WITHIN', sides, 1.0), increments, criterion)
+    return deck('THICK SPHERE', mesh, held, (YOUNG, POISSON, 0.0, 0.0, strength, 0.0, angle),
+                pressed('PRESSURE FROM WITHIN', sides, 1.0), increments, criterion, gauss)
 
 
 def plate(increments):
@@ -123,6 +128,33 @@ def column(increments):
                 ['GRAVITY', f'{0:5d}{1:5d}{0:5d}', real(0.0, 10, 3) + real(10.0, 10, 3)], increments, DRUCKER, gauss=3)
 
 
+def disc(increments, n=16):
+    """A turning disc, radius 1, 0.1 thick, rho omega^2 = FACTO. The format has no card for that: forces on the nodes, of
+    the whole circle, do the work of the centrifugal force on the shape functions"""
+    mesh = grid(even(0.0, 1.0, n), [0.0, 0.05])
+    number, cards, _ = mesh
+    held = [(number[i, 0], '11' if i == 0 else '01', 0.0, 0.0) for i in range(2*n + 1)]
+    held += [(number[0, j], '10', 0.0, 0.0) for j in (1, 2)]
+    points = {1: (-1.0, -1.0), 2: (0.0, -1.0), 3: (1.0, -1.0), 4: (1.0, 0.0), 5: (1.0, 1.0), 6: (0.0, 1.0), 7: (-1.0, 1.0), 8: (-1.0, 0.0)}
+
+    def shape(x, y):
+        return [(1 + a*x)*(1 + b*y)*(a*x + b*y - 1)/4 if a and b else
+                (1 - x*x)*(1 + b*y)/2 if b else (1 + a*x)*(1 - y*y)/2 for a, b in points.values()]
+    force = dict.fromkeys(range(1, max(number.values()) + 1), 0.0)
+    root = math.sqrt(0.6)
+    for nodes in mesh[2]:
+        r1, r2 = cards[nodes[0]][0], cards[nodes[2]][0]
+        for x, wx in ((-root, 5/9), (0.0, 8/9), (root, 5/9)):
+            for y, wy in ((-root, 5/9), (0.0, 8/9), (root, 5/9)):
+                r = (r1 + r2)/2 + x*(r2 - r1)/2
+                weight = wx*wy*(r2 - r1)/2*0.025*2*math.pi*r*r
+                for node, value in zip(nodes, shape(x, y)):
+                    force[node] += weight*value
+    loads = [f'{k:5d}{real(value, 10, 3)}{real(0.0, 10, 3)}' for k, value in force.items()]
+    return deck('TURNING DISC', mesh, held, (YOUNG, POISSON, 0.0, 0.0, YIELD, 0.0, 0.0),
+                ['CENTRIFUGAL FORCE', f'{1:5d}{0:5d}{0:5d}', *loads], increments, TRESCA, gauss=3)
+
+
 def traps():
     """The cylinder with all that the format allows: numbers without points, blanks for zeros, a node given twice"""
     lines = cylinder(MISES, (6.0, 2.0)).split('\n')
@@ -137,6 +169,12 @@ def traps():
 DECKS = {
     'cylinder.dat': cylinder(MISES, (8.0, 4.0, 4.0)),
     'cylinder_mohr.dat': cylinder(MOHR, (4.0, 4.0, 1.5), 10.0, 30.0),
+    'cylinder_tresca.dat': cylinder(TRESCA, (8.0, 6.0), n=128),
+    'cylinder_drucker.dat': cylinder(DRUCKER, (4.0, 4.0, 1.5), 10.0, 30.0),
+    'sphere_mises.dat': sphere(MISES, (12.0, 8.0, 6.0)),
+    'sphere_mohr.dat': sphere(MOHR, (6.0, 6.0, 2.0), 10.0, 30.0),
+    'sphere_drucker.dat': sphere(DRUCKER, (6.0, 6.0, 2.0), 10.0, 30.0),
+    'disc.dat': disc((50.0, 15.0, 6.0, 2.0)),
     'sphere.dat': sphere(TRESCA, (12.0, 8.0, 6.0)),
     'plate.dat': plate((0.1, 0.22, 0.02, 0.02, 0.02, 0.02)),
     'footing.dat': footing((0.2, 0.3, 0.5, 1.0, 1.0)),

@@ -124,9 +124,9 @@ contains
 
    !> Values on a row. Numbers side by side are told apart by their signs; where asterisks stand, by
    !> the columns of the program's formats
-   pure subroutine row_values(text, widths, least, cells, fault)
+   pure subroutine row_values(row, widths, least, cells, fault)
       !> The row
-      character(len=*), intent(in) :: text
+      character(len=*), intent(in) :: row
       !> Widths of the fields, as many as there may be values
       integer, intent(in) :: widths(:)
       !> Fewest values
@@ -136,8 +136,10 @@ contains
       !> What is wrong
       type(row_fault_type), intent(out) :: fault
 
+      character(len=len(row)) :: text
       integer :: k, n, next, first, last
 
+      text = with_signs(row)
       cells%state = cell_blank
       next = 1
       last = 0
@@ -174,5 +176,22 @@ contains
       if (.not. any(cells(1)%state == [cell_number, cell_overflow])) &
          fault = row_fault_type(1, len_trim(text), 'the line has no number of a node or point')
    end subroutine row_values
+
+   !> A row with + for a blank where exponents have one for their sign
+   pure function with_signs(row) result(text)
+      !> The row
+      character(len=*), intent(in) :: row
+      !> The same with +
+      character(len=len(row)) :: text
+
+      character(len=*), parameter :: digits = '0123456789', letters = 'eEdDqQ'
+      integer :: k
+
+      text = row
+      do k = 2, len(row) - 2
+         if (scan(row(k:k), letters) > 0 .and. scan(row(k - 1:k - 1), digits//'.') > 0 .and. &
+             row(k + 1:k + 1) == ' ' .and. scan(row(k + 2:k + 2), digits) > 0) text(k + 1:k + 1) = '+'
+      end do
+   end function with_signs
 
 end module axijoint_compare_read_old_lines

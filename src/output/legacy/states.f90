@@ -74,7 +74,8 @@ contains
       end do
    end subroutine put_displacements
 
-   !> Reactions of nodes that anything is held of, or springs
+   !> Reactions of nodes that anything is held of, or springs; on the axis, where u is no unknown,
+   !> none along r
    subroutine put_reactions(page, model, now)
       !> The listing
       type(page_type), intent(inout) :: page
