@@ -7,7 +7,7 @@ module axijoint_command_convert
    use axijoint_deck_text_diagnostics, only : render
    use axijoint_deck_text_file_bytes, only : read_bytes
    use axijoint_legacy_cards, only : cards_type
-   use axijoint_legacy_convert, only : convert_deck
+   use axijoint_legacy_translate, only : translate_deck
    use axijoint_output_file_text, only : text_file_type
    implicit none
    private
@@ -33,7 +33,7 @@ contains
          if (len(failure) > 0) then
             call fatal_error(error, exit_deck, old//': error: '//failure)
          else
-            call convert_deck(old, bytes, command%options%legacy, cards, text)
+            call translate_deck(old, bytes, command%options%legacy, cards, text)
             messages = render(cards%diagnostics, cards%source)
             if (cards%diagnostics%n_errors > 0) then
                call fatal_error(error, exit_deck, messages)

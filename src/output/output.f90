@@ -341,7 +341,9 @@ contains
 
       integer :: k
 
-      names = [(name//endings(files(k)), k=1, size(files))]
+      do k = 1, size(files)
+         names(k) = name//endings(files(k))
+      end do
    end function names_of_files
 
    !> Summary of a run that failed. Results of an earlier run stay untouched:

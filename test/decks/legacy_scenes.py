@@ -166,6 +166,66 @@ def traps():
     return '\n'.join(lines)
 
 
+def small_fields(*values):
+    """An entry of NASTRAN in fields of eight columns"""
+    return ''.join(f'{value:<8}' for value in values).rstrip()
+
+
+def nastran(entry=small_fields):
+    """A thick cylinder of NASTRAN, b = 2a, two rows of elements, the upper row cut into triangles, plane strain: pressed from
+    within all round, pulled sideways at its outer side over 60 degrees; loads of two sets, an enforced displacement of zero"""
+    n = 8
+    case = ['ID RING,NASTRAN', 'APP DISPLACEMENT', 'SOL 1,1', 'TIME 5', 'CEND', 'TITLE = THICK CYLINDER OF RINGS',
+            'AXISYM = COSINE', 'LOAD = 10', 'SPC = 7', 'DISP = ALL', 'BEGIN BULK', '$ harmonics 0 to 3']
+    bulk = [('AXIC', 3), ('MAT1', 4, '21000.', '', '.3', '7.8-9'), ('PTRAPAX', 1, '', 4), ('PTRIAAX', 2, '', 4),
+            ('LOAD', 10, '1.', '2.', 1, '1.', 2), ('SPCADD', 7, 71, 72)]
+    number = {}
+    for i in range(n + 1):
+        for j in range(3):
+            number[i, j] = 100*(j + 1) + i + 1
+            bulk.append(('RINGAX', number[i, j], '', f'{1 + i/n:.5f}', f'{0.05*j:.3f}', '', '', 3456 if j != 1 else 456))
+    for i in range(n):
+        bulk.append(('CTRAPAX', i + 1, 1, number[i, 0], number[i + 1, 0], number[i + 1, 1], number[i, 1]))
+        bulk.append(('CTRIAAX', 100 + i, 2, number[i, 1], number[i + 1, 1], number[i + 1, 2]))
+        bulk.append(('CTRIAAX', 200 + i, 2, number[i, 1], number[i + 1, 2], number[i, 2]))
+    for j in range(2):
+        bulk.append(('PRESAX', 1, '4.', number[0, j], number[0, j + 1], '0.', '360.'))
+        bulk.append(('PRESAX', 2, '3.', number[n, j], number[n, j + 1], '-30.', '30.'))
+    # the ring as a whole goes neither up nor sideways
+    bulk += [('SPCAX', 71, number[4, 1], 0, 3), ('SPCAX', 72, number[4, 0], 1, 12), ('SPCAX', 73, number[0, 0], 0, 1),
+             ('POINTAX', 999, number[0, 0], '0.')]
+    return '\n'.join(case + [entry(*line) for line in bulk] + ['ENDDATA', ''])
+
+
+def abaqus(kind='CAX8R'):
+    """A thick cylinder of Abaqus or CalculiX, b = 2a, pressed from within; plane strain"""
+    n = 16
+    quadratic = '8' in kind
+    number, cards, elements = grid(even(1.0, 2.0, n), [0.0, 0.1])
+    lines = ['*HEADING', 'Thick cylinder', '** a comment', '*NODE, NSET=ALL']
+    places = {}
+    for (i, j), k in number.items():
+        if quadratic or not (i % 2 or j % 2):
+            places[k] = (i, j)
+            lines.append(f'{k}, {1 + i/2/n:.7g}, {0.05*j:.7g}, 0.')
+    lines.append(f'*ELEMENT, TYPE={kind}, ELSET=BODY')
+    for k, e in enumerate(elements):
+        nodes = [e[0], e[2], e[4], e[6]] + ([e[1], e[3], e[5], e[7]] if quadratic else [])
+        lines.append(', '.join(str(v) for v in [k + 1, *nodes[:6]]) + (',' if quadratic else ''))
+        if quadratic:
+            lines.append(', '.join(str(v) for v in nodes[6:]))
+    ends = sorted(k for k, (_, j) in places.items() if j in (0, 2))
+    lines.append('*NSET, NSET=ENDS')
+    lines += [', '.join(str(v) for v in ends[a:a + 8]) for a in range(0, len(ends), 8)]
+    lines += ['*ELSET, ELSET=INNER, GENERATE', '1, 1, 1', '*SURFACE, NAME=BORE, TYPE=ELEMENT', 'INNER, S4',
+              '*MATERIAL, NAME=STEEL', '*ELASTIC', '21000., 0.3', '*DENSITY', '7.8e-9', '*EXPANSION', '1.2e-5',
+              '*SOLID SECTION, ELSET=BODY, MATERIAL=STEEL', '*BOUNDARY', 'ENDS, 2, 2', '*STEP', '*STATIC',
+              '*DSLOAD', 'BORE, P, 8.', '*NODE PRINT, NSET=ALL', 'U', '*EL PRINT, ELSET=BODY', 'S', '*END STEP', '']
+    return '\n'.join(lines)
+
+
+OTHERS = {'cylinder.bdf': nastran(), 'cylinder.inp': abaqus()}
+
 DECKS = {
     'cylinder.dat': cylinder(MISES, (8.0, 4.0, 4.0)),
     'cylinder_mohr.dat': cylinder(MOHR, (4.0, 4.0, 1.5), 10.0, 30.0),
@@ -187,7 +247,7 @@ def write_inputs():
     """Write inputs/legacy"""
     folder = os.path.join(INPUTS, 'legacy')
     os.makedirs(folder, exist_ok=True)
-    for name, text in DECKS.items():
+    for name, text in (DECKS | OTHERS).items():
         with open(os.path.join(folder, name), 'w', encoding='utf-8') as file:
             file.write(text)
 

@@ -109,7 +109,7 @@ contains
    end subroutine spread
 
    !> Outer edges all of whose nodes are loaded, and those that go on from them to a node that is
-   !> held and so needs no force
+   !> held and so needs no force; edges on the axis have no area
    function loaded_edges(model, fine, loaded) result(edges)
       !> The job
       type(model_type), intent(in) :: model
@@ -120,20 +120,23 @@ contains
       !> The edges
       type(loaded_edge_type), allocatable :: edges(:)
 
-      logical :: in_line(size(loaded)), held(size(loaded)), wanted(size(fine%edges))
+      logical :: in_line(size(loaded)), held(size(loaded))
+      logical, dimension(size(fine%edges)) :: outer, wanted
       integer :: k
 
       held = any(model%fixed, 1) .and. .not. loaded
       in_line = .false.
       do k = 1, size(fine%edges)
          associate (nodes => fine%edges(k)%nodes(:n_on(fine%edges(k))))
-            wanted(k) = fine%edges(k)%elements(2) == 0 .and. all(loaded(nodes))
+            outer(k) = fine%edges(k)%elements(2) == 0 .and. &
+               any(model%mesh%coordinates(1, nodes) > 0.0_wp)
+            wanted(k) = outer(k) .and. all(loaded(nodes))
             if (wanted(k)) in_line(nodes) = .true.
          end associate
       end do
       do k = 1, size(fine%edges)
          associate (nodes => fine%edges(k)%nodes(:n_on(fine%edges(k))))
-            if (fine%edges(k)%elements(2) == 0 .and. any(in_line(nodes(:2)))) then
+            if (outer(k) .and. any(in_line(nodes(:2)))) then
                wanted(k) = all(loaded(nodes) .or. held(nodes))
             end if
          end associate

@@ -1,0 +1,303 @@
+!> Input files of Abaqus and CalculiX with axisymmetric solids: mesh, groups, materials, what acts in
+!> the first step
+module axijoint_legacy_abaqus
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_number_map, only : find_number
+   use axijoint_base_text, only : to_text
+   use axijoint_deck_text_diagnostics, only : add_error
+   use axijoint_legacy_abaqus_lines, only : line_type, next_line, parameter_of, real_of, &
+      fault_of, line_keyword, line_data, line_end
+   use axijoint_legacy_abaqus_loads, only : add_boundary, add_ring_force, add_distributed, add_faces
+   use axijoint_legacy_abaqus_mesh, only : abaqus_type, read_nodes, read_elements, read_set, &
+      read_surface
+   use axijoint_legacy_cards, only : cards_type
+   use axijoint_legacy_list, only : set_type, open_set, find_set
+   use axijoint_legacy_sketch, only : sketch_type, leave_out, part_materials, part_nodes, &
+      part_elements, part_notes
+   use axijoint_legacy_words, only : put, exact, integers
+   implicit none
+   private
+   public :: read_abaqus, looks_like_abaqus
+
+   !> A material
+   type :: material_type
+      !> Young's modulus, Poisson's ratio, density
+      real(wp) :: young = 0.0_wp, poisson = 0.0_wp, density = 0.0_wp
+   end type material_type
+
+contains
+
+   !> Whether a text is such a file: its first line that is no comment begins with an asterisk
+   pure logical function looks_like_abaqus(bytes)
+      !> The text
+      character(len=*), intent(in) :: bytes
+
+      character(len=:), allocatable :: line
+      integer :: first, length
+
+      looks_like_abaqus = .false.
+      first = 1
+      do while (first <= len(bytes))
+         length = index(bytes(first:)//new_line('a'), new_line('a')) - 1
+         line = adjustl(bytes(first:first + length - 1))
+         if (len_trim(line) > 0 .and. index(line, '**') /= 1) then
+            looks_like_abaqus = index(line, '*') == 1
+            return
+         end if
+         first = first + length + 1
+      end do
+   end function looks_like_abaqus
+
+   !> Read a file
+   subroutine read_abaqus(cards, sketch)
+      !> Its cards
+      type(cards_type), intent(inout) :: cards
+      !> What is made of it
+      type(sketch_type), intent(inout) :: sketch
+
+      type(abaqus_type) :: mesh
+      type(set_type), allocatable :: names(:)
+      type(material_type), allocatable :: materials(:)
+      type(line_type) :: line
+      integer :: at, n_steps, material
+
+      sketch%title = ''
+      allocate (mesh%node(cards%source%n_cards), mesh%position(2, cards%source%n_cards))
+      associate (n => cards%source%n_cards)
+         allocate (mesh%element(n), mesh%nodes(9, n), mesh%size(n), mesh%material(n), source=0)
+         allocate (mesh%reduced(n), source=.false.)
+      end associate
+      allocate (mesh%node_sets(0), mesh%element_sets(0), mesh%surfaces(0), names(0), materials(0))
+      at = 0
+      n_steps = 0
+      material = 0
+      call next_line(cards, at, line)
+      do while (line%kind /= line_end)
+         if (line%kind /= line_keyword) then
+            call next_line(cards, at, line)
+            cycle
+         end if
+         select case (line%keyword)
+         case ('HEADING')
+            call next_line(cards, at, line)
+            if (line%kind == line_data) sketch%title = trim(line%text)
+            if (line%kind == line_keyword) cycle
+         case ('NODE')
+            call read_nodes(cards, line, at, mesh)
+         case ('ELEMENT')
+            call read_elements(cards, line, at, mesh)
+         case ('NSET')
+            call read_set(cards, line, at, 'NSET', mesh%node_sets)
+         case ('ELSET')
+            call read_set(cards, line, at, 'ELSET', mesh%element_sets)
+         case ('SURFACE')
+            if (all(parameter_of(line, 'TYPE') /= [character(len=7) :: '', 'ELEMENT'])) then
+               call leave_data(cards, line, at, sketch)
+            else
+               call read_surface(cards, line, at, mesh)
+            end if
+         case ('MATERIAL')
+            call open_set(names, parameter_of(line, 'NAME'), line%card, material)
+            if (material > size(materials)) materials = [materials, material_type()]
+         case ('ELASTIC', 'DENSITY')
+            call read_material(cards, line, at, material, materials, sketch)
+         case ('SOLID SECTION')
+            call assign_material(cards, line, names, mesh)
+            ! its data, a thickness, means nothing here
+            call next_line(cards, at, line)
+            if (line%kind /= line_data) cycle
+         case ('BOUNDARY')
+            if (n_steps > 1) then
+               call leave_data(cards, line, at, sketch)
+            else
+               call add_boundary(cards, line, at, mesh, sketch)
+            end if
+         case ('CLOAD')
+            if (n_steps > 1) then
+               call leave_data(cards, line, at, sketch)
+            else
+               call add_ring_force(cards, line, at, mesh, sketch)
+            end if
+         case ('DLOAD', 'DSLOAD')
+            if (n_steps > 1) then
+               call leave_data(cards, line, at, sketch)
+            else
+               call add_distributed(cards, line, at, mesh, sketch)
+            end if
+         case ('STEP')
+            n_steps = n_steps + 1
+            if (n_steps > 1) call leave_out(sketch, line%card, '*STEP: only the first is translated')
+         case ('STATIC', 'END STEP')
+         case ('INCLUDE')
+            call fault_of(cards, line, 0, '*INCLUDE is not read', 'the lines of the file itself')
+         case default
+            call leave_data(cards, line, at, sketch)
+         end select
+         call next_line(cards, at, line)
+      end do
+      if (cards%diagnostics%n_errors == 0) call write_mesh(cards, names, materials, mesh, sketch)
+   end subroutine read_abaqus
+
+   !> Note that a keyword and its data are not translated
+   subroutine leave_data(cards, line, at, sketch)
+      !> The file
+      type(cards_type), intent(in) :: cards
+      !> The keyword
+      type(line_type), intent(in) :: line
+      !> Its card; the last of its data on return
+      integer, intent(inout) :: at
+      !> Takes the note
+      type(sketch_type), intent(inout) :: sketch
+
+      type(line_type) :: data
+      integer :: next
+
+      call leave_out(sketch, line%card, '*'//line%keyword)
+      next = at
+      do
+         call next_line(cards, next, data)
+         if (data%kind /= line_data) exit
+         at = next
+         call leave_out(sketch, at, '*'//line%keyword)
+      end do
+   end subroutine leave_data
+
+   !> *ELASTIC and *DENSITY of the material that was named last
+   subroutine read_material(cards, line, at, material, materials, sketch)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The keyword
+      type(line_type), intent(in) :: line
+      !> Its card; that of its data on return
+      integer, intent(inout) :: at
+      !> The material
+      integer, intent(in) :: material
+      !> All materials
+      type(material_type), intent(inout) :: materials(:)
+      !> Takes what is not translated
+      type(sketch_type), intent(inout) :: sketch
+
+      type(line_type) :: data
+
+      if (material == 0) then
+         call fault_of(cards, line, 0, 'no material is named above', '*MATERIAL, NAME=')
+         return
+      end if
+      if (line%keyword == 'ELASTIC' .and. parameter_of(line, 'TYPE') /= '' .and. &
+          index(parameter_of(line, 'TYPE'), 'ISO') /= 1) then
+         call leave_data(cards, line, at, sketch)
+         return
+      end if
+      call next_line(cards, at, data)
+      if (data%kind /= line_data) then
+         call fault_of(cards, line, 0, '*'//line%keyword//' has no values')
+         at = at - 1
+         return
+      end if
+      if (line%keyword == 'DENSITY') then
+         materials(material)%density = real_of(cards, data, 1)
+      else
+         materials(material)%young = real_of(cards, data, 1)
+         materials(material)%poisson = real_of(cards, data, 2)
+      end if
+   end subroutine read_material
+
+   !> *SOLID SECTION: the material of a set of elements
+   subroutine assign_material(cards, line, names, mesh)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The keyword
+      type(line_type), intent(in) :: line
+      !> Names of the materials
+      type(set_type), intent(in), allocatable :: names(:)
+      !> The mesh
+      type(abaqus_type), intent(inout) :: mesh
+
+      integer :: set, material, k, element
+
+      set = find_set(mesh%element_sets, parameter_of(line, 'ELSET'))
+      material = find_set(names, parameter_of(line, 'MATERIAL'))
+      if (set == 0) call fault_of(cards, line, 0, 'there is no set '//parameter_of(line, 'ELSET'), &
+         'sets that are above')
+      if (material == 0) call fault_of(cards, line, 0, 'there is no material '// &
+         parameter_of(line, 'MATERIAL'), '*MATERIAL above')
+      if (set == 0 .or. material == 0) return
+      do k = 1, mesh%element_sets(set)%list%n
+         element = find_number(mesh%element_map, mesh%element_sets(set)%list%value(k))
+         if (element > 0) mesh%material(element) = material
+      end do
+   end subroutine assign_material
+
+   !> Cards of mesh, materials and surfaces, remarks on sets
+   subroutine write_mesh(cards, names, materials, mesh, sketch)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> Names of the materials, and what they are
+      type(set_type), intent(in), allocatable :: names(:)
+      type(material_type), intent(in) :: materials(:)
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> Takes the cards
+      type(sketch_type), intent(inout) :: sketch
+
+      ! from corners first to round the perimeter
+      integer, parameter :: order(8, 4) = reshape([1, 2, 3, 0, 0, 0, 0, 0, 1, 2, 3, 4, 0, 0, 0, 0, &
+         1, 4, 2, 5, 3, 6, 0, 0, 1, 5, 2, 6, 3, 7, 4, 8], [8, 4])
+      integer :: k, n, kind
+
+      do k = 1, size(materials)
+         if (.not. materials(k)%young > 0.0_wp) call add_error(cards%diagnostics, names(k)%card, &
+            0, 0, 'material '//names(k)%name//' has no *ELASTIC', allowed='E > 0')
+         call put(sketch%parts(part_materials), '! '//names(k)%name)
+         call put(sketch%parts(part_materials), to_text(k)//', '//exact(materials(k)%young)//', '// &
+            exact(materials(k)%poisson)//', '//exact(materials(k)%density))
+      end do
+      do k = 1, mesh%n_nodes
+         call put(sketch%parts(part_nodes), to_text(mesh%node(k))//', '// &
+            exact(mesh%position(1, k))//', '//exact(mesh%position(2, k)))
+      end do
+      if (mesh%n_elements == 0) call add_error(cards%diagnostics, cards%source%n_cards, 0, 0, &
+         'there are no elements', allowed='*ELEMENT, TYPE=CAX4, CAX6, CAX8, ...')
+      do k = 1, mesh%n_elements
+         if (mesh%material(k) == 0) call add_error(cards%diagnostics, cards%source%n_cards, 0, 0, &
+            'element '//to_text(mesh%element(k))//' has no material', allowed='*SOLID SECTION')
+         n = mesh%size(k)
+         kind = findloc([3, 4, 6, 8], n, 1)
+         call put(sketch%parts(part_elements), to_text(mesh%element(k))//', '// &
+            to_text(mesh%material(k))//', 1'//integers(mesh%nodes(order(:n, kind), k)))
+      end do
+      if (any(mesh%reduced(:mesh%n_elements))) sketch%order_quadratic = 2
+      if (any(mesh%reduced(:mesh%n_elements)) .and. any(mesh%size(:mesh%n_elements) > 4 .and. &
+          .not. mesh%reduced(:mesh%n_elements))) call add_error(cards%diagnostics, 1, 0, 0, &
+          'quadratic elements with the reduced rule and with the full one', &
+          allowed='one of both')
+      do k = 1, size(mesh%node_sets)
+         call note('node set', mesh%node_sets(k))
+      end do
+      do k = 1, size(mesh%element_sets)
+         call note('element set', mesh%element_sets(k))
+      end do
+      call add_faces(mesh, sketch)
+
+   contains
+
+      !> Remark on a set
+      subroutine note(what, set)
+         !> What it is a set of
+         character(len=*), intent(in) :: what
+         !> The set
+         type(set_type), intent(in) :: set
+
+         character(len=:), allocatable :: members
+         integer :: first
+
+         call put(sketch%parts(part_notes), '! '//what//' '//set%name//':')
+         do first = 1, set%list%n, 16
+            members = integers(set%list%value(first:min(first + 15, set%list%n)))
+            call put(sketch%parts(part_notes), '!   '//members(3:))
+         end do
+      end subroutine note
+
+   end subroutine write_mesh
+
+end module axijoint_legacy_abaqus

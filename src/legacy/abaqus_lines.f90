@@ -1,0 +1,175 @@
+!> Lines of an input file of Abaqus or CalculiX: keywords with parameters, data with commas
+module axijoint_legacy_abaqus_lines
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_text, only : to_text, upper
+   use axijoint_deck_text_diagnostics, only : add_error
+   use axijoint_deck_text_source, only : card_text
+   use axijoint_deck_text_token, only : read_integer, read_real, token_good
+   use axijoint_legacy_cards, only : cards_type
+   implicit none
+   private
+   public :: line_type, next_line, parameter_of, has_parameter, field_text, integer_of, real_of, &
+      fault_of
+   public :: line_keyword, line_data, line_end
+
+   !> A keyword, data, no line any more
+   integer, parameter :: line_keyword = 1, line_data = 2, line_end = 3
+
+   !> A line
+   type :: line_type
+      !> One of the parameters above
+      integer :: kind = line_end
+      !> Its card
+      integer :: card = 0
+      !> What it says; of a keyword in capital letters without the asterisk and without parameters
+      character(len=:), allocatable :: text, keyword
+      !> Fields between commas: columns, shape (2, fields)
+      integer, allocatable :: place(:, :)
+   end type line_type
+
+contains
+
+   !> The next line that is no comment; the last line of a keyword or of data with a comma at its end
+   !> goes on in the next, which is left to those who read it
+   subroutine next_line(cards, at, line)
+      !> The file
+      type(cards_type), intent(in) :: cards
+      !> The card before it; its own on return
+      integer, intent(inout) :: at
+      !> The line
+      type(line_type), intent(out) :: line
+
+      integer :: k, from, to
+
+      do
+         if (at >= cards%source%n_cards) return
+         at = at + 1
+         line%text = card_text(cards%source, at)
+         if (len_trim(line%text) == 0) cycle
+         if (index(adjustl(line%text), '**') == 1) cycle
+         exit
+      end do
+      line%card = at
+      line%kind = line_data
+      allocate (line%place(2, 0))
+      from = 1
+      do while (from <= len_trim(line%text))
+         to = index(line%text(from:)//',', ',') + from - 2
+         k = verify(line%text(from:to)//'x', ' '//achar(9)) - 1
+         line%place = reshape([line%place, from + k, max(from + k - 1, &
+            from - 1 + len_trim(line%text(from:to)))], [2, size(line%place, 2) + 1])
+         from = to + 2
+      end do
+      if (index(adjustl(line%text), '*') /= 1) return
+      line%kind = line_keyword
+      line%keyword = upper(field_text(line, 1))
+      line%keyword = trim(adjustl(line%keyword(2:)))
+   end subroutine next_line
+
+   !> What is in a field; empty if nothing
+   pure function field_text(line, n) result(text)
+      !> The line
+      type(line_type), intent(in) :: line
+      !> The field
+      integer, intent(in) :: n
+      !> Its text
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (n <= size(line%place, 2)) text = trim(line%text(line%place(1, n):line%place(2, n)))
+   end function field_text
+
+   !> Value of a parameter of a keyword, in capital letters, without quotes; empty if it is not there
+   pure function parameter_of(line, name) result(value)
+      !> The line
+      type(line_type), intent(in) :: line
+      !> Its name
+      character(len=*), intent(in) :: name
+      !> The value
+      character(len=:), allocatable :: value
+
+      character(len=:), allocatable :: text
+      integer :: k, equals
+
+      value = ''
+      do k = 2, size(line%place, 2)
+         text = upper(field_text(line, k))
+         equals = index(text, '=')
+         if (equals == 0) cycle
+         if (text(:equals - 1) /= name) cycle
+         value = trim(adjustl(text(equals + 1:)))
+      end do
+      if (len(value) < 2) return
+      if (value(1:1) == '"') value = value(2:len(value) - 1)
+   end function parameter_of
+
+   !> Whether a keyword has a parameter without a value
+   pure logical function has_parameter(line, name)
+      !> The line
+      type(line_type), intent(in) :: line
+      !> Its name
+      character(len=*), intent(in) :: name
+
+      integer :: k
+
+      has_parameter = .false.
+      do k = 2, size(line%place, 2)
+         has_parameter = has_parameter .or. upper(field_text(line, k)) == name
+      end do
+   end function has_parameter
+
+   !> An integer; a blank field is zero
+   integer function integer_of(cards, line, n) result(value)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The line, and the field
+      type(line_type), intent(in) :: line
+      integer, intent(in) :: n
+
+      integer :: fault
+
+      value = 0
+      if (len(field_text(line, n)) == 0) return
+      call read_integer(field_text(line, n), value, fault)
+      if (fault /= token_good) call fault_of(cards, line, n, 'this is no integer')
+   end function integer_of
+
+   !> A real; a blank field is zero
+   real(wp) function real_of(cards, line, n) result(value)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The line, and the field
+      type(line_type), intent(in) :: line
+      integer, intent(in) :: n
+
+      character(len=:), allocatable :: token
+      integer :: fault
+
+      value = 0.0_wp
+      token = upper(field_text(line, n))
+      if (len(token) == 0) return
+      if (scan(token, 'D') > 0) token(scan(token, 'D'):scan(token, 'D')) = 'E'
+      call read_real(token, value, fault)
+      if (fault /= token_good) call fault_of(cards, line, n, 'this is no number')
+   end function real_of
+
+   !> Report an error about a field
+   subroutine fault_of(cards, line, n, text, allowed)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The line, and the field; 0 for the whole line
+      type(line_type), intent(in) :: line
+      integer, intent(in) :: n
+      !> What is wrong, what is allowed
+      character(len=*), intent(in) :: text
+      character(len=*), intent(in), optional :: allowed
+
+      if (n < 1 .or. n > size(line%place, 2)) then
+         call add_error(cards%diagnostics, line%card, 0, 0, text, allowed=allowed)
+      else
+         call add_error(cards%diagnostics, line%card, line%place(1, n), line%place(2, n), text, &
+            found=field_text(line, n), allowed=allowed)
+      end if
+   end subroutine fault_of
+
+end module axijoint_legacy_abaqus_lines

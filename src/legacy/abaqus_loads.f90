@@ -1,0 +1,269 @@
+!> What acts on a mesh of Abaqus or CalculiX: held nodes, forces, pressures, gravity
+module axijoint_legacy_abaqus_loads
+   use axijoint_base_kinds, only : wp, pi
+   use axijoint_base_number_map, only : find_number
+   use axijoint_base_text, only : to_text, upper
+   use axijoint_legacy_abaqus_lines, only : line_type, next_line, field_text, integer_of, real_of, &
+      fault_of, parameter_of, line_data
+   use axijoint_legacy_abaqus_mesh, only : abaqus_type, members, side_nodes
+   use axijoint_legacy_cards, only : cards_type
+   use axijoint_legacy_list, only : list_type
+   use axijoint_legacy_sketch, only : sketch_type, leave_out, part_chains, part_pressures, &
+      part_restraints, part_moved, part_ring_loads, part_gravity, part_rotation
+   use axijoint_legacy_words, only : put, exact
+   implicit none
+   private
+   public :: add_boundary, add_ring_force, add_distributed, add_faces
+
+   !> Faces of pressures on single elements have numbers from here on
+   integer, parameter :: first_side = 50001
+
+contains
+
+   !> Next line of data
+   logical function is_data(cards, at, line)
+      !> The file
+      type(cards_type), intent(in) :: cards
+      !> The card before it; its own on return if it is
+      integer, intent(inout) :: at
+      !> The line
+      type(line_type), intent(out) :: line
+
+      integer :: next
+
+      next = at
+      call next_line(cards, next, line)
+      is_data = line%kind == line_data
+      if (is_data) at = next
+   end function is_data
+
+   !> *BOUNDARY: node or set, first component, last, value; or a word for components
+   subroutine add_boundary(cards, keyword, at, mesh, sketch)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The keyword
+      type(line_type), intent(in) :: keyword
+      !> Its card; the last of its data on return
+      integer, intent(inout) :: at
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> The new deck
+      type(sketch_type), intent(inout) :: sketch
+
+      type(line_type) :: line
+      type(list_type) :: list
+      character(len=:), allocatable :: word, u, v
+      logical :: held(2)
+      integer :: first, last, k
+      real(wp) :: value
+
+      do while (is_data(cards, at, line))
+         list = members(cards, line, 1, mesh%node_sets)
+         word = upper(field_text(line, 2))
+         value = 0.0_wp
+         select case (word)
+         case ('ENCASTRE', 'PINNED')
+            held = .true.
+         case ('XSYMM')
+            held = [.true., .false.]
+         case ('YSYMM')
+            held = [.false., .true.]
+         case default
+            first = integer_of(cards, line, 2)
+            last = max(first, integer_of(cards, line, 3))
+            value = real_of(cards, line, 4)
+            if (first < 1 .or. first > 6) then
+               call fault_of(cards, line, 2, 'this is no component', &
+                  '1 along r, 2 along z, or ENCASTRE, PINNED, XSYMM, YSYMM')
+               cycle
+            end if
+            held = [first == 1, first <= 2 .and. last >= 2]
+            if (.not. any(held)) then
+               call leave_out(sketch, line%card, '*'//keyword%keyword//' of component '//word)
+               cycle
+            end if
+         end select
+         u = ''
+         v = ''
+         if (held(1)) u = exact(value)
+         if (held(2)) v = exact(value)
+         do k = 1, list%n
+            if (abs(value) > 0.0_wp) then
+               call put(sketch%parts(part_moved), to_text(list%value(k))//', 0, '//u//', '//v)
+            else
+               call put(sketch%parts(part_restraints), to_text(list%value(k))//', '// &
+                  merge('1', '0', held(1))//merge('1', '0', held(2))//'0')
+            end if
+         end do
+      end do
+   end subroutine add_boundary
+
+   !> *CLOAD: node or set, component, force of the whole circle
+   subroutine add_ring_force(cards, keyword, at, mesh, sketch)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The keyword
+      type(line_type), intent(in) :: keyword
+      !> Its card; the last of its data on return
+      integer, intent(inout) :: at
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> The new deck
+      type(sketch_type), intent(inout) :: sketch
+
+      type(line_type) :: line
+      type(list_type) :: list
+      real(wp) :: force, radius
+      integer :: component, node, k
+
+      do while (is_data(cards, at, line))
+         list = members(cards, line, 1, mesh%node_sets)
+         component = integer_of(cards, line, 2)
+         force = real_of(cards, line, 3)
+         if (all(component /= [1, 2]) .or. parameter_of(keyword, 'AMPLITUDE') /= '') then
+            call leave_out(sketch, line%card, '*CLOAD of component '//to_text(component))
+            cycle
+         end if
+         do k = 1, list%n
+            node = find_number(mesh%node_map, list%value(k))
+            if (node == 0) then
+               call fault_of(cards, line, 1, 'there is no node '//to_text(list%value(k)))
+               exit
+            end if
+            radius = mesh%position(1, node)
+            if (radius > 0.0_wp) then
+               call put(sketch%parts(part_ring_loads), to_text(list%value(k))//', 0, '// &
+                  repeat(', ', component - 1)//exact(force/(2.0_wp*pi*radius)))
+            else if (component == 2) then
+               call put(sketch%parts(part_ring_loads), to_text(list%value(k))//', 0, , '// &
+                  exact(force))
+            end if
+         end do
+      end do
+   end subroutine add_ring_force
+
+   !> *DLOAD: elements or a set, P1 to P4, GRAV, CENTRIF; *DSLOAD: a surface, P
+   subroutine add_distributed(cards, keyword, at, mesh, sketch)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The keyword
+      type(line_type), intent(in) :: keyword
+      !> Its card; the last of its data on return
+      integer, intent(inout) :: at
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> The new deck
+      type(sketch_type), intent(inout) :: sketch
+
+      type(line_type) :: line
+      character(len=:), allocatable :: kind
+      real(wp) :: lateral
+
+      do while (is_data(cards, at, line))
+         kind = upper(field_text(line, 2))
+         lateral = 0.0_wp
+         if (kind == 'GRAV') lateral = real_of(cards, line, 4)
+         if (keyword%keyword == 'DSLOAD' .and. kind == 'P') then
+            call press_surface(cards, line, mesh, sketch)
+         else if (keyword%keyword == 'DLOAD' .and. len(kind) == 2 .and. index(kind, 'P') == 1 .and. &
+                  verify(kind(len(kind):), '1234') == 0) then
+            call press_sides(cards, line, mesh, sketch)
+         else if (kind == 'GRAV' .and. .not. abs(lateral) > 0.0_wp) then
+            call put(sketch%parts(part_gravity), exact(real_of(cards, line, 3)* &
+               real_of(cards, line, 5)))
+         else if (kind == 'CENTRIF') then
+            call put(sketch%parts(part_rotation), exact(sqrt(max(0.0_wp, &
+               real_of(cards, line, 3)))))
+         else
+            call leave_out(sketch, line%card, '*'//keyword%keyword//' of kind '//kind)
+         end if
+      end do
+   end subroutine add_distributed
+
+   !> Pressure on a surface
+   subroutine press_surface(cards, line, mesh, sketch)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The line
+      type(line_type), intent(in) :: line
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> The new deck
+      type(sketch_type), intent(inout) :: sketch
+
+      integer :: k, i, face
+
+      face = 0
+      do k = 1, size(mesh%surfaces)
+         if (mesh%surfaces(k)%name == upper(field_text(line, 1))) then
+            do i = 1, mesh%surfaces(k)%elements%n
+               call put(sketch%parts(part_pressures), to_text(face + i)//', 0, '// &
+                  exact(real_of(cards, line, 3)))
+            end do
+            return
+         end if
+         face = face + mesh%surfaces(k)%elements%n
+      end do
+      call fault_of(cards, line, 1, 'there is no surface of this name', 'surfaces that are above')
+   end subroutine press_surface
+
+   !> Pressure on a side of elements: a face each
+   subroutine press_sides(cards, line, mesh, sketch)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The line
+      type(line_type), intent(in) :: line
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> The new deck
+      type(sketch_type), intent(inout) :: sketch
+
+      character(len=:), allocatable :: kind
+      type(list_type) :: list
+      integer :: k, side, element, nodes(2), face
+
+      list = members(cards, line, 1, mesh%element_sets)
+      kind = field_text(line, 2)
+      side = index('1234', kind(2:2))
+      do k = 1, list%n
+         element = find_number(mesh%element_map, list%value(k))
+         if (element == 0) then
+            call fault_of(cards, line, 1, 'there is no element '//to_text(list%value(k)))
+            return
+         end if
+         nodes = side_nodes(mesh, element, side)
+         sketch%n_sides = sketch%n_sides + 1
+         face = first_side + sketch%n_sides - 1
+         call put(sketch%parts(part_chains), to_text(face)//', '//to_text(nodes(1))//', '// &
+            to_text(nodes(2)))
+         call put(sketch%parts(part_pressures), to_text(face)//', 0, '// &
+            exact(real_of(cards, line, 3)))
+      end do
+   end subroutine press_sides
+
+   !> Faces of the surfaces: a chain for each side, in their order
+   subroutine add_faces(mesh, sketch)
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> The new deck
+      type(sketch_type), intent(inout) :: sketch
+
+      integer :: k, i, face, nodes(2)
+
+      face = 0
+      do k = 1, size(mesh%surfaces)
+         associate (surface => mesh%surfaces(k))
+            if (surface%elements%n == 0) cycle
+            call put(sketch%parts(part_chains), '! surface '//surface%name//': faces '// &
+               to_text(face + 1)//' to '//to_text(face + surface%elements%n))
+            do i = 1, surface%elements%n
+               nodes = side_nodes(mesh, surface%elements%value(i), surface%sides%value(i))
+               call put(sketch%parts(part_chains), to_text(face + i)//', '//to_text(nodes(1))// &
+                  ', '//to_text(nodes(2)))
+            end do
+            face = face + surface%elements%n
+         end associate
+      end do
+   end subroutine add_faces
+
+end module axijoint_legacy_abaqus_loads

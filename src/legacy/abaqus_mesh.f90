@@ -1,0 +1,327 @@
+!> Meshes of Abaqus and CalculiX: nodes, axisymmetric elements, sets, surfaces
+module axijoint_legacy_abaqus_mesh
+   use axijoint_base_kinds, only : wp
+   use axijoint_base_number_map, only : number_map_type, find_number, insert_number
+   use axijoint_base_text, only : to_text, upper
+   use axijoint_deck_text_diagnostics, only : add_warning
+   use axijoint_legacy_abaqus_lines, only : line_type, next_line, parameter_of, has_parameter, &
+      field_text, integer_of, real_of, fault_of, line_data
+   use axijoint_legacy_cards, only : cards_type
+   use axijoint_legacy_list, only : list_type, set_type, add, open_set, find_set
+   implicit none
+   private
+   public :: abaqus_type, surface_type, read_nodes, read_elements, read_set, read_surface, members, &
+      side_nodes
+
+   !> Sides of elements with a name
+   type :: surface_type
+      !> The name
+      character(len=:), allocatable :: name
+      !> Elements (indices) and their sides
+      type(list_type) :: elements, sides
+   end type surface_type
+
+   !> What is read
+   type :: abaqus_type
+      !> Nodes by number: numbers and places
+      type(number_map_type) :: node_map
+      integer, allocatable :: node(:)
+      real(wp), allocatable :: position(:, :)
+      integer :: n_nodes = 0
+      !> Elements by number: numbers, nodes as on the lines, how many; whether the rule is reduced
+      type(number_map_type) :: element_map
+      integer, allocatable :: element(:), nodes(:, :), size(:), material(:)
+      logical, allocatable :: reduced(:)
+      integer :: n_elements = 0
+      !> Sets, and surfaces
+      type(set_type), allocatable :: node_sets(:), element_sets(:)
+      type(surface_type), allocatable :: surfaces(:)
+   end type abaqus_type
+
+contains
+
+   !> Data of *NODE: number, r, z
+   subroutine read_nodes(cards, keyword, at, mesh)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The line *NODE
+      type(line_type), intent(in) :: keyword
+      !> Its card; the last of its data on return
+      integer, intent(inout) :: at
+      !> Takes them
+      type(abaqus_type), intent(inout) :: mesh
+
+      type(line_type) :: line
+      integer :: number, set
+
+      set = 0
+      if (parameter_of(keyword, 'NSET') /= '') &
+         call open_set(mesh%node_sets, parameter_of(keyword, 'NSET'), keyword%card, set)
+      do while (is_data(cards, at, line))
+         number = integer_of(cards, line, 1)
+         if (number < 1) then
+            call fault_of(cards, line, 1, 'this is no number of a node', '1, 2, ...')
+            cycle
+         end if
+         if (find_number(mesh%node_map, number) > 0) &
+            call fault_of(cards, line, 1, 'the node is there already')
+         mesh%n_nodes = mesh%n_nodes + 1
+         call insert_number(mesh%node_map, number, mesh%n_nodes)
+         mesh%node(mesh%n_nodes) = number
+         mesh%position(:, mesh%n_nodes) = [real_of(cards, line, 2), real_of(cards, line, 3)]
+         if (abs(real_of(cards, line, 4)) > 0.0_wp) call fault_of(cards, line, 4, &
+            'the third coordinate of an axisymmetric mesh is not zero', '0 or blank')
+         if (set > 0) call add(mesh%node_sets(set)%list, number)
+      end do
+   end subroutine read_nodes
+
+   !> The next line, if it is one of data
+   logical function is_data(cards, at, line)
+      !> The file
+      type(cards_type), intent(in) :: cards
+      !> The card before it; its own on return if it is
+      integer, intent(inout) :: at
+      !> The line
+      type(line_type), intent(out) :: line
+
+      integer :: next
+
+      next = at
+      call next_line(cards, next, line)
+      is_data = line%kind == line_data
+      if (is_data) at = next
+   end function is_data
+
+   !> Data of *ELEMENT: number and nodes, corners first; a line may go on in the next
+   subroutine read_elements(cards, keyword, at, mesh)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The line *ELEMENT
+      type(line_type), intent(in) :: keyword
+      !> Its card; the last of its data on return
+      integer, intent(inout) :: at
+      !> Takes them
+      type(abaqus_type), intent(inout) :: mesh
+
+      type(line_type) :: line
+      character(len=:), allocatable :: kind, name
+      integer :: values(9), set, n, k, m, digit
+
+      kind = parameter_of(keyword, 'TYPE')
+      name = parameter_of(keyword, 'ELSET')
+      digit = scan(kind, '3468')
+      n = 0
+      if (digit > 0 .and. (index(kind, 'CAX') == 1 .or. index(kind, 'CGAX') == 1)) &
+         read (kind(digit:digit), *) n
+      if (n == 0) then
+         call fault_of(cards, keyword, 0, 'elements of type '//kind//' are no axisymmetric solids', &
+            'CAX3, CAX4, CAX6, CAX8, and their variants')
+         do while (is_data(cards, at, line))
+         end do
+         return
+      end if
+      if (verify(kind(digit + 1:), 'R') > 0 .or. (n < 6 .and. kind(digit + 1:) == 'R')) &
+         call add_warning(cards%diagnostics, keyword%card, 0, 0, kind//' is taken as element of '// &
+         to_text(n)//' nodes with the full rule')
+      set = 0
+      if (name /= '') call open_set(mesh%element_sets, name, keyword%card, set)
+      do while (is_data(cards, at, line))
+         k = 0
+         do
+            do m = 1, size(line%place, 2)
+               if (k > n) exit
+               if (len(field_text(line, m)) == 0) cycle
+               k = k + 1
+               values(k) = integer_of(cards, line, m)
+            end do
+            if (k > n) exit
+            if (.not. is_data(cards, at, line)) exit
+         end do
+         if (k <= n) then
+            call fault_of(cards, keyword, 0, 'an element has too few nodes')
+            return
+         end if
+         call add_element(cards, line, values(:n + 1), n > 4 .and. kind(digit + 1:) == 'R', mesh)
+         if (set > 0) call add(mesh%element_sets(set)%list, values(1))
+      end do
+   end subroutine read_elements
+
+   !> Add an element
+   subroutine add_element(cards, line, values, reduced, mesh)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> Its last line
+      type(line_type), intent(in) :: line
+      !> Number and nodes
+      integer, intent(in) :: values(:)
+      !> Whether the rule is reduced
+      logical, intent(in) :: reduced
+      !> Takes it
+      type(abaqus_type), intent(inout) :: mesh
+
+      integer :: k
+
+      if (values(1) < 1) then
+         call fault_of(cards, line, 1, 'this is no number of an element', '1, 2, ...')
+         return
+      end if
+      if (find_number(mesh%element_map, values(1)) > 0) &
+         call fault_of(cards, line, 1, 'the element is there already')
+      do k = 2, size(values)
+         if (find_number(mesh%node_map, values(k)) == 0) call fault_of(cards, line, 0, &
+            'there is no node '//to_text(values(k)), 'nodes of *NODE above')
+      end do
+      mesh%n_elements = mesh%n_elements + 1
+      call insert_number(mesh%element_map, values(1), mesh%n_elements)
+      mesh%element(mesh%n_elements) = values(1)
+      mesh%size(mesh%n_elements) = size(values) - 1
+      mesh%nodes(:size(values) - 1, mesh%n_elements) = values(2:)
+      mesh%reduced(mesh%n_elements) = reduced
+   end subroutine add_element
+
+   !> Data of *NSET and *ELSET: numbers, names of sets, or with GENERATE first, last, step
+   subroutine read_set(cards, keyword, at, name, sets)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The keyword
+      type(line_type), intent(in) :: keyword
+      !> Its card; the last of its data on return
+      integer, intent(inout) :: at
+      !> Name of the parameter that names the set
+      character(len=*), intent(in) :: name
+      !> Takes it
+      type(set_type), allocatable, intent(inout) :: sets(:)
+
+      type(line_type) :: line
+      type(list_type) :: list
+      integer :: set, k, i
+
+      if (parameter_of(keyword, name) == '') then
+         call fault_of(cards, keyword, 0, 'the set has no name', name//'=')
+         return
+      end if
+      call open_set(sets, parameter_of(keyword, name), keyword%card, set)
+      do while (is_data(cards, at, line))
+         if (has_parameter(keyword, 'GENERATE')) then
+            do i = integer_of(cards, line, 1), integer_of(cards, line, 2), &
+               max(1, integer_of(cards, line, 3))
+               call add(sets(set)%list, i)
+            end do
+            cycle
+         end if
+         do k = 1, size(line%place, 2)
+            if (len(field_text(line, k)) == 0) cycle
+            list = members(cards, line, k, sets)
+            do i = 1, list%n
+               call add(sets(set)%list, list%value(i))
+            end do
+         end do
+      end do
+   end subroutine read_set
+
+   !> What a field means: a number, or the members of a set
+   function members(cards, line, field, sets) result(list)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The line, and the field
+      type(line_type), intent(in) :: line
+      integer, intent(in) :: field
+      !> Sets by name
+      type(set_type), intent(in), allocatable :: sets(:)
+      !> The numbers
+      type(list_type) :: list
+
+      integer :: set
+
+      if (verify(field_text(line, field), '0123456789') == 0) then
+         call add(list, integer_of(cards, line, field))
+         return
+      end if
+      set = find_set(sets, field_text(line, field))
+      if (set > 0) then
+         list = sets(set)%list
+         if (.not. allocated(list%value)) allocate (list%value(0))
+      else
+         call fault_of(cards, line, field, 'there is no set of this name', 'sets that are above')
+         allocate (list%value(0))
+      end if
+   end function members
+
+   !> Data of *SURFACE: elements or sets of them, and a side
+   subroutine read_surface(cards, keyword, at, mesh)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The keyword
+      type(line_type), intent(in) :: keyword
+      !> Its card; the last of its data on return
+      integer, intent(inout) :: at
+      !> Takes it
+      type(abaqus_type), intent(inout) :: mesh
+
+      type(line_type) :: line
+      type(surface_type) :: surface
+      type(surface_type), allocatable :: more(:)
+      type(list_type) :: list
+      character(len=:), allocatable :: text
+      integer :: k, side, element
+
+      surface%name = parameter_of(keyword, 'NAME')
+      allocate (surface%elements%value(0), surface%sides%value(0))
+      do while (is_data(cards, at, line))
+         list = members(cards, line, 1, mesh%element_sets)
+         side = 0
+         text = upper(field_text(line, 2))
+         if (len(text) == 2 .and. index(text, 'S') == 1) side = index('1234', text(len(text):))
+         if (side == 0) then
+            call fault_of(cards, line, 2, 'this is no side', 'S1 to S4')
+            cycle
+         end if
+         do k = 1, list%n
+            element = find_number(mesh%element_map, list%value(k))
+            if (element == 0) then
+               call fault_of(cards, line, 1, 'there is no element '//to_text(list%value(k)))
+               exit
+            end if
+            call push(surface%elements, element)
+            call push(surface%sides, side)
+         end do
+      end do
+      if (.not. allocated(mesh%surfaces)) allocate (mesh%surfaces(0))
+      allocate (more(size(mesh%surfaces) + 1))
+      do k = 1, size(mesh%surfaces)
+         more(k) = mesh%surfaces(k)
+      end do
+      more(size(more)) = surface
+      call move_alloc(more, mesh%surfaces)
+
+   contains
+
+      !> Add to a list that may have no room at all
+      subroutine push(list, value)
+         !> The list
+         type(list_type), intent(inout) :: list
+         !> The integer
+         integer, intent(in) :: value
+
+         if (size(list%value) == 0) deallocate (list%value)
+         call add(list, value)
+      end subroutine push
+
+   end subroutine read_surface
+
+   !> Corners of a side of an element
+   pure function side_nodes(mesh, element, side) result(nodes)
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> Element (index) and side, from 1
+      integer, intent(in) :: element, side
+      !> Numbers of the nodes
+      integer :: nodes(2)
+
+      integer :: corners
+
+      corners = merge(3, 4, any(mesh%size(element) == [3, 6]))
+      nodes = mesh%nodes([min(side, corners), mod(side, corners) + 1], element)
+   end function side_nodes
+
+end module axijoint_legacy_abaqus_mesh

@@ -1,0 +1,43 @@
+!> From a deck of any older or other program to one of axijoint: which program it is of shows in what
+!> it says
+module axijoint_legacy_translate
+   use axijoint_legacy_abaqus, only : read_abaqus, looks_like_abaqus
+   use axijoint_legacy_cards, only : cards_type, open_cards
+   use axijoint_legacy_convert, only : convert_deck
+   use axijoint_legacy_layout, only : dialect_type
+   use axijoint_legacy_nastran, only : read_nastran, looks_like_nastran
+   use axijoint_legacy_sketch, only : sketch_type, write_sketch
+   implicit none
+   private
+   public :: translate_deck
+
+contains
+
+   !> Read a deck and write it anew
+   subroutine translate_deck(path, bytes, dialect, cards, text)
+      !> The deck, for messages, and what it says
+      character(len=*), intent(in) :: path, bytes
+      !> Where values stand, if it is one of Owen and Hinton's program
+      type(dialect_type), intent(in) :: dialect
+      !> Its cards, with errors and warnings
+      type(cards_type), intent(out) :: cards
+      !> The new deck; of use only if there are no errors among the messages
+      character(len=:), allocatable, intent(out) :: text
+
+      type(sketch_type) :: sketch
+
+      if (looks_like_nastran(bytes)) then
+         call open_cards(path, bytes, dialect, cards)
+         call read_nastran(cards, sketch)
+      else if (looks_like_abaqus(bytes)) then
+         call open_cards(path, bytes, dialect, cards)
+         call read_abaqus(cards, sketch)
+      else
+         call convert_deck(path, bytes, dialect, cards, text)
+         return
+      end if
+      text = ''
+      if (cards%diagnostics%n_errors == 0) call write_sketch(path, sketch, cards, text)
+   end subroutine translate_deck
+
+end module axijoint_legacy_translate
