@@ -60,7 +60,7 @@ contains
 
       do n = 1, 17
          write (form, '(a, i0, a)') '(es32.', n, 'e3)'
-         write (digits, form) value
+         write (digits, form) value + 0.0_wp  ! no negative zero
          read (digits, *, iostat=status) again
          if (status == 0 .and. .not. abs(again - value) > 0.0_wp) exit
       end do
