@@ -3,7 +3,7 @@ module axijoint_base_sort
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: ascending_order, refine_order, sort_short
+   public :: ascending_order, lexical_order, refine_order, sort_short
 
 contains
 
@@ -31,6 +31,22 @@ contains
          width = 2*width
       end do
    end function ascending_order
+
+   !> Order in which things ascend by their first keys, where these are equal by their second, and so
+   !> on; equal things stay as they are
+   pure function lexical_order(keys) result(order)
+      !> The keys, shape (keys, things)
+      real(wp), intent(in) :: keys(:, :)
+      !> Indices of the things
+      integer, allocatable :: order(:)
+
+      integer :: k
+
+      order = [(k, k=1, size(keys, 2))]
+      do k = size(keys, 1), 1, -1
+         order = order(ascending_order(keys(k, order)))
+      end do
+   end function lexical_order
 
    !> Merge two ascending runs
    pure subroutine merge_runs(keys, left, right, merged)

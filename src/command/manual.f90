@@ -100,12 +100,15 @@ contains
          'Compares two listings, two HDF5 result files, or one of each, table by table and '// &
          'column by column. Rows are matched by their places (r, z, theta), whatever the '// &
          'numbers of the nodes. Values are the same if they differ by no more than the largest '// &
-         'of the tolerances, and the rounding of the digits printed.', compare_options(), &
+         'of the tolerances, and the rounding of the digits printed. Listings of Owen and '// &
+         'Hinton''s program are known by their headings.', compare_options(), &
          '0 same; 1 different; 2 a file that cannot be read, or usage.')
-      topics(7) = topic_type('convert', 'OLD NEW', 'write a deck of an older program anew', &
-         'Reads OLD, a deck of the axisymmetric plasticity program of Owen and Hinton, and writes '// &
-         'NEW, a deck with comments that gives the same results as run --legacy owen-hinton OLD. '// &
-         'What is understood in another way is told.', [formats], &
+      topics(7) = topic_type('convert', 'OLD NEW', 'write a deck of another program anew', &
+         'Reads OLD and writes NEW, a deck with comments: from a deck of the axisymmetric '// &
+         'plasticity program of Owen and Hinton one that gives the same results as run --legacy '// &
+         'owen-hinton OLD; from a deck of NASTRAN for solids of revolution in harmonics (AXIC), or '// &
+         'an input file of Abaqus or CalculiX with CAX elements, what can be said. What is '// &
+         'understood in another way or not translated is told line by line.', [formats], &
          '0 ok; 2 deck or usage; 5 input or output.')
       topics(8) = topic_type('help', '[COMMAND]', 'help on a command', &
          'Without COMMAND, what commands there are. `help card` prints an index of all cards '// &

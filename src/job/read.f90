@@ -9,8 +9,10 @@ module axijoint_job_read
    use axijoint_job_in_situ_messages, only : judge_in_situ
    use axijoint_job_yield_messages, only : judge_in_situ_yield
    use axijoint_job_job, only : job_type, take_options, deck_name, standard_input
+   use axijoint_legacy_abaqus, only : looks_like_abaqus
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_convert, only : convert_deck, looks_old
+   use axijoint_legacy_nastran, only : looks_like_nastran
    use axijoint_model_request, only : refinement_type
    implicit none
    private
@@ -92,7 +94,7 @@ contains
          refinement, text)
    end subroutine read_legacy
 
-   !> Offer to read a deck of Owen and Hinton's program as one
+   !> Offer to read a deck of Owen and Hinton's program as one, and to convert those of others
    subroutine offer_legacy(source, diagnostics)
       !> The deck
       type(source_type), intent(in) :: source
@@ -100,7 +102,13 @@ contains
       type(diagnostics_type), intent(inout) :: diagnostics
 
       if (source%n_files == 0) return
-      if (.not. looks_old(source%files(1)%bytes)) return
+      associate (bytes => source%files(1)%bytes)
+         if (looks_like_nastran(bytes)) call add_warning(diagnostics, 0, 0, 0, 'this looks like a '// &
+            'deck of NASTRAN', mend='axijoint convert OLD NEW writes it anew')
+         if (looks_like_abaqus(bytes)) call add_warning(diagnostics, 0, 0, 0, 'this looks like an '// &
+            'input file of Abaqus or CalculiX', mend='axijoint convert OLD NEW writes it anew')
+         if (.not. looks_old(bytes)) return
+      end associate
       call add_warning(diagnostics, 0, 0, 0, 'this looks like a deck of the plasticity program of '// &
          'Owen and Hinton', mend='axijoint run --legacy owen-hinton DECK solves it, axijoint '// &
          'convert OLD NEW writes it anew')

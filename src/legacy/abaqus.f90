@@ -5,6 +5,8 @@ module axijoint_legacy_abaqus
    use axijoint_base_number_map, only : find_number
    use axijoint_base_text, only : to_text
    use axijoint_deck_text_diagnostics, only : add_error
+   use axijoint_deck_text_file_bytes, only : end_of_bytes => line_end, &
+      next_bytes => next_line
    use axijoint_legacy_abaqus_lines, only : line_type, next_line, parameter_of, real_of, &
       fault_of, line_keyword, line_data, line_end
    use axijoint_legacy_abaqus_loads, only : add_boundary, add_ring_force, add_distributed, add_faces
@@ -33,18 +35,18 @@ contains
       character(len=*), intent(in) :: bytes
 
       character(len=:), allocatable :: line
-      integer :: first, length
+      integer :: first, last
 
       looks_like_abaqus = .false.
       first = 1
       do while (first <= len(bytes))
-         length = index(bytes(first:)//new_line('a'), new_line('a')) - 1
-         line = adjustl(bytes(first:first + length - 1))
+         last = end_of_bytes(bytes, first)
+         line = adjustl(bytes(first:min(last, first + 200)))
          if (len_trim(line) > 0 .and. index(line, '**') /= 1) then
             looks_like_abaqus = index(line, '*') == 1
             return
          end if
-         first = first + length + 1
+         first = next_bytes(bytes, last)
       end do
    end function looks_like_abaqus
 

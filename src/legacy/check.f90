@@ -1,6 +1,7 @@
 !> What is judged of an old deck when all of it was read: nodes that are alike or used by nothing
 module axijoint_legacy_check
    use axijoint_base_kinds, only : wp
+   use axijoint_base_sort, only : lexical_order
    use axijoint_base_text, only : to_text
    use axijoint_legacy_cards, only : cards_type, complain
    use axijoint_legacy_deck, only : old_deck_type
@@ -53,7 +54,8 @@ contains
       integer, allocatable :: order(:)
       integer :: k
 
-      order = by_place(deck)
+      order = pack([(k, k=1, deck%n_nodes)], deck%node_card > 0)
+      order = order(lexical_order(deck%position(:, order)))
       do k = 2, size(order)
          if (any(abs(deck%position(:, order(k)) - deck%position(:, order(k - 1))) > 0.0_wp)) cycle
          call complain(cards, 0, 13, 'nodes '//to_text(min(order(k), order(k - 1)))//' and '// &
@@ -61,53 +63,5 @@ contains
             card=deck%node_card(max(order(k), order(k - 1))))
       end do
    end subroutine check_alike
-
-   !> Nodes with coordinates, by r and then z (merge sort)
-   pure function by_place(deck) result(order)
-      !> The deck
-      type(old_deck_type), intent(in) :: deck
-      !> Numbers of the nodes
-      integer, allocatable :: order(:)
-
-      integer, allocatable :: other(:)
-      integer :: width, first, middle, last, a, b, k
-
-      order = pack([(k, k=1, deck%n_nodes)], deck%node_card > 0)
-      allocate (other(size(order)))
-      width = 1
-      do while (width < size(order))
-         do first = 1, size(order), 2*width
-            middle = min(first + width, size(order) + 1)
-            last = min(first + 2*width, size(order) + 1)
-            a = first
-            b = middle
-            do k = first, last - 1
-               if (a >= middle) then
-                  other(k) = order(b)
-                  b = b + 1
-               else if (b >= last) then
-                  other(k) = order(a)
-                  a = a + 1
-               else if (before(deck%position(:, order(b)), deck%position(:, order(a)))) then
-                  other(k) = order(b)
-                  b = b + 1
-               else
-                  other(k) = order(a)
-                  a = a + 1
-               end if
-            end do
-         end do
-         order = other
-         width = 2*width
-      end do
-   end function by_place
-
-   !> Whether one place comes before another
-   pure logical function before(one, another)
-      !> r and z
-      real(wp), intent(in) :: one(2), another(2)
-
-      before = one(1) < another(1) .or. (.not. another(1) < one(1) .and. one(2) < another(2))
-   end function before
 
 end module axijoint_legacy_check

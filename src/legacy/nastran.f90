@@ -5,6 +5,7 @@ module axijoint_legacy_nastran
    use axijoint_base_number_map, only : find_number, insert_number
    use axijoint_base_text, only : to_text, upper
    use axijoint_deck_text_diagnostics, only : add_error, add_warning
+   use axijoint_deck_text_file_bytes, only : line_end, next_line
    use axijoint_deck_text_source, only : card_text
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_nastran_cards, only : entry_type, next_entry, integer_in, real_in, is_in, &
@@ -25,11 +26,20 @@ contains
       !> The text
       character(len=*), intent(in) :: bytes
 
-      character(len=len(bytes)) :: text
+      character(len=:), allocatable :: line
+      logical :: bulk
+      integer :: first, last
 
-      text = upper(bytes)
-      looks_like_nastran = index(text, 'BEGIN BULK') > 0 .and. (index(text, 'AXIC') > 0 .or. &
-         index(text, 'RINGAX') > 0)
+      looks_like_nastran = .false.
+      bulk = .false.
+      first = 1
+      do while (first <= len(bytes) .and. .not. looks_like_nastran)
+         last = line_end(bytes, first)
+         line = upper(bytes(first:min(last, first + 15)))
+         bulk = bulk .or. index(adjustl(line), 'BEGIN BULK') == 1
+         looks_like_nastran = bulk .and. (index(line, 'AXIC') == 1 .or. index(line, 'RINGAX') == 1)
+         first = next_line(bytes, last)
+      end do
    end function looks_like_nastran
 
    !> Read a deck

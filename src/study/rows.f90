@@ -9,6 +9,7 @@ module axijoint_study_rows
    use axijoint_analysis_static, only : analyse_combination
    use axijoint_base_error, only : error_type, exit_deck, exit_internal, exit_stopped
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_sort, only : lexical_order
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type
    use axijoint_base_progress, only : progress_type
@@ -139,62 +140,11 @@ contains
       !> Numbers of the rows
       integer, allocatable :: order(:)
 
-      integer, allocatable :: columns(:), other(:)
-      integer :: width, first, middle, last, a, b, k, n
+      integer, allocatable :: columns(:)
+      integer :: k
 
-      n = size(table%values, 2)
       columns = pack([(k, k=1, size(keeps_structure))], .not. keeps_structure)
-      order = [(k, k=1, n)]
-      if (size(columns) == 0) return
-      allocate (other(n))
-      width = 1
-      do while (width < n)
-         do first = 1, n, 2*width
-            middle = min(first + width, n + 1)
-            last = min(first + 2*width, n + 1)
-            a = first
-            b = middle
-            do k = first, last - 1
-               if (b >= last) then
-                  other(k) = order(a)
-                  a = a + 1
-               else if (a >= middle) then
-                  other(k) = order(b)
-                  b = b + 1
-               else if (comes_first(order(b), order(a))) then
-                  other(k) = order(b)
-                  b = b + 1
-               else
-                  other(k) = order(a)
-                  a = a + 1
-               end if
-            end do
-         end do
-         order = other
-         width = 2*width
-      end do
-
-   contains
-
-      !> Whether a row comes before another by the values that make the structure
-      pure logical function comes_first(row, other_row)
-         !> The rows
-         integer, intent(in) :: row, other_row
-
-         integer :: i
-
-         comes_first = .false.
-         do i = 1, size(columns)
-            associate (mine => table%values(columns(i), row), &
-                       theirs => table%values(columns(i), other_row))
-               if (abs(mine - theirs) > 0.0_wp) then
-                  comes_first = mine < theirs
-                  return
-               end if
-            end associate
-         end do
-      end function comes_first
-
+      order = lexical_order(table%values(columns, :))
    end function row_order
 
    !> Solve a row

@@ -571,6 +571,17 @@ class Cards:
         """
         self._entry("PRINT", table, rows, number, body, rectangle)
 
+    def oldlisting(self, amount: int, *, first: int | None = None, last: int | None = None) -> None:
+        """OLDLISTING: what the listing of --listing owen-hinton shows of increments; without the section all of
+            all.
+
+        amount: NOUTP: 0 nothing, 1 displacements, 2 reactions, too, 3 stresses, too; allowed: 0 … 3
+        first: first increment; if not given: 1; allowed: increments of the deck
+        last: last increment; if not given: the first; of all, if that is blank, too; allowed: increments from
+            the first on
+        """
+        self._entry("OLDLISTING", amount, first, last)
+
     def sweep(self, *, first: float | None = None, last: float | None = None, sectors: int | None = None) -> None:
         """SWEEP: files for ParaView: bodies and joints swept through θ; alone, the whole circle.
 

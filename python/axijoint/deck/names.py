@@ -47,6 +47,7 @@ NAMES = {card: names.split() for card, names in {
     "POINTS": "point place body name",
     "KEEP": "what when increments",
     "PRINT": "table rows number body rectangle",
+    "OLDLISTING": "amount first last",
     "SWEEP": "first last sectors",
     "ERROR": "target quantity rounds unknowns",
     "GMSH": "path",
