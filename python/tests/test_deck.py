@@ -25,7 +25,7 @@ PROGRAM = os.environ["AXIJOINT"]
 DECKS = sorted([*(jobs.ROOT/"test/decks/good").glob("*.dat"),
                 *(jobs.ROOT/f"inputs/{name}.dat" for name in ("case3", "chimney", "first", "monopile", "peg"))])
 # Cards that these have not, put into one of them
-MORE = {"keep": ("monopile", "KEEP", "  STRESSES      ONLY    3    6", "  DISPLACE     EVERY    2"),
+MORE = {"keep": ("monopile", "KEEP", "  STRESSES      ONLY    3    6", "  DISPLACE     EVERY    2", "OLDLISTING", "    1    1    2"),
         "printed": ("first", "PRINT", "    TOTALS      UPTO       200", "    STATES       ALL              1       0.0       0.0       1.0       0.5"),
         "spun": ("chimney", "CASE", "    9 Spun", "ROTATION", "      12.5", "COMBINE", "    1    9       1.0"),
         "goal": ("first", "ERROR", "      20.0    ENERGY    2", "SWEEP", "       0.0     180.0   20")}

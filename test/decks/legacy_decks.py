@@ -196,6 +196,18 @@ def dialect(program, folder):
             + ([] if 'bad.fmt:1: a card and its format' in wrong.err else [wrong.err]))
 
 
+def dialect_error(program, folder):
+    """An old error is placed in the columns of the dialect"""
+    lines = scenes.DECKS['cylinder.dat'].split('\n')
+    for k in range(FIRST_ELEMENT - 1, FIRST_NODE - 1):
+        words = lines[k].split()
+        lines[k] = f' {words[0]:>5s}{words[1]:>9s}      ' + ''.join(f'{word:>5s}' for word in words[2:])
+    lines[FIRST_ELEMENT - 1] = lines[FIRST_ELEMENT - 1][:14] + '9' + lines[FIRST_ELEMENT - 1][15:]
+    formats = write(folder, 'port.fmt', 'element  1X,I5,I9,6X,8I5\n')
+    ran = program.run('check', *FLAG, '--format', formats, write(folder, 'bad.dat', '\n'.join(lines)))
+    return ran.ended_with(2) + ([] if re.search(r'bad\.dat:3:15: error: MATNO is out of range \(error 14', ran.err) else [ran.err[:800]])
+
+
 def tests(program):
     """The tests of this module"""
 
@@ -203,7 +215,7 @@ def tests(program):
         return Test(f'legacy: {name}', lambda folder: function(program, folder, *arguments))
 
     return ([test(name.__name__.replace('_', ' '), name) for name in
-             (cylinder, cylinder_mohr, sphere, plate, footing, column, traps, refused, dialect)]
+             (cylinder, cylinder_mohr, sphere, plate, footing, column, traps, refused, dialect, dialect_error)]
             + [test(f'converted, {name}', converted, name) for name in scenes.DECKS]
             + [test(f'error {number}, line {line}', old_error, number, line, columns, text)
                for number, line, columns, text in ERRORS])

@@ -274,11 +274,8 @@ def no_room(program, folder):
 def refused(program, folder):
     """Jobs that the layout has no place for, before anything is solved; wrong words"""
     faults = []
-    for deck, words in (('first.dat', 'joints'), ('inputs', '')):
-        if not words:
-            continue
-        ran = program.run('run', *LISTING, os.path.join(INPUTS, deck), '-o', folder)
-        faults += ran.ended_with(2) + ([] if 'has no place' in ran.err else [ran.err[:500]])
+    ran = program.run('run', *LISTING, os.path.join(INPUTS, 'first.dat'), '-o', folder)
+    faults += ran.ended_with(2) + ([] if 'has no place' in ran.err else [ran.err[:500]])
     ring = ('TITLE\n\nCONTROL\n    1\nMATERIALS\n    1    1.0E5       0.2       0.0\nNODES\n    1       1.0       0.0\n'
             '    2       2.0       0.0\n    3       2.0       1.0\n    4       1.0       1.0\nELEMENTS\n    1    1    1    1    2    3    4\n'
             'RESTRAINTS\n    1  111\n    2  111\nRINGLOADS\n    4    1       1.0\nEND\n')
@@ -289,6 +286,11 @@ def refused(program, folder):
         faults += ran.ended_with(2) + ([] if words in ran.err else [f'expected {words}\n{ran.err[:500]}'])
     if any(name.endswith(('.h5', '.lis')) for name in os.listdir(folder)):
         faults.append('files of a refused job')
+    # its name is taken: none of the files appears
+    os.mkdir(os.path.join(folder, 'taken.owen-hinton.lis'))
+    ran = program.run('run', *FLAG, *LISTING, write(folder, 'taken.dat', scenes.DECKS['column.dat']), '-o', folder)
+    faults += ran.ended_with(5) + ([] if 'is a directory' in ran.err else [ran.err])
+    faults += ['files beside a name that is taken'] if os.path.exists(os.path.join(folder, 'taken.h5')) else []
     ran = program.run('run', '--listing', 'adina', 'job.dat')
     return faults + ran.ended_with(2) + ([] if 'owen-hinton' in ran.err else [ran.err])
 
