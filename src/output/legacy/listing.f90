@@ -80,7 +80,7 @@ contains
       end associate
    end subroutine put_old_listing
 
-   !> End it: what had no room, in full
+   !> End it: what had no room, with six digits
    subroutine end_old_listing(listing, error)
       !> The listing
       type(old_listing_type), intent(inout) :: listing
