@@ -89,7 +89,7 @@ contains
       !> What the increments act on
       class(joint_stage_type), intent(inout) :: self
       !> The loads
-      type(step_type), intent(in) :: step
+      type(step_type), intent(inout) :: step
       !> The history
       type(history_type), intent(inout) :: history
       !> Whether smaller steps may get there if this one did not

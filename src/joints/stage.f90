@@ -58,8 +58,8 @@ module axijoint_joints_stage
          import :: stage_type, step_type, history_type
          !> What the increments act on
          class(stage_type), intent(inout) :: self
-         !> The loads
-         type(step_type), intent(in) :: step
+         !> The loads; those found, if a displacement is given instead
+         type(step_type), intent(inout) :: step
          !> The history
          type(history_type), intent(inout) :: history
          !> Whether smaller steps may get there if this one did not
@@ -153,6 +153,7 @@ contains
       type(progress_type), intent(inout) :: progress
 
       history%increment = history%increment + 1
+      history%at%share = 0.0_wp
       associate (increments => stage%model%increments, n => history%increment)
          history%ahead = [target_type(next_step(history%at, increments(n), stage%combination), &
                                       most_halvings)]

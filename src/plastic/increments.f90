@@ -26,7 +26,8 @@ module axijoint_plastic_increments
    use axijoint_plastic_methods, only : body_control_type, balance_bodies
    use axijoint_plastic_problem, only : problem_type
    use axijoint_plastic_record, only : snapshot, bytes_of, read_bytes
-   use axijoint_plastic_stage, only : body_stage_type, body_history_type, begin_history, put
+   use axijoint_plastic_stage, only : body_stage_type, body_history_type, begin_history, put, &
+      steer_to, put_found
    implicit none
    private
    public :: run_body_increments
@@ -134,18 +135,23 @@ contains
    subroutine try_step(self, step, history, halvable)
       !> What the increments act on
       class(body_increments_type), intent(inout) :: self
-      !> The loads
-      type(step_type), intent(in) :: step
+      !> The loads; those found, if a displacement is given instead
+      type(step_type), intent(inout) :: step
       !> The history
       type(history_type), intent(inout) :: history
       !> Whether smaller steps may get there if this one did not: always
       logical, intent(out) :: halvable
 
       halvable = .true.
-      call put(self, step, history)
+      if (allocated(step%steered)) then
+         call steer_to(self, step, history)
+      else
+         call put(self, step, history)
+      end if
       if (allocated(history%failure)) return
       call balance(self, step, history)
       if (allocated(history%failure)) return
+      if (allocated(step%steered)) call put_found(self, step, history)
       if (self%bodies%verdict%converged) call commit_step(self, step, history)
       history%verdict%converged = self%bodies%verdict%converged
    end subroutine try_step
@@ -163,6 +169,7 @@ contains
       type(body_control_type) :: control
 
       associate (bodies => stage%bodies, increment => stage%model%increments(history%increment))
+         control%method = stage%model%body_method
          control%tolerance = increment%tolerance
          control%most = increment%max_iterations
          if (allocated(stage%problem%joints)) then

@@ -16,10 +16,11 @@ module axijoint_plastic_stage
    use axijoint_plastic_field, only : body_field_type, body_load_type, body_planes, &
       new_body_field, no_body_load
    use axijoint_plastic_methods, only : body_verdict_type
-   use axijoint_plastic_problem, only : problem_type, put_load
+   use axijoint_plastic_problem, only : problem_type, steering_type, put_load, steer, &
+      go_to_displacement
    implicit none
    private
-   public :: body_stage_type, body_history_type, begin_history, put
+   public :: body_stage_type, body_history_type, begin_history, put, steer_to, put_found
 
    !> What the increments came to, beside what bodies and joints have in common
    type :: body_history_type
@@ -59,7 +60,7 @@ contains
       associate (problem => stage%problem)
          problem%equations => stage%equations
          problem%bodies => bodies
-         problem%planes = body_planes(stage%equations%modes)
+         problem%planes = body_planes(stage%equations%modes, stage%model%n_body_planes)
          problem%load = no_body_load(stage%equations, bodies)
          problem%associated_flow = all(abs(bodies%laws%friction - bodies%laws%dilation) <= 0.0_wp)
          stage%bodies%field = new_body_field(stage%equations, bodies, problem%planes)
@@ -91,22 +92,12 @@ contains
       type(history_type), intent(inout) :: history
 
       type(body_load_type) :: load
-      integer :: k
 
       associate (problem => stage%problem)
          call stage%put_on_nodes(step%case_factor, history%loading)
-         history%load_norm = load_norm(stage%equations, history%loading)
-         if (history%load_norm >= history%peak_norm) then
-            history%peak_norm = history%load_norm
-            history%peak = history%loading
-         end if
+         call note_peak(stage, history)
          problem%peak = history%peak_norm
-         load = problem%load
-         load%right = to_vector(stage%equations, history%loading%right)
-         if (allocated(history%loading%held)) load%held = history%loading%held
-         do k = 1, size(stage%equations%modes)
-            load%initial(:, :, k) = stress_without_strain(stage, problem%bodies, history%loading, k)
-         end do
+         call take_load(stage, history%loading, load)
          call put_load(problem, load, history%loading%external, stage%bodies%field)
          call report_failure(stage%equations, stage%model, history%failure)
          if (.not. allocated(problem%joints)) return
@@ -114,6 +105,85 @@ contains
             problem%joints%field)
       end associate
    end subroutine put
+
+   !> Let the displacement of a step be given instead of its loads: where the work of those that the
+   !> increment would add for elastic bodies goes on to its share
+   subroutine steer_to(stage, step, history)
+      !> What the increments act on
+      class(body_stage_type), intent(inout) :: stage
+      !> The step
+      type(step_type), intent(in) :: step
+      !> The history
+      type(history_type), intent(inout) :: history
+
+      type(loading_type) :: loading
+      real(wp), allocatable :: load(:)
+
+      call put(stage, history%at, history)
+      if (allocated(history%failure)) return
+      stage%problem%peak = 0.0_wp  ! how large the loads will be is not known
+      call stage%put_on_nodes(step%steered, loading)
+      load = to_vector(stage%equations, loading%right)
+      associate (problem => stage%problem)
+         call steer(problem, load)
+         associate (own => problem%steering%response, begun => stage%bodies%field%begun)
+            call go_to_displacement(problem, dot_product(load, begun) &
+               + (step%share - history%at%share)*dot_product(load, own), stage%bodies%field)
+         end associate
+      end associate
+   end subroutine steer_to
+
+   !> Put the loads on that the given displacement was found to need
+   subroutine put_found(stage, step, history)
+      !> What the increments act on
+      class(body_stage_type), intent(inout) :: stage
+      !> The step; takes the loads
+      type(step_type), intent(inout) :: step
+      !> The history
+      type(history_type), intent(inout) :: history
+
+      associate (problem => stage%problem, found => stage%problem%steering%factor)
+         step%case_factor = history%at%case_factor + found*step%steered
+         step%load_factor = history%at%load_factor + found &
+            *stage%model%increments(history%increment)%factor
+         call stage%put_on_nodes(step%case_factor, history%loading)
+         call note_peak(stage, history)
+         call take_load(stage, history%loading, problem%load)
+         problem%steering = steering_type()
+      end associate
+   end subroutine put_found
+
+   !> Note the largest loads
+   subroutine note_peak(stage, history)
+      !> What the increments act on
+      class(body_stage_type), intent(in) :: stage
+      !> The history, its loads on the nodes
+      type(history_type), intent(inout) :: history
+
+      history%load_norm = load_norm(stage%equations, history%loading)
+      if (history%load_norm < history%peak_norm) return
+      history%peak_norm = history%load_norm
+      history%peak = history%loading
+   end subroutine note_peak
+
+   !> Loads on the nodes as methods see them
+   subroutine take_load(stage, loading, load)
+      !> What the increments act on
+      class(body_stage_type), intent(in) :: stage
+      !> Loads on the nodes
+      type(loading_type), intent(in) :: loading
+      !> The same for the bodies
+      type(body_load_type), intent(out) :: load
+
+      integer :: k
+
+      load%right = to_vector(stage%equations, loading%right)
+      if (allocated(loading%held)) load%held = loading%held
+      allocate (load%initial(6, size(stage%problem%bodies%laws), size(stage%equations%modes)))
+      do k = 1, size(stage%equations%modes)
+         load%initial(:, :, k) = stress_without_strain(stage, stage%problem%bodies, loading, k)
+      end do
+   end subroutine take_load
 
    !> Stress amplitudes of one mode that the bodies have without strain: in-situ stress and
    !> temperature

@@ -51,7 +51,7 @@ contains
       integer :: own(size(stress, 2)), i, j, k
 
       if (.not. allocated(state%place)) return
-      planes = body_planes(modes)
+      planes = body_planes(modes, model%n_body_planes)
       call new_bodies(model, (model%materials%yield), bodies)
       fields%angles = planes%angle
       fields%plane_weight = plane_weights(planes)
