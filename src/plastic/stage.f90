@@ -121,7 +121,6 @@ contains
 
       call put(stage, history%at, history)
       if (allocated(history%failure)) return
-      stage%problem%peak = 0.0_wp  ! how large the loads will be is not known
       call stage%put_on_nodes(step%steered, loading)
       load = to_vector(stage%equations, loading%right)
       associate (problem => stage%problem)

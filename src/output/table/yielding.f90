@@ -6,6 +6,7 @@ module axijoint_output_table_yielding
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text, lower
    use axijoint_element_yield_law, only : criterion_names
+   use axijoint_element_yield_margin, only : bearing_names
    use axijoint_model_model, only : model_type, body_method_names
    use axijoint_output_file_columns, only : columns
    use axijoint_output_file_hdf5, only : hdf5_file_type
@@ -225,6 +226,9 @@ contains
       !> The fields
       type(plastic_fields_type), intent(in) :: fields
 
+      character(len=:), allocatable :: names
+      integer :: i
+
       call file%write("/yield/planes", fields%angles, "theta; (plane) [radian]")
       call file%write("/yield/plastic_strain", fields%amplitude, "Amplitudes r, z, theta, rz, "// &
          "r-theta, z-theta, shear as in engineering; (6, point, mode)")
@@ -232,6 +236,12 @@ contains
          "Equivalent plastic strain sqrt(2/3 e:e); (point, plane)")
       call file%write("/yield/margin", fields%margin, &
          "Share of the strength that is left, 1 without shear, 0 at yield; (point, plane)")
+      names = ""
+      do i = lbound(bearing_names, 1), ubound(bearing_names, 1)
+         names = names//to_text(i)//" "//trim(bearing_names(i))//", "
+      end do
+      call file%write("/yield/active", fields%bearing, "What of the criterion bears: "// &
+         names//"(point, plane)")
    end subroutine write_fields
 
 end module axijoint_output_table_yielding
