@@ -3,7 +3,7 @@
 
 def all_cases():
     """All cases, in the order of the manual"""
-    from cases import capacity, effectivity, gmsh, hard, piles, rings, shapes, solids, yielding
+    from cases import capacity, effectivity, envelope, gmsh, hard, piles, rings, shapes, solids, yielding
     return [*solids.CASES, *rings.CASES, *hard.CASES, *shapes.CASES, *gmsh.CASES,
             *effectivity.CASES, *yielding.CASES,
-            *capacity.CASES, *piles.CASES]
+            *capacity.CASES, *envelope.CASES, *piles.CASES]
