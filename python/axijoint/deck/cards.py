@@ -563,15 +563,15 @@ class Cards:
         self._entry("KEEP", what, when, increments)
 
     def print(self,
-              table: Literal["DECK", "COORDS", "INCIDENCE", "JOINTNODES", "LOADS", "PATH", "AMPLITUDE", "TOTALS", "STRESSES", "NODAL", "STATES", "REACTIONS", "TABLES"],
+              table: Literal["DECK", "COORDS", "INCIDENCE", "JOINTNODES", "LOADS", "PATH", "AMPLITUDE", "TOTALS", "STRESSES", "NODAL", "STATES", "REACTIONS", "ORDERS", "TABLES"],
               rows: Literal["ALL", "EVERY", "UPTO", "NONE"], *, number: int | None = None,
               body: int | None = None, rectangle: Reals | None = None) -> None:
         """PRINT: how much of long tables the listing shows; without the section tables of up to 10000 rows.
 
         table: table: DECK; COORDS, INCIDENCE, JOINTNODES of the mesh; LOADS; PATH of iterations; AMPLITUDE,
-            TOTALS of displacements; STRESSES at Gauss points; NODAL ones; STATES of joints; REACTIONS; all
-            TABLES; allowed: DECK, COORDS, INCIDENCE, JOINTNODES, LOADS, PATH, AMPLITUDE, TOTALS, STRESSES,
-            NODAL, STATES, REACTIONS, TABLES
+            TOTALS of displacements; STRESSES at Gauss points; NODAL ones; STATES of joints; REACTIONS; ORDERS
+            of the; allowed: DECK, COORDS, INCIDENCE, JOINTNODES, LOADS, PATH, AMPLITUDE, TOTALS, STRESSES,
+            NODAL, STATES, REACTIONS, ORDERS, TABLES
         rows: its rows; allowed: ALL, EVERY n-th, UPTO n: all if they are so many at most, NONE
         number: n of EVERY and UPTO; if not given: 10000
         body: of which body; if not given: any; allowed: 1 … 9999
