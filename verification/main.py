@@ -22,6 +22,7 @@ def arguments():
     parser.add_argument("names", nargs="*", metavar="NAME", help="cases (default: all)")
     parser.add_argument("--list", action="store_true", help="print the names of the cases")
     parser.add_argument("--check", action="store_true", help="leave the manual as it is")
+    parser.add_argument("--long", action="store_true", help="cases that take minutes, too")
     parser.add_argument("-o", dest="directory", type=pathlib.Path, help="keep decks and results here")
     parser.add_argument("--program", required=True, help=argparse.SUPPRESS)
     return parser.parse_args()
@@ -84,7 +85,8 @@ def main():
               file=sys.stderr)
         return 2
     started = time.monotonic()
-    wanted = [case for case in cases if not args.names or case.name in args.names]
+    wanted = [case for case in cases if (case.name in args.names if args.names
+                                         else args.long or not getattr(case, "long", False))]
     with tempfile.TemporaryDirectory() as scratch:
         directory = args.directory or pathlib.Path(scratch)
         directory.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,5 @@
 """Runs axijoint and reads its results"""
+import json
 import os
 import pathlib
 import subprocess
@@ -39,6 +40,31 @@ class Results:
         return self.element_body[self.element] == body
 
 
+class History:
+    """What the tables need of a job in increments of bodies that yield; arrays have one row an increment"""
+
+    def __init__(self, path, summary):
+        self.messages = summary["messages"]
+        self.iterations = np.array([row["iterations"] for row in summary["yielding"]["increments"]])
+        self.solutions = np.array([row["solutions"] for row in summary["yielding"]["increments"]])
+        self.no_equilibrium_at = summary["yielding"]["no_equilibrium_at"]
+        self.seconds = summary["seconds"]["total"]
+        with h5py.File(path) as file:
+            history = file["history"]
+            self.load_factor = history["load_factor"][()]
+            self.work, self.energy = history["work"][()], history["energy"][()]
+            self.largest = history["largest_displacement"][()]
+            self.dissipated = file["yield/dissipated"][()]
+            # Axial, lateral, moment, torque, lateral and moment at 90 degrees of each face, shape (increments, faces, 6)
+            self.supports = history["supports"][()]
+            self.face = file["supports/face"][()] if "supports/face" in file else None
+            self.points = history["points/displacement"][()] if "points" in history else None
+            self.stress = by_mode(file, file["stress/amplitude"][()])
+            self.position = file["stress/position"][()]
+            self.plastic_strain = file["yield/equivalent"][()]
+            self.active = file["yield/active"][()] if "yield/active" in file else None
+
+
 def by_mode(file, array):
     """(harmonic, family) -> amplitudes of that mode, shape (nodes or points, components)"""
     modes = zip(file["modes/harmonic"][()], file["modes/family"][()])
@@ -61,3 +87,19 @@ class Program:
             words = "\n".join((done.stderr or done.stdout).strip().splitlines()[:5])
             raise ProgramError(f"{deck}: exit code {done.returncode}\n{words}")
         return Results(self.directory/f"{name}.h5")
+
+    def seconds(self, name, text):
+        """Seconds that a deck takes"""
+        self.run(name, text)
+        return json.loads((self.directory/f"{name}.json").read_text())["seconds"]["total"]
+
+    def history(self, name, text):
+        """Runs a deck of bodies that yield, to its end or to its limit load"""
+        deck = self.directory/f"{name}.dat"
+        deck.write_text(text)
+        done = subprocess.run([self.path, "run", deck, "-o", self.directory, "--threads", "1"],
+                              capture_output=True, text=True, env=os.environ, check=False)
+        if done.returncode not in (0, 4):
+            words = "\n".join((done.stderr or done.stdout).strip().splitlines()[:5])
+            raise ProgramError(f"{deck}: exit code {done.returncode}\n{words}")
+        return History(self.directory/f"{name}.h5", json.loads((self.directory/f"{name}.json").read_text()))

@@ -14,12 +14,13 @@ import numpy as np
 try:
     from axijoint import plot
     from axijoint.plot import __main__ as command
-    from axijoint.plot import fields, pieces, style
+    from axijoint.plot import fields, pieces, style, yielding
     from overlaps import overlaps
 except ImportError:
     plot = None
 
 import axijoint
+import yielding as yielding_decks
 
 CONTOURS = {f"contours_{name}" for name in ("displacement", "sigma_r", "sigma_z", "sigma_theta", "tau_rz")}
 LINES = {"line_across", "line_along"}
@@ -58,6 +59,30 @@ class Figures(unittest.TestCase):
 
     def test_chimney(self):
         self.check("chimney.2")
+
+    def test_bodies_that_yield(self):
+        """Plastic zones where the pile presses; planes are found at all angles, mirrored beyond 180 degrees"""
+        with tempfile.TemporaryDirectory() as folder:
+            result = axijoint.open(self.results(folder, "pile_clay"))
+            found = dict(plot.figures(result, ["yielding"]))
+            self.assertEqual(found.keys(), {"yielding", "yielding_unrolled"})
+            for name, figure in found.items():
+                self.assertEqual(overlaps(figure), [], name)
+            angles = [float(angle) for angle in result.read("yield/planes")*180/3.141592653589793]
+            for k, angle in enumerate(angles):
+                for same in (angle, angle + 1, -angle, 360 - angle, 360 + angle):
+                    self.assertEqual(yielding.plane_at(result, same), k, same)
+            linear = axijoint.open(self.results(folder, "continuum"))
+            self.assertEqual(list(plot.figures(linear, ["yielding"])), [])
+
+    def test_a_mechanism(self):
+        """A load beyond the limit: what moves is drawn"""
+        with tempfile.TemporaryDirectory() as folder:
+            jobs.run(folder, "beyond", yielding_decks.pile(2, 0, (4.0, 2.0)), exit_code=4)
+            result = axijoint.open(pathlib.Path(folder)/"beyond.h5")
+            found = dict(plot.figures(result, ["yielding"]))
+            self.assertIn("mechanism", found)
+            self.assertEqual(overlaps(found["mechanism"]), [])
 
     def test_a_linear_job_without_joints(self):
         with tempfile.TemporaryDirectory() as folder:

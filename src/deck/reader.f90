@@ -34,7 +34,8 @@ module axijoint_deck_reader
    use axijoint_deck_section_error, only : refine_sections
    use axijoint_deck_section_faces, only : lay_faces
    use axijoint_deck_section_groups, only : keyword_groups
-   use axijoint_deck_section_increments, only : refer_increments, warn_of_idle_cases
+   use axijoint_deck_section_increments, only : refer_increments, warn_of_idle_cases, &
+      check_control
    use axijoint_deck_section_interfaces, only : lay_interfaces
    use axijoint_deck_section_joints, only : keyword_joints
    use axijoint_deck_section_sections, only : place_lines
@@ -142,6 +143,7 @@ contains
       call warn_of_unused(deck)
       call check_planes(deck)
       call check_yielding(deck)
+      call check_control(deck)
    end subroutine make_model
 
    !> Make nodes, elements, faces and joints, or take those that are kept

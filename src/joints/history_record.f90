@@ -155,6 +155,9 @@ contains
 
       call writer%put(step%load_factor)
       call writer%put(step%case_factor)
+      call writer%put(step%share)
+      call writer%put(allocated(step%steered))
+      if (allocated(step%steered)) call writer%put(step%steered)
    end subroutine write_step
 
    !> Read the loads of a step
@@ -164,8 +167,13 @@ contains
       !> The step
       type(step_type), intent(out) :: step
 
+      logical :: steered
+
       call reader%get(step%load_factor)
       call reader%get(step%case_factor)
+      call reader%get(step%share)
+      call reader%get(steered)
+      if (steered) call reader%get(step%steered)
    end subroutine read_step
 
    !> Write when the last step ended

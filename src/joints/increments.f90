@@ -2,28 +2,27 @@
 module axijoint_joints_increments
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_factors, only : report_failure
-   use axijoint_assembly_loading, only : loading_type, new_loading
    use axijoint_assembly_support, only : support_point_type
    use axijoint_base_error, only : fatal_error, exit_deck
    use axijoint_base_kinds, only : wp
-   use axijoint_base_progress, only : progress_type, show_progress
+   use axijoint_base_progress, only : progress_type
    use axijoint_base_stop, only : check_stop
-   use axijoint_base_text, only : to_text
    use axijoint_element_joint_law, only : memory_type, cuts_back
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, commit_field, judge_states, &
       set_initial_stress
-   use axijoint_joints_history, only : history_type, target_type, new_history, new_state, &
+   use axijoint_joints_history, only : history_type, new_history, new_state, &
       keep_state, note_failure, forget_failure, &
                                        note_residual
    use axijoint_joints_keeper, only : keeper_type
-   use axijoint_joints_load_steps, only : step_type, first_step, next_step, halfway
+   use axijoint_joints_load_steps, only : step_type
    use axijoint_joints_loads, only : put_loads
    use axijoint_joints_method, only : method_type, control_type, verdict_type
    use axijoint_joints_methods, only : other_loop, second_opinion
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_residual, only : load_norm, ratio, set_reference
    use axijoint_joints_scene, only : elastic_stress
+   use axijoint_joints_stage, only : stage_type, apply_increments
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type, increment_type
    use axijoint_model_model, only : model_type
@@ -31,21 +30,16 @@ module axijoint_joints_increments
    private
    public :: run_increments, compare_loops, balance_again
 
-   !> A step that finds no equilibrium is halved so many times at most
-   integer, parameter :: most_halvings = 6
-
-   !> What the increments of a job act on
-   type :: stage_type
-      !> The job, and the factors of its load cases
-      type(model_type), pointer :: model => null()
-      type(combination_type), pointer :: combination => null()
-      !> Equations of all modes, and the condensed structure
-      type(equations_type), pointer :: equations => null()
-      type(condensed_type), pointer :: condensed => null()
-      !> Points of all joints, and of all springs
-      type(model_joint_point_type), pointer :: joint_points(:) => null()
-      type(support_point_type), pointer :: supports(:) => null()
-   end type stage_type
+   !> What the increments of joints act on
+   type, extends(stage_type) :: joint_stage_type
+   contains
+      !> Put the loads of a step on and iterate
+      procedure :: try => try_step
+      !> Smaller steps are not tried, or got nowhere
+      procedure :: give_up
+      !> The loads of the increment are reached
+      procedure :: end_increment
+   end type joint_stage_type
 
 contains
 
@@ -72,7 +66,7 @@ contains
       !> Who may know how far an earlier run came, and is told of every step in equilibrium
       class(keeper_type), intent(inout), optional :: keeper
 
-      type(stage_type) :: stage
+      type(joint_stage_type) :: stage
 
       stage%model => model
       stage%equations => equations
@@ -87,123 +81,73 @@ contains
                           ' does not follow from: METHOD may be NEWTON, ANDERSON or TOTAL')
          return
       end if
-      history%at = first_step(combination)
-      if (present(keeper)) call go_on_from(stage, keeper, history)
-      do while (history%increment < size(model%increments) .or. size(history%ahead) > 0)
-         call check_stop(history%failure)
-         if (allocated(history%failure)) return
-         if (size(history%ahead) == 0) call begin_increment(stage, history, progress)
-         call reach_next(stage, history)
-         if (.not. history%verdict%converged) then
-            if (size(history%ahead) == 0 .or. allocated(history%failure)) return
-            cycle  ! in smaller steps
-         end if
-         if (size(history%ahead) == 0) call end_increment(stage, history)
-         if (present(keeper)) call keeper%keep(history)
-      end do
+      call apply_increments(stage, history, progress, keeper)
    end subroutine run_increments
 
-   !> Go on from where an earlier run was
-   subroutine go_on_from(stage, keeper, history)
+   !> Put the loads of a step on and iterate
+   subroutine try_step(self, step, history, halvable)
       !> What the increments act on
-      type(stage_type), intent(in) :: stage
-      !> Who knows
-      class(keeper_type), intent(inout) :: keeper
-      !> The history, new
-      type(history_type), intent(inout) :: history
-
-      real(wp), allocatable :: factor(:)
-      logical :: restored
-
-      call keeper%restore(history, restored, history%failure)
-      if (.not. restored) return
-      factor = history%loading%case_factor
-      call put_on_nodes(stage, factor, history%loading)
-      factor = history%peak%case_factor
-      call put_on_nodes(stage, factor, history%peak)
-   end subroutine go_on_from
-
-   !> The loads of the next increment lie ahead
-   subroutine begin_increment(stage, history, progress)
-      !> What the increments act on
-      type(stage_type), intent(in) :: stage
+      class(joint_stage_type), intent(inout) :: self
+      !> The loads
+      type(step_type), intent(inout) :: step
       !> The history
       type(history_type), intent(inout) :: history
-      !> Where to show progress
-      type(progress_type), intent(inout) :: progress
+      !> Whether smaller steps may get there if this one did not
+      logical, intent(out) :: halvable
 
-      history%increment = history%increment + 1
-      associate (increments => stage%model%increments, n => history%increment)
-         history%ahead = [target_type(next_step(history%at, increments(n), stage%combination), &
-                                      most_halvings)]
-         call show_progress(progress, 'increment '//to_text(n)//' of '//to_text(size(increments)))
-      end associate
-   end subroutine begin_increment
+      call put(self, step, history)
+      call balance(self, history%method, step, history)
+      halvable = .not. ends(history) .and. .not. history%method%accumulates
+      if (.not. ends(history)) call note_failure(history)
+   end subroutine try_step
+
+   !> A step is left without equilibrium. If nothing resists, an iterate says nothing: another
+   !> method is asked, and if it knows no better, the state before is shown
+   subroutine give_up(self, step, before, history)
+      !> What the increments act on
+      class(joint_stage_type), intent(inout) :: self
+      !> The loads
+      type(step_type), intent(in) :: step
+      !> Joints before the step
+      type(joint_field_type), intent(in) :: before
+      !> The history
+      type(history_type), intent(inout) :: history
+
+      class(method_type), allocatable :: second
+
+      if (ends(history)) return
+      if (.not. allocated(history%runaway) .and. .not. allocated(history%motion)) return
+      if (.not. history%verdict%mechanism%loaded) call second_opinion(history%method, second)
+      if (allocated(second)) then
+         history%field = before
+         call put(self, step, history)
+         call balance(self, second, step, history)
+         if (history%verdict%converged .or. allocated(history%failure)) return
+      end if
+      history%field = before  ! what ran away is no state to show
+      call put(self, history%at, history)
+      call judge_states(history%scene%laws, history%field)  ! none was, before the first load
+   end subroutine give_up
 
    !> The loads of the increment are reached
-   subroutine end_increment(stage, history)
+   subroutine end_increment(self, history)
       !> What the increments act on
-      type(stage_type), intent(in) :: stage
+      class(joint_stage_type), intent(inout) :: self
       !> The history
       type(history_type), intent(inout) :: history
 
       real(wp), allocatable :: factor(:)
 
       call forget_failure(history)
-      if (history%increment == size(stage%model%increments)) return
+      if (history%increment == size(self%model%increments)) return
       factor = history%at%case_factor
-      call keep_state(stage%condensed, history%increment, history%at%load_factor, factor, history)
+      call keep_state(self%condensed, history%increment, history%at%load_factor, factor, history)
    end subroutine end_increment
 
-   !> Go to the loads that lie ahead next. If that finds no equilibrium, half the way there lies
-   !> ahead then, or nothing any more: the history has ended
-   subroutine reach_next(stage, history)
-      !> What the increments act on
-      type(stage_type), intent(in) :: stage
-      !> The history
-      type(history_type), intent(inout) :: history
-
-      type(target_type) :: target
-      type(joint_field_type), allocatable :: before
-      class(method_type), allocatable :: second
-
-      target = history%ahead(size(history%ahead))
-      before = history%field
-      call put(stage, target%step, history)
-      call balance(stage, history%method, target%step, history)
-      if (history%verdict%converged) return
-      if (ends(history)) then
-         history%ahead = history%ahead(:0)
-         return
-      end if
-      call note_failure(history)
-      if (target%halvings > 0 .and. .not. history%method%accumulates) then
-         history%field = before
-         target%halvings = target%halvings - 1
-         history%ahead = [history%ahead(:size(history%ahead) - 1), target, &
-            target_type(halfway(history%at, target%step), target%halvings)]
-         return
-      end if
-      if (allocated(history%runaway) .or. allocated(history%motion)) then
-         if (.not. history%verdict%mechanism%loaded) &
-            call second_opinion(history%method, second)
-         if (allocated(second)) then
-            history%field = before
-            call put(stage, target%step, history)
-            call balance(stage, second, target%step, history)
-            if (history%verdict%converged .or. allocated(history%failure)) return
-         end if
-         history%field = before  ! what ran away is no state to show
-         call put(stage, history%at, history)
-         call judge_states(history%scene%laws, history%field)  ! none was, before the first load
-      end if
-      history%ahead = history%ahead(:0)
-   end subroutine reach_next
-
-   !> Iterate the step to the loads that were put on. If it is in equilibrium, they lie behind
+   !> Iterate the step to the loads that were put on
    subroutine balance(stage, method, step, history)
       !> What the increments act on
-      type(stage_type), intent(in) :: stage
+      type(joint_stage_type), intent(in) :: stage
       !> How joints are brought to equilibrium
       class(method_type), intent(in) :: method
       !> The loads
@@ -213,43 +157,26 @@ contains
 
       call balance_step(stage%condensed, stage%model%increments(history%increment), &
          history%increment, step%load_factor, method, history)
-      if (.not. history%verdict%converged) then
-         call check_stop(history%failure)  ! the iterations may have ended for it
-         return
-      end if
-      history%at = step
-      history%ahead = history%ahead(:size(history%ahead) - 1)
+      ! the iterations may have ended for it
+      if (.not. history%verdict%converged) call check_stop(history%failure)
    end subroutine balance
 
    !> Load the structure
    subroutine put(stage, step, history)
       !> What the increments act on
-      type(stage_type), intent(in) :: stage
+      type(joint_stage_type), intent(in) :: stage
       !> Loads
       type(step_type), intent(in) :: step
       !> The history
       type(history_type), intent(inout) :: history
 
-      call put_on_nodes(stage, step%case_factor, history%loading)
+      call stage%put_on_nodes(step%case_factor, history%loading)
       call put_loads(stage%equations, stage%condensed, history%loading, history%scene%loads)
       history%largest_elastic = maxval([history%largest_elastic, history%scene%loads%largest])
       history%load_norm = load_norm(stage%equations, history%loading)
       call report_failure(stage%equations, stage%model, history%failure)
       call set_initial_stress(stage%model, stage%condensed%points, step%case_factor, history%field)
    end subroutine put
-
-   !> Loads on the nodes
-   subroutine put_on_nodes(stage, case_factor, loading)
-      !> What the increments act on
-      type(stage_type), intent(in) :: stage
-      !> Factor of each load case
-      real(wp), intent(in) :: case_factor(:)
-      !> The loads
-      type(loading_type), intent(out) :: loading
-
-      call new_loading(stage%model, stage%joint_points, stage%supports, stage%equations%modes, &
-                       combination_type(stage%combination%label, case_factor), loading)
-   end subroutine put_on_nodes
 
    !> Whether there is nothing to try about the last step: it is in equilibrium, or as near as
    !> numbers go, or ended for another reason, or was of a loop that does no more than end

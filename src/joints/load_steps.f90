@@ -14,6 +14,11 @@ module axijoint_joints_load_steps
       real(wp) :: load_factor = 0.0_wp
       !> Factor of each load case
       real(wp), allocatable :: case_factor(:)
+      !> If a displacement is given instead of the loads: what the increment adds to the factors of
+      !> the load cases for elastic bodies, and the share of its displacement that is behind; the
+      !> factors above are then what elastic bodies would need, until equilibrium says which
+      real(wp), allocatable :: steered(:)
+      real(wp) :: share = 0.0_wp
    end type step_type
 
 contains
@@ -41,6 +46,7 @@ contains
 
       next = step
       next%load_factor = step%load_factor + increment%factor
+      if (allocated(next%steered)) deallocate (next%steered)
       if (allocated(increment%direction)) then
          next%case_factor = step%case_factor + increment%factor*increment%direction
       else if (increment%case == 0) then
@@ -51,17 +57,21 @@ contains
                increment%factor*combination%factor(case)
          end associate
       end if
+      if (increment%steered) next%steered = next%case_factor - step%case_factor
+      next%share = 1.0_wp
    end function next_step
 
-   !> Loads between two others
+   !> Loads between two others of an increment
    pure function halfway(from, to) result(middle)
       !> The others
       type(step_type), intent(in) :: from, to
       !> The step
       type(step_type) :: middle
 
-      middle = step_type(0.5_wp*(from%load_factor + to%load_factor), &
-         0.5_wp*(from%case_factor + to%case_factor))
+      middle = to
+      middle%load_factor = 0.5_wp*(from%load_factor + to%load_factor)
+      middle%case_factor = 0.5_wp*(from%case_factor + to%case_factor)
+      middle%share = 0.5_wp*(from%share + to%share)
    end function halfway
 
    !> Loads after each increment, without states of joints

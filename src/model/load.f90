@@ -138,6 +138,8 @@ module axijoint_model_load
       !> Multiple of each load case that the factor belongs to, shape (cases); those of the
       !> combination if not allocated
       real(wp), allocatable :: direction(:)
+      !> Whether the displacement is given that the factor gives elastic bodies, and the factor found
+      logical :: steered = .false.
    end type increment_type
 
 contains

@@ -22,6 +22,7 @@ module axijoint_model_model
    public :: model_type, held_components, held_at, can_yield, can_yield_at, yielding_nodes, &
       bodies_yield, on_axis
    public :: method_newton, method_total, method_anderson, method_transfer, method_names
+   public :: body_anderson, body_newton, body_lbfgs, body_transfer, body_method_names
 
    !> How joints are brought to equilibrium: Newton's method; the paper's loop on
    !> total jumps; the same with Anderson acceleration; the paper's loop itself,
@@ -31,6 +32,12 @@ module axijoint_model_model
    !> Their names
    character(len=8), parameter :: method_names(4) = [character(len=8) :: &
       'NEWTON', 'TOTAL', 'ANDERSON', 'TRANSFER']
+   !> How bodies that yield are brought to equilibrium: Anderson's mix; Newton's method, and the mix
+   !> where it gets no further; limited-memory BFGS; the classical initial-stress loop
+   integer, parameter :: body_anderson = 1, body_newton = 2, body_lbfgs = 3, body_transfer = 4
+   !> Their names
+   character(len=8), parameter :: body_method_names(4) = [character(len=8) :: &
+      'ANDERSON', 'NEWTON', 'LBFGS', 'TRANSFER']
 
    !> A job
    type :: model_type
@@ -83,6 +90,10 @@ module axijoint_model_model
       integer :: n_planes = 0
       !> How joints are brought to equilibrium, one of the `method_` parameters
       integer :: method = method_newton
+      !> How bodies that yield are, one of the `body_` parameters
+      integer :: body_method = body_anderson
+      !> Planes from 0 to pi on which the criteria of these are checked; 0 if the program decides
+      integer :: n_body_planes = 0
       !> Solver; if there is none, the one with the least expected time is taken
       type(solver_entry_type), allocatable :: solver
       !> Bytes that the process may take; more than there are if the user gave no limit

@@ -71,7 +71,7 @@ contains
          call put_pair(file, "residual_ratio", json_number(results%residual_ratio))
          call put_pair(file, "residuals", residuals_json(results))
          call put_pair(file, "increments", increments_json(series))
-         call put_pair(file, "yielding", yielding_json(results))
+         call put_pair(file, "yielding", yielding_json(model, results))
          call put_pair(file, "mismatch", json_number(results%mismatch))
          call put_pair(file, "tolerance", json_number(results%tolerance))
          call put_pair(file, "method", json_string(lower(trim(method_names(model%method)))))

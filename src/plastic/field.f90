@@ -69,7 +69,7 @@ contains
    pure function body_planes(modes, n) result(planes)
       !> The modes
       type(mode_type), intent(in) :: modes(:)
-      !> Number of planes
+      !> Number of planes; as usual if absent or 0
       integer, intent(in), optional :: n
       !> The planes
       type(planes_type) :: planes
@@ -77,7 +77,9 @@ contains
       integer :: number
 
       number = 2*max(2, maxval(modes%harmonic)) + 1
-      if (present(n)) number = n
+      if (present(n)) then
+         if (n > 0) number = n
+      end if
       planes = new_planes(number, modes, odd=odd_components)
    end function body_planes
 

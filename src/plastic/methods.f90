@@ -1,32 +1,28 @@
-!> Bodies that yield are brought to equilibrium in a load step: by Newton's method, by Anderson's
-!> mix, by the initial-stress loop; only the factors of the elastic structure are used
+!> Bodies that yield are brought to equilibrium in a load step: by Anderson's mix, by
+!> Newton's method, by limited-memory BFGS, by the initial-stress loop; only the factors of the elastic structure are used
 module axijoint_plastic_methods
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use axijoint_base_kinds, only : wp
    use axijoint_base_stop, only : stop_wished
+   use axijoint_model_model, only : body_anderson, body_newton, body_lbfgs, body_transfer
    use axijoint_plastic_direction, only : newton_direction
    use axijoint_plastic_elastic, only : ring_norm
    use axijoint_plastic_field, only : body_field_type
    use axijoint_plastic_mixing, only : mixing_type, new_mixing, mix
    use axijoint_plastic_problem, only : problem_type, iterate_type, look, whole_force, resolution
+   use axijoint_plastic_quasi_newton, only : curvature_type, new_curvature, quasi_newton_direction
    use axijoint_plastic_residual, only : evaluate, linearize, excess_force
    implicit none
    private
    public :: body_control_type, body_verdict_type, balance_bodies
-   public :: method_newton, method_mix, method_loop
-
-   !> Newton's method, and Anderson's mix where it gets no further
-   integer, parameter :: method_newton = 1
-   !> Anderson's mix
-   integer, parameter :: method_mix = 2
-   !> The loop as it is
-   integer, parameter :: method_loop = 3
 
    !> Steps of the Krylov method in a step of Newton's, and the share of the residual left
    integer, parameter :: most_inner = 40
    real(wp), parameter :: forcing = 0.1_wp
    !> Iterates that the mix remembers, and steps that it takes in Newton's place
    integer, parameter :: depth = 10, substitute = 20
+   !> Steps that limited-memory BFGS remembers
+   integer, parameter :: remembered_steps = 20
    !> Share of the residual, in energy, that a step of Newton's may leave; the mix takes over if it
    !> leaves more
    real(wp), parameter :: enough = 0.5_wp
@@ -42,8 +38,8 @@ module axijoint_plastic_methods
 
    !> When the iterations end
    type :: body_control_type
-      !> One of the `method_` parameters
-      integer :: method = method_mix
+      !> One of the `body_` parameters of the model
+      integer :: method = body_anderson
       !> Tolerance on the ratio of residual forces to those of the increment
       real(wp) :: tolerance = 1.0e-6_wp
       !> Most elastic solutions of all modes
@@ -100,7 +96,6 @@ contains
       real(wp), allocatable, intent(out), optional :: ratios(:)
 
       type(course_type) :: course
-      logical :: mixes_only
 
       course%control = control
       course%begun = problem%solutions
@@ -109,20 +104,21 @@ contains
          tiny(1.0_wp))
       allocate (course%ratios(0))
       call look(problem, field, course%iterate)
-      mixes_only = allocated(problem%joints)  ! the tangent of Newton's method knows no joints
       do
          if (ended(problem, field, course)) exit
-         if (control%method == method_loop) then
+         select case (control%method)
+         case (body_transfer)
             call mix_steps(problem, field, course, 0, huge(1))
-         else if (mixes_only) then
-            call mix_steps(problem, field, course, depth, huge(1))
-         else
-            if (control%method == method_mix) then
-               call mix_steps(problem, field, course, depth, huge(1))
-               if (ended(problem, field, course)) exit
-            end if
+         case (body_newton)
             call newton_and_mix(problem, field, course)
-         end if
+         case (body_lbfgs)
+            call quasi_newton_steps(problem, field, course)
+         case (body_anderson)
+            call mix_steps(problem, field, course, depth, huge(1))
+            if (allocated(problem%joints)) cycle  ! the tangent of Newton's method knows none
+            if (ended(problem, field, course)) exit
+            call newton_and_mix(problem, field, course)
+         end select
       end do
       verdict = course%verdict
       verdict%ratio = course%iterate%ratio
@@ -249,8 +245,38 @@ contains
       end associate
    end subroutine mix_steps
 
-   !> A step of Newton's method, cut until the residual is smaller or, where there is a potential,
-   !> most of the way down is behind; none if no cut helps
+   !> Steps of limited-memory BFGS
+   subroutine quasi_newton_steps(problem, field, course)
+      !> The problem
+      type(problem_type), intent(inout) :: problem
+      !> The state
+      type(body_field_type), intent(inout) :: field
+      !> The way so far
+      type(course_type), intent(inout) :: course
+
+      type(curvature_type) :: memory
+      real(wp), allocatable :: direction(:)
+      logical :: moved
+
+      allocate (direction, mold=field%unknowns)
+      memory = new_curvature(size(direction), remembered_steps)
+      associate (iterate => course%iterate)
+         do
+            if (ended(problem, field, course)) return
+            call quasi_newton_direction(memory, field%unknowns, iterate%residual, &
+               iterate%response, direction)
+            call go_down(problem, field, iterate, direction, moved)
+            course%verdict%iterations = course%verdict%iterations + 1
+            if (moved) cycle
+            ! no step that helps: forget what was learned, go where the elastic structure would
+            memory = new_curvature(size(direction), remembered_steps)
+            field%unknowns = field%unknowns + iterate%response
+            call look(problem, field, iterate)
+         end do
+      end associate
+   end subroutine quasi_newton_steps
+
+   !> A step of Newton's method
    subroutine newton_step(problem, field, iterate)
       !> The problem
       type(problem_type), intent(inout) :: problem
@@ -259,14 +285,33 @@ contains
       !> What it leaves out of balance
       type(iterate_type), intent(inout) :: iterate
 
-      real(wp), allocatable :: start(:), direction(:)
-      real(wp) :: length, down, still, energy
-      integer :: cut
+      real(wp), allocatable :: direction(:)
       logical :: moved
 
       allocate (direction, mold=field%unknowns)
       call linearize(problem%bodies, problem%planes, field)
       call newton_direction(problem, field, iterate, forcing, most_inner, direction)
+      call go_down(problem, field, iterate, direction, moved)
+   end subroutine newton_step
+
+   !> A step along a direction, cut until the residual is smaller or, where there is a potential,
+   !> most of the way down is behind; none if no cut helps
+   subroutine go_down(problem, field, iterate, direction, moved)
+      !> The problem
+      type(problem_type), intent(inout) :: problem
+      !> The state
+      type(body_field_type), intent(inout) :: field
+      !> What it leaves out of balance
+      type(iterate_type), intent(inout) :: iterate
+      !> The direction
+      real(wp), intent(in) :: direction(:)
+      !> Whether a step was made
+      logical, intent(out) :: moved
+
+      real(wp), allocatable :: start(:)
+      real(wp) :: length, down, still, energy
+      integer :: cut
+
       start = field%unknowns
       energy = iterate%energy
       down = dot_product(iterate%residual, direction)
@@ -276,7 +321,8 @@ contains
          call look(problem, field, iterate)
          moved = iterate%energy < (1.0_wp - 0.1_wp*length)*energy
          still = dot_product(iterate%residual, direction)
-         if (problem%associated_flow) moved = moved .or. abs(still) <= 0.5_wp*down
+         ! down a potential a step may be short, but not end far beyond the lowest place
+         if (problem%associated_flow) moved = moved .or. still >= -0.5_wp*down
          if (moved) return
          if (still < 0.0_wp) then  ! beyond the lowest place on the way
             length = length*min(0.7_wp, max(0.1_wp, down/(down - still)))
@@ -286,6 +332,6 @@ contains
       end do
       field%unknowns = start
       call look(problem, field, iterate)
-   end subroutine newton_step
+   end subroutine go_down
 
 end module axijoint_plastic_methods

@@ -151,7 +151,7 @@ contains
       !> What it leaves out of balance
       type(iterate_type), intent(inout) :: iterate
 
-      real(wp) :: change, forces, whole
+      real(wp) :: change, forces, whole, largest
 
       if (.not. allocated(iterate%residual)) &
          allocate (iterate%residual, iterate%response, mold=field%unknowns)
@@ -167,7 +167,10 @@ contains
       forces = max(force_norm(problem%equations, field%force - field%force_before), &
          min(problem%pushed, whole))
       if (.not. problem%pushed > 0.0_wp) forces = max(forces, field%scale)
-      if (problem%peak > 0.0_wp) forces = min(forces, problem%peak)
+      largest = problem%peak
+      if (allocated(problem%steering%load)) largest = max(largest, ring_norm(problem%equations, &
+         problem%load%right + problem%steering%factor*problem%steering%load))
+      if (largest > 0.0_wp) forces = min(forces, largest)
       iterate%ratio = ring_norm(problem%equations, iterate%residual)
       iterate%at_rounding = iterate%ratio <= resolution*whole
       if (iterate%ratio > 0.0_wp) iterate%ratio = iterate%ratio/max(forces, tiny(1.0_wp))

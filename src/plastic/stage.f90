@@ -2,33 +2,28 @@
 module axijoint_plastic_stage
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_factors, only : report_failure
-   use axijoint_assembly_loading, only : loading_type, new_loading
+   use axijoint_assembly_loading, only : loading_type
    use axijoint_assembly_solid_force, only : solid_force
-   use axijoint_assembly_support, only : support_point_type
    use axijoint_base_kinds, only : wp
-   use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : new_joint_field, set_initial_stress
    use axijoint_joints_history, only : history_type, new_history
-   use axijoint_joints_load_steps, only : step_type, first_step
+   use axijoint_joints_load_steps, only : step_type
    use axijoint_joints_methods, only : new_method
    use axijoint_joints_residual, only : load_norm
-   use axijoint_model_joint_points, only : model_joint_point_type
-   use axijoint_model_load, only : combination_type
-   use axijoint_model_model, only : model_type
+   use axijoint_joints_stage, only : stage_type
    use axijoint_plastic_bodies, only : bodies_type
    use axijoint_plastic_elastic, only : to_vector
    use axijoint_plastic_field, only : body_field_type, body_load_type, body_planes, &
       new_body_field, no_body_load
    use axijoint_plastic_methods, only : body_verdict_type
-   use axijoint_plastic_problem, only : problem_type, put_load
+   use axijoint_plastic_problem, only : problem_type, steering_type, put_load, steer, &
+      go_to_displacement
    implicit none
    private
-   public :: stage_type, body_history_type, begin_history, put, put_on_nodes
+   public :: body_stage_type, body_history_type, begin_history, put, steer_to, put_found
 
-   !> What the increments came to
+   !> What the increments came to, beside what bodies and joints have in common
    type :: body_history_type
-      !> What bodies and joints have in common, and the joints
-      type(history_type) :: joints
       !> State of the bodies: at the last equilibrium, if there was one
       type(body_field_type) :: field
       !> How the last step ended
@@ -44,96 +39,156 @@ module axijoint_plastic_stage
    end type body_history_type
 
    !> What the increments act on
-   type :: stage_type
-      !> The job, and the factors of its load cases
-      type(model_type), pointer :: model => null()
-      type(combination_type), pointer :: combination => null()
-      !> Equations of all modes, and the condensed structure
-      type(equations_type), pointer :: equations => null()
-      type(condensed_type), pointer :: condensed => null()
-      !> Points of all joints, and of all springs
-      type(model_joint_point_type), pointer :: joint_points(:) => null()
-      type(support_point_type), pointer :: supports(:) => null()
+   type, abstract, extends(stage_type) :: body_stage_type
       !> Bodies and joints, as methods see them
       type(problem_type) :: problem
-   end type stage_type
+      !> What the increments came to
+      type(body_history_type) :: bodies
+   end type body_stage_type
 
 contains
 
    !> Nothing has happened yet
    subroutine begin_history(stage, bodies, history)
       !> What the increments act on
-      type(stage_type), intent(inout) :: stage
+      class(body_stage_type), intent(inout) :: stage
       !> The bodies
       type(bodies_type), intent(in), target :: bodies
-      !> The history
-      type(body_history_type), intent(inout) :: history
+      !> What bodies and joints have in common, and the joints
+      type(history_type), intent(out) :: history
 
-      associate (problem => stage%problem, common => history%joints)
+      associate (problem => stage%problem)
          problem%equations => stage%equations
          problem%bodies => bodies
-         problem%planes = body_planes(stage%equations%modes)
+         problem%planes = body_planes(stage%equations%modes, stage%model%n_body_planes)
          problem%load = no_body_load(stage%equations, bodies)
          problem%associated_flow = all(abs(bodies%laws%friction - bodies%laws%dilation) <= 0.0_wp)
-         history%field = new_body_field(stage%equations, bodies, problem%planes)
+         stage%bodies%field = new_body_field(stage%equations, bodies, problem%planes)
          if (size(stage%condensed%points) > 0) then
-            call new_history(stage%model, stage%condensed, common)
+            call new_history(stage%model, stage%condensed, history)
             allocate (problem%joints)
             problem%joints%condensed => stage%condensed
-            problem%joints%scene = common%scene
+            problem%joints%scene = history%scene
             problem%joints%method = new_method(stage%model%method)
-            problem%joints%before = common%field
-            problem%joints%field = common%field
+            problem%joints%before = history%field
+            problem%joints%field = history%field
          else
-            common%field = new_joint_field(0, 1, size(stage%equations%modes), 0)
-            common%method = new_method(stage%model%method)
-            common%beside = ''
-            allocate (common%path(0), common%states(0), common%residuals(0), common%ahead(0), &
-               common%largest_stress(0))
+            history%field = new_joint_field(0, 1, size(stage%equations%modes), 0)
+            history%method = new_method(stage%model%method)
+            history%beside = ''
+            allocate (history%path(0), history%states(0), history%residuals(0), &
+               history%ahead(0), history%largest_stress(0))
          end if
-         common%at = first_step(stage%combination)
       end associate
    end subroutine begin_history
 
    !> Put loads on
    subroutine put(stage, step, history)
       !> What the increments act on
-      type(stage_type), intent(inout) :: stage
+      class(body_stage_type), intent(inout) :: stage
       !> Loads
       type(step_type), intent(in) :: step
       !> The history
-      type(body_history_type), intent(inout) :: history
+      type(history_type), intent(inout) :: history
 
       type(body_load_type) :: load
-      integer :: k
 
-      associate (common => history%joints, problem => stage%problem)
-         call put_on_nodes(stage, step%case_factor, common%loading)
-         common%load_norm = load_norm(stage%equations, common%loading)
-         if (common%load_norm >= common%peak_norm) then
-            common%peak_norm = common%load_norm
-            common%peak = common%loading
-         end if
-         problem%peak = common%peak_norm
-         load = problem%load
-         load%right = to_vector(stage%equations, common%loading%right)
-         if (allocated(common%loading%held)) load%held = common%loading%held
-         do k = 1, size(stage%equations%modes)
-            load%initial(:, :, k) = stress_without_strain(stage, problem%bodies, common%loading, k)
-         end do
-         call put_load(problem, load, common%loading%external, history%field)
-         call report_failure(stage%equations, stage%model, common%failure)
+      associate (problem => stage%problem)
+         call stage%put_on_nodes(step%case_factor, history%loading)
+         call note_peak(stage, history)
+         problem%peak = history%peak_norm
+         call take_load(stage, history%loading, load)
+         call put_load(problem, load, history%loading%external, stage%bodies%field)
+         call report_failure(stage%equations, stage%model, history%failure)
          if (.not. allocated(problem%joints)) return
          call set_initial_stress(stage%model, stage%condensed%points, step%case_factor, &
             problem%joints%field)
       end associate
    end subroutine put
 
+   !> Let the displacement of a step be given instead of its loads: where the work of those that the
+   !> increment would add for elastic bodies goes on to its share
+   subroutine steer_to(stage, step, history)
+      !> What the increments act on
+      class(body_stage_type), intent(inout) :: stage
+      !> The step
+      type(step_type), intent(in) :: step
+      !> The history
+      type(history_type), intent(inout) :: history
+
+      type(loading_type) :: loading
+      real(wp), allocatable :: load(:)
+
+      call put(stage, history%at, history)
+      if (allocated(history%failure)) return
+      call stage%put_on_nodes(step%steered, loading)
+      load = to_vector(stage%equations, loading%right)
+      associate (problem => stage%problem)
+         call steer(problem, load)
+         associate (own => problem%steering%response, begun => stage%bodies%field%begun)
+            call go_to_displacement(problem, dot_product(load, begun) &
+               + (step%share - history%at%share)*dot_product(load, own), stage%bodies%field)
+         end associate
+      end associate
+   end subroutine steer_to
+
+   !> Put the loads on that the given displacement was found to need
+   subroutine put_found(stage, step, history)
+      !> What the increments act on
+      class(body_stage_type), intent(inout) :: stage
+      !> The step; takes the loads
+      type(step_type), intent(inout) :: step
+      !> The history
+      type(history_type), intent(inout) :: history
+
+      associate (problem => stage%problem, found => stage%problem%steering%factor)
+         step%case_factor = history%at%case_factor + found*step%steered
+         step%load_factor = history%at%load_factor + found &
+            *stage%model%increments(history%increment)%factor
+         call stage%put_on_nodes(step%case_factor, history%loading)
+         call note_peak(stage, history)
+         call take_load(stage, history%loading, problem%load)
+         problem%steering = steering_type()
+      end associate
+   end subroutine put_found
+
+   !> Note the largest loads
+   subroutine note_peak(stage, history)
+      !> What the increments act on
+      class(body_stage_type), intent(in) :: stage
+      !> The history, its loads on the nodes
+      type(history_type), intent(inout) :: history
+
+      history%load_norm = load_norm(stage%equations, history%loading)
+      if (history%load_norm < history%peak_norm) return
+      history%peak_norm = history%load_norm
+      history%peak = history%loading
+   end subroutine note_peak
+
+   !> Loads on the nodes as methods see them
+   subroutine take_load(stage, loading, load)
+      !> What the increments act on
+      class(body_stage_type), intent(in) :: stage
+      !> Loads on the nodes
+      type(loading_type), intent(in) :: loading
+      !> The same for the bodies
+      type(body_load_type), intent(out) :: load
+
+      integer :: k
+
+      load%right = to_vector(stage%equations, loading%right)
+      if (allocated(loading%held)) load%held = loading%held
+      allocate (load%initial(6, size(stage%problem%bodies%laws), size(stage%equations%modes)))
+      do k = 1, size(stage%equations%modes)
+         load%initial(:, :, k) = stress_without_strain(stage, stage%problem%bodies, loading, k)
+      end do
+   end subroutine take_load
+
    !> Stress amplitudes of one mode that the bodies have without strain: in-situ stress and
    !> temperature
    function stress_without_strain(stage, bodies, loading, k) result(stress)
       !> What the increments act on
-      type(stage_type), intent(in) :: stage
+      class(body_stage_type), intent(in) :: stage
       !> The bodies
       type(bodies_type), intent(in) :: bodies
       !> The loads
@@ -156,18 +211,5 @@ contains
          everywhere)
       stress = everywhere(:, bodies%place)
    end function stress_without_strain
-
-   !> Loads on the nodes
-   subroutine put_on_nodes(stage, case_factor, loading)
-      !> What the increments act on
-      type(stage_type), intent(in) :: stage
-      !> Factor of each load case
-      real(wp), intent(in) :: case_factor(:)
-      !> The loads
-      type(loading_type), intent(out) :: loading
-
-      call new_loading(stage%model, stage%joint_points, stage%supports, stage%equations%modes, &
-                       combination_type(stage%combination%label, case_factor), loading)
-   end subroutine put_on_nodes
 
 end module axijoint_plastic_stage

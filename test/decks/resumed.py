@@ -40,6 +40,7 @@ JOBS = {
     'two combinations': history(SHORT, lines='COMBINE\n    1    1       1.0\n    2    1       0.7\n'),
     'yielding': history(SHORT, lines='YIELD\n1, MISES, 2.5\n'),
     'yielding without joints': yielding.pile(2, 0, (1.0, 0.5, 0.5, -2.0)),
+    'yielding under given displacements': yielding.steered(yielding.pile(2, 0, (1.0, 8.0, 2.0, -1.0))),
     'rounds': history(SHORT[:3], lines='ERROR\n2.0, DISPL\n'),
 }
 

@@ -3,6 +3,7 @@
 
 def all_cases():
     """All cases, in the order of the manual"""
-    from cases import effectivity, gmsh, hard, rings, shapes, solids
+    from cases import capacity, effectivity, envelope, gmsh, hard, piles, rings, shapes, solids, yielding
     return [*solids.CASES, *rings.CASES, *hard.CASES, *shapes.CASES, *gmsh.CASES,
-            *effectivity.CASES]
+            *effectivity.CASES, *yielding.CASES,
+            *capacity.CASES, *envelope.CASES, *piles.CASES]

@@ -22,8 +22,10 @@ class Cards:
                 gauss_quadratic: int | None = None,
                 solver: Literal["AUTO", "BAND", "SKYLINE", "SPARSE"] | None = None,
                 formulation: Literal["PLAIN", "BBAR"] | None = None,
-                method: Literal["NEWTON", "TOTAL", "ANDERSON", "TRANSFER"] | None = None) -> None:
-        """CONTROL: harmonics, planes, rules of integration, solver, method for joints.
+                method: Literal["NEWTON", "TOTAL", "ANDERSON", "TRANSFER"] | None = None,
+                body_method: Literal["ANDERSON", "NEWTON", "LBFGS", "TRANSFER"] | None = None,
+                body_planes: int | None = None) -> None:
+        """CONTROL: harmonics, planes, rules of integration, solver, methods.
 
         highest: highest harmonic M; allowed: 0 … 9999
         planes: planes θ from 0 to π on which the joint law is checked; if not given: 4M+1, at least 2; allowed:
@@ -35,11 +37,16 @@ class Cards:
         formulation: 4-node elements; if not given: PLAIN; allowed: PLAIN, BBAR
         method: method for joints that open or slip; if not given: NEWTON; allowed: NEWTON, TOTAL, ANDERSON,
             TRANSFER
+        body_method: method for bodies that yield; if not given: ANDERSON; allowed: ANDERSON, NEWTON, LBFGS,
+            TRANSFER
+        body_planes: planes θ from 0 to π on which the criteria of these are checked; if not given: 2M+1, at
+            least 5; allowed: 2 … 100000; at least M+1
         """
-        self._entry("CONTROL", highest, planes, gauss, gauss_quadratic, solver, formulation, method)
+        self._entry("CONTROL", highest, planes, gauss, gauss_quadratic, solver, formulation, method, body_method,
+                    body_planes)
 
     def increments(self, factor: float, *, tolerance: float | None = None, iterations: int | None = None,
-                   case: int | None = None) -> None:
+                   case: int | None = None, control: Literal["LOAD", "DISPLACEMENT"] | None = None) -> None:
         """INCREMENTS: steps of the load, one card each; without the section one step of factor 1.
 
         factor: factor on all loads, added to those of earlier increments; allowed: any
@@ -48,8 +55,10 @@ class Cards:
             1
         iterations: most iterations; if not given: 500; allowed: ≥ 1
         case: load case that the factor belongs to; if not given: all; allowed: of CASE, or 1
+        control: whether the factor is given, or the displacement that it would give elastic bodies; if not
+            given: LOAD; allowed: LOAD, DISPLACEMENT
         """
-        self._entry("INCREMENTS", factor, tolerance, iterations, case)
+        self._entry("INCREMENTS", factor, tolerance, iterations, case, control)
 
     def output(self, angles: Reals) -> None:
         """OUTPUT: angles at which totals are listed.

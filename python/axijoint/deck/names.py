@@ -4,8 +4,8 @@ Fields that are told of together, such as the coordinates of a point, have one n
 """
 
 NAMES = {card: names.split() for card, names in {
-    "CONTROL": "highest planes gauss gauss_quadratic solver formulation method",
-    "INCREMENTS": "factor tolerance iterations case",
+    "CONTROL": "highest planes gauss gauss_quadratic solver formulation method body_method body_planes",
+    "INCREMENTS": "factor tolerance iterations case control",
     "OUTPUT": "angles",
     "MATERIALS": "material young poisson density expansion",
     "ORTHOTROPIC": "material young angle density expansion poisson shear expansion_3",

@@ -3,7 +3,7 @@ from dataclasses import dataclass
 from typing import Callable, Optional, Tuple
 
 from ..history import NotKeptError
-from . import curves, fields, joints, mesh, pile, polar, series
+from . import curves, fields, joints, mesh, pile, polar, series, yielding
 
 
 class NothingToDraw(LookupError):
@@ -89,6 +89,16 @@ def _pressure(result, options):
         yield name.replace("joints", "pressure", 1), polar.draw(result, options, interface)
 
 
+def _yielding(result, options):
+    if not yielding.has(result):
+        raise NothingToDraw("no material yields")
+    yield "yielding", yielding.draw_zones(result, options)
+    for name, figure in (("yielding_unrolled", yielding.draw_unrolled(result, options)),
+                         ("mechanism", yielding.draw_mechanism(result, options))):
+        if figure is not None:
+            yield name, figure
+
+
 def _of_pile(draw):
     """What draws a pile; why it cannot is no error."""
     def drawn(result, options):
@@ -153,4 +163,6 @@ KINDS = {
                  tables=_of_pile(_soil_tables), tells=_has_pile),
     "pressure": Kind("pressure in joints round the circle", _pressure, ("increments", "depths", "range"),
                      tables=lambda result, options: [("pressure", polar.table(result, options))],
-                     tells=_has_joints)}
+                     tells=_has_joints),
+    "yielding": Kind("plastic strain on two opposite planes, yield margin round a circle, what moves beyond the limit load",
+                     _yielding, ("body", "material", "angles", "range"), tells=yielding.has)}

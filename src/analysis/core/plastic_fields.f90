@@ -2,7 +2,7 @@
 module axijoint_analysis_core_plastic_fields
    use axijoint_base_kinds, only : wp
    use axijoint_element_yield_law, only : elastic_strain
-   use axijoint_element_yield_margin, only : yield_margin
+   use axijoint_element_yield_margin, only : yield_margin, bearing
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_planes, only : planes_type, synthesize, plane_weights
    use axijoint_joints_states, only : plastic_state_type
@@ -24,6 +24,8 @@ module axijoint_analysis_core_plastic_fields
       !> Share of the strength that is left, 1 without shear, 0 at yield; 1 where nothing yields;
       !> and equivalent plastic strain, sqrt(2/3 e:e), shape (points, planes)
       real(wp), allocatable :: margin(:, :), equivalent(:, :)
+      !> What of the criterion bears, places in `bearing_names`, shape (points, planes)
+      integer, allocatable :: bearing(:, :)
       !> Stress and plastic strain of the points of bodies that can yield, shape
       !> (6, points of these, planes), and weights of these points and planes in an integral over
       !> the bodies
@@ -51,7 +53,7 @@ contains
       integer :: own(size(stress, 2)), i, j, k
 
       if (.not. allocated(state%place)) return
-      planes = body_planes(modes)
+      planes = body_planes(modes, model%n_body_planes)
       call new_bodies(model, (model%materials%yield), bodies)
       fields%angles = planes%angle
       fields%plane_weight = plane_weights(planes)
@@ -65,6 +67,7 @@ contains
          allocate (fields%amplitude, source=0.0_wp*stress)
          allocate (fields%margin(size(stress, 2), n_planes), source=1.0_wp)
          allocate (fields%equivalent(size(stress, 2), n_planes), source=0.0_wp)
+         allocate (fields%bearing(size(stress, 2), n_planes), source=0)
          do i = 1, size(state%place)
             associate (p => own(state%place(i)))
                fields%stress(:, p, :) = fields%stress(:, p, :) - state%taken(:, i, :)
@@ -82,6 +85,8 @@ contains
             do i = 1, n
                associate (place => bodies%place(i))
                   fields%margin(place, j) = yield_margin(bodies%laws(i), gained(i, j), &
+                     fields%stress(:, i, j))
+                  fields%bearing(place, j) = bearing(bodies%laws(i), gained(i, j), &
                      fields%stress(:, i, j))
                   fields%equivalent(place, j) = equivalent(fields%strain(:, i, j))
                end associate

@@ -56,9 +56,8 @@ contains
          return
       end if
       call run_body_increments(model, structure%equations, structure%condensed, &
-         structure%joint_points, structure%support_points, combination, bodies, planes, progress, &
-         keeper)
-      history = bodies%joints
+         structure%joint_points, structure%support_points, combination, history, bodies, planes, &
+         progress, keeper)
       if (allocated(history%failure)) then
          error = history%failure
          return
@@ -83,15 +82,16 @@ contains
       if (allocated(error) .or. results%converged) return
       results%failing = bodies%failing
       results%tried = bodies%tried
-      results%mechanism = failure_text(model, bodies, results)
+      results%mechanism = failure_text(model, history, bodies, results)
    end subroutine solve_bodies
 
    !> Why the increments ended, in words. That there is no equilibrium is said only if the bodies
    !> gave way: moved many times farther than elastic ones would, and were still out of balance
-   function failure_text(model, bodies, results) result(text)
+   function failure_text(model, history, bodies, results) result(text)
       !> The job
       type(model_type), intent(in) :: model
-      !> What the increments came to
+      !> What the increments came to, and in the bodies
+      type(history_type), intent(in) :: history
       type(body_history_type), intent(in) :: bodies
       !> Results with the displacements that failed
       type(results_type), intent(in) :: results
@@ -102,7 +102,7 @@ contains
 
       was = ' was found'
       if (bodies%growth >= gave_way .or. bodies%verdict%ran_away) was = ''
-      text = 'no equilibrium'//was//' beyond the load factor '//to_text(bodies%joints%reached)// &
+      text = 'no equilibrium'//was//' beyond the load factor '//to_text(history%reached)// &
          ': '//motion_text(model%mesh, results%modes, results%failing)//', at '// &
          to_text(bodies%tried)//' '//to_text(nint(min(bodies%growth, most_told)))// &
          ' times as far as if all were elastic'

@@ -7,20 +7,23 @@ module axijoint_deck_section_control
    use axijoint_deck_text_entry, only : is_given, integer_of, field_fault
    use axijoint_deck_text_field, only : integer_field, word_field, described
    use axijoint_fe_element_kind, only : kind_choice_type, formulation_names
-   use axijoint_model_model, only : can_yield, method_names
+   use axijoint_model_model, only : bodies_yield, can_yield, method_names, &
+      body_method_names
    use axijoint_solver_entry, only : solver_entry_type
    use axijoint_solver_registry, only : known_solvers, solver_words
    implicit none
    private
    public :: control_section, check_planes
-   public :: keyword_control, field_harmonic, field_planes, field_method
+   public :: keyword_control, field_harmonic, field_planes, field_method, field_body_method, &
+      field_body_planes
 
    !> The keyword
    character(len=*), parameter :: keyword_control = 'CONTROL'
    !> Fields
    integer, parameter :: field_harmonic = 1, field_planes = 2, field_linear = 3, &
       field_quadratic = 4, &
-      field_solver = 5, field_formulation = 6, field_method = 7
+      field_solver = 5, field_formulation = 6, field_method = 7, field_body_method = 8, &
+      field_body_planes = 9
 
 contains
 
@@ -30,7 +33,7 @@ contains
       type(read_section_type) :: section
 
       section%name = keyword_control
-      section%purpose = 'harmonics, planes, rules of integration, solver, method for joints'
+      section%purpose = 'harmonics, planes, rules of integration, solver, methods'
       section%once = .true.
       section%required = .true.
       section%stage = stage_job
@@ -53,7 +56,13 @@ contains
           1), &
                     '4-node elements'), &
           described(word_field('the method', 41, 50, method_names, 1), &
-                    'method for joints that open or slip')]
+                    'method for joints that open or slip'), &
+          described(word_field('the method for bodies', 51, 60, body_method_names, 1), &
+                    'method for bodies that yield'), &
+          described(integer_field('the number of planes for bodies', 61, 65, 2, largest_division, &
+                                  default=0), &
+                    'planes θ from 0 to π on which the criteria of these are checked', &
+                    blank='2M+1, at least 5', limits='2 … 100000; at least M+1')]
    end function control_section
 
    !> Take the control data into the job, as far as they are valid
@@ -78,6 +87,8 @@ contains
             word = integer_of(card, field_solver)  ! the first one leaves the choice to the program
             if (word > 1) model%solver = solvers(word - 1)
             model%method = integer_of(card, field_method)
+            model%body_method = integer_of(card, field_body_method)
+            model%n_body_planes = integer_of(card, field_body_planes)
             if (is_given(card, field_harmonic)) deck%highest = model%max_harmonic
          end if
          if (model%n_planes == 0) model%n_planes = max(2, 4*model%max_harmonic + 1)

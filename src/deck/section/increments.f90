@@ -6,18 +6,24 @@ module axijoint_deck_section_increments
    use axijoint_deck_job_card, only : card_type, cards_of, next_card
    use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_job
    use axijoint_deck_text_diagnostics, only : add_warning
-   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, lack_fault
-   use axijoint_deck_text_field, only : integer_field, real_field, described, largest_number
+   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, field_fault, lack_fault
+   use axijoint_deck_text_field, only : integer_field, real_field, word_field, described, &
+      largest_number
    use axijoint_model_load, only : increment_type
+   use axijoint_model_model, only : bodies_yield, can_yield
    implicit none
    private
-   public :: increments_section, refer_increments, warn_of_idle_cases
+   public :: increments_section, refer_increments, warn_of_idle_cases, check_control
    public :: keyword_increments, field_tolerance
 
    !> The keyword
    character(len=*), parameter :: keyword_increments = 'INCREMENTS'
    !> Fields
-   integer, parameter :: field_factor = 1, field_tolerance = 2, field_iterations = 3, field_case = 4
+   integer, parameter :: field_factor = 1, field_tolerance = 2, field_iterations = 3, field_case = 4, &
+      field_control = 5
+   !> What an increment gives
+   character(len=12), parameter :: control_names(2) = [character(len=12) :: 'LOAD', 'DISPLACEMENT']
+   integer, parameter :: control_displacement = 2
    !> Most iterations of an increment unless the deck gives another number
    integer, parameter :: default_iterations = 500
 
@@ -45,7 +51,10 @@ contains
                                   default=default_iterations), &
                     'most iterations', limits='≥ 1'), &
           described(integer_field('the load case', 26, 30, 1, largest_number, default=0), &
-                    'load case that the factor belongs to', blank='all', limits='of CASE, or 1')]
+                    'load case that the factor belongs to', blank='all', limits='of CASE, or 1'), &
+          described(word_field('what is given', 31, 42, control_names, 1), &
+                    'whether the factor is given, or the displacement that it would give elastic '// &
+                    'bodies')]
    end function increments_section
 
    !> Take the increments into the job
@@ -63,6 +72,7 @@ contains
             increment%factor = real_of(card, field_factor)
             increment%tolerance = real_of(card, field_tolerance)
             increment%max_iterations = integer_of(card, field_iterations)
+            increment%steered = integer_of(card, field_control) == control_displacement
          end associate
       end do
    end subroutine read_increments
@@ -87,6 +97,48 @@ contains
                          'blank for all')
       end do
    end subroutine refer_increments
+
+   !> Check that increments whose displacement is given are of forces on bodies that yield
+   subroutine check_control(deck)
+      !> The deck with its model
+      type(deck_type), intent(inout), target :: deck
+
+      type(card_type) :: card
+
+      card = cards_of(deck, keyword_increments)
+      do while (next_card(card))
+         associate (model => deck%model, increment => deck%model%increments(card%entry))
+            if (.not. increment%steered) cycle
+            if (.not. bodies_yield(model)) then
+               call field_fault(card, field_control, 'no material yields: the load factor is found '// &
+                  'only where one does', allowed='LOAD, or blank')
+            else if (can_yield(model)) then
+               call field_fault(card, field_control, 'the load factor is not found where joints '// &
+                  'open or slip', allowed='LOAD, or blank', mend='MOVEDFACES gives displacements, '// &
+                  'beyond the limit load, too')
+            else if (applies(model%prescribed%case) .or. applies(model%thermal_loads%case) &
+                     .or. applies(model%initial_stresses%case)) then
+               call field_fault(card, field_control, 'the load of an increment whose displacement '// &
+                  'is given consists of forces; here there are given displacements, temperatures '// &
+                  'or in-situ stress, too', allowed='LOAD, or blank', &
+                  mend='a CASE for the forces, named in columns 26-30, and COMBINE')
+            end if
+         end associate
+      end do
+
+   contains
+
+      !> Whether one of some load cases is in the increment
+      pure logical function applies(cases)
+         !> The cases
+         integer, intent(in) :: cases(:)
+
+         associate (case => deck%model%increments(card%entry)%case)
+            applies = size(cases) > 0 .and. (case == 0 .or. any(cases == case))
+         end associate
+      end function applies
+
+   end subroutine check_control
 
    !> Warn of increments that name load cases which no combination puts together, and of load cases
    !> that no increment applies: their loads never act

@@ -5,17 +5,19 @@ module axijoint_deck_section_yield
    use axijoint_deck_job_card, only : card_type, cards_of, next_card
    use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_properties
    use axijoint_deck_property_properties, only : find_material
-   use axijoint_deck_section_control, only : keyword_control, field_harmonic, field_method
+   use axijoint_deck_section_control, only : keyword_control, field_harmonic, field_method, &
+      field_body_method, field_body_planes
    use axijoint_deck_text_common_fields, only : number
    use axijoint_deck_text_diagnostics, only : add_error
-   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, is_good, field_fault, &
+   use axijoint_deck_text_entry, only : is_given, integer_of, real_of, is_good, field_fault, field_doubt, &
       first_card
    use axijoint_deck_text_field, only : field_type, real_field, word_field, described
    use axijoint_deck_text_source, only : card_position
    use axijoint_element_yield_law, only : yield_law_type, yield_tresca, yield_mises, &
       criterion_names
    use axijoint_model_material, only : solid_material_type
-   use axijoint_model_model, only : bodies_yield, can_yield, method_transfer
+   use axijoint_model_model, only : model_type, bodies_yield, can_yield, method_transfer, &
+      body_newton, body_lbfgs
    implicit none
    private
    public :: yield_section, check_yielding
@@ -171,9 +173,13 @@ contains
       type(card_type) :: card
 
       associate (model => deck%model)
-         if (.not. bodies_yield(model)) return
          card = cards_of(deck, keyword_control)
          card%entry = 1
+         if (.not. bodies_yield(model)) then
+            call check_unused(card)
+            return
+         end if
+         call check_method(card, model)
          if (model%method == method_transfer .and. can_yield(model)) call field_fault(card, &
             field_method, 'the loop of TRANSFER accumulates joint stress, which does not go '// &
             'with bodies that yield', allowed='NEWTON, ANDERSON or TOTAL')
@@ -186,6 +192,55 @@ contains
             mend='no section ERROR; compare with a finer run')
       end associate
    end subroutine check_yielding
+
+   !> Check that nothing is said of bodies that yield where none can
+   subroutine check_unused(card)
+      !> CONTROL
+      type(card_type), intent(in) :: card
+
+      integer :: field
+
+      do field = field_body_method, field_body_planes
+         if (is_given(card, field)) call field_fault(card, field, 'no material yields', &
+            allowed='blank', mend='a section YIELD, or leave the field blank')
+      end do
+   end subroutine check_unused
+
+   !> Check that the method goes with the laws and the joints, and that planes see all harmonics
+   subroutine check_method(card, model)
+      !> CONTROL
+      type(card_type), intent(in) :: card
+      !> The job
+      type(model_type), intent(in) :: model
+
+      character(len=*), parameter :: with_joints = 'ANDERSON or TRANSFER', &
+         with_dilation = 'ANDERSON, NEWTON or TRANSFER'
+      logical :: associated_flow
+
+      if (any(model%body_method == [body_newton, body_lbfgs]) .and. can_yield(model)) then
+         call field_fault(card, field_body_method, 'this method knows no joints that open or '// &
+            'slip beside bodies that yield', allowed=with_joints)
+      else if (model%body_method == body_lbfgs) then
+         associate (laws => model%materials%yield)
+            associated_flow = all(abs(laws%friction - laws%dilation) <= 0.0_wp)
+         end associate
+         if (.not. associated_flow) call field_fault(card, field_body_method, &
+            'LBFGS needs a potential, which there is only if psi = phi in all materials', &
+            allowed=with_dilation)
+      end if
+      if (model%n_body_planes == 0) return
+      associate (m => model%max_harmonic)
+         if (model%n_body_planes <= m) then
+            call field_fault(card, field_body_planes, 'there are too few planes for harmonics up '// &
+               'to '//to_text(m), allowed='at least M + 1 = '//to_text(m + 1)//' planes', &
+               mend='leave the field blank: the default is 2 M + 1')
+         else if (model%n_body_planes <= 2*m) then
+            call field_doubt(card, field_body_planes, 'fewer than 2 M + 1 planes take '// &
+               'harmonics up to '//to_text(m)//' for others than they are', &
+               mend='leave the field blank: the default is 2 M + 1 = '//to_text(2*m + 1))
+         end if
+      end associate
+   end subroutine check_method
 
    !> Check that a tension cut-off cuts anything off
    subroutine check_tension(card, law)

@@ -4,9 +4,10 @@ module axijoint_output_table_yielding
    use axijoint_analysis_core_plastic_fields, only : plastic_fields_type
    use axijoint_analysis_core_results, only : results_type
    use axijoint_base_kinds, only : wp, degree
-   use axijoint_base_text, only : to_text
+   use axijoint_base_text, only : to_text, lower
    use axijoint_element_yield_law, only : criterion_names
-   use axijoint_model_model, only : model_type
+   use axijoint_element_yield_margin, only : bearing_names
+   use axijoint_model_model, only : model_type, body_method_names
    use axijoint_output_file_columns, only : columns
    use axijoint_output_file_hdf5, only : hdf5_file_type
    use axijoint_output_file_headings, only : write_heading, write_result_heading
@@ -43,8 +44,9 @@ contains
 
       if (.not. allocated(results%plastic%margin)) return
       call write_result_heading(file, "YIELDING", results%converged)
-      call file%put("  ("//to_text(size(results%plastic%angles))//" planes; elastic solutions "// &
-         "of all harmonics; Gauss points that planes were needed for, % of those that can yield;")
+      call file%put("  (method "//trim(body_method_names(model%body_method))//"; "// &
+         to_text(size(results%plastic%angles))//" planes; elastic solutions of all "// &
+         "harmonics; Gauss points that planes were needed for, % of those that can yield;")
       call file%put("  points that have yielded on any plane; work dissipated by plastic strain)")
       call file%put(" increment iterations solutions    load factor      on planes   yielded     "// &
          "dissipated")
@@ -111,7 +113,9 @@ contains
    end subroutine write_unestimated
 
    !> In the summary: null if no body can yield
-   pure function yielding_json(results) result(json)
+   pure function yielding_json(model, results) result(json)
+      !> The job
+      type(model_type), intent(in) :: model
       !> Results
       type(results_type), intent(in) :: results
       !> A JSON object
@@ -121,7 +125,8 @@ contains
 
       json = "null"
       if (.not. allocated(results%plastic%margin)) return
-      json = '{"planes": '//json_number(size(results%plastic%angles))// &
+      json = '{"method": "'//lower(trim(body_method_names(model%body_method)))// &
+         '", "planes": '//json_number(size(results%plastic%angles))// &
          ', "least_margin": '//json_number(minval(results%plastic%margin))// &
          ', "largest_plastic_strain": '//json_number(maxval(results%plastic%equivalent))// &
          ', "no_equilibrium_at": '
@@ -158,6 +163,7 @@ contains
       if (.not. allocated(results%plastic%margin)) return
       call file%group("/yield")
       call file%attribute("/yield", "errors", unestimated)
+      call file%attribute("/yield", "method", lower(trim(body_method_names(model%body_method))))
       call write_laws(file, model)
       call write_fields(file, results%plastic)
       associate (bodies => results%states%bodies)
@@ -220,6 +226,9 @@ contains
       !> The fields
       type(plastic_fields_type), intent(in) :: fields
 
+      character(len=:), allocatable :: names
+      integer :: i
+
       call file%write("/yield/planes", fields%angles, "theta; (plane) [radian]")
       call file%write("/yield/plastic_strain", fields%amplitude, "Amplitudes r, z, theta, rz, "// &
          "r-theta, z-theta, shear as in engineering; (6, point, mode)")
@@ -227,6 +236,12 @@ contains
          "Equivalent plastic strain sqrt(2/3 e:e); (point, plane)")
       call file%write("/yield/margin", fields%margin, &
          "Share of the strength that is left, 1 without shear, 0 at yield; (point, plane)")
+      names = ""
+      do i = lbound(bearing_names, 1), ubound(bearing_names, 1)
+         names = names//to_text(i)//" "//trim(bearing_names(i))//", "
+      end do
+      call file%write("/yield/active", fields%bearing, "What of the criterion bears: "// &
+         names//"(point, plane)")
    end subroutine write_fields
 
 end module axijoint_output_table_yielding
