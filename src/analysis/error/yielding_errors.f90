@@ -29,6 +29,10 @@ module axijoint_analysis_error_yielding_errors
    private
    public :: estimate_yielding_errors, iteration_error
 
+   !> Displacements below this part of those with elastic joints are rounding: all loads were taken
+   !> away
+   real(wp), parameter :: none = 1.0e-9_wp
+
 contains
 
    !> Estimate all errors. The paper's loop is another approximation: its errors are the difference
@@ -52,7 +56,7 @@ contains
 
       start = omp_get_wtime()
       associate (condensed => structure%condensed, scene => history%scene, field => history%field)
-         if (.not. results%converged) then
+         if (.not. results%converged .or. nothing_is_left(structure, history, results)) then
             call mesh_error_of_held(structure, history, field, results%displacement, mesh_error)
             return
          else if (.not. history%method%accumulates) then
@@ -105,6 +109,7 @@ contains
 
       associate (condensed => structure%condensed, scene => history%scene, field => history%field)
          allocate (balanced, source=field)
+         if (nothing_is_left(structure, history, results)) return
          balanced%memory = history%memory
          call settle_wholly(condensed, scene, balanced)
          change = change_between(scene, field, balanced, structure%judged(structure%yielding))
@@ -114,6 +119,21 @@ contains
             change, share)
       end associate
    end subroutine iteration_error
+
+   !> Whether all loads were taken away, and displacements and stress of joints with them. Then
+   !> bodies that joints alone held may stand anywhere, and there is nothing that an error is a part of
+   logical function nothing_is_left(structure, history, results) result(none_left)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> Results with displacements
+      type(results_type), intent(in) :: results
+
+      none_left = maxval(abs(results%displacement)) <= none*history%largest_elastic
+      if (none_left) none_left = maxval(abs(history%field%stress)) <= none* &
+         maxval([0.0_wp, pack(history%largest_stress, structure%judged(structure%yielding))])
+   end function nothing_is_left
 
    !> An error in relative numbers
    subroutine take_share(structure, history, results, largest, change, share)
@@ -130,9 +150,6 @@ contains
       !> Takes stress, displacement and time
       type(error_share_type), intent(inout) :: share
 
-      !> Displacements below this part of those with elastic joints are rounding: all loads were
-      !> taken away
-      real(wp), parameter :: none = 1.0e-9_wp
       real(wp), allocatable :: displacement(:, :, :)
       real(wp) :: start
       logical :: found
