@@ -72,6 +72,7 @@ contains
 
       type(strictest_type) :: found
       type(joint_field_type), allocatable :: settled
+      type(scene_type) :: seen
 
       if (any(views(condensed, scene, field) < 1.0_wp)) then
          call method%evaluate(condensed, scene, field, residual, judged=.true.)
@@ -84,7 +85,9 @@ contains
          end if
          verdict%residual = found
       end if
-      call find_mechanism(condensed, scene, field, .false., verdict%mechanism)
+      seen = scene
+      if (method%accumulates) seen%laws%gap = 0.0_wp  ! this loop knows none
+      call find_mechanism(condensed, seen, field, .false., verdict%mechanism)
       verdict%converged = .not. verdict%mechanism%loaded
       if (.not. verdict%converged .or. size(verdict%mechanism%idle, 2) == 0) return
       allocate (settled, source=field)

@@ -104,6 +104,7 @@ contains
       type(deck_type), intent(inout), target :: deck
 
       type(card_type) :: card
+      integer :: k
 
       card = cards_of(deck, keyword_increments)
       do while (next_card(card))
@@ -116,8 +117,10 @@ contains
                call field_fault(card, field_control, 'the load factor is not found where joints '// &
                   'open or slip', allowed='LOAD, or blank', mend='MOVEDFACES gives displacements, '// &
                   'beyond the limit load, too')
-            else if (applies(model%prescribed%case) .or. applies(model%thermal_loads%case) &
-                     .or. applies(model%initial_stresses%case)) then
+            else if (any([(applies(model%prescribed(k)%case), k=1, size(model%prescribed)), &
+                           (applies(model%thermal_loads(k)%case), k=1, size(model%thermal_loads)), &
+                           (applies(model%initial_stresses(k)%case), k=1, &
+                            size(model%initial_stresses))])) then
                call field_fault(card, field_control, 'the load of an increment whose displacement '// &
                   'is given consists of forces; here there are given displacements, temperatures '// &
                   'or in-situ stress, too', allowed='LOAD, or blank', &
@@ -128,13 +131,13 @@ contains
 
    contains
 
-      !> Whether one of some load cases is in the increment
-      pure logical function applies(cases)
-         !> The cases
-         integer, intent(in) :: cases(:)
+      !> Whether a load case is in the increment
+      pure logical function applies(case)
+         !> The case
+         integer, intent(in) :: case
 
-         associate (case => deck%model%increments(card%entry)%case)
-            applies = size(cases) > 0 .and. (case == 0 .or. any(cases == case))
+         associate (wanted => deck%model%increments(card%entry)%case)
+            applies = wanted == 0 .or. case == wanted
          end associate
       end function applies
 
