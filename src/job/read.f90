@@ -2,7 +2,7 @@
 module axijoint_job_read
    use axijoint_base_timer, only : phase_read
    use axijoint_deck_reader, only : read_deck
-   use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, add_warning, render, &
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, render, &
       warning_texts
    use axijoint_deck_text_file_bytes, only : read_bytes, read_input_bytes
    use axijoint_deck_text_source, only : source_type, add_file
@@ -94,24 +94,40 @@ contains
          refinement, text)
    end subroutine read_legacy
 
-   !> Offer to read a deck of Owen and Hinton's program as one, and to convert those of others
+   !> Offer to read a deck of another program as one, or to convert it: what its cards would mean here is of no interest
+   !> then
    subroutine offer_legacy(source, diagnostics)
       !> The deck
       type(source_type), intent(in) :: source
-      !> Take the offer
+      !> What is wrong with its cards; the offer alone if there is one
       type(diagnostics_type), intent(inout) :: diagnostics
 
       if (source%n_files == 0) return
       associate (bytes => source%files(1)%bytes)
-         if (looks_like_nastran(bytes)) call add_warning(diagnostics, 0, 0, 0, 'this looks like a '// &
-            'deck of NASTRAN', mend='axijoint convert OLD NEW writes it anew')
-         if (looks_like_abaqus(bytes)) call add_warning(diagnostics, 0, 0, 0, 'this looks like an '// &
-            'input file of Abaqus or CalculiX', mend='axijoint convert OLD NEW writes it anew')
-         if (.not. looks_old(bytes)) return
+         if (looks_like_nastran(bytes)) then
+            call offer('a deck of NASTRAN', '')
+         else if (looks_like_abaqus(bytes)) then
+            call offer('an input file of Abaqus or CalculiX', '')
+         else if (looks_old(bytes)) then
+            call offer('a deck of the plasticity program of Owen and Hinton', &
+               'axijoint run --legacy owen-hinton DECK solves it, ')
+         end if
       end associate
-      call add_warning(diagnostics, 0, 0, 0, 'this looks like a deck of the plasticity program of '// &
-         'Owen and Hinton', mend='axijoint run --legacy owen-hinton DECK solves it, axijoint '// &
-         'convert OLD NEW writes it anew')
+
+   contains
+
+      !> Say what the deck is
+      subroutine offer(what, more)
+         !> What it looks like, and what can be done besides converting it
+         character(len=*), intent(in) :: what, more
+
+         type(diagnostics_type) :: alone
+
+         call add_error(alone, 0, 0, 0, 'this looks like '//what, &
+            mend=more//'axijoint convert OLD NEW writes it anew')
+         diagnostics = alone
+      end subroutine offer
+
    end subroutine offer_legacy
 
    !> Read the deck that comes from the standard input, or has come from it before

@@ -8,7 +8,7 @@ module axijoint_legacy_abaqus_lines
    use axijoint_legacy_cards, only : cards_type
    implicit none
    private
-   public :: line_type, next_line, parameter_of, has_parameter, field_text, integer_of, real_of, &
+   public :: line_type, next_line, is_data, parameter_of, has_parameter, field_text, integer_of, real_of, &
       fault_of
    public :: line_keyword, line_data, line_end
 
@@ -65,6 +65,23 @@ contains
       line%keyword = upper(field_text(line, 1))
       line%keyword = trim(adjustl(line%keyword(2:)))
    end subroutine next_line
+
+   !> The next line, if it is one of data
+   logical function is_data(cards, at, line)
+      !> The file
+      type(cards_type), intent(in) :: cards
+      !> The card before it; its own on return if it is
+      integer, intent(inout) :: at
+      !> The line
+      type(line_type), intent(out) :: line
+
+      integer :: next
+
+      next = at
+      call next_line(cards, next, line)
+      is_data = line%kind == line_data
+      if (is_data) at = next
+   end function is_data
 
    !> What is in a field; empty if nothing
    pure function field_text(line, n) result(text)

@@ -3,8 +3,8 @@ module axijoint_legacy_abaqus_loads
    use axijoint_base_kinds, only : wp, pi
    use axijoint_base_number_map, only : find_number
    use axijoint_base_text, only : to_text, upper
-   use axijoint_legacy_abaqus_lines, only : line_type, next_line, field_text, integer_of, real_of, &
-      fault_of, parameter_of, line_data
+   use axijoint_legacy_abaqus_lines, only : line_type, is_data, field_text, integer_of, real_of, &
+      fault_of, parameter_of
    use axijoint_legacy_abaqus_mesh, only : abaqus_type, members, side_nodes
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_list, only : list_type
@@ -19,23 +19,6 @@ module axijoint_legacy_abaqus_loads
    integer, parameter :: first_side = 50001
 
 contains
-
-   !> Next line of data
-   logical function is_data(cards, at, line)
-      !> The file
-      type(cards_type), intent(in) :: cards
-      !> The card before it; its own on return if it is
-      integer, intent(inout) :: at
-      !> The line
-      type(line_type), intent(out) :: line
-
-      integer :: next
-
-      next = at
-      call next_line(cards, next, line)
-      is_data = line%kind == line_data
-      if (is_data) at = next
-   end function is_data
 
    !> *BOUNDARY: node or set, first component, last, value; or a word for components
    subroutine add_boundary(cards, keyword, at, mesh, sketch)

@@ -4,8 +4,8 @@ module axijoint_legacy_abaqus_mesh
    use axijoint_base_number_map, only : number_map_type, find_number, insert_number
    use axijoint_base_text, only : to_text, upper
    use axijoint_deck_text_diagnostics, only : add_warning
-   use axijoint_legacy_abaqus_lines, only : line_type, next_line, parameter_of, has_parameter, &
-      field_text, integer_of, real_of, fault_of, line_data
+   use axijoint_legacy_abaqus_lines, only : line_type, is_data, parameter_of, has_parameter, &
+      field_text, integer_of, real_of, fault_of
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_list, only : list_type, set_type, add, open_set, find_set
    implicit none
@@ -74,23 +74,6 @@ contains
          if (set > 0) call add(mesh%node_sets(set)%list, number)
       end do
    end subroutine read_nodes
-
-   !> The next line, if it is one of data
-   logical function is_data(cards, at, line)
-      !> The file
-      type(cards_type), intent(in) :: cards
-      !> The card before it; its own on return if it is
-      integer, intent(inout) :: at
-      !> The line
-      type(line_type), intent(out) :: line
-
-      integer :: next
-
-      next = at
-      call next_line(cards, next, line)
-      is_data = line%kind == line_data
-      if (is_data) at = next
-   end function is_data
 
    !> Data of *ELEMENT: number and nodes, corners first; a line may go on in the next
    subroutine read_elements(cards, keyword, at, mesh)

@@ -208,6 +208,20 @@ def dialect_error(program, folder):
     return ran.ended_with(2) + ([] if re.search(r'bad\.dat:3:15: error: MATNO is out of range \(error 14', ran.err) else [ran.err[:800]])
 
 
+def offered(program, folder):
+    """Every old deck that is given as it is gets an offer and nothing else; with its options it is taken. A deck of our own
+    with a fault, whatever it is, gets none"""
+    faults, folder_of = [], os.path.join(INPUTS, 'legacy')
+    for name in sorted(os.listdir(folder_of)):
+        ran = program.run('check', os.path.join(folder_of, name), folder=folder)
+        if ran.code != 2 or ran.err.count('this looks like') != 1 or '1 error, 0 warnings' not in ran.err:
+            faults.append(f'{name}: {ran.err[:300]}')
+    bad = os.path.join(INPUTS, '..', 'test', 'decks', 'bad')
+    ran = program.run('check', *(os.path.join(bad, name) for name in sorted(os.listdir(bad)) if name.endswith('.dat')),
+                      folder=folder, time_limit=300)
+    return faults + expected('offers to our own', 0, ran.err.count('this looks like'))
+
+
 def tests(program):
     """The tests of this module"""
 
@@ -215,7 +229,7 @@ def tests(program):
         return Test(f'legacy: {name}', lambda folder: function(program, folder, *arguments))
 
     return ([test(name.__name__.replace('_', ' '), name) for name in
-             (cylinder, cylinder_mohr, sphere, plate, footing, column, traps, refused, dialect, dialect_error)]
+             (cylinder, cylinder_mohr, sphere, plate, footing, column, traps, refused, offered, dialect, dialect_error)]
             + [test(f'converted, {name}', converted, name) for name in scenes.DECKS]
             + [test(f'error {number}, line {line}', old_error, number, line, columns, text)
                for number, line, columns, text in ERRORS])

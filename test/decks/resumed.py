@@ -145,7 +145,7 @@ def killed(program, folder, kills):
                 break
             done += 1
             far = increments_of(runs.state(output))
-            if far < seen:
+            if far < seen and not runs.stems(output):  # with results in place there is nothing to keep any more
                 faults.append(f'{seen} increments were kept, {far} after the end')
         ran = runs.run(output, '--resume')
         faults += expected('exit code', runs.code, ran.returncode) + runs.same(output)

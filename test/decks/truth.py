@@ -279,7 +279,7 @@ CLEARANCE = [*[Row(f'ring column with a gap, {method}', 'v = -gap - p/k - p L/E 
 # Joints out of proportion, and what the tolerance claims
 
 def very_stiff(case, proportion, most):
-    """Solved, in so many iterations, which leave of displacement what the tolerance 1e-6 claims; without bonds, which
+    """Solved, in so many iterations if a number is given, which leave of displacement what the tolerance 1e-6 claims; without bonds, which
     break in an order of their own, with the displacement of k h/E = 1e3"""
     def ask(runner):
         largest, count = [], 0
@@ -292,7 +292,7 @@ def very_stiff(case, proportion, most):
         error = abs(largest[-1]/largest[0] - 1.0)
         return (f'{count} iterations, which leave {100*left["joint_stress"]:.1f} % of joint stress'
                 + (f', displacement off by {100*error:.2f} %' if case == 3 else ''),
-                count <= most and error <= 0.01 and left['displacement'] <= 10*1e-6*proportion/100)
+                (most is None or count <= most) and error <= 0.01 and left['displacement'] <= 10*1e-6*proportion/100)
     return ask
 
 
@@ -322,10 +322,11 @@ def claim_kept(deck, refused=False):
 
 
 PROPORTION = [*[Row(f'case {case}, k h/E = {proportion:.0e}',
-                    f'<= {most} iterations' + (', displacement of 1e3 within 1 %' if case == 3 else ''),
-                    # the order in which bonds of case 2 break is a matter of rounding: it took less than 60 on one make of
-                    # processor, 119 to 121 on another
-                    very_stiff(case, proportion, most)) for case, most in ((1, 60), (2, 150), (3, 40))
+                    (f'<= {most} iterations' if most else 'solved, iterations shown')
+                    + (', displacement of 1e3 within 1 %' if case == 3 else ''),
+                    # in which order the bonds of case 2 break is a matter of rounding: 44 to 121 iterations with four kernels
+                    # of one library, so that their number says nothing
+                    very_stiff(case, proportion, most)) for case, most in ((1, 60), (2, None), (3, 40))
                 for proportion in (1e6, 1e8)],
               *[Row(f'case {case}, NEWTON to 1e-6', f'<= {before} + 2 iterations', paper_case(case, before))
                 for case, before in ((1, 12), (2, 14), (3, 5))],
