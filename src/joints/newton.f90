@@ -20,7 +20,7 @@ module axijoint_joints_newton
    implicit none
    private
    public :: newton_type, step_bounds_type, new_newton, newton_step, at_points, &
-      newton_view
+      newton_view, bold
 
    !> Stiffness k h/E of joints that the laws see at most at a time
    real(wp), parameter :: newton_view = 10.0_wp
@@ -30,6 +30,11 @@ module axijoint_joints_newton
    integer, parameter :: worth_threads = 5000
    !> Shortest part of a step, and how fast the radius of steps grows
    real(wp), parameter :: shortest = 1.0_wp/8.0_wp, widening = 4.0_wp
+   !> How many times as much may be missing after a step on the way
+   real(wp), parameter :: bold = 2.0_wp
+   !> Residual ratio below which an iterate is near to equilibrium, and the springs that damp a step
+   !> there first, in parts of the stiffness of the bodies
+   real(wp), parameter :: near = 0.1_wp, damping = 0.1_wp
 
    !> Laws of all points, linear about an iterate: P changes by `by_jump` times the
    !> change of the jumps, and by `rest`
@@ -53,9 +58,11 @@ module axijoint_joints_newton
       !> Jumps beyond which there is no state
       real(wp) :: largest = huge(1.0_wp)
       !> How many times as much may be missing after a step
-      real(wp) :: more = 2.0_wp
+      real(wp) :: more = bold
       !> Change of the jumps beyond which a step is shortened, and which grows then
       real(wp) :: radius = huge(1.0_wp)
+      !> Springs that damp a step, as a share of the joints' stiffness; they weaken while that helps
+      real(wp) :: damping = 0.0_wp
    end type step_bounds_type
 
 contains
@@ -203,9 +210,9 @@ contains
       end do
    end function merit_of
 
-   !> One step, shortened until what is missing is not much more, but not below a part of it:
-   !> the shortest is made even if it does not help. A step to jumps that are no
-   !> state is not made.
+   !> One step. Near to equilibrium, where all points are about to slip, next to nothing may resist a
+   !> motion, or less than nothing, for friction has no potential. A step along it goes too far, or
+   !> against the force; one that springs damp goes along with the force, farther and farther.
    subroutine newton_step(condensed, scene, bounds, newton, field, residual, made)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
@@ -219,13 +226,68 @@ contains
       type(joint_field_type), intent(inout) :: field
       !> Excess stress not transferred
       real(wp), intent(inout) :: residual(:, :, :)
-      !> Whether a step was made
+      !> Whether a step was made; otherwise nothing changed
       logical, intent(out) :: made
+
+      type(joint_field_type) :: start, reached
+      real(wp) :: least
+      logical :: falls
+
+      start = field
+      call step_along(condensed, scene, bounds, newton, field, residual, made, falls)
+      if (bounds%damping > 0.0_wp) then
+         bounds%damping = merge(bounds%damping/widening, 0.0_wp, made .and. falls)
+      else if (made .and. .not. falls .and. bounds%far < near) then
+         reached = field
+         least = newton%merit
+         call go_to(start)
+         bounds%damping = damping/max(1.0_wp, condensed%proportion)
+         call step_along(condensed, scene, bounds, newton, field, residual, made, falls)
+         if (.not. (made .and. newton%merit < least)) then
+            bounds%damping = 0.0_wp
+            call go_to(reached)
+            made = .true.
+         end if
+      end if
+      if (.not. made) call go_to(start)
+
+   contains
+
+      !> Back to an iterate
+      subroutine go_to(iterate)
+         !> The iterate
+         type(joint_field_type), intent(in) :: iterate
+
+         field = iterate
+         call evaluate(condensed, scene, field, residual)
+         newton = new_newton(condensed, scene, field, bounds%far)
+      end subroutine go_to
+
+   end subroutine newton_step
+
+   !> One step by a linear solution, shortened until what is missing is not much more, but not below
+   !> a part of it
+   subroutine step_along(condensed, scene, bounds, newton, field, residual, made, falls)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> What bounds the step
+      type(step_bounds_type), intent(inout) :: bounds
+      !> Laws about the iterate; about the new one on return
+      type(newton_type), intent(inout) :: newton
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> Excess stress not transferred
+      real(wp), intent(inout) :: residual(:, :, :)
+      !> Whether the jumps are a state, and whether not much more is missing than before
+      logical, intent(out) :: made, falls
 
       real(wp), allocatable :: start(:, :, :), carried(:, :, :), change(:, :, :), &
          amplitude(:, :, :), change_carried(:, :, :), jump(:, :, :)
       real(wp) :: length, before, least
 
+      newton%kept = newton%kept*(1.0_wp - bounds%damping)
       call solve(condensed, scene, newton%linear_type, bounds%tolerance, change, amplitude)
       jump = synthesize(scene%planes, amplitude)
       change_carried = newton%rest + at_points(newton%by_jump, jump)
@@ -244,14 +306,10 @@ contains
          call evaluate(condensed, scene, field, residual)
          newton = new_newton(condensed, scene, field, bounds%far)
          made = maxval(abs(field%jump)) <= bounds%largest
-         if (made .and. newton%merit < bounds%more*before .or. length <= least) exit
+         falls = newton%merit < merge(bold, bounds%more, bounds%damping > 0.0_wp)*before
+         if (made .and. falls .or. length <= least) exit
          length = 0.5_wp*length
       end do
-      if (made) return
-      field%excess = start
-      field%carried = carried
-      call evaluate(condensed, scene, field, residual)
-      newton = new_newton(condensed, scene, field, bounds%far)
-   end subroutine newton_step
+   end subroutine step_along
 
 end module axijoint_joints_newton

@@ -11,7 +11,7 @@ module axijoint_joints_newton_method
    use axijoint_joints_mechanism, only : find_mechanism
    use axijoint_joints_method, only : method_type, control_type, verdict_type
    use axijoint_joints_newton, only : newton_type, new_newton, newton_step, step_bounds_type, &
-      newton_view
+      newton_view, bold
    use axijoint_joints_passes, only : pass_on
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_residual, only : strictest_type, strictest, residual_norm
@@ -47,9 +47,9 @@ module axijoint_joints_newton_method
    real(wp), parameter :: rounding = 1.0e2_wp*epsilon(1.0_wp)
    !> A step without a better residual for so many iterations has stalled
    integer, parameter :: patience = 25
-   !> How many times as much may be missing after a step: more helps on the way, but goes round in
-   !> circles where the residual no longer falls
-   real(wp), parameter :: bold = 2.0_wp, careful = 1.0_wp
+   !> How many times as much may be missing after a step where the residual no longer falls: more
+   !> would go round in circles
+   real(wp), parameter :: careful = 1.0_wp
    !> Change of the jumps by the first steps, in displacements with elastic joints: of several
    !> states the near one is found. It grows as steps want more
    real(wp), parameter :: first_radius = 3.0_wp
