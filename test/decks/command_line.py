@@ -1,4 +1,5 @@
 """Commands and options of the program"""
+import contextlib
 import os
 import re
 import shutil
@@ -151,17 +152,20 @@ def environment(program, folder):
     names = ('OMP_WAIT_POLICY', 'OPENBLAS_NUM_THREADS', 'OPENBLAS_CORETYPE')
     bare = {name: value for name, value in program.environment.items() if name not in names}
     script = os.path.join(HERE, '..', '..', 'scripts', 'environment')
-    faults = []
-    fifo = os.path.join(folder, 'waits')  # that nobody writes to
-    os.mkfifo(fifo)
-    commands = (['run', fifo], ['estimate', fifo], ['study', fifo], ['envelope', fifo, '--cases', '1'])
+    faults, (end, full) = [], os.pipe()  # whose output nobody takes waits
+    os.set_blocking(full, False)
+    with contextlib.suppress(BlockingIOError):
+        while True:
+            os.write(full, b' ')
+    os.set_blocking(full, True)
+    missing = os.path.join(folder, 'missing.dat')
+    commands = (['run', missing], ['estimate', missing], ['study', missing], ['envelope', missing, '--cases', '1'])
     for given, words in [({'OMP_WAIT_POLICY': 'ACTIVE', 'OPENBLAS_CORETYPE': 'HASWELL'}, commands[0]),
                          *(({}, words) for words in commands)]:
         printed = subprocess.run(['bash', '-c', f'. "{script}"; env'], env=bare | given, text=True,
                                  capture_output=True, check=True).stdout
         wanted = sorted(line for line in printed.split('\n') if line.split('=')[0] in names)
-        with subprocess.Popen([program.path, *words], env=bare | given, cwd=folder,
-                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+        with subprocess.Popen([program.path, *words], env=bare | given, cwd=folder, stdout=full, stderr=full) as process:
             found = []
             for _ in range(500):
                 with open(f'/proc/{process.pid}/environ', encoding='utf-8') as file:
@@ -172,6 +176,8 @@ def environment(program, folder):
                 time.sleep(0.01)
             process.kill()
         faults += expected(f'environment of {words[0]}', wanted, found)
+    os.close(end)
+    os.close(full)
     return faults
 
 

@@ -139,7 +139,6 @@ def tests(program):
     return ([test('disc', disc), test("the paper's loop", paper_method), test('blocks that face others', facing),
              test('limits', limits), test('options', swept),
              test('loads of a combination', loads_of_combinations)]
-            # sanitizers take memory of their own
-            + ([] if program.sanitized else [test('memory', back_again)])
+            + [test('memory', back_again)]
             + [test(f'case {number}, {nodes} nodes', case, number, nodes, refined)
                for number in (1, 2, 3) for nodes, refined in ((4, 1), (8, 0.5))])

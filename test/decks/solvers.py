@@ -242,6 +242,4 @@ def tests(program):
                                 ('estimate', estimate_tells_costs),
                                 ('estimate counts', estimate_counts),
                                 ('estimate of memory', estimated_memory),
-                                ('estimate for a job script', job_lines))
-            # sanitizers take memory of their own
-            if not (program.sanitized and check in (memory_changes_nothing, estimated_memory))]
+                                ('estimate for a job script', job_lines))]
