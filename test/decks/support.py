@@ -62,11 +62,11 @@ class Program:
         self.path = os.path.realpath(path)
         if not os.access(self.path, os.X_OK):
             raise SystemExit(f'{path} is no program')
-        self.environment = dict(os.environ, OPENBLAS_NUM_THREADS='1', LC_ALL='C')
         # Of `scripts/build sanitized`: what the compiler forgets to give back is no fault of the program
         self.sanitized = b'__asan_init' in read_bytes(self.path)
-        if self.sanitized:
-            self.environment.update(ASAN_OPTIONS='detect_leaks=0:verify_asan_link_order=0', UBSAN_OPTIONS='halt_on_error=1:print_stacktrace=1')
+        if self.sanitized:  # whoever calls it, the verification and the benchmarks, too
+            os.environ.update(ASAN_OPTIONS='detect_leaks=0:verify_asan_link_order=0', UBSAN_OPTIONS='halt_on_error=1:print_stacktrace=1')
+        self.environment = dict(os.environ, OPENBLAS_NUM_THREADS='1', LC_ALL='C')
 
     def run(self, *arguments, folder='.', limits=(), path=None, time_limit=None, **options):
         """Run it in a folder. limits: pairs of a limit of `resource` and its value"""
