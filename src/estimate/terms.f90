@@ -79,7 +79,7 @@ module axijoint_estimate_terms
       term_type('lines', phase_write, common, .false., &
                 'lines of the listing', 2.7e-6_wp), &
       term_type('array_bytes', phase_write, common, .false., &
-                'bytes of the results file', 1.4e-8_wp), &
+                'bytes of the results file', 2.0e-9_wp), &
       term_type('swept_values', phase_write, common, .false., &
                 'numbers for ParaView', 8.0e-7_wp), &
       term_type('row_stresses', phase_recover, common, .false., &

@@ -20,9 +20,9 @@ module axijoint_output_file_hdf5_data
    integer(hid_t), parameter :: no_handle = -1_hid_t
    !> Values of a chunk at most; about a megabyte of reals
    integer(hsize_t), parameter :: chunk_values = 131072_hsize_t
-   !> Values from which an array is worth compressing, a megabyte of reals: a small job has a
-   !> hundred small arrays, and would spend a third of its time there
-   integer(hsize_t), parameter :: compressed_from = chunk_values
+   !> No array is compressed: of numbers with all their digits a quarter goes, at a rate below that of
+   !> the disk, so that a third of all that follows the solution would go there
+   integer(hsize_t), parameter :: never = huge(1_hsize_t)
    !> Effort of the compression, from 1 (fast) to 9
    integer, parameter :: deflate_level = 1
 
@@ -59,7 +59,7 @@ contains
       if (present(errno)) self%errno = errno
    end subroutine check
 
-   !> Write an array with checksums, a large one compressed
+   !> Write an array with checksums
    subroutine write_array(file, name, file_type, memory_type, extent, values, failure)
       !> Handle of the file
       integer(hid_t), intent(in) :: file
@@ -81,7 +81,7 @@ contains
       space = no_handle; properties = no_handle; dataset = no_handle
       call set_last_error(0)
       call make_space(name, extent, space, failure)
-      call make_properties(name, extent, compressed_from, properties, failure)
+      call make_properties(name, extent, never, properties, failure)
       if (.not. failure%failed) then
          call h5dcreate_f(file, name, file_type, space, dataset, status, properties)
          call failure%check(status, name)
@@ -169,8 +169,8 @@ contains
       call failure%check(status, name)
    end subroutine make_space
 
-   !> Storage of an array: chunks with checksums, of large arrays compressed where the library
-   !> can. An empty array cannot be cut into chunks.
+   !> Storage of an array: chunks with checksums, compressed from a size on where the library can. An
+   !> empty array cannot be cut into chunks.
    subroutine make_properties(name, extent, compressed_from, properties, failure)
       !> Dataset, for the message
       character(len=*), intent(in) :: name
