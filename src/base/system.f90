@@ -119,7 +119,9 @@ module axijoint_base_system
       end subroutine c_return_freed_memory
 
       !> Keep what is freed; system_shim.c
-      subroutine c_keep_freed_memory() bind(c, name="axijoint_keep_freed_memory")
+      subroutine c_keep_freed_memory(mebibytes) bind(c, name="axijoint_keep_freed_memory")
+         import :: c_int
+         integer(c_int), value :: mebibytes
       end subroutine c_keep_freed_memory
 
       !> Ignore SIGXFSZ; system_shim.c
@@ -307,8 +309,11 @@ contains
    end subroutine return_freed_memory
 
    !> From now on keep what is freed, for arrays of the same size that follow
-   subroutine keep_freed_memory()
-      call c_keep_freed_memory()
+   subroutine keep_freed_memory(mebibytes)
+      !> How much of it at most [MiB]
+      integer, intent(in) :: mebibytes
+
+      call c_keep_freed_memory(int(mebibytes, c_int))
    end subroutine keep_freed_memory
 
    !> Let a write beyond the limit on file sizes fail instead of ending the

@@ -3,6 +3,7 @@ module axijoint_command_program
    use, intrinsic :: iso_fortran_env, only : output_unit
    use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_io
    use axijoint_base_last_words, only : heed_faults, lost_output
+   use axijoint_base_memory, only : no_limit
    use axijoint_base_system, only : return_freed_memory, keep_freed_memory, error_text
    use axijoint_base_team, only : team_type
    use axijoint_command_check, only : check_decks
@@ -17,6 +18,9 @@ module axijoint_command_program
    implicit none
    private
    public :: run_program
+
+   !> Freed memory that is kept by a run that is given no limit, and by the rows of a study [MiB]
+   integer, parameter :: kept_by_run = 64, kept_by_rows = 1024
 
    interface
       !> Links environment_shim.c, which does its work before the program begins
@@ -80,16 +84,17 @@ contains
       end if
       select case (command%name)
       case ('run')
+         if (command%options%memory_limit == no_limit) call keep_freed_memory(kept_by_run)
          call run_decks(command, exit_code)
       case ('check')
          call check_decks(command, exit_code)
       case ('estimate')
          call estimate_decks(command, exit_code)
       case ('envelope')
-         call keep_freed_memory()
+         call keep_freed_memory(kept_by_rows)
          call run_envelope(command, exit_code)
       case ('study')
-         call keep_freed_memory()
+         call keep_freed_memory(kept_by_rows)
          call run_study(command, exit_code)
       case ('convert')
          call convert_old(command, exit_code)
