@@ -22,7 +22,7 @@ DISPLACEMENTS = (0.01, 0.04, 0.1)  # of the head [m]
 STEPS = (4, 6, 6)                  # increments to each
 OUTER = 10.0
 # Elements on half the circle (a multiple of 4); from shaft to far side; shares of the rows of axijoint's mesh
-SIZES = [(8, 6, 0.6), (8, 8, 1.0), (12, 8, 1.0)]
+SIZES = [(8, 6, 0.6), (12, 6, 0.6), (8, 8, 1.0)]
 
 
 def graded(first, last, n, ratio):
