@@ -21,6 +21,7 @@ class Job:
     combination: int = 0
     increment: int = None
     curve: Callable = None
+    zone: bool = False  # the plastic zone in space in place of two planes
 
 
 def along(first, last, component, angles=(0.0, 90.0, 180.0)):
@@ -69,6 +70,15 @@ def caisson(result):
     yield "axial force between caisson and ground [MN]", -ground[0], -4.0, EXACT
     yield "lateral force [MN]", -ground[1], 1.0, EXACT
     yield "moment about the sea floor: M − H h [MNm]", -ground[2], -5.0 - 1.0*0.5, EXACT
+
+
+def pile(result):
+    """What the clay holds after unloading to half: force and moment of the load. The picture has the plastic strains of the half behind the plane of the push, which was to the right."""
+    ground = result.history["joint_resultants"][-1]
+    mesh = result.mesh
+    height = mesh.coordinates[mesh.joint_nodes[:, :2], 1].mean(axis=1)
+    yield "lateral force between pile and clay [kN]", -ground[:, 1].sum(), 350.0, EXACT
+    yield "its moment about the base, 5 H [kNm]", -(ground[:, 2] - ground[:, 1]*(height + 5.0)).sum(), -350.0*5.0, EXACT
 
 
 def plug(result):
@@ -168,6 +178,7 @@ JOBS = {
                     monopile, increment=6, curve=p_y),
     "caisson": Job("inputs/gallery/caisson.dat", "A suction caisson in clay under weight and waves; adhesion that breaks", "u",
                    caisson),
+    "pile": Job("inputs/pile_clay.dat", "A pile pushed through clay that yields: the plastic zone", "u", pile, zone=True),
     "plug": Job("inputs/gallery/plug.dat", "A plug pulled out of a block against friction", "tau_rz", plug),
     "shrink_fit": Job("inputs/gallery/shrink_fit.dat", "A wheel shrunk on a shaft, under rotation and moment", "sigma_theta",
                       shrink_fit),

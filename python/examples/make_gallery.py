@@ -1,4 +1,4 @@
-"""Makes the gallery: ten jobs, a picture of each, and results beside a calculation by hand.
+"""Makes the gallery: eleven jobs, a picture of each, and results beside a calculation by hand.
 
     scripts/gallery            writes doc/gallery.md and doc/pictures/gallery_NAME.png
     scripts/gallery --check    runs the jobs, compares with the hand calculations, and says what is out of date
@@ -16,6 +16,7 @@ sys.path[:0] = [str(pathlib.Path(__file__).resolve().parents[1])]
 import axijoint  # noqa: E402
 from axijoint.sweep import Sweep  # noqa: E402
 from axijoint.units import Units  # noqa: E402
+import zone_in_space  # noqa: E402
 from gallery_jobs import JOBS  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -24,7 +25,7 @@ PAGE, PICTURES = ROOT/"doc/gallery.md", ROOT/"doc/pictures"
 SHOWN_SIZE = 1/20
 HEAD = """# Gallery
 
-Ten jobs, each from its deck by one command, `scripts/run DECK -o out`; `scripts/plot`, `scripts/report` and
+Eleven jobs, each from its deck by one command, `scripts/run DECK -o out`; `scripts/plot`, `scripts/report` and
 [Python](../python/README.md) show more of them. The pictures are the meridional planes θ = 0 (right) and 180 degrees (left),
 displacements enlarged. `scripts/gallery` makes this page and its pictures; its numbers are compared with calculations by hand, and a test
 fails if one is further off than it may be, or if the page is not that of the decks.
@@ -88,8 +89,9 @@ def outlines(axes, result, sweep, place):
 
 def digest(job):
     """Of the deck, the job and what draws it."""
-    parts = [(ROOT/job.deck).read_bytes(), repr((job.told, job.colour, job.increment)).encode(),
-             *(pathlib.Path(__file__).with_name(name).read_bytes() for name in ("make_gallery.py", "gallery_jobs.py"))]
+    parts = [(ROOT/job.deck).read_bytes(), repr((job.told, job.colour, job.increment, job.zone)).encode(),
+             *(pathlib.Path(__file__).with_name(name).read_bytes() for name in
+               ("make_gallery.py", "gallery_jobs.py", *(["zone_in_space.py"] if job.zone else [])))]
 
     return hashlib.sha256(b"\0".join(parts)).hexdigest()[:16]
 
@@ -119,7 +121,7 @@ def page(pictures):
         lines, wrong = rows(name, job, result)
         faults += wrong
         if pictures:
-            draw(result, job, PICTURES/f"gallery_{name}.png")
+            (zone_in_space.draw if job.zone else draw)(result, job, PICTURES/f"gallery_{name}.png")
         note = " ".join(job.check.__doc__.split())
         parts.append("\n".join([f"## {job.told}", "", f"`{job.deck}` <!-- {digest(job)} -->", "",
                                 f"![{job.told}](pictures/gallery_{name}.png)", "", note, "", *lines, ""]))
@@ -142,7 +144,7 @@ def main():
     elif not faults:
         PAGE.write_text(text, encoding="utf-8")
         print(PAGE)
-    print("\n".join(faults) or "gallery: ten jobs agree with the calculations by hand", file=sys.stderr if faults else sys.stdout)
+    print("\n".join(faults) or "gallery: eleven jobs agree with the calculations by hand", file=sys.stderr if faults else sys.stdout)
     return 1 if faults else 0
 
 

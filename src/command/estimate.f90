@@ -16,7 +16,7 @@ module axijoint_command_estimate
    use axijoint_estimate_terms, only : reading
    use axijoint_job_job, only : job_type
    use axijoint_job_read, only : read_job
-   use axijoint_model_model, only : model_type, bodies_yield
+   use axijoint_model_model, only : model_type
    use axijoint_study_open, only : open_study, deck_beside
    use axijoint_study_rows, only : rows_type
    use axijoint_study_table, only : study_table_type
@@ -93,8 +93,6 @@ contains
       call open_study(command%table, deck, command%options, command%estimates, table, rows, model, &
          error)
       if (allocated(error)) return
-      call refuse_yielding(model, error)
-      if (allocated(error)) return
       call cpu_time(finish)
       call forecast_study(table, rows, command%part, machine, command%iterations, forecast, &
          extent, error)
@@ -129,8 +127,6 @@ contains
          error = error_type(exit_deck, render(diagnostics, job%source))
          return
       end if
-      call refuse_yielding(job%model, error)
-      if (allocated(error)) return
       call plan_run(job%model, job%timer, structure, error)
       if (allocated(error)) return
       forecast = forecast_run(job%model, job%source, structure, job%timer, machine, &
@@ -138,17 +134,6 @@ contains
       call add_needs(deck, forecast, machine, needs)
       call show(command, deck_text(deck, job%model, structure), job%model, forecast, machine)
    end subroutine estimate_deck
-
-   !> Say that bodies that yield are not counted
-   subroutine refuse_yielding(model, error)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> That they are not
-      type(error_type), allocatable, intent(out) :: error
-
-      if (bodies_yield(model)) call fatal_error(error, exit_deck, 'what bodies that yield take '// &
-         'is not estimated: it depends on how near the loads come to the limit')
-   end subroutine refuse_yielding
 
    !> Print a forecast as it is wanted
    subroutine show(command, heading, model, forecast, machine)

@@ -4,13 +4,15 @@ module axijoint_command_estimate_table
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text, count_of
+   use axijoint_estimate_body_work, only : n_body_points
    use axijoint_estimate_forecast, only : forecast_type, term_seconds, phase_seconds
    use axijoint_estimate_machine, only : machine_type, reference
    use axijoint_estimate_study, only : study_size_type
    use axijoint_estimate_terms, only : terms, n_terms, n_phases, phase_names
    use axijoint_estimate_joint_work, only : n_yielding
    use axijoint_job_job, only : deck_name
-   use axijoint_model_model, only : model_type, method_names
+   use axijoint_model_model, only : model_type, bodies_yield, method_names, &
+      body_method_names
    implicit none
    private
    public :: print_forecast, print_counts, deck_text, study_text
@@ -78,6 +80,8 @@ contains
       n_points = n_yielding(model, structure)
       if (n_points > 0) text = text//', '//count_of(n_points, 'joint point')//' on '// &
          count_of(model%n_planes, 'plane')
+      if (bodies_yield(model)) text = text//', '//count_of(n_body_points(model), &
+         'point')//' of bodies that yield'
       if (size(model%increments) > 1) text = text//', '// &
          count_of(size(model%increments), 'increment')
       if (size(model%combinations) > 1) text = text//', '// &
@@ -124,10 +128,16 @@ contains
       !> Iterations of an increment that the user expects; 0 if none are given
       integer, intent(in) :: each
 
+      character(len=:), allocatable :: method
+
       if (.not. forecast%iterations > 0.0_wp) return
+      method = trim(method_names(model%method))
+      if (bodies_yield(model)) method = trim(body_method_names(model%body_method))
       write (output_unit, '(a)') '  '//to_text(nint(forecast%iterations))// &
-         ' iterations of '//trim(method_names(model%method))//trim(merge(' as said', &
-         ' assumed', each > 0))//'; --iterations N assumes N an increment'
+         ' iterations of '//method//trim(merge(' as said', ' assumed', each > 0))// &
+         '; --iterations N assumes N an increment'
+      if (bodies_yield(model)) write (output_unit, '(a)') &
+         '  near a limit load bodies that yield take many times as many'
    end subroutine print_assumptions
 
    !> All terms: name, count, seconds of one; rates here and where these were fitted; what else is

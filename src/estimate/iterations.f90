@@ -1,8 +1,9 @@
-!> How many iterations joints usually take, which nobody knows before
+!> How many iterations joints and bodies that yield usually take, which nobody knows before
 module axijoint_estimate_iterations
    use axijoint_base_kinds, only : wp
    use axijoint_model_load, only : combination_type, increment_type
-   use axijoint_model_model, only : model_type, can_yield, method_newton, method_anderson
+   use axijoint_model_model, only : model_type, bodies_yield, can_yield, &
+      method_newton, method_anderson, body_transfer
    implicit none
    private
    public :: n_iterations
@@ -13,6 +14,8 @@ module axijoint_estimate_iterations
       usual_anderson = 15.0_wp
    !> What the loops of TOTAL and TRANSFER leave falls by a factor of e in so many iterations
    real(wp), parameter :: usual_loop = 5.0_wp
+   !> Iterations of an increment of bodies that yield, by methods that learn, and by the loop
+   real(wp), parameter :: usual_bodies = 40.0_wp, usual_body_loop = 400.0_wp
 
 contains
 
@@ -26,7 +29,7 @@ contains
       integer :: i, k
 
       n = 0.0_wp
-      if (.not. can_yield(model)) return
+      if (.not. (can_yield(model) .or. bodies_yield(model))) return
       do k = 1, size(model%combinations)
          do i = 1, size(model%increments)
             if (each > 0) n = n + each
@@ -44,6 +47,10 @@ contains
       !> The increment
       type(increment_type), intent(in) :: increment
 
+      if (bodies_yield(model)) then
+         n = merge(usual_body_loop, usual_bodies, model%body_method == body_transfer)
+         return
+      end if
       select case (model%method)
       case (method_newton)
          n = merge(axisymmetric_newton, usual_newton, is_axisymmetric(model, &

@@ -36,9 +36,9 @@ contains
                                  structure%joint_points)
          bytes = program_bytes + equations%solver%library_bytes + others%mesh + &
             standing_bytes(equations) + parts_bytes(equations) &
-            + kept_bytes(equations) + others%joints + others%fine &
+            + kept_bytes(equations) + others%joints + others%bodies + others%fine &
             + max(passing_bytes(equations) + others%loads + others%fine_work*equations%n_workers, &
-                  others%joint_work*equations%n_workers, &
+                  others%joint_work*equations%n_workers, others%body_work, &
                   output_bytes + sweep_bytes(model, structure) + others%loads &
                   + others%stresses)
       end associate

@@ -9,7 +9,8 @@ module axijoint_estimate_terms
    public :: term_type, terms, n_terms, phase_names, n_phases, common, products, measured
    public :: beginning, reading, ordering, shape_products, fine_nodes, factoring, inverse, &
       block_entries, solved_entries, node_modes, laws, sums, flexibility, fine_blocks, &
-      stress_modes, files, lines, array_bytes, swept_values, row_stresses, formed_entries, rows
+      stress_modes, files, lines, array_bytes, swept_values, row_stresses, formed_entries, rows, &
+      body_stresses, body_laws
 
    !> Parts of a run, in their order
    integer, parameter :: n_phases = 8
@@ -39,8 +40,8 @@ module axijoint_estimate_terms
       fine_nodes = 5, factoring = 6, inverse = 7, block_entries = 8, solved_entries = 9, &
       node_modes = 10, laws = 11, sums = 12, flexibility = 13, fine_blocks = 14, &
       stress_modes = 15, files = 16, lines = 17, array_bytes = 18, swept_values = 19, &
-      row_stresses = 20, formed_entries = 21, rows = 22
-   integer, parameter :: n_terms = 22
+      row_stresses = 20, formed_entries = 21, rows = 22, body_stresses = 23, body_laws = 24
+   integer, parameter :: n_terms = 24
 
    !> All of them, at the places above
    type(term_type), parameter :: terms(n_terms) = [ &
@@ -87,6 +88,10 @@ module axijoint_estimate_terms
       term_type('formed_entries', phase_factor, common, .true., &
                 'entries of matrices', 5.5e-9_wp), &
       term_type('rows', phase_recover, common, .false., &
-                'increments of rows: their fields, quantities, notes', 2.5e-3_wp)]
+                'increments of rows: their fields, quantities, notes', 2.5e-3_wp), &
+      term_type('body_stresses', phase_joints, common, .true., &
+                'stress and forces of bodies that yield', 5.4e-8_wp), &
+      term_type('body_laws', phase_joints, common, .true., &
+                'criteria at points and planes of bodies', 5.4e-7_wp)]
 
 end module axijoint_estimate_terms

@@ -4,13 +4,14 @@ module axijoint_estimate_work
    use axijoint_analysis_core_structure, only : structure_type, reuses_factors
    use axijoint_assembly_equations, only : planned_seconds
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_estimate_body_work, only : body_work
    use axijoint_estimate_joint_work, only : joint_work, n_yielding
    use axijoint_estimate_terms, only : n_terms, shape_products, fine_nodes, factoring, inverse, &
       block_entries, solved_entries, node_modes, fine_blocks, stress_modes, row_stresses, &
       formed_entries
    use axijoint_fe_reference, only : reference_type
    use axijoint_model_mesh, only : n_nodes, element_references
-   use axijoint_model_model, only : model_type, can_yield, yielding_nodes
+   use axijoint_model_model, only : model_type, bodies_yield, can_yield, yielding_nodes
    use axijoint_model_request, only : is_kept
    implicit none
    private
@@ -98,22 +99,24 @@ contains
    end function n_factorings
 
    !> Work of one combination once the structure is there
-   function state_work(model, structure, iterations, estimates) result(work)
+   function state_work(model, structure, iterations, judged) result(work)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure, planned
       type(structure_type), intent(in) :: structure
       !> Iterations of all increments
       real(wp), intent(in) :: iterations
-      !> Whether errors are estimated
-      logical, intent(in) :: estimates
+      !> Whether errors are estimated, unless bodies yield
+      logical, intent(in) :: judged
       !> Counts of all terms
       real(wp) :: work(n_terms)
 
       real(wp) :: solutions, shown, entries
+      logical :: estimates
       integer :: k
 
       work = 0.0_wp
+      estimates = judged .and. .not. bodies_yield(model)
       shown = n_shown(model)
       solutions = linear_solutions + 2.0_wp*shown
       if (can_yield(model)) then
@@ -121,6 +124,7 @@ contains
             + size(model%increments)
          work = joint_work(model, structure, iterations, estimates)
       end if
+      if (bodies_yield(model)) work = work + body_work(model, structure, iterations)
       entries = 0.0_wp
       associate (equations => structure%equations)
          do k = 1, size(structure%modes)
@@ -129,7 +133,7 @@ contains
          end do
       end associate
       associate (mesh => model%mesh, modes => real(size(structure%modes), wp))
-         work(solved_entries) = entries*(solutions + merge(steps_down, 0.0_wp, estimates))
+         work(solved_entries) = work(solved_entries) + entries*(solutions + merge(steps_down, 0.0_wp, estimates))
          work(node_modes) = n_nodes(mesh)*modes*(merge(nodes_judged, nodes_last, estimates) &
                                                  + nodes_shown*shown &
                                                  + nodes_loaded*(size(model%increments) - 1))

@@ -409,17 +409,33 @@ def strength_with_depth(folder, program):
     return off('displacement', row['largest_displacement'], hill(140.0), 5e-4)
 
 
-def other_commands(folder, program):
-    """What is not searched or counted for bodies that yield is refused in words"""
+def no_envelope(folder, program):
+    """Envelopes are not searched for bodies that yield: refused in words"""
     deck = write(folder, 'refused.dat', cylinder((1.0,)))
-    faults = []
-    for words, text in ((('estimate', deck), 'what bodies that yield take is not estimated'),
-                        (('envelope', deck, '--cases', '1'), 'bodies that yield are not searched')):
-        ran = program.run(*words, folder=folder)
-        faults += ran.ended_with(2)
-        if text not in ran.err:
-            faults.append(f'{words[0]} says {ran.err}')
-    return faults
+    ran = program.run('envelope', deck, '--cases', '1', folder=folder)
+    said = 'bodies that yield are not searched' in ran.err
+    return ran.ended_with(2) + ([] if said else [f'envelope says {ran.err}'])
+
+
+def counts(program, folder, deck, *options):
+    """Counts of `axijoint estimate`: name, number"""
+    ran = program.run('estimate', deck, '--counts', '--threads', '1', *options, folder=folder)
+    return {line.split()[0]: float(line.split()[1]) for line in ran.out.splitlines()}
+
+
+def estimated(folder, program):
+    """`axijoint estimate` counts iterations of bodies: in proportion to them, and the memory that a run takes"""
+    deck = write(folder, 'estimated.dat', disc(24, 7))
+    assumed, once, twice = counts(program, folder, deck), counts(program, folder, deck, '--iterations', '20'), \
+        counts(program, folder, deck, '--iterations', '40')
+    faults = expected('iterations', 120, round(once['iterations'])) + expected('assumed', 240, round(assumed['iterations']))
+    for name in ('body_stresses', 'body_laws', 'sums'):
+        faults += off(name, twice[name], 2.0*once[name], 1e-6)
+    ran = program.run('run', deck, '-o', folder, '--threads', '1', folder=folder)
+    with open(os.path.join(folder, 'estimated.json'), encoding='utf-8') as file:
+        summary = json.load(file)
+    ratio = assumed['memory']/summary['peak_memory_mb']
+    return faults + ran.ended_with(0) + ([] if 0.7 < ratio < 1.4 else [f'memory: {ratio} of that of the run'])
 
 
 def study(folder, program):
@@ -458,4 +474,4 @@ def tests(program):
             made('joint or soil, Tresca', weaker_of_both('TRESCA')), made('families', families),
             made('harmonics', harmonics), made('back and forth', back_and_forth),
             made('disc in clay', disc_in_clay), made('footing on clay', footing_on_clay),
-            made('other commands', other_commands), made('study', study), made('pictures', pictures)]
+            made('no envelope', no_envelope), made('estimated', estimated), made('study', study), made('pictures', pictures)]

@@ -2,13 +2,16 @@
 module axijoint_analysis_core_footprint
    use axijoint_analysis_fine_smoother, only : is_slender
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_element_yield_law, only : yield_none
    use axijoint_fe_element_kind, only : is_reduced
    use axijoint_fe_mode, only : mode_type, family_antisymmetric
    use axijoint_fe_reference, only : reference_type
+   use axijoint_joints_planes, only : planes_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, element_references
-   use axijoint_model_model, only : model_type, can_yield_at, yielding_nodes
+   use axijoint_model_model, only : model_type, bodies_yield, can_yield_at, yielding_nodes
    use axijoint_model_modes, only : used_modes
+   use axijoint_plastic_field, only : body_planes
    implicit none
    private
    public :: footprint_type, data_footprint, fine_nodes, blocks_of
@@ -28,6 +31,11 @@ module axijoint_analysis_core_footprint
    !> Bytes of a node of the fine mesh besides its stiffness, as measured
    integer(i8), parameter :: fine_mesh_bytes = 250
 
+   !> Amplitudes at the points of bodies that yield: elastic stress, before, excess, carried,
+   !> in-situ stress, and copies; vectors of unknowns that a step starts from, and that the mix of
+   !> ten iterates works with
+   integer(i8), parameter :: amplitude_arrays = 7, held_vectors = 10, mixed_vectors = 36
+
    !> Bytes
    type :: footprint_type
       !> Mesh and what is numbered on it, which stand once the equations are planned
@@ -40,6 +48,9 @@ module axijoint_analysis_core_footprint
       integer(i8) :: joints = 0
       !> What a thread takes to form a flexibility
       integer(i8) :: joint_work = 0
+      !> State of the bodies that yield, with what is kept of earlier increments; what their
+      !> iterations take
+      integer(i8) :: bodies = 0, body_work = 0
       !> The mesh of elements half as large, for estimates of errors, and what a thread takes for
       !> one
       integer(i8) :: fine = 0, fine_work = 0
@@ -94,9 +105,43 @@ contains
             *jumps/3*(7*model%n_planes + 6*n_modes)
          footprint%stresses = 2*footprint%stresses + footprint%loads
       end if
+      if (bodies_yield(model)) call add_bodies(model, references, modes, footprint)
       footprint%joint_work = real_bytes*(unknowns**2 + 2*unknowns*jumps + 2*jumps**2)
       if (jumps == 0) footprint%joint_work = 0
    end function data_footprint
+
+   !> Add the memory of bodies that yield: none of their errors is estimated, so there is no finer mesh
+   pure subroutine add_bodies(model, references, modes, footprint)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Of the kinds of elements
+      type(reference_type), intent(in) :: references(:)
+      !> The modes
+      type(mode_type), intent(in) :: modes(:)
+      !> The bytes
+      type(footprint_type), intent(inout) :: footprint
+
+      type(planes_type) :: on
+      integer(i8) :: points, planes, n_modes, vector, earlier
+
+      associate (mesh => model%mesh)
+         points = sum(int(references(mesh%element_kind)%n_points, i8), &
+                      model%materials(mesh%element_material)%yield%criterion /= yield_none)
+      end associate
+      on = body_planes(modes, model%n_body_planes)
+      planes = size(on%angle)
+      n_modes = size(modes)
+      vector = 3*n_nodes(model%mesh)*n_modes
+      earlier = size(model%increments) - 1
+      footprint%bodies = real_bytes*(7*points*planes + amplitude_arrays*6*points*n_modes &
+                                     + held_vectors*vector)
+      ! stress taken, hardening and two amplitudes of each increment, of the points that have yielded,
+      ! which may be all; when one is appended they are there twice
+      footprint%bodies = footprint%bodies + 2*real_bytes*earlier*points*(7*planes + 12*n_modes)
+      footprint%body_work = real_bytes*(19*points*planes + 2*6*points*n_modes + mixed_vectors*vector)
+      footprint%fine = 0
+      footprint%fine_work = 0
+   end subroutine add_bodies
 
    !> Memory of the fine level for an element: the nodes that it has there, with the blocks of
    !> stiffness that these have on and below the diagonal
@@ -162,8 +207,8 @@ contains
       !> The bytes
       class(footprint_type), intent(in) :: self
 
-      coming = self%loads + self%joints + self%fine + &
-         max(self%stresses, self%joint_work, self%fine_work)
+      coming = self%loads + self%joints + self%bodies + self%fine + &
+         max(self%stresses, self%joint_work, self%body_work, self%fine_work)
    end function coming
 
 end module axijoint_analysis_core_footprint
