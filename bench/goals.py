@@ -24,7 +24,7 @@ COARSE, COARSE_8 = Setting("4", harmonic=2, planes=9, tolerance=1e-6), Setting("
 
 @dataclass
 class Row:
-    """A scene, where its runs begin, how much finer its reference is, and options"""
+    """A scene, where its runs begin, how much finer its reference is and how graded, and options"""
     name: str
     scene: callable
     start: Setting
@@ -32,6 +32,7 @@ class Row:
     finer: float = 5.0
     harmonic: int = 12
     graded: bool = True
+    grade: float = 30.0
     targets: dict = field(default_factory=lambda: TARGETS)
     quantities: tuple = ("DISPL", "JOINTS")
 
@@ -41,7 +42,7 @@ class Row:
 
     def reference(self):
         """A much better deck, of 97 planes"""
-        setting = replace(self.start.fine(n=self.finer, grade=30.0 if self.graded else 1.0), tolerance=1e-8)
+        setting = replace(self.start.fine(n=self.finer, grade=self.grade if self.graded else 1.0), tolerance=1e-8)
         if self.start.harmonic == 2 and "m" not in self.options and self.scene is not scenes.built_in:
             setting = replace(setting, harmonic=self.harmonic, planes=97)
         return self.scene(setting, **self.options)

@@ -31,7 +31,7 @@ module axijoint_deck_reader
    use axijoint_deck_section_control, only : check_planes
    use axijoint_deck_section_cuts, only : place_cuts
    use axijoint_deck_section_points, only : place_points
-   use axijoint_deck_section_error, only : refine_sections
+   use axijoint_deck_section_error, only : refine_sections, asks_for_strips
    use axijoint_deck_section_faces, only : lay_faces
    use axijoint_deck_section_groups, only : keyword_groups
    use axijoint_deck_section_increments, only : refer_increments, warn_of_idle_cases, &
@@ -84,7 +84,7 @@ contains
       if (source%n_cards == 0) return
       if (.not. sections%complete) return
       if (present(refinement)) call refine_sections(refinement, sections)
-      call make_model(source, sections, model, diagnostics)
+      call make_model(source, sections, model, diagnostics, refinement=refinement)
    end subroutine read_deck
 
    !> Read the cards of a deck with all that it includes, and nothing more
@@ -107,7 +107,7 @@ contains
 
    !> From the entries of the sections to a model, valid only if there are no errors among the
    !> messages
-   subroutine make_model(source, entries, model, diagnostics, kept)
+   subroutine make_model(source, entries, model, diagnostics, kept, refinement)
       !> The cards
       type(source_type), intent(in), target :: source
       !> What they say
@@ -118,6 +118,8 @@ contains
       type(diagnostics_type), intent(inout), target :: diagnostics
       !> The mesh: taken if it is there, which is right if all cards say the same of it; else kept
       type(kept_mesh_type), intent(inout), optional :: kept
+      !> How the strips of blocks are divided, if not as the entries say
+      type(refinement_type), intent(in), optional :: refinement
 
       type(deck_type), target :: deck
       type(read_section_type), allocatable :: sections(:)
@@ -129,6 +131,10 @@ contains
       deck%diagnostics => diagnostics
       deck%properties = new_properties()
       deck%draft = new_draft()
+      deck%strips_wanted = asks_for_strips(entries)
+      if (present(refinement)) then
+         if (allocated(refinement%strips)) deck%strips = refinement%strips
+      end if
 
       call read_stage(deck, sections, stage_job)
       call read_stage(deck, sections, stage_properties)

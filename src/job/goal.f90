@@ -84,8 +84,8 @@ contains
                if (last%error <= job%model%error_goal%target) return  ! met, or not known
                if (size(rounds) >= job%model%error_goal%most_rounds) return
                before = refinement
-               call refine_further(job%model, results(worst)%budget, last%n_unknowns, refinement, &
-                  changed)
+               call refine_further(job%model, results(worst)%budget, element_errors(results), &
+                  last%n_unknowns, refinement, changed)
                if (.not. changed) return
             end if
          end associate
@@ -102,6 +102,30 @@ contains
       end do
    end subroutine run_rounds
 
+   !> Energy of the error of each element, of all combinations: each over the energy of its
+   !> solution
+   function element_errors(results) result(errors)
+      !> Results of the combinations
+      type(results_type), intent(in) :: results(:)
+      !> Shape (elements); empty if not known
+      real(wp), allocatable :: errors(:)
+
+      integer :: k
+
+      allocate (errors(0))
+      do k = 1, size(results)
+         if (.not. allocated(results(k)%discretization%element)) then
+            errors = [real(wp) ::]
+            return
+         end if
+         if (k == 1) then
+            errors = results(k)%discretization%element
+         else
+            errors = errors + results(k)%discretization%element
+         end if
+      end do
+   end function element_errors
+
    !> Read the job as it is refined
    subroutine read_refined(job, refinement, error)
       !> The job
@@ -114,9 +138,10 @@ contains
       type(diagnostics_type) :: diagnostics
 
       call read_job(job%deck, job, diagnostics, refinement)
-      if (diagnostics%n_errors > 0 .and. abs(refinement%mesh - &
-         anint(refinement%mesh)) > 0.0_wp) then
+      if (diagnostics%n_errors > 0 .and. (allocated(refinement%strips) .or. &
+         abs(refinement%mesh - anint(refinement%mesh)) > 0.0_wp)) then
          ! an edge that faces two others keeps facing them if all are divided by the same integer
+         if (allocated(refinement%strips)) deallocate (refinement%strips)
          refinement%mesh = ceiling(refinement%mesh)
          call read_job(job%deck, job, diagnostics, refinement)
       end if

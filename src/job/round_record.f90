@@ -1,6 +1,7 @@
 !> What a round of refinement starts from, as bytes and back
 module axijoint_job_round_record
    use axijoint_analysis_core_results, only : round_type
+   use axijoint_base_kinds, only : wp
    use axijoint_base_stream, only : writer_type, reader_type, new_reader
    use axijoint_model_request, only : refinement_type
    implicit none
@@ -88,12 +89,23 @@ contains
       !> Takes the bytes
       type(writer_type), intent(inout) :: writer
 
+      real(wp), allocatable :: line(:, :)
+      integer :: k
+
       call writer%put(refinement%mesh)
       call writer%put(refinement%quadratic)
       call writer%put(refinement%newton)
       call writer%put(refinement%harmonic)
       call writer%put(refinement%planes)
       call writer%put(refinement%tolerance)
+      call writer%put(allocated(refinement%strips))
+      if (.not. allocated(refinement%strips)) return
+      call writer%put(size(refinement%strips))
+      do k = 1, size(refinement%strips)
+         call writer%put(refinement%strips(k)%ends)
+         line = refinement%strips(k)%line
+         call writer%put(line)
+      end do
    end subroutine put_refinement
 
    !> Read a refinement
@@ -103,12 +115,25 @@ contains
       !> The refinement
       type(refinement_type), intent(out) :: refinement
 
+      real(wp), allocatable :: line(:, :)
+      logical :: graded
+      integer :: k, n
+
       call reader%get(refinement%mesh)
       call reader%get(refinement%quadratic)
       call reader%get(refinement%newton)
       call reader%get(refinement%harmonic)
       call reader%get(refinement%planes)
       call reader%get(refinement%tolerance)
+      call reader%get(graded)
+      if (.not. graded) return
+      call reader%get(n)
+      allocate (refinement%strips(n))
+      do k = 1, n
+         call reader%get(refinement%strips(k)%ends)
+         call reader%get(line)
+         refinement%strips(k)%line = line
+      end do
    end subroutine get_refinement
 
 end module axijoint_job_round_record

@@ -16,6 +16,7 @@ module axijoint_model_model
       print_type, supported_face_type, sweep_type, &
       error_goal_type
    use axijoint_model_restraint, only : restraint_type, acts_in
+   use axijoint_model_strips, only : grid_type
    use axijoint_solver_entry, only : solver_entry_type
    implicit none
    private
@@ -120,6 +121,9 @@ module axijoint_model_model
       type(sweep_type) :: sweep
       !> The error that the job may have
       type(error_goal_type) :: error_goal
+      !> Strips of the blocks that the mesh is of, if it may be refined for that; not allocated if
+      !> blocks that meet are divided differently
+      type(grid_type), allocatable :: grid
       !> Faces whose reactions are listed
       type(supported_face_type), allocatable :: supported_faces(:)
    end type model_type

@@ -2,6 +2,7 @@
 !> on the body swept through a range of theta
 module axijoint_model_request
    use axijoint_base_kinds, only : wp, pi
+   use axijoint_model_strips, only : strip_type
    implicit none
    private
    public :: line_type, line_point_type, point_type, cut_type, supported_face_type, sweep_type, &
@@ -15,12 +16,17 @@ module axijoint_model_request
    public :: rows_all, rows_every, rows_upto, rows_none, rows_names
    public :: old_output, most_output
    public :: goal_joints, goal_displacement, goal_energy, goal_names
+   public :: division_graded, division_uniform, division_names
 
    !> What the error of a job may be asked of: of joint stress, of displacements, of the
    !> stresses in the energy norm
    integer, parameter :: goal_joints = 1, goal_displacement = 2, goal_energy = 3
    !> Their names on the card
    character(len=6), parameter :: goal_names(3) = [character(len=6) :: 'JOINTS', 'DISPL', 'ENERGY']
+   !> How BLOCKS are refined: elements where the error is; all alike
+   integer, parameter :: division_graded = 1, division_uniform = 2
+   !> Their words in a deck
+   character(len=7), parameter :: division_names(2) = [character(len=7) :: 'GRADED', 'UNIFORM']
 
    !> A point of a line in an element
    type :: line_point_type
@@ -150,14 +156,17 @@ module axijoint_model_request
       integer :: quantity = 0
       !> Most rounds, and most unknowns in all
       integer :: most_rounds = 0, most_unknowns = 0
-      !> Whether the mesh can be refined, too
+      !> Whether the mesh can be refined, too; how, one of the `division_` parameters
       logical :: mesh_too = .false.
+      integer :: division = division_graded
    end type error_goal_type
 
    !> How a job is refined beyond what its deck says
    type :: refinement_type
-      !> Elements of BLOCKS along each side, times so many
+      !> Elements of BLOCKS along each side, times so many; on the average, if they are graded
       real(wp) :: mesh = 1.0_wp
+      !> How strips of BLOCKS are divided; not allocated if as the cards say, times `mesh`
+      type(strip_type), allocatable :: strips(:)
       !> Whether BLOCKS of 4-node elements are made of 8-node elements
       logical :: quadratic = .false.
       !> Whether joints are brought to equilibrium by Newton's method, whatever CONTROL says

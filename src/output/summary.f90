@@ -20,13 +20,14 @@ module axijoint_output_summary
    use axijoint_output_file_run, only : run_type, status_name, status_error
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_file_totals, only : count_states, n_unknowns
-   use axijoint_output_listing_budget, only : sum_text
+   use axijoint_output_listing_budget, only : sum_text, laws_at
    use axijoint_output_table_in_situ, only : in_situ_json
    use axijoint_output_table_increments, only : increments_json
    use axijoint_output_table_interfaces, only : interfaces_json
    use axijoint_output_table_joint_proportion, only : proportions_json
    use axijoint_output_table_modes, only : modes_json, truncations_json
    use axijoint_output_table_residuals, only : residuals_json
+   use axijoint_output_table_strips, only : strips_json
    use axijoint_output_table_yielding, only : yielding_json
    implicit none
    private
@@ -90,7 +91,10 @@ contains
          call put_pair(file, "errors", errors_text(results))
          call put_pair(file, "singular", singular_json(model, results))
          call put_pair(file, "error_seconds", error_seconds_text(results))
-         if (allocated(results%rounds)) call put_pair(file, "rounds", rounds_text(results))
+         if (allocated(results%rounds)) then
+            call put_pair(file, "rounds", rounds_text(results))
+            call put_pair(file, "strips", strips_json(model, results))
+         end if
          call put_pair(file, "seconds", seconds_text(job%timer))
          call put_last(file)
       end associate
@@ -181,7 +185,8 @@ contains
                json_number(model%mesh%coordinates(1, place%node))//', "z": '// &
                json_number(model%mesh%coordinates(2, place%node))//', "exponent": '// &
                json_number(place%exponent)// &
-               ', "distance": '//json_number(place%distance)//'}'
+               ', "distance": '//json_number(place%distance)//', "laws": '// &
+               json_integers(laws_at(model, place%node))//'}'
          end associate
       end do
       json = json//"]"

@@ -77,10 +77,58 @@ def paper_method(program, folder):
 
 def facing(program, folder):
     """An edge that faces three keeps facing them: all are divided by the same integer"""
-    summary, _ = solved(program, folder, 'facing', FACING)
+    summary, _ = solved(program, folder, 'facing', FACING.replace('2, DISPL', '2, DISPL, , , UNIFORM'))
     factors = [found['mesh'] for found in summary['rounds']]
     return [] if len(factors) > 1 and all(factor == round(factor) for factor in factors) else [
         f'elements times {factors}']
+
+
+def graded(program, folder):
+    """Elements go where the error is: to 0.5 % with a third of the unknowns of blocks that are divided alike, at most,
+    and as near to a finer run; the smallest elements are at the corner of the socket, r = 0.5, z = 1"""
+    def moved(name, deck):
+        summary, tables = solved(program, folder, name, deck)
+        return summary, at(tables['m = 1'], 0.0, -0.5)['u']
+
+    deck = scenes.example(3, nodes=8, refined=0.5, harmonic=2, planes=9, tolerance=1e-6)
+    _, reference = moved('reference', scenes.example(3, **REFERENCE))
+    own, found = moved('graded', with_goal(deck, 0.5, 8, 100000))
+    alike, _ = moved('alike', with_goal(deck, 0.5, 8, 100000, 'UNIFORM'))
+    errors = [summary['rounds'][-1]['error'] for summary in (own, alike)]
+    unknowns = [summary['rounds'][-1]['unknowns'] for summary in (own, alike)]
+    faults = close('displacement', reference, found, 0.005*abs(reference))
+    if not errors[0] <= 0.005:
+        faults.append(f'error {errors[0]} where 0.005 was the target')
+    if not (3*unknowns[0] <= unknowns[1] or errors[1] > 0.005):
+        faults.append(f'graded and alike: errors {errors}, unknowns {unknowns}')
+    if alike['strips'] != []:
+        faults.append(f'strips of blocks that are divided alike: {alike["strips"]}')
+    for strip in own['strips']:
+        ends = strip['from'], strip['to']
+        if any(end in ([0.5, 1.0], [2.0, 1.0], [0.0, 1.0], [0.5, 2.0], [0.5, 0.0]) for end in ends):
+            if not strip['longest'] > 1.5*strip['shortest'] and strip['elements'] > 2:
+                faults.append(f'not graded: {strip}')
+    return faults
+
+
+def conforming(program, folder):
+    """Graded blocks fit together, also where one faces three: three columns and two rows of so many elements have the
+    elements and 8-node elements the nodes of a mesh without hanging nodes, 1 + 3 elements + edges of the boundary"""
+    summary, _ = solved(program, folder, 'facing', FACING.replace('2, DISPL', '0.5, DISPL'))
+    n = [strip['elements'] for strip in summary['strips']]
+    columns = sum(strip['elements'] for strip in summary['strips'] if strip['from'][1] == strip['to'][1])
+    rows = sum(n) - columns
+    return (expected('strips', 5, len(n)) + expected('elements', columns*rows, summary['elements'])
+            + expected('nodes', 1 + 3*columns*rows + 2*(columns + rows), summary['nodes'])
+            + ([] if len(set(n)) > 1 else [f'the same number of elements across all strips: {n}']))
+
+
+def other_divisions(program, folder):
+    """Two bodies that touch and are divided differently: all blocks are divided alike"""
+    deck = FACING.replace('2, 1, 3, 2\n', '2, 1, 3, 2\n2, 1, 4, 2, 1\n0, 2, 1, 3\n').replace(
+        '2, 1, 1, 2, 2, 2', '2, 1, 1, 2, 2, 2\n3, 2, 0, 3, 1, 3').replace('1, 111', '1, 111\n3, 111')
+    summary, _ = solved(program, folder, 'other', deck)
+    return expected('strips', [], summary['strips']) + ([] if len(summary['rounds']) > 1 else ['no second round'])
 
 
 def limits(program, folder):
@@ -137,6 +185,8 @@ def tests(program):
         return Test(f'goals: {name}', lambda folder: function(program, folder, *arguments))
 
     return ([test('disc', disc), test("the paper's loop", paper_method), test('blocks that face others', facing),
+             test('graded', graded), test('graded blocks conform', conforming),
+             test('other divisions', other_divisions),
              test('limits', limits), test('options', swept),
              test('loads of a combination', loads_of_combinations)]
             + [test('memory', back_again)]

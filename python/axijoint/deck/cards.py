@@ -602,7 +602,8 @@ class Cards:
         self._entry("SWEEP", first, last, sectors)
 
     def error(self, target: float, *, quantity: Literal["JOINTS", "DISPL", "ENERGY"] | None = None,
-              rounds: int | None = None, unknowns: int | None = None) -> None:
+              rounds: int | None = None, unknowns: int | None = None,
+              division: Literal["GRADED", "UNIFORM"] | None = None) -> None:
         """ERROR: the job is solved again, refined, until its error is below a target.
 
         target: target [%]; allowed: 0 < … ≤ 100
@@ -611,8 +612,10 @@ class Cards:
         rounds: most rounds; if not given: 8; allowed: 1 … 99
         unknowns: most unknowns in all: no round is begun that could have more; if not given: 1000000; allowed:
             1 … 1000000000
+        division: elements of BLOCKS: GRADED (more of them where the error is), UNIFORM (all divided alike); if
+            not given: GRADED; allowed: GRADED, UNIFORM
         """
-        self._entry("ERROR", target, quantity, rounds, unknowns)
+        self._entry("ERROR", target, quantity, rounds, unknowns, division)
 
     def include(self, path: Path) -> None:
         """INCLUDE: path of a file, from column 11 on, whose cards take the place of this one."""

@@ -49,7 +49,7 @@ NAMES = {card: names.split() for card, names in {
     "PRINT": "table rows number body rectangle",
     "OLDLISTING": "amount first last",
     "SWEEP": "first last sectors",
-    "ERROR": "target quantity rounds unknowns",
+    "ERROR": "target quantity rounds unknowns division",
     "GMSH": "path",
     "INCLUDE": "path",
 }.items()}

@@ -3,8 +3,8 @@ module axijoint_analysis_error_goal
    use axijoint_analysis_core_results, only : error_share_type, results_type, &
       source_discretization, source_harmonics, &
       source_planes, source_iteration
+   use axijoint_analysis_error_finer_mesh, only : refine_mesh
    use axijoint_base_kinds, only : wp
-   use axijoint_fe_element_kind, only : formulation_plain
    use axijoint_model_mesh, only : n_nodes
    use axijoint_model_model, only : model_type
    use axijoint_model_modes, only : used_modes, greatest_divisor
@@ -26,16 +26,11 @@ module axijoint_analysis_error_goal
       real(wp) :: order = 1.0_wp
    end type rule_type
 
-   !> Least and most that the numbers of a source are multiplied by in a round
-   real(wp), parameter :: least = 1.3_wp, most_mesh = 2.5_wp, most_numbers = 5.0_wp
+   !> Most that harmonics or planes are multiplied by in a round
+   real(wp), parameter :: most_numbers = 5.0_wp
    !> A source that is brought down is to fall to this part of what is left to it: a round more
    !> costs more
    real(wp), parameter :: aim = 0.8_wp
-   !> What 8-node elements in the place of 4-node ones divide the error of displacements by, about,
-   !> and how many times the unknowns they have
-   real(wp), parameter :: quadratic_gain = 4.0_wp, quadratic_growth = 3.0_wp
-   !> Elements are made larger again by so much at most where they become quadratic
-   real(wp), parameter :: coarsest = 0.5_wp
 
 contains
 
@@ -120,11 +115,13 @@ contains
    end function rule_of
 
    !> Raise what leaves more than its part of the target
-   pure subroutine refine_further(model, budget, n_unknowns, refinement, changed)
+   subroutine refine_further(model, budget, element_error, n_unknowns, refinement, changed)
       !> The job as it was solved, and its goal
       type(model_type), intent(in) :: model
       !> What its approximations leave
       type(error_share_type), intent(in) :: budget(:)
+      !> Energy of the error of each element; empty if not known
+      real(wp), intent(in) :: element_error(:)
       !> Unknowns that it had
       integer, intent(in) :: n_unknowns
       !> How it was refined; further on return
@@ -133,11 +130,12 @@ contains
       logical, intent(out) :: changed
 
       type(rule_type) :: rule
-      real(wp) :: excess, room, need
+      real(wp) :: excess, room, need, mesh_order
       integer :: i
 
       changed = .false.
       need = 0.0_wp
+      mesh_order = 1.0_wp
       do i = 1, size(budget)
          rule = rule_of(budget(i)%source, model%error_goal%quantity)
          excess = rule%safety*share_of(budget(i), &
@@ -147,6 +145,7 @@ contains
          select case (budget(i)%source)
          case (source_discretization)
             need = excess
+            mesh_order = rule%order
          case (source_harmonics)
             call raise_harmonics(model, excess**(1.0_wp/rule%order), refinement, changed)
          case (source_planes)
@@ -164,7 +163,7 @@ contains
       room = real(model%error_goal%most_unknowns, wp)/n_unknowns
       if (refinement%harmonic > 0) room = room*(model%max_harmonic + 1)/(refinement%harmonic + 1)
       if (need > 0.0_wp .and. model%error_goal%mesh_too) &
-         call refine_mesh(model, need, room, refinement, changed)
+         call refine_mesh(model, element_error, need, mesh_order, room, refinement, changed)
       changed = changed .and. room >= 1.0_wp
    end subroutine refine_further
 
@@ -203,43 +202,5 @@ contains
                                      factor)))
       changed = .true.
    end subroutine raise_harmonics
-
-   !> Refine the mesh, as far as there is room for unknowns; 4-node elements become 8-node ones
-   !> first
-   pure subroutine refine_mesh(model, excess, room, refinement, changed)
-      !> The job as it was solved
-      type(model_type), intent(in) :: model
-      !> The error over what is left to the mesh
-      real(wp), intent(in) :: excess
-      !> The unknowns may become so many times as many
-      real(wp), intent(in) :: room
-      !> How it was refined
-      type(refinement_type), intent(inout) :: refinement
-      !> Becomes true if the mesh was refined
-      logical, intent(inout) :: changed
-
-      real(wp) :: finer, left
-      type(rule_type) :: rule
-      logical :: convert
-
-      rule = rule_of(source_discretization, model%error_goal%quantity)
-      ! 4-node elements of another formulation than the plain one are chosen against locking
-      associate (kinds => model%mesh%kinds)
-         convert = any(kinds%n_nodes == 4) .and. .not. &
-                   (refinement%quadratic .or. any(kinds%n_nodes == 4 &
-                   .and. kinds%formulation /= formulation_plain))
-      end associate
-      finer = max(least, excess**(1.0_wp/rule%order))
-      left = room
-      if (convert) then
-         finer = max(coarsest, (excess/quadratic_gain**(rule%order/1.5_wp))**(1.0_wp/rule%order))
-         left = room/quadratic_growth
-      end if
-      finer = min(finer, most_mesh, sqrt(left))
-      if (finer < merge(coarsest, least, convert)) return
-      refinement%quadratic = refinement%quadratic .or. convert
-      refinement%mesh = refinement%mesh*finer
-      changed = .true.
-   end subroutine refine_mesh
 
 end module axijoint_analysis_error_goal

@@ -14,6 +14,7 @@ module axijoint_deck_job_deck
    use axijoint_deck_text_source, only : source_type
    use axijoint_fe_element_kind, only : kind_choice_type
    use axijoint_model_model, only : model_type
+   use axijoint_model_strips, only : strip_type
    implicit none
    private
    public :: deck_type, read_section_type
@@ -57,6 +58,10 @@ module axijoint_deck_job_deck
       type(shapes_type) :: shapes
       type(cases_type) :: cases
       type(load_lists_type) :: loads
+      !> Whether the strips of blocks are asked for, and how they are to be divided, if not as the
+      !> cards say
+      logical :: strips_wanted = .false.
+      type(strip_type), allocatable :: strips(:)
    end type deck_type
 
    !> A section with its reader

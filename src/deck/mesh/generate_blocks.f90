@@ -8,15 +8,16 @@ module axijoint_deck_mesh_generate_blocks
    use axijoint_fe_shape, only : n_corners
    implicit none
    private
-   public :: block_type, draft_blocks, nodes_of_block
+   public :: block_type, draft_blocks, nodes_of_block, grade_block, point_of_block
 
    !> A block
    type :: block_type
       !> Its card, body, material (index), and nodes of an element
       integer :: card = 0, body = 1, material = 0, size = 4
-      !> Elements along sides 1-2 and 2-3, and the ratio of the last to the first of them
+      !> Elements along sides 1-2 and 2-3
       integer :: n(2) = 1
-      real(wp) :: ratio(2) = 1.0_wp
+      !> Where they end, from 0 to 1, shape (0:largest n, 2)
+      real(wp), allocatable :: ends(:, :)
       !> Corners, counterclockwise, shape (2, 4)
       real(wp) :: corners(2, 4) = 0.0_wp
    end type block_type
@@ -119,9 +120,7 @@ contains
             if (n == 8 .and. mod(i, 2) == 1 .and. mod(j, 2) == 1) cycle
             k = candidates%n + 1
             candidates%n = k
-            candidates%position(:, k) = &
-               map_block(block%corners, half_grid(i, n1, block%ratio(1)), &
-                         half_grid(j, n2, block%ratio(2)))
+            candidates%position(:, k) = point_of_block(block, [i, j])
             candidates%body(k) = block%body
             candidates%card(k) = block%card
             node(i, j) = draft%n_nodes + k
@@ -169,29 +168,44 @@ contains
       end if
    end subroutine add_cell
 
-   !> Fraction of a side at a place of the grid of half elements: elements are
-   !> graded, middles halve them
-   pure real(wp) function half_grid(i, n, ratio) result(fraction)
-      !> Place, 0 to 2 n, and number of elements
-      integer, intent(in) :: i, n
-      !> Last to first element
-      real(wp), intent(in) :: ratio
+   !> Divide the sides of a block in geometric progression
+   pure subroutine grade_block(block, ratio)
+      !> The block; its numbers of elements are known
+      type(block_type), intent(inout) :: block
+      !> Ratio of the last to the first element along sides 1-2 and 2-3
+      real(wp), intent(in) :: ratio(2)
 
-      fraction = 0.5_wp*(graded_fraction(i/2, n, ratio) + graded_fraction((i + 1)/2, n, ratio))
-   end function half_grid
+      integer :: i, d
 
-   !> Point of a block: straight lines between points of opposite sides
-   pure function map_block(corners, x, y) result(point)
-      !> Corners
-      real(wp), intent(in) :: corners(2, 4)
-      !> Fractions along sides 1-2 and 2-3
-      real(wp), intent(in) :: x, y
+      allocate (block%ends(0:maxval(block%n), 2), source=1.0_wp)
+      do d = 1, 2
+         do i = 0, block%n(d)
+            block%ends(i, d) = graded_fraction(i, block%n(d), ratio(d))
+         end do
+      end do
+   end subroutine grade_block
+
+   !> Point of a block at a place of the grid of half elements, whose middles halve the elements:
+   !> straight lines between points of opposite sides
+   pure function point_of_block(block, place) result(point)
+      !> The block
+      type(block_type), intent(in) :: block
+      !> Half elements along sides 1-2 and 2-3, 0 to 2 n
+      integer, intent(in) :: place(2)
       !> r and z
       real(wp) :: point(2)
 
-      point = between(between(corners(:, 1), corners(:, 2), x), &
-                      between(corners(:, 4), corners(:, 3), x), y)
-   end function map_block
+      real(wp) :: x(2)
+      integer :: d
+
+      do d = 1, 2
+         x(d) = 0.5_wp*(block%ends(place(d)/2, d) + block%ends((place(d) + 1)/2, d))
+      end do
+      associate (corners => block%corners)
+         point = between(between(corners(:, 1), corners(:, 2), x(1)), &
+                         between(corners(:, 4), corners(:, 3), x(1)), x(2))
+      end associate
+   end function point_of_block
 
    !> Let nodes of one body at one place become one, number the new ones and
    !> give them to the elements

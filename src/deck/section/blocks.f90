@@ -4,14 +4,18 @@ module axijoint_deck_section_blocks
    use axijoint_base_text, only : to_text
    use axijoint_deck_job_card, only : card_type, cards_of, next_card
    use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_blocks
+   use axijoint_deck_mesh_block_strips, only : find_strips
    use axijoint_deck_mesh_draft, only : most_nodes
-   use axijoint_deck_mesh_generate_blocks, only : block_type, draft_blocks, nodes_of_block
+   use axijoint_deck_mesh_generate_blocks, only : block_type, draft_blocks, nodes_of_block, &
+      grade_block
    use axijoint_deck_property_properties, only : find_material
+   use axijoint_deck_section_faces, only : face_ends
    use axijoint_deck_text_common_fields, only : number, body, ratio, largest_division
    use axijoint_deck_text_diagnostics, only : add_error
    use axijoint_deck_text_entry, only : integer_of, real_of, reals_of, is_good, field_fault, &
       card_fault, first_card
    use axijoint_deck_text_field, only : field_type, integer_field, real_field, described
+   use axijoint_model_strips, only : grid_type, strip_type, side_ends
    implicit none
    private
    public :: blocks_section
@@ -103,8 +107,41 @@ contains
             end if
          end associate
       end do
+      if (deck%strips_wanted) then
+         call find_strips(blocks(:n), face_ends(deck), deck%model%grid)
+         if (allocated(deck%model%grid) .and. allocated(deck%strips)) &
+            call divide_anew(deck%strips, deck%model%grid, blocks(:n))
+      end if
       call draft_blocks(blocks(:n), deck%draft)
    end subroutine read_blocks
+
+   !> Divide blocks as their strips are to be divided
+   subroutine divide_anew(strips, grid, blocks)
+      !> The strips as they are to be divided
+      type(strip_type), intent(in) :: strips(:)
+      !> The strips of the blocks; divided anew on return
+      type(grid_type), intent(inout) :: grid
+      !> The blocks
+      type(block_type), intent(inout) :: blocks(:)
+
+      real(wp), allocatable :: first(:), second(:)
+      integer :: k
+
+      do k = 1, size(grid%strips)
+         grid%strips(k)%ends = strips(k)%ends
+      end do
+      do k = 1, size(blocks)
+         first = side_ends(grid%blocks(k)%sides(1), grid%strips)
+         second = side_ends(grid%blocks(k)%sides(2), grid%strips)
+         associate (block => blocks(k))
+            block%n = [size(first), size(second)] - 1
+            deallocate (block%ends)
+            allocate (block%ends(0:maxval(block%n), 2), source=1.0_wp)
+            block%ends(:block%n(1), 1) = first
+            block%ends(:block%n(2), 2) = second
+         end associate
+      end do
+   end subroutine divide_anew
 
    !> Read and check a block
    subroutine read_block(card, n_nodes, block)
@@ -119,7 +156,7 @@ contains
       block%body = integer_of(card, field_body)
       block%size = integer_of(card, field_size)
       block%n = [integer_of(card, field_n1), integer_of(card, field_n2)]
-      block%ratio = [real_of(card, field_ratio1), real_of(card, field_ratio2)]
+      call grade_block(block, [real_of(card, field_ratio1), real_of(card, field_ratio2)])
       call check_block(card, block%corners)
       if (n_nodes + nodes_of_block(block) > most_nodes) then
          call card_fault(card, 'the blocks make more nodes than a deck may have', &

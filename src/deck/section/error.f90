@@ -13,15 +13,17 @@ module axijoint_deck_section_error
    use axijoint_deck_text_sections, only : sections_type, table_of
    use axijoint_deck_text_table, only : table_type
    use axijoint_model_model, only : method_newton
-   use axijoint_model_request, only : refinement_type, goal_names, goal_displacement
+   use axijoint_model_request, only : refinement_type, goal_names, goal_displacement, &
+      division_names, division_graded
    implicit none
    private
-   public :: error_section, refine_sections
+   public :: error_section, refine_sections, asks_for_strips
 
    !> The keyword
    character(len=*), parameter :: keyword_error = 'ERROR'
    !> Fields
-   integer, parameter :: field_target = 1, field_quantity = 2, field_rounds = 3, field_unknowns = 4
+   integer, parameter :: field_target = 1, field_quantity = 2, field_rounds = 3, field_unknowns = 4, &
+      field_division = 5
 
 contains
 
@@ -43,7 +45,10 @@ contains
                     'in the energy norm)'), &
           integer_field('the most rounds', 21, 25, 1, 99, default=8), &
           described(integer_field('the most unknowns', 26, 35, 1, 1000000000, default=1000000), &
-                    'most unknowns in all: no round is begun that could have more')]
+                    'most unknowns in all: no round is begun that could have more'), &
+          described(word_field('the division of BLOCKS', 36, 45, division_names, division_graded), &
+                    'elements of BLOCKS: GRADED (more of them where the error is), UNIFORM '// &
+                    '(all divided alike)')]
    end function error_section
 
    !> Read the error that the job may have
@@ -67,6 +72,7 @@ contains
          goal%quantity = integer_of(card, field_quantity)
          goal%most_rounds = integer_of(card, field_rounds)
          goal%most_unknowns = integer_of(card, field_unknowns)
+         goal%division = integer_of(card, field_division)
       end associate
    end subroutine read_goal
 
@@ -84,7 +90,7 @@ contains
       increments => table_of(sections, keyword_increments)
       associate (n => blocks%values(field_n1:field_n2, :blocks%n), &
                  size => blocks%values(field_size, :blocks%n))
-         n = max(1.0_wp, anint(refinement%mesh*n))
+         if (.not. allocated(refinement%strips)) n = max(1.0_wp, anint(refinement%mesh*n))
          if (refinement%quadratic) where (nint(size) == 4) size = 8.0_wp
       end associate
       if (control%n == 0) return
@@ -95,6 +101,19 @@ contains
          tolerance = refinement%tolerance*tolerance
       end associate
    end subroutine refine_sections
+
+   !> Whether the mesh may be refined by dividing the strips of its blocks anew
+   logical function asks_for_strips(sections)
+      !> The deck
+      type(sections_type), intent(in), target :: sections
+
+      type(table_type), pointer :: goal
+
+      goal => table_of(sections, keyword_error)
+      asks_for_strips = .false.
+      if (goal%n > 0) asks_for_strips = can_refine_mesh(sections) .and. &
+         nint(goal%values(field_division, 1)) == division_graded
+   end function asks_for_strips
 
    !> Whether more elements make the same job: the mesh is of BLOCKS alone, and no card
    !> calls nodes by their numbers, which change

@@ -16,7 +16,7 @@ module axijoint_deck_section_faces
    use axijoint_deck_text_field, only : described
    implicit none
    private
-   public :: faces_section, lay_faces
+   public :: faces_section, lay_faces, face_ends
 
    !> The keyword
    character(len=*), parameter :: keyword_faces = 'FACES'
@@ -59,6 +59,28 @@ contains
          call number_face(card, field_label, face, deck%draft)
       end do
    end subroutine read_faces
+
+   !> Ends of all faces whose cards are sound
+   function face_ends(deck) result(ends)
+      !> The deck
+      type(deck_type), intent(in), target :: deck
+      !> r and z, shape (2, any)
+      real(wp), allocatable :: ends(:, :)
+
+      type(card_type) :: card
+      integer :: n
+
+      card = cards_of(deck, keyword_faces)
+      allocate (ends(2, 2*card%table%n))
+      n = 0
+      do while (next_card(card))
+         if (.not. is_good(card)) cycle
+         ends(:, n + 1) = reals_of(card, field_first, 2)
+         ends(:, n + 2) = reals_of(card, field_last, 2)
+         n = n + 2
+      end do
+      ends = ends(:, :n)
+   end function face_ends
 
    !> Find the edges of the faces
    subroutine lay_faces(deck)

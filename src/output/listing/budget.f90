@@ -5,14 +5,15 @@ module axijoint_output_listing_budget
    use axijoint_analysis_error_budget, only : sum_of_shares, is_known
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
+   use axijoint_model_mesh, only : n_joints
    use axijoint_model_model, only : model_type
    use axijoint_output_file_columns, only : columns
    use axijoint_output_file_headings, only : write_heading, write_result_heading
    use axijoint_output_file_text, only : text_file_type
    implicit none
    private
-   public :: write_left_out, write_budget, write_singular, singular_text, write_rounds, sum_text, &
-      remedy_text
+   public :: write_left_out, write_budget, write_singular, laws_at, singular_text, write_rounds, &
+      sum_text, remedy_text
 
    !> Columns of a value
    integer, parameter :: wide = 15
@@ -116,23 +117,64 @@ contains
 
       character(len=*), parameter :: format_place = "(i10, 2es15.5, f13.3)"
       character(len=53) :: line
+      character(len=20) :: distance
       integer :: i
 
       if (.not. has_singular(results)) return
       call write_heading(file, "INFINITE STRESSES (they go like a power of the distance)")
-      call file%put("      node              r              z        power   not judged within")
+      call file%put("      node              r              z        power   not judged within"// &
+         "   joints of laws")
       do i = 1, size(results%singular)
          associate (place => results%singular(i))
             write (line, format_place) model%mesh%node_label(place%node), &
                model%mesh%coordinates(:, place%node), place%exponent
-            if (place%distance > 0.0_wp) then
-               call file%put(line//"   "//to_text(place%distance))
-            else
-               call file%put(line)
-            end if
+            distance = "-"
+            if (place%distance > 0.0_wp) distance = to_text(place%distance)
+            distance = adjustr(distance)
+            call file%put(line//distance//"   "//laws_text(laws_at(model, place%node)))
          end associate
       end do
    end subroutine write_singular
+
+   !> Numbers of the laws of the joints at a node, ascending
+   pure function laws_at(model, node) result(laws)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The node
+      integer, intent(in) :: node
+      !> The numbers
+      integer, allocatable :: laws(:)
+
+      logical :: there(size(model%joint_materials))
+      integer :: k
+
+      there = .false.
+      associate (mesh => model%mesh)
+         do k = 1, n_joints(mesh)
+            if (any(mesh%joint_nodes(:4, k) == node)) there(mesh%joint_material(k)) = .true.
+         end do
+      end associate
+      laws = [integer ::]
+      do k = 1, size(there)
+         if (there(k)) laws = [laws, model%joint_materials(k)%label]
+      end do
+   end function laws_at
+
+   !> Numbers of laws in words
+   pure function laws_text(laws) result(text)
+      !> The numbers
+      integer, intent(in) :: laws(:)
+      !> Such as "1, 2"; a dash if there are none
+      character(len=:), allocatable :: text
+
+      integer :: k
+
+      text = "-"
+      do k = 1, size(laws)
+         if (k == 1) text = to_text(laws(k))
+         if (k > 1) text = text//", "//to_text(laws(k))
+      end do
+   end function laws_text
 
    !> Whether stresses are infinite somewhere
    pure logical function has_singular(results) result(has)

@@ -34,6 +34,7 @@ module axijoint_output_listing_contents
    use axijoint_output_table_increments, only : write_increment_table
    use axijoint_output_table_joint_proportion, only : write_proportions
    use axijoint_output_table_residuals, only : write_residuals
+   use axijoint_output_table_strips, only : write_strips
    use axijoint_output_table_yielding, only : write_yielding, write_unestimated
    implicit none
    private
@@ -102,6 +103,7 @@ contains
          call write_unestimated(file, results)
          call write_singular(file, model, results)
          call write_rounds(file, results)
+         call write_strips(file, model, results)
          call write_pictures(file, size(results%states), pictures)
          call write_times(file, results, job%timer)
          call write_end(file, results)
