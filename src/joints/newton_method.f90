@@ -350,6 +350,7 @@ contains
       verdict%mechanism%loaded = .false.
       course%watch%best = huge(1.0_wp)
       course%n_steps = 0
+      course%bounds%damping = 0.0_wp
       field%leak = leak
       call look_again(condensed, scene, 1.0_wp, field, course)
    end subroutine begin_again

@@ -177,6 +177,7 @@ contains
 
       integer :: i, d
 
+      if (allocated(block%ends)) deallocate (block%ends)  ! of a faulty block before it
       allocate (block%ends(0:maxval(block%n), 2), source=1.0_wp)
       do d = 1, 2
          do i = 0, block%n(d)
