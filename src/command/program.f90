@@ -20,7 +20,7 @@ module axijoint_command_program
    public :: run_program
 
    !> Freed memory that is kept by a run that is given no limit, and by the rows of a study [MiB]
-   integer, parameter :: kept_by_run = 64, kept_by_rows = 1024
+   integer, parameter :: kept_by_run = 16, kept_by_rows = 1024
 
    interface
       !> Links environment_shim.c, which does its work before the program begins
