@@ -2,6 +2,7 @@
 one process says of more. See scripts/bench and doc/scaling.md."""
 import argparse
 import math
+import mmap
 import os
 import re
 import subprocess
@@ -12,6 +13,7 @@ PHASES = ("read", "assemble", "factor", "joints", "recover", "write", "total")
 # Share of `recover` that every rank does for itself: largest displacements, samples of stresses
 REDUNDANT_RECOVER = 0.35
 BYTES_PER_SECOND = 2.0e9  # between processes of one machine
+BORROWED = 4 << 30  # more than two ranks take
 
 
 def deck(n, harmonics):
@@ -22,8 +24,17 @@ def deck(n, harmonics):
     return "\n".join(lines + [f"2, {m}, 1, 1" for m in range(harmonics)] + ["END", ""])
 
 
+def borrow_memory():
+    """Touch memory and give it back: a machine that lends memory on demand takes its time for the first touch, which
+    is not to count against the run that comes first, or that takes more than the one before"""
+    with mmap.mmap(-1, BORROWED) as memory:
+        for place in range(0, BORROWED, mmap.PAGESIZE):
+            memory[place] = 1
+
+
 def run(words, path, folder):
     """Wall-clock and processor time of each phase of rank 0 [s], its peak memory and exchanged bytes [MB]"""
+    borrow_memory()
     subprocess.run([*words, "run", path, "-o", folder, "--quiet"], check=True)
     with open(os.path.join(folder, "tube.lis"), encoding="utf-8") as file:
         text = file.read()
@@ -57,7 +68,7 @@ def main():
     parser.add_argument("--mpi", required=True)
     parser.add_argument("--quick", action="store_true")
     args = parser.parse_args()
-    n, harmonics, rounds = (60, 16, 2) if args.quick else (150, 16, 2)
+    n, harmonics, rounds = (60, 16, 2) if args.quick else (150, 16, 3)
     print(f"Bar: {BAR} of two ranks. Processors: {os.cpu_count()}; load when it began: {os.getloadavg()[0]:.1f}")
     mpirun = ["mpirun", "--quiet", "--oversubscribe", "--bind-to", "none", "-n", "2", args.mpi]
     with tempfile.TemporaryDirectory() as folder:

@@ -4,7 +4,7 @@ module axijoint_assembly_dofs
    use axijoint_fe_mode, only : mode_type, is_torsion
    implicit none
    private
-   public :: dofs_type, new_dofs, gather, expand, collect, spread_out, kinematic_class
+   public :: dofs_type, new_dofs, first_equation, gather, expand, collect, spread_out, kinematic_class
    public :: component_name
 
    !> Names of the components u, v, w
@@ -83,6 +83,15 @@ contains
          end if
       end do
    end subroutine new_dofs
+
+   !> First equation of a node; zero if it has none
+   pure integer function first_equation(equation)
+      !> Equations of its components
+      integer, intent(in) :: equation(3)
+
+      first_equation = minval(equation, mask=equation > 0)
+      if (all(equation == 0)) first_equation = 0
+   end function first_equation
 
    !> Generalized forces of the equations from those of the components
    pure function gather(dofs, nodal) result(vector)

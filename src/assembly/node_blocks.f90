@@ -1,8 +1,8 @@
 !> Stiffness of all harmonics in blocks of two nodes, every node with its three components: no
 !> factor will be made of it, only products, so nothing is said about which components are held
 !>
-!> A block has two numbers for each pair of components, as in `element/blocks`: A and C, or S and
-!> zero, of K_m = c_m (A + m S + m^2 C).
+!> A block has the numbers of `element/blocks` that are not zero for all: A or S of each pair of components
+!> of K_m = c_m (A + m S + m^2 C), then C of those that A couples.
 module axijoint_assembly_node_blocks
    use omp_lib, only : omp_get_max_threads
    use axijoint_assembly_support, only : support_point_type, support_stiffness
@@ -23,7 +23,10 @@ module axijoint_assembly_node_blocks
    use axijoint_order_graph, only : graph_type
    implicit none
    private
-   public :: node_blocks_type, new_node_blocks, assemble_blocks, block_product, harmonic_block
+   public :: node_blocks_type, new_node_blocks, assemble_blocks, block_product, harmonic_block, block_size
+
+   !> Numbers of a block, and those of them that are of A or S
+   integer, parameter :: block_size = 14, first_part = 9
 
    !> Lower triangle by rows of blocks
    type :: node_blocks_type
@@ -33,8 +36,9 @@ module axijoint_assembly_node_blocks
       integer(i8), allocatable :: row_start(:)
       !> Column of each block, ascending in a row, the diagonal last
       integer, allocatable :: column(:)
-      !> The blocks, shape (3, 3, 2, blocks): component of the column, component of the row, number
-      real(wp), allocatable :: parts(:, :, :, :)
+      !> The blocks, shape (block_size, blocks): A or S, component of the column by component of the
+      !> row, nine numbers, then C of the pairs (u, u), (v, u), (u, v), (v, v), (w, w)
+      real(wp), allocatable :: parts(:, :)
    end type node_blocks_type
 
 contains
@@ -83,8 +87,8 @@ contains
 
       integer :: k, n_ranges
 
-      allocate (blocks%parts(3, 3, 2, blocks%row_start(size(blocks%row_start)) - 1))
-      call clear(blocks%parts, size(blocks%parts, 4))
+      allocate (blocks%parts(block_size, blocks%row_start(size(blocks%row_start)) - 1))
+      call zero_large_pages(blocks%parts)
       n_ranges = merge(omp_get_max_threads(), 1, n_elements(model%mesh) > least_elements)
       !$omp parallel do schedule(static, 1) if (n_ranges > 1)
       do k = 1, n_ranges
@@ -94,16 +98,6 @@ contains
       end do
       !$omp end parallel do
    end subroutine assemble_blocks
-
-   !> Put zeros into blocks, in large pages
-   subroutine clear(parts, n)
-      !> Number of blocks
-      integer, intent(in) :: n
-      !> The blocks
-      real(wp), intent(inout) :: parts(18, n)
-
-      call zero_large_pages(parts)
-   end subroutine clear
 
    !> Add to a range of rows
    subroutine assemble_rows(blocks, model, joint_points, support_points, from, to)
@@ -161,7 +155,7 @@ contains
       integer, intent(in) :: from, to
 
       integer(i8) :: k
-      integer :: place(size(nodes)), i, j, c, p
+      integer :: place(size(nodes)), i, j, p
 
       place = blocks%place(nodes)
       p = 0
@@ -170,16 +164,32 @@ contains
             p = p + 1
             if (max(place(i), place(j)) < from .or. max(place(i), place(j)) > to) cycle
             k = block_at(blocks, max(place(i), place(j)), min(place(i), place(j)))
-            do c = 1, 2
-               if (place(i) >= place(j)) then
-                  blocks%parts(:, :, c, k) = blocks%parts(:, :, c, k) + local(c, :, :, p)
-               else
-                  blocks%parts(:, :, c, k) = blocks%parts(:, :, c, k) + transpose(local(c, :, :, p))
-               end if
-            end do
+            call add_block(local(:, :, :, p), place(i) < place(j), blocks%parts(:, k))
          end do
       end do
    end subroutine scatter
+
+   !> Add a block
+   pure subroutine add_block(block, turned, parts)
+      !> A or S, and C, by component of the column and component of the row
+      real(wp), intent(in) :: block(2, 3, 3)
+      !> Whether row and column change places
+      logical, intent(in) :: turned
+      !> The numbers that are added to
+      real(wp), intent(inout) :: parts(block_size)
+
+      real(wp) :: first(3, 3), second(3, 3)
+
+      first = block(1, :, :)
+      second = block(2, :, :)
+      if (turned) then
+         first = transpose(first)
+         second = transpose(second)
+      end if
+      parts(:first_part) = parts(:first_part) + reshape(first, [first_part])
+      parts(first_part + 1:) = parts(first_part + 1:) &
+         + [second(1, 1), second(2, 1), second(1, 2), second(2, 2), second(3, 3)]
+   end subroutine add_block
 
    !> Place of a block
    pure integer(i8) function block_at(blocks, row, column)
@@ -194,19 +204,6 @@ contains
       end do
    end function block_at
 
-   !> Factors of the two numbers of a block's entries in K_m
-   pure subroutine harmonic_factors(harmonic, first, second)
-      !> Harmonic m
-      integer, intent(in) :: harmonic
-      !> The factors of the first numbers, shape (3, 3), and that of the second
-      real(wp), intent(out) :: first(3, 3), second
-
-      first = circle_integral(harmonic)
-      first(3, 1:2) = harmonic*circle_integral(harmonic)
-      first(1:2, 3) = harmonic*circle_integral(harmonic)
-      second = real(harmonic, wp)**2*circle_integral(harmonic)
-   end subroutine harmonic_factors
-
    !> A block of K_m
    pure function harmonic_block(blocks, k, harmonic) result(block)
       !> The blocks
@@ -218,11 +215,38 @@ contains
       !> Its values, shape (component of the column, component of the row)
       real(wp) :: block(3, 3)
 
-      real(wp) :: first(3, 3), second
-
-      call harmonic_factors(harmonic, first, second)
-      block = first*blocks%parts(:, :, 1, k) + second*blocks%parts(:, :, 2, k)
+      call evaluate(harmonic_factors(harmonic), blocks%parts(:, k), block)
    end function harmonic_block
+
+   !> Factors of A, S and C in K_m
+   pure function harmonic_factors(harmonic) result(factors)
+      !> Harmonic m
+      integer, intent(in) :: harmonic
+      !> The factors
+      real(wp) :: factors(3)
+
+      factors = circle_integral(harmonic)*[1, harmonic, harmonic**2]
+   end function harmonic_factors
+
+   !> A block of K_m from its parts
+   pure subroutine evaluate(factors, parts, block)
+      !> Factors of A, S and C
+      real(wp), intent(in) :: factors(3)
+      !> The parts
+      real(wp), intent(in) :: parts(block_size)
+      !> Its values, shape (component of the column, component of the row)
+      real(wp), intent(out) :: block(3, 3)
+
+      block(1, 1) = factors(1)*parts(1) + factors(3)*parts(10)
+      block(2, 1) = factors(1)*parts(2) + factors(3)*parts(11)
+      block(3, 1) = factors(2)*parts(3)
+      block(1, 2) = factors(1)*parts(4) + factors(3)*parts(12)
+      block(2, 2) = factors(1)*parts(5) + factors(3)*parts(13)
+      block(3, 2) = factors(2)*parts(6)
+      block(1, 3) = factors(2)*parts(7)
+      block(2, 3) = factors(2)*parts(8)
+      block(3, 3) = factors(1)*parts(9) + factors(3)*parts(14)
+   end subroutine evaluate
 
    !> y = K_m x, in the order of the rows
    pure subroutine block_product(blocks, harmonic, x, y)
@@ -235,25 +259,25 @@ contains
       !> y, same shape
       real(wp), intent(out), contiguous :: y(:, :)
 
-      real(wp) :: first(3, 3), second, b(3, 3), own(3), total(3)
+      real(wp) :: factors(3), b(3, 3), own(3), total(3)
       integer(i8) :: k
       integer :: i, j
 
-      call harmonic_factors(harmonic, first, second)
+      factors = harmonic_factors(harmonic)
       y = 0.0_wp
       do i = 1, size(x, 2)
          own = x(:, i)
          total = 0.0_wp
          do k = blocks%row_start(i), blocks%row_start(i + 1) - 2
             j = blocks%column(k)
-            b = first*blocks%parts(:, :, 1, k) + second*blocks%parts(:, :, 2, k)
+            call evaluate(factors, blocks%parts(:, k), b)
             total(1) = total(1) + b(1, 1)*x(1, j) + b(2, 1)*x(2, j) + b(3, 1)*x(3, j)
             total(2) = total(2) + b(1, 2)*x(1, j) + b(2, 2)*x(2, j) + b(3, 2)*x(3, j)
             total(3) = total(3) + b(1, 3)*x(1, j) + b(2, 3)*x(2, j) + b(3, 3)*x(3, j)
             y(:, j) = y(:, j) + b(:, 1)*own(1) + b(:, 2)*own(2) + b(:, 3)*own(3)
          end do
          k = blocks%row_start(i + 1) - 1
-         b = first*blocks%parts(:, :, 1, k) + second*blocks%parts(:, :, 2, k)
+         call evaluate(factors, blocks%parts(:, k), b)
          y(:, i) = y(:, i) + total + b(:, 1)*own(1) + b(:, 2)*own(2) + b(:, 3)*own(3)
       end do
    end subroutine block_product

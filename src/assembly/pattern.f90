@@ -1,7 +1,8 @@
 !> Graph of the nodes and sparsity of the stiffness
 module axijoint_assembly_pattern
-   use axijoint_assembly_dofs, only : dofs_type
+   use axijoint_assembly_dofs, only : dofs_type, first_equation
    use axijoint_base_kinds, only : i8
+   use axijoint_base_sort, only : sort_short
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    use axijoint_model_mesh, only : mesh_type, n_nodes
    use axijoint_order_graph, only : graph_type, new_graph
@@ -58,10 +59,14 @@ contains
       !> order(k) is the k-th node
       integer, intent(in) :: order(:)
 
-      integer, allocatable :: columns(:)
+      integer, allocatable :: columns(:), first(:)
       integer(i8) :: count
       integer :: pass, k, i, node, row, n_columns
 
+      allocate (first(graph%n))
+      do node = 1, graph%n
+         first(node) = first_equation(dofs%equation(:, node))
+      end do
       allocate (pattern%row_start(dofs%n_equations + 1))
       allocate (columns(3*(1 + maxval([0, graph%start(2:) - graph%start(:graph%n)]))))
       pattern%n = dofs%n_equations
@@ -70,7 +75,8 @@ contains
          row = 0
          do k = 1, size(order)
             node = order(k)
-            call coupled_equations(node, graph, dofs, columns, n_columns)
+            if (first(node) == 0) cycle
+            call coupled_equations(node, graph, dofs, first, columns, n_columns)
             do i = 1, 3
                if (dofs%equation(i, node) /= row + 1) cycle  ! none, or that of another component
                row = row + 1
@@ -83,50 +89,43 @@ contains
       end do
    end subroutine new_pattern
 
-   !> Equations of a node and its neighbours, ascending
-   subroutine coupled_equations(node, graph, dofs, columns, n_columns)
+   !> Equations of a node and of its neighbours before it, ascending: those of a node follow each other
+   subroutine coupled_equations(node, graph, dofs, first, columns, n_columns)
       !> Node
       integer, intent(in) :: node
       !> Graph of the nodes
       type(graph_type), intent(in) :: graph
       !> The unknowns
       type(dofs_type), intent(in) :: dofs
+      !> First equation of each node, or zero
+      integer, intent(in) :: first(:)
       !> The equations, the first n_columns
       integer, intent(inout) :: columns(:)
       !> How many
       integer, intent(out) :: n_columns
 
-      integer :: l, i
+      integer :: nodes(1 + graph%start(node + 1) - graph%start(node)), n, l, i
 
-      n_columns = 0
-      call insert_node(node)
+      n = 0
       do l = graph%start(node), graph%start(node + 1) - 1
-         call insert_node(graph%neighbour(l))
+         if (first(graph%neighbour(l)) == 0 .or. first(graph%neighbour(l)) > first(node)) cycle
+         n = n + 1
+         nodes(n) = graph%neighbour(l)
       end do
-
-   contains
-
-      !> Insert the equations of one node in their places
-      subroutine insert_node(other)
-         !> Node
-         integer, intent(in) :: other
-         integer :: equation, place
-
-         do i = 1, 3
-            equation = dofs%equation(i, other)
-            if (equation == 0) cycle
-            if (i == 3 .and. equation == dofs%equation(1, other)) cycle  ! w tied to u
-            place = n_columns
-            do while (place > 0)
-               if (columns(place) < equation) exit
-               columns(place + 1) = columns(place)
-               place = place - 1
+      call sort_short(nodes(:n), first)
+      n = n + 1
+      nodes(n) = node
+      n_columns = 0
+      do l = 1, n
+         associate (equation => dofs%equation(:, nodes(l)))
+            do i = 1, 3
+               if (equation(i) == 0) cycle
+               if (i == 3 .and. equation(3) == equation(1)) cycle  ! w tied to u
+               n_columns = n_columns + 1
+               columns(n_columns) = equation(i)
             end do
-            columns(place + 1) = equation
-            n_columns = n_columns + 1
-         end do
-      end subroutine insert_node
-
+         end associate
+      end do
    end subroutine coupled_equations
 
    !> Append the entries of a row up to the diagonal

@@ -1,7 +1,7 @@
 !> Stiffness of the whole structure: parts free of the harmonic, then K_m
 module axijoint_assembly_stiffness
    use omp_lib, only : omp_get_max_threads
-   use axijoint_assembly_dofs, only : dofs_type, new_dofs
+   use axijoint_assembly_dofs, only : dofs_type, new_dofs, first_equation
    use axijoint_assembly_element_stiffness, only : integrands_type, new_integrands, &
       element_blocks, &
       max_unknowns, max_blocks
@@ -453,14 +453,5 @@ contains
          end do
       end associate
    end subroutine add_part_block
-
-   !> First equation of a node; zero if it has none
-   pure integer function first_equation(equation)
-      !> Equations of its components
-      integer, intent(in) :: equation(3)
-
-      first_equation = minval(equation, mask=equation > 0)
-      if (all(equation == 0)) first_equation = 0
-   end function first_equation
 
 end module axijoint_assembly_stiffness

@@ -1,6 +1,7 @@
 !> Memory that a job takes besides its equations
 module axijoint_analysis_core_footprint
    use axijoint_analysis_fine_smoother, only : is_slender
+   use axijoint_assembly_node_blocks, only : block_size
    use axijoint_base_kinds, only : wp, i8
    use axijoint_element_yield_law, only : yield_none
    use axijoint_fe_element_kind, only : is_reduced
@@ -150,7 +151,7 @@ contains
       integer, intent(in) :: n_nodes
 
       !> Bytes of a block, and of a node in its mesh
-      integer(i8), parameter :: block_bytes = 18*real_bytes + 4
+      integer(i8), parameter :: block_bytes = block_size*real_bytes + 4
 
       bytes = nint(fine_nodes(n_nodes)*(blocks_of(n_nodes)*block_bytes + fine_mesh_bytes), i8)
    end function fine_bytes
