@@ -100,53 +100,59 @@ contains
       !> The state
       integer(int32), intent(inout) :: state(8)
 
-      integer(int32) :: w(rounds), a(8), first, second
-      integer :: i, j
+      integer(int32) :: w(rounds), a, b, c, d, e, f, g, h, first, second
+      integer :: i, k
 
       do i = 1, 16
-         w(i) = 0
-         do j = 1, 4
-            w(i) = ior(shiftl(w(i), 8), ichar(block(4*i - 4 + j:4*i - 4 + j)))
-         end do
+         k = 4*i - 3
+         w(i) = ior(ior(shiftl(ichar(block(k:k)), 24), shiftl(ichar(block(k + 1:k + 1)), 16)), &
+                    ior(shiftl(ichar(block(k + 2:k + 2)), 8), ichar(block(k + 3:k + 3))))
       end do
       do i = 17, rounds
          first = ieor(ieor(ishftc(w(i - 15), -7), ishftc(w(i - 15), -18)), shiftr(w(i - 15), 3))
          second = ieor(ieor(ishftc(w(i - 2), -17), ishftc(w(i - 2), -19)), shiftr(w(i - 2), 10))
-         w(i) = plus([w(i - 16), first, w(i - 7), second])
+         w(i) = plus(plus(w(i - 16), first), plus(w(i - 7), second))
       end do
-      a = state
+      a = state(1)
+      b = state(2)
+      c = state(3)
+      d = state(4)
+      e = state(5)
+      f = state(6)
+      g = state(7)
+      h = state(8)
       do i = 1, rounds
-         first = plus([a(8), ieor(ieor(ishftc(a(5), -6), ishftc(a(5), -11)), ishftc(a(5), -25)), &
-                       ieor(iand(a(5), a(6)), iand(not(a(5)), a(7))), key(i), w(i)])
-         second = plus([ieor(ieor(ishftc(a(1), -2), ishftc(a(1), -13)), ishftc(a(1), -22)), &
-                        ieor(ieor(iand(a(1), a(2)), iand(a(1), a(3))), iand(a(2), a(3)))])
-         a(2:8) = a(1:7)
-         a(5) = plus([a(5), first])
-         a(1) = plus([first, second])
+         first = plus(plus(plus(h, ieor(ieor(ishftc(e, -6), ishftc(e, -11)), ishftc(e, -25))), &
+                           ieor(iand(e, f), iand(not(e), g))), plus(key(i), w(i)))
+         second = plus(ieor(ieor(ishftc(a, -2), ishftc(a, -13)), ishftc(a, -22)), &
+                       ieor(ieor(iand(a, b), iand(a, c)), iand(b, c)))
+         h = g
+         g = f
+         f = e
+         e = plus(d, first)
+         d = c
+         c = b
+         b = a
+         a = plus(first, second)
       end do
-      do i = 1, size(state)
-         state(i) = plus([state(i), a(i)])
-      end do
+      state = [plus(state(1), a), plus(state(2), b), plus(state(3), c), plus(state(4), d), &
+               plus(state(5), e), plus(state(6), f), plus(state(7), g), plus(state(8), h)]
    end subroutine mix
 
    !> Sum modulo 2^32
-   pure integer(int32) function plus(words) result(total)
+   elemental integer(int32) function plus(a, b) result(total)
       !> The terms
-      integer(int32), intent(in) :: words(:)
+      integer(int32), intent(in) :: a, b
 
-      total = low_word(sum(iand(int(words, int64), int(z'FFFFFFFF', int64))))
+      total = low_word(int(a, int64) + int(b, int64))
    end function plus
 
    !> The lowest 32 bits
    pure integer(int32) function low_word(long) result(word)
-      !> A number that is not negative
+      !> A number
       integer(int64), intent(in) :: long
 
-      integer(int64) :: low
-
-      low = iand(long, int(z'FFFFFFFF', int64))
-      if (low > huge(1_int32)) low = low - 2_int64**32
-      word = int(low, int32)
+      word = int(shifta(shiftl(long, 32), 32), int32)  ! with its highest bit as sign
    end function low_word
 
    !> Small letters

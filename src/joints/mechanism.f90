@@ -4,9 +4,9 @@ module axijoint_joints_mechanism
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : admit, eta
    use axijoint_fe_fourier, only : circle_integral
-      use axijoint_joints_condensed, only : condensed_type
+   use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, seen_by_law
-   use axijoint_joints_planes, only : synthesize, analyse
+   use axijoint_joints_planes, only : analyse, mode_on_planes, mode_from_planes
    use axijoint_joints_scene, only : scene_type, views, motion_of, jumps
    use axijoint_linalg_lapack, only : symmetric_eigen, singular_values
    implicit none
@@ -177,27 +177,38 @@ contains
       !> The works, shape (motions, motions)
       real(wp), intent(out) :: resistance(:, :), elastic(:, :)
 
-      real(wp), allocatable :: tangent(:, :, :, :), amplitude(:, :, :), stress(:, :, :)
-      integer :: j, k, z
+      real(wp), allocatable :: tangent(:, :, :, :)
+      real(wp), dimension(3, size(field%jump, 3), size(condensed%floating)) :: made, share
+      real(wp) :: stress(3, size(field%jump, 3)), base(3)
+      integer :: j, k, y, z
 
       allocate (tangent(3, 3, size(condensed%points), size(field%jump, 3)))
       call linearize(condensed, scene, field, sticking, tangent)
-      allocate (amplitude, mold=field%excess)
-      do z = 1, size(condensed%floating)
-         amplitude = 0.0_wp
-         do k = 1, size(condensed%points)
-            amplitude(:, k, condensed%floating(z)%mode) = &
-               condensed%points(k)%base*condensed%floating(z)%jump(:, k)
+      associate (motions => condensed%floating)
+         do z = 1, size(motions)
+            made(:, :, z) = mode_on_planes(scene%planes, motions(z)%mode)
+            share(:, :, z) = circle_integral(scene%modes(motions(z)%mode)%harmonic) &
+               *mode_from_planes(scene%planes, motions(z)%mode)
          end do
-         elastic(:, z) = works(condensed, scene, amplitude)
-         stress = synthesize(scene%planes, amplitude)
-         do j = 1, size(stress, 3)
-            do k = 1, size(stress, 2)
-               stress(:, k, j) = matmul(tangent(:, :, k, j), stress(:, k, j))
+         resistance = 0.0_wp
+         elastic = 0.0_wp
+         do z = 1, size(motions)
+            do k = 1, size(condensed%points)
+               base = condensed%points(k)%base*motions(z)%jump(:, k)
+               do j = 1, size(stress, 2)
+                  stress(:, j) = matmul(tangent(:, :, k, j), base*made(:, j, z))
+               end do
+               do y = 1, size(motions)
+                  associate (jump => condensed%points(k)%weight*motions(y)%jump(:, k))
+                     resistance(y, z) = resistance(y, z) &
+                        + dot_product(jump, sum(share(:, :, y)*stress, 2))
+                     if (motions(y)%mode == motions(z)%mode) elastic(y, z) = elastic(y, z) &
+                        + circle_integral(scene%modes(motions(z)%mode)%harmonic)*dot_product(jump, base)
+                  end associate
+               end do
             end do
          end do
-         resistance(:, z) = works(condensed, scene, analyse(scene%planes, stress))
-      end do
+      end associate
    end subroutine resist
 
    !> Derivatives of the stress admitted by the trial stress

@@ -8,7 +8,7 @@ module axijoint_joints_planes
    implicit none
    private
    public :: planes_type, new_planes, new_view, synthesize, analyse, sum_modes, find_modes, on_all, &
-      plane_weights
+      plane_weights, mode_on_planes, mode_from_planes
 
    !> Planes and the matrices between them and the modes
    type :: planes_type
@@ -231,6 +231,47 @@ contains
       call find_modes(planes, size(total, 2), turned(total), by_component)
       amplitude = turned(by_component)
    end function analyse
+
+   !> What components of one mode with amplitudes of one are on the planes
+   pure function mode_on_planes(planes, mode) result(factor)
+      !> The planes
+      type(planes_type), intent(in) :: planes
+      !> Place of the mode
+      integer, intent(in) :: mode
+      !> Shape (components, planes)
+      real(wp) :: factor(size(planes%odd), size(planes%angle))
+
+      factor = by_component(planes%odd, planes%meridional(mode, :), planes%circumferential(mode, :))
+   end function mode_on_planes
+
+   !> Shares of the values on the planes in the amplitudes of one mode
+   pure function mode_from_planes(planes, mode) result(factor)
+      !> The planes, made by `new_planes`
+      type(planes_type), intent(in) :: planes
+      !> Place of the mode
+      integer, intent(in) :: mode
+      !> Shape (components, planes)
+      real(wp) :: factor(size(planes%odd), size(planes%angle))
+
+      factor = by_component(planes%odd, planes%meridional_back(:, mode), &
+                            planes%circumferential_back(:, mode))
+   end function mode_from_planes
+
+   !> Factors of components that are even or odd
+   pure function by_component(is_odd, even, odd) result(factor)
+      !> Whether a component is odd in a symmetric mode
+      logical, intent(in) :: is_odd(:)
+      !> Factors, shape (planes)
+      real(wp), intent(in) :: even(:), odd(:)
+      !> Shape (components, planes)
+      real(wp) :: factor(size(is_odd), size(even))
+
+      integer :: i
+
+      do i = 1, size(is_odd)
+         factor(i, :) = merge(odd, even, is_odd(i))
+      end do
+   end function by_component
 
    !> Values with their first two places changed
    pure function turned(values)

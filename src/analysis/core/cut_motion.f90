@@ -10,21 +10,39 @@ module axijoint_analysis_core_cut_motion
    use axijoint_model_request, only : cut_type, line_type
    implicit none
    private
-   public :: cut_motion
+   public :: cut_sections, cut_motion
 
    !> Points over the width of a section
    integer, parameter :: n_section = 33
 
 contains
 
+   !> Points of the sections at all cuts
+   function cut_sections(mesh, cuts) result(sections)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The cuts
+      type(cut_type), intent(in) :: cuts(:)
+      !> One line a cut
+      type(line_type), allocatable :: sections(:)
+
+      integer :: c
+
+      allocate (sections(size(cuts)))
+      do c = 1, size(cuts)
+         call find_section(mesh, cuts(c), sections(c))
+      end do
+   end function cut_sections
+
    !> The rigid motion that comes nearest, by least squares over points on the section, to the
    !> displacements there: along z, along theta = 0 and 90 degrees at the cut, rotations with the
    !> signs of the moments, rotation about z
-   function cut_motion(mesh, cut, modes, displacement) result(motion)
+   function cut_motion(mesh, cut, section, modes, displacement) result(motion)
       !> The mesh
       type(mesh_type), intent(in) :: mesh
-      !> The cut
+      !> The cut, and the points of its section
       type(cut_type), intent(in) :: cut
+      type(line_type), intent(in) :: section
       !> The modes
       type(mode_type), intent(in) :: modes(:)
       !> Displacement amplitudes, shape (3, nodes, modes)
@@ -32,16 +50,14 @@ contains
       !> Displacements [length] and rotations [radian], in the order of the resultants
       real(wp) :: motion(n_resultants)
 
-      type(line_type) :: line
       real(wp) :: shape(max_element_nodes), derivative(2, max_element_nodes)
       real(wp) :: matrix(2, 2, size(modes)), right(2, size(modes)), basis(3, 2), u(3)
       integer :: i, k, n
 
-      line = section_of(mesh, cut)
       matrix = 0.0_wp
       right = 0.0_wp
-      do i = 1, size(line%points)
-         associate (point => line%points(i))
+      do i = 1, size(section%points)
+         associate (point => section%points(i))
             if (cut%body > 0 .and. mesh%element_body(point%element) /= cut%body) cycle
             n = mesh%element_size(point%element)
             call shape_element(n, point%natural(1), point%natural(2), shape(:n), derivative(:, :n))
@@ -73,13 +89,13 @@ contains
    end function cut_motion
 
    !> Points on the cut, at equal distances
-   function section_of(mesh, cut) result(line)
+   subroutine find_section(mesh, cut, line)
       !> The mesh
       type(mesh_type), intent(in) :: mesh
       !> The cut
       type(cut_type), intent(in) :: cut
       !> The points that lie in elements
-      type(line_type) :: line
+      type(line_type), intent(out) :: line
 
       real(wp) :: low, high
       integer :: element
@@ -99,7 +115,7 @@ contains
       line%first = [min(low, high), cut%z]
       line%last = [high, cut%z]
       call locate_points(mesh, line)
-   end function section_of
+   end subroutine find_section
 
    !> Amplitudes u, v, w of the rigid motions of a mode at the height of the cut
    pure function rigid_basis(mode, r) result(basis)

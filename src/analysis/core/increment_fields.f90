@@ -150,8 +150,8 @@ contains
       end do
       allocate (results%cut_motion(n_resultants, size(model%cuts)))
       do c = 1, size(model%cuts)
-         results%cut_motion(:, c) = cut_motion(model%mesh, model%cuts(c), results%modes, &
-            results%displacement)
+         results%cut_motion(:, c) = cut_motion(model%mesh, model%cuts(c), structure%sections(c), &
+            results%modes, results%displacement)
       end do
    end subroutine move_bodies
 
@@ -185,9 +185,13 @@ contains
       if (allocated(error)) return
       call field_of_state(model, structure, state, results%plane_angles, results%displacement, &
          field)
-      call stress_plastic_strain(model, state, loading)
-      call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
-                       combination_type(0, state%case_factor), loads)  ! what errors are held against
+      if (allocated(state%bodies%place)) then
+         call stress_plastic_strain(model, state, loading)
+         call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
+                          combination_type(0, state%case_factor), loads)  ! what errors are held against
+      else
+         loads = loading
+      end if
       call recover_fields(model, structure, loading, loads, field, results)
       results%plastic = plastic_fields(model, results%modes, results%stress, state%bodies)
       call move_bodies(model, structure, state, results)

@@ -1,5 +1,6 @@
 !> What all load combinations of a job share: modes, joints, factored equations
 module axijoint_analysis_core_structure
+   use axijoint_analysis_core_cut_motion, only : cut_sections
    use axijoint_analysis_core_footprint, only : footprint_type, data_footprint
    use axijoint_analysis_core_results, only : ordering_type
    use axijoint_analysis_fine_level, only : fine_level_type, new_fine_level, take_fine_model
@@ -26,7 +27,7 @@ module axijoint_analysis_core_structure
       bodies_yield
    use axijoint_model_modes, only : used_modes
    use axijoint_model_mesh, only : n_nodes
-   use axijoint_model_request, only : print_orders, rows_expected
+   use axijoint_model_request, only : line_type, print_orders, rows_expected
    use axijoint_order_graph, only : graph_type, bandwidth, profile, fill
    use axijoint_order_orders, only : orders_type, new_orders, least_profile
    use omp_lib, only : omp_get_max_threads
@@ -56,6 +57,8 @@ module axijoint_analysis_core_structure
       !> there, is judged
       type(singular_place_type), allocatable :: singular(:)
       logical, allocatable :: judged(:)
+      !> Sections at the cuts of the job
+      type(line_type), allocatable :: sections(:)
       !> Orders of the nodes side by side
       type(ordering_type), allocatable :: orderings(:)
    end type structure_type
@@ -92,6 +95,7 @@ contains
       if (allocated(error)) return
       call timer%push(phase_assemble)
       call new_fine_level(model, structure%equations, structure%fine)
+      structure%sections = cut_sections(model%mesh, model%cuts)
       structure%singular = find_singular_places(model, structure%fine%mesh)
       associate (points => structure%joint_points)
          structure%judged = judged_points(model%mesh, structure%singular, &
@@ -115,7 +119,8 @@ contains
       call timer%pop()
    end subroutine build_structure
 
-   !> Let a structure serve another job that has the same: the fine level knows its loads and laws
+   !> Let a structure serve another job that has the same: the fine level knows its loads and laws, and
+   !> cuts may be elsewhere
    subroutine take_loads_of(model, structure)
       !> The job
       type(model_type), intent(in) :: model
@@ -123,6 +128,7 @@ contains
       type(structure_type), intent(inout) :: structure
 
       call take_fine_model(model, structure%fine)
+      structure%sections = cut_sections(model%mesh, model%cuts)
    end subroutine take_loads_of
 
    !> Assemble the equations of all modes
