@@ -2,9 +2,9 @@
 module axijoint_job_goal
    use omp_lib, only : omp_get_wtime
    use axijoint_analysis_core_remarks, only : remark_on_goal
-   use axijoint_analysis_core_results, only : results_type, round_type
+   use axijoint_analysis_core_results, only : results_type, round_type, error_share_type
    use axijoint_analysis_core_structure, only : structure_type
-   use axijoint_analysis_error_goal, only : goal_error, refine_further, too_large
+   use axijoint_analysis_error_goal, only : goal_error, refine_further, room_for
    use axijoint_base_error, only : error_type, fatal_error, exit_deck, exit_state, exit_stopped
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : show_progress
@@ -84,23 +84,61 @@ contains
                if (last%error <= job%model%error_goal%target) return  ! met, or not known
                if (size(rounds) >= job%model%error_goal%most_rounds) return
                before = refinement
-               call refine_further(job%model, results(worst)%budget, element_errors(results), &
-                  last%n_unknowns, refinement, changed)
-               if (.not. changed) return
             end if
          end associate
          call show_progress(job%progress, 'round '//to_text(size(rounds) + 1)//' of refinement')
          call move_alloc(job%structure, solved)
-         call read_refined(job, refinement, error)
-         if (allocated(error)) return
-         if (too_large(job%model) .and. .not. back) then
-            call read_refined(job, before, error)
-            call move_alloc(solved, job%structure)  ! the results are of this round
-            return
+         if (back) then
+            call read_refined(job, refinement, error)
+         else
+            call refine_job(job, results(worst)%budget, element_errors(results), refinement, &
+               changed, error)
+            if (.not. (allocated(error) .or. changed)) then
+               call move_alloc(solved, job%structure)  ! the results are of this round
+               return
+            end if
          end if
+         if (allocated(error)) return
          if (allocated(solved)) deallocate (solved)
       end do
    end subroutine run_rounds
+
+   !> Refine the job, as far as unknowns are allowed. Harmonics and intervals come in whole numbers:
+   !> what has more unknowns than there was room for is refined again with less
+   subroutine refine_job(job, budget, element_error, refinement, changed, error)
+      !> The job as it was solved; refined on return
+      type(job_type), intent(inout) :: job
+      !> What its approximations leave
+      type(error_share_type), intent(in) :: budget(:)
+      !> Energy of the error of each element; empty if not known
+      real(wp), intent(in) :: element_error(:)
+      !> How it is refined
+      type(refinement_type), intent(inout) :: refinement
+      !> Whether it was refined
+      logical, intent(out) :: changed
+      !> Errors of the refined job
+      type(error_type), allocatable, intent(out) :: error
+
+      integer, parameter :: most_attempts = 4
+      type(refinement_type) :: before
+      real(wp) :: room
+      integer :: attempt
+
+      before = refinement
+      room = room_for(job%model)
+      do attempt = 1, most_attempts
+         call refine_further(job%model, budget, element_error, room, refinement, changed)
+         if (.not. changed) return
+         call read_refined(job, refinement, error)
+         if (allocated(error)) return
+         if (room_for(job%model) >= 1.0_wp) return
+         room = room*room_for(job%model)
+         refinement = before
+         call read_refined(job, refinement, error)
+         if (allocated(error)) return
+      end do
+      changed = .false.
+   end subroutine refine_job
 
    !> Energy of the error of each element, of all combinations: each over the energy of its
    !> solution

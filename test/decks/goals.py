@@ -147,6 +147,16 @@ def limits(program, folder):
     return faults
 
 
+def shared_room(program, folder):
+    """Where not all unknowns are allowed that the target takes, mesh and harmonics both get some, and the error falls"""
+    deck = with_goal(read_text(os.path.join(INPUTS, 'monopile.dat')), 1.0, 8, 40000)
+    summary, _ = solved(program, folder, 'pile', deck)
+    first, last = summary['rounds'][0], summary['rounds'][-1]
+    return [f'{words}: {first}, {last}' for words, holds in (
+        ('more unknowns than allowed', last['unknowns'] <= 40000), ('no more harmonics', last['max_harmonic'] > first['max_harmonic']),
+        ('no more elements', last['mesh'] > first['mesh']), ('error', 2*last['error'] < first['error'])) if not holds]
+
+
 def loads_of_combinations(program, folder):
     """Combination 1 is the weight alone; what M leaves of the wind counts in combination 2"""
     faults = program.run('run', os.path.join(INPUTS, 'chimney.dat'), '-o', folder).ended_with(0)
@@ -187,7 +197,7 @@ def tests(program):
     return ([test('disc', disc), test("the paper's loop", paper_method), test('blocks that face others', facing),
              test('graded', graded), test('graded blocks conform', conforming),
              test('other divisions', other_divisions),
-             test('limits', limits), test('options', swept),
+             test('limits', limits), test('shared room', shared_room), test('options', swept),
              test('loads of a combination', loads_of_combinations)]
             + [test('memory', back_again)]
             + [test(f'case {number}, {nodes} nodes', case, number, nodes, refined)

@@ -3,7 +3,7 @@ module axijoint_analysis_error_goal
    use axijoint_analysis_core_results, only : error_share_type, results_type, &
       source_discretization, source_harmonics, &
       source_planes, source_iteration
-   use axijoint_analysis_error_finer_mesh, only : refine_mesh
+   use axijoint_analysis_error_finer_mesh, only : refine_mesh, least
    use axijoint_base_kinds, only : wp
    use axijoint_model_mesh, only : n_nodes
    use axijoint_model_model, only : model_type
@@ -12,7 +12,7 @@ module axijoint_analysis_error_goal
       goal_displacement, goal_energy
    implicit none
    private
-   public :: goal_error, refine_further, too_large
+   public :: goal_error, refine_further, room_for
 
    !> How one source of error is brought down
    type :: rule_type
@@ -26,6 +26,8 @@ module axijoint_analysis_error_goal
       real(wp) :: order = 1.0_wp
    end type rule_type
 
+   !> A round that cannot have so many times the unknowns is not begun
+   real(wp), parameter :: least_growth = 1.2_wp
    !> Most that harmonics or planes are multiplied by in a round
    real(wp), parameter :: most_numbers = 5.0_wp
    !> A source that is brought down is to fall to this part of what is left to it: a round more
@@ -115,25 +117,27 @@ contains
    end function rule_of
 
    !> Raise what leaves more than its part of the target
-   subroutine refine_further(model, budget, element_error, n_unknowns, refinement, changed)
+   subroutine refine_further(model, budget, element_error, room_for_all, refinement, changed)
       !> The job as it was solved, and its goal
       type(model_type), intent(in) :: model
       !> What its approximations leave
       type(error_share_type), intent(in) :: budget(:)
       !> Energy of the error of each element; empty if not known
       real(wp), intent(in) :: element_error(:)
-      !> Unknowns that it had
-      integer, intent(in) :: n_unknowns
+      !> The unknowns may become so many times as many
+      real(wp), intent(in) :: room_for_all
       !> How it was refined; further on return
       type(refinement_type), intent(inout) :: refinement
       !> Whether anything could be raised
       logical, intent(out) :: changed
 
       type(rule_type) :: rule
-      real(wp) :: excess, room, need, mesh_order
+      real(wp) :: excess, room, need, mesh_order, factor
       integer :: i
 
       changed = .false.
+      if (room_for_all < least_growth) return
+      room = room_for_all
       need = 0.0_wp
       mesh_order = 1.0_wp
       do i = 1, size(budget)
@@ -147,7 +151,12 @@ contains
             need = excess
             mesh_order = rule%order
          case (source_harmonics)
-            call raise_harmonics(model, excess**(1.0_wp/rule%order), refinement, changed)
+            factor = excess**(1.0_wp/rule%order)
+            ! where there is no room for both, harmonics leave half of it to the mesh
+            if (need > 0.0_wp .and. model%error_goal%mesh_too .and. factor*least**2 > room) &
+               factor = min(factor, sqrt(room))
+            factor = min(factor, room)
+            call raise_harmonics(model, factor, refinement, changed)
          case (source_planes)
             refinement%planes = 1 + ceiling((model%n_planes - 1)*min(most_numbers, &
                excess**(1.0_wp/rule%order)))
@@ -160,21 +169,20 @@ contains
       end do
       if (refinement%harmonic > 0) &
          refinement%planes = max(refinement%planes, model%n_planes, 2*refinement%harmonic + 1)
-      room = real(model%error_goal%most_unknowns, wp)/n_unknowns
       if (refinement%harmonic > 0) room = room*(model%max_harmonic + 1)/(refinement%harmonic + 1)
       if (need > 0.0_wp .and. model%error_goal%mesh_too) &
          call refine_mesh(model, element_error, need, mesh_order, room, refinement, changed)
       changed = changed .and. room >= 1.0_wp
    end subroutine refine_further
 
-   !> Whether a job has, or may have, more unknowns than its goal allows
-   pure logical function too_large(model)
+   !> How many times the unknowns that a job has, or may have, its goal allows
+   pure real(wp) function room_for(model)
       !> The job
       type(model_type), intent(in) :: model
 
-      too_large = &
-         3.0_wp*n_nodes(model%mesh)*size(used_modes(model)) > model%error_goal%most_unknowns
-   end function too_large
+      room_for = model%error_goal%most_unknowns &
+         /(3.0_wp*n_nodes(model%mesh)*size(used_modes(model)))
+   end function room_for
 
    !> Raise M, by waves that the loads let through
    pure subroutine raise_harmonics(model, factor, refinement, changed)
