@@ -3,6 +3,7 @@ module axijoint_analysis_error_finer_mesh
    use axijoint_analysis_error_grading, only : grading_type, divide_strips
    use axijoint_base_kinds, only : wp
    use axijoint_fe_element_kind, only : formulation_plain
+   use axijoint_model_material, only : rule_centroid
    use axijoint_model_model, only : model_type
    use axijoint_model_request, only : refinement_type, goal_energy
    use axijoint_model_strips, only : n_intervals, n_cells
@@ -31,7 +32,7 @@ module axijoint_analysis_error_finer_mesh
 contains
 
    !> Refine the mesh, as far as there is room for unknowns; 4-node elements become 8-node ones
-   !> first
+   !> first, unless joints have the rule CENTROID
    subroutine refine_mesh(model, element_error, excess, order, room, refinement, changed)
       !> The job as it was solved
       type(model_type), intent(in) :: model
@@ -57,6 +58,8 @@ contains
                    (refinement%quadratic .or. any(kinds%n_nodes == 4 &
                    .and. kinds%formulation /= formulation_plain))
       end associate
+      ! joints judged at one point have four nodes
+      if (any(model%joint_materials%rule == rule_centroid)) convert = .false.
       need = max(least**order, excess)
       left = room
       if (convert) then

@@ -152,9 +152,13 @@ contains
             mesh_order = rule%order
          case (source_harmonics)
             factor = excess**(1.0_wp/rule%order)
-            ! where there is no room for both, harmonics leave half of it to the mesh
-            if (need > 0.0_wp .and. model%error_goal%mesh_too .and. factor*least**2 > room) &
-               factor = min(factor, sqrt(room))
+            ! where there is no room for both, harmonics leave half of it to the mesh, and at least
+            ! what it can use
+            if (need > 0.0_wp .and. model%error_goal%mesh_too .and. factor*least**2 > room &
+                .and. room > least**2 .and. model%max_harmonic > 0) then
+               factor = aint(model%max_harmonic*min(factor, sqrt(room), room/least**2))/model%max_harmonic
+               if (.not. factor > 1.0_wp) cycle
+            end if
             factor = min(factor, room)
             call raise_harmonics(model, factor, refinement, changed)
          case (source_planes)
