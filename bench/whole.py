@@ -49,7 +49,7 @@ class Run:
     """A job that is run some times: medians of its times, and what its summary says"""
 
     def __init__(self, program, text, rounds):
-        times, clocks, phases = [], [], []
+        times, clocks, phases, writing = [], [], [], []
         with tempfile.TemporaryDirectory() as folder:
             deck = os.path.join(folder, "job.dat")
             with open(deck, "w", encoding="utf-8") as file:
@@ -62,9 +62,13 @@ class Run:
                     raise SystemExit(f"exit code {done.returncode}: {done.stderr}")
                 with open(deck[:-4] + ".json", encoding="utf-8") as file:
                     self.summary = json.load(file)
+                with open(deck[:-4] + ".lis", encoding="utf-8") as file:
+                    listing = file.read()
+                writing.append(float(re.findall(r"^  write +\S+ +(\S+)", listing, re.MULTILINE)[-1]))
                 times.append(after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime)
                 clocks.append(self.summary["seconds"]["total"])
                 phases.append([*(self.summary["seconds"][name] for name in PHASES), sum(self.summary["error_seconds"].values())])
+        self.listing, self.writing = len(listing), min(writing)  # bytes; processor seconds until the listing ends
         self.processor, self.clock = statistics.median(times), statistics.median(clocks)
         *self.phases, self.estimates = (statistics.median(column) for column in zip(*phases))
         self.unknowns = self.summary["unknowns"]
@@ -127,7 +131,49 @@ def whole(args):
         print(f"{job:16} {run.unknowns:9} {run.clock:8.3f} {run.processor:9.3f} "
               + " ".join(f"{100*part/run.clock:7.1f}%" for part in run.phases)
               + f"  {100*run.estimates/run.clock:8.1f}%  {run.clock/max(run.needed(), 1e-9):12.2f}  {run.error:.3g} %", flush=True)
+    text(args)
+    start(args)
     return rows
+
+
+def text(args):
+    """Numbers to text: bytes of the listing over processor seconds of writing it, all tables less none"""
+    job = linear(50, 67)
+    runs = [(Run(args.axijoint, job.replace("END\n", f"PRINT\n    TABLES{rows:>10}\nEND\n"), args.rounds)) for rows in ("ALL", "NONE")]
+    bytes_more, seconds_more = (getattr(runs[0], name) - getattr(runs[1], name) for name in ("listing", "writing"))
+    print(f"tables as text: {bytes_more/1e6:.1f} MB in {seconds_more:.3f} s, {bytes_more/1e6/max(seconds_more, 1e-9):.0f} MB/s")
+
+
+def start(args):
+    """What the start costs: the smallest deck beside the program that does nothing, one that only loads its libraries, and an empty
+    one; least and median milliseconds of a processor"""
+    with tempfile.TemporaryDirectory() as folder:
+        source, empty, loads = (os.path.join(folder, name) for name in ("empty.c", "empty", "loads"))
+        with open(source, "w", encoding="utf-8") as file:
+            file.write("int main(void) { return 0; }\n")
+        needed = re.findall(r"NEEDED.*\[(.*)\]", subprocess.run(["readelf", "-d", args.axijoint], check=True, capture_output=True,
+                                                               text=True).stdout)
+        paths = dict(re.findall(r"(\S+) => (\S+)", subprocess.run(["ldd", args.axijoint], check=True, capture_output=True,
+                                                                  text=True).stdout))
+        subprocess.run(["gcc", source, "-o", empty], check=True)
+        subprocess.run(["gcc", source, "-o", loads, "-Wl,--no-as-needed", *(paths[name] for name in needed if name in paths)], check=True)
+        print(f"start: {len(paths)} libraries; milliseconds of a processor, least and median of {6*args.rounds}")
+        deck = os.path.join(HERE, "..", "inputs", "first.dat")
+        commands = (("an empty program", [empty]), ("that loads the libraries", [loads]),
+                    ("axijoint --version", [args.axijoint, "--version"]),
+                    ("run inputs/first.dat", [args.axijoint, "run", deck, "-o", folder, "--quiet"]))
+        times = [[] for _ in commands]
+        for _ in range(6*args.rounds):
+            for (_, words), found in zip(commands, times):
+                before = resource.getrusage(resource.RUSAGE_CHILDREN)
+                subprocess.run(words, check=True, stdout=subprocess.DEVNULL)
+                after = resource.getrusage(resource.RUSAGE_CHILDREN)
+                found.append(1e3*(after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime))
+        for (what, _), found in zip(commands, times):
+            print(f"  {what:26} {min(found):6.1f} {statistics.median(found):6.1f}")
+        with open(os.path.join(folder, "first.json"), encoding="utf-8") as file:
+            phases = json.load(file)["seconds"]
+        print("  its phases by the clock:    " + ", ".join(f"{name} {1e3*phases[name]:.1f}" for name in PHASES))
 
 
 def history(args):

@@ -22,12 +22,6 @@ module axijoint_command_program
    !> Freed memory that is kept by a run that is given no limit, and by the rows of a study [MiB]
    integer, parameter :: kept_by_run = 16, kept_by_rows = 1024
 
-   interface
-      !> Links environment_shim.c, which does its work before the program begins
-      subroutine c_link_environment() bind(c, name='axijoint_link_environment')
-      end subroutine c_link_environment
-   end interface
-
 contains
 
    !> Do what the command line says, and see that what it says is read
@@ -41,7 +35,6 @@ contains
 
       type(error_type), allocatable :: error
 
-      call c_link_environment()
       call heed_faults()
       call return_freed_memory()
       call run_command(solvers, exit_code, team)

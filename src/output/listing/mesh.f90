@@ -8,20 +8,16 @@ module axijoint_output_listing_mesh
    use axijoint_model_model, only : model_type
    use axijoint_model_request, only : print_nodes, print_elements, print_joints
    use axijoint_model_restraint, only : restraint_type, any_family
-   use axijoint_output_file_columns, only : columns
    use axijoint_output_file_headings, only : write_heading, width
+   use axijoint_output_file_row, only : row_type
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_listing_choice, only : chosen_places, none_asked, write_left
    implicit none
    private
    public :: write_nodes, write_restraints, write_elements, write_joints
 
-   !> Number of an entry
-   character(len=*), parameter :: format_label = '(i10)'
-   !> Restraints of a node
-   character(len=*), parameter :: format_restraint = '(3x, 3i1)'
-   !> Element: number, material, body, nodes
-   character(len=*), parameter :: format_element = '(3i10, 4x, 9i10)'
+   !> Columns of a number
+   integer, parameter :: label = 10
    !> Joint: number, law, nodes
    character(len=*), parameter :: format_joint = '(2i10, 4x, 6i10)'
    !> Columns of a coordinate
@@ -38,8 +34,7 @@ contains
       !> Results
       type(results_type), intent(in) :: results
 
-      character(len=10) :: label
-      character(len=6) :: code
+      type(row_type) :: row
       logical :: listed(n_nodes(model%mesh))
       integer :: i
 
@@ -51,10 +46,14 @@ contains
       end if
       do i = 1, n_nodes(model%mesh)
          if (.not. listed(i)) cycle
-         write (label, format_label) model%mesh%node_label(i)
-         code = ""
-         if (any(model%fixed(:, i))) write (code, format_restraint) merge(1, 0, model%fixed(:, i))
-         call file%put(label//columns(model%mesh%coordinates(:, i), narrow)//code)
+         call row%begin()
+         call row%integers([model%mesh%node_label(i)], label)
+         call row%reals(model%mesh%coordinates(:, i), narrow)
+         if (any(model%fixed(:, i))) then
+            call row%words("   ")
+            call row%integers(merge(1, 0, model%fixed(:, i)), 1)
+         end if
+         call row%put(file)
       end do
       call write_left(file, "NODES", count(listed), size(listed))
    end subroutine write_nodes
@@ -118,7 +117,7 @@ contains
       !> Results
       type(results_type), intent(in) :: results
 
-      character(len=width) :: line
+      type(row_type) :: row
       logical :: listed(n_elements(model%mesh))
       integer :: i
 
@@ -131,10 +130,12 @@ contains
       associate (mesh => model%mesh)
          do i = 1, n_elements(mesh)
             if (.not. listed(i)) cycle
-            write (line, format_element) mesh%element_label(i), &
-               model%materials(mesh%element_material(i))%label, mesh%element_body(i), &
-               mesh%node_label(mesh%element_nodes(:mesh%element_size(i), i))
-            call file%put(line)
+            call row%begin()
+            call row%integers([mesh%element_label(i), &
+               model%materials(mesh%element_material(i))%label, mesh%element_body(i)], label)
+            call row%words("    ")
+            call row%integers(mesh%node_label(mesh%element_nodes(:mesh%element_size(i), i)), label)
+            call row%put(file)
          end do
       end associate
       call write_left(file, "ELEMENTS", count(listed), size(listed))

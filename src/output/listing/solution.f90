@@ -12,6 +12,7 @@ module axijoint_output_listing_solution
    use axijoint_model_request, only : print_amplitude, print_totals, print_reactions, print_path
    use axijoint_output_file_columns, only : columns
    use axijoint_output_file_headings, only : write_heading, write_result_heading, mark_not_converged
+   use axijoint_output_file_row, only : row_type
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_file_totals, only : circle_type, new_circle, total_displacement, n_unknowns
    use axijoint_output_listing_choice, only : chosen_places, chosen_lines, none_asked, write_left
@@ -21,8 +22,8 @@ module axijoint_output_listing_solution
    public :: write_equations, write_convergence, write_displacements, write_total_displacements
    public :: write_reactions, write_equilibrium, write_times, convergence_text
 
-   !> Number of an entry
-   character(len=*), parameter :: format_label = '(i10)'
+   !> Columns of the number of an entry
+   integer, parameter :: label = 10
    !> Harmonic and family, number of equations, entries of the factor
    character(len=*), parameter :: format_equations = '(i10, 1x, a1, i14, i16)'
    !> Increment and iteration
@@ -362,11 +363,13 @@ contains
       !> Along r, z, theta
       real(wp), intent(in) :: components(3)
 
-      character(len=10) :: label
+      type(row_type) :: row
 
-      write (label, format_label) model%mesh%node_label(node)
-      call file%put(label//columns(model%mesh%coordinates(:, node), narrow)// &
-         columns(components, wide))
+      call row%begin()
+      call row%integers([model%mesh%node_label(node)], label)
+      call row%reals(model%mesh%coordinates(:, node), narrow)
+      call row%reals(components, wide)
+      call row%put(file)
    end subroutine write_node
 
    !> Resultants worth showing: those along theta = 90 only if a load or a

@@ -7,7 +7,7 @@ module axijoint_output_listing_stress
    use axijoint_model_interface, only : interface_name
    use axijoint_model_model, only : model_type
    use axijoint_model_request, only : print_stresses, print_nodal, print_states
-   use axijoint_output_file_columns, only : columns
+   use axijoint_output_file_row, only : row_type
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_file_totals, only : circle_type, new_circle, total_stress
    use axijoint_output_listing_choice, only : chosen_places, none_asked
@@ -16,10 +16,8 @@ module axijoint_output_listing_stress
    private
    public :: write_stresses, write_nodal_stresses, write_joint_results
 
-   !> Element or joint, and its point
-   character(len=*), parameter :: format_point = '(i10, i3)'
-   !> Node and material
-   character(len=*), parameter :: format_node = '(i10, i6)'
+   !> Columns of the number of an entry, of a point in it, and of a material
+   integer, parameter :: label = 10, point_label = 3, material_label = 6
    !> Angle in degrees
    character(len=*), parameter :: format_angle = '(f8.3)'
    !> Columns of coordinates, joint results, solid stresses
@@ -47,7 +45,7 @@ contains
 
       type(circle_type) :: circle
       type(extremes_type) :: extremes
-      character(len=13) :: label
+      type(row_type) :: row
       logical :: listed(size(results%point_element))
       real(wp) :: stress(6)
       integer :: i, point, local, element
@@ -66,9 +64,12 @@ contains
             stress = total_stress(results%stress(:, point, :), circle)
             call extremes%note(element, results%point_position(:, point), stress)
             if (.not. listed(point)) cycle
-            write (label, format_point) element, local
-            call file%put(label//columns(results%point_position(:, point), narrow)// &
-               columns(stress, wide))
+            call row%begin()
+            call row%integers([element], label)
+            call row%integers([local], point_label)
+            call row%reals(results%point_position(:, point), narrow)
+            call row%reals(stress, wide)
+            call row%put(file)
          end do
          call extremes%write(file, count(listed), "element")
       end do
@@ -86,7 +87,7 @@ contains
 
       type(circle_type) :: circle
       type(extremes_type) :: extremes
-      character(len=16) :: label
+      type(row_type) :: row
       logical :: listed(size(results%nodal%node))
       real(wp) :: stress(6)
       integer :: i, k
@@ -104,10 +105,12 @@ contains
                call extremes%note(model%mesh%node_label(node), &
                   model%mesh%coordinates(:, node), stress)
                if (.not. listed(k)) cycle
-               write (label, format_node) model%mesh%node_label(node), &
-                  model%materials(results%nodal%material(k))%label
-               call file%put(label//columns(model%mesh%coordinates(:, node), narrow)// &
-                  columns(stress, wide))
+               call row%begin()
+               call row%integers([model%mesh%node_label(node)], label)
+               call row%integers([model%materials(results%nodal%material(k))%label], material_label)
+               call row%reals(model%mesh%coordinates(:, node), narrow)
+               call row%reals(stress, wide)
+               call row%put(file)
             end associate
          end do
          call extremes%write(file, count(listed), "node")
@@ -124,11 +127,11 @@ contains
       type(results_type), intent(in) :: results
 
       type(extremes_type) :: extremes
-      character(len=8) :: angle
-      character(len=13) :: label
+      type(row_type) :: row
+      character(len=8) :: angles(size(results%plane_angles))
       logical :: listed(size(results%joint_point_joint))
       real(wp) :: values(6)
-      integer :: point, plane, local, joint, last
+      integer :: point, plane, local, joint, last, place
 
       if (size(listed) == 0 .or. none_asked(model, print_states)) return
       listed = chosen_places(model, results, print_states, size(results%plane_angles))
@@ -136,6 +139,7 @@ contains
          "     joint pt           r           z   theta       tau_xi        sigma"// &
          "    tau_theta         d_xi        d_eta      d_theta state", &
          results%converged, listed, joint_names, extremes, on_planes=.true.)
+      write (angles, format_angle) results%plane_angles/degree
       local = 0
       last = 0
       do point = 1, size(listed)
@@ -143,15 +147,21 @@ contains
          joint = model%mesh%joint_label(results%joint_point_joint(point))
          if (listed(point)) call write_new_interface(file, model, results%joint_point_joint, &
             point, last)
-         write (label, format_point) joint, local
+         call row%begin()
+         call row%integers([joint], label)
+         call row%integers([local], point_label)
+         call row%reals(results%joint_point_position(:, point), narrow)
+         place = row%length()
          do plane = 1, size(results%plane_angles)
             values = [results%joint_stress(:, point, plane), results%joint_jump(:, point, plane)]
             call extremes%note(joint, results%joint_point_position(:, point), values, &
                results%plane_angles(plane))
             if (.not. listed(point)) cycle
-            write (angle, format_angle) results%plane_angles(plane)/degree
-            call file%put(label//columns(results%joint_point_position(:, point), narrow)//angle// &
-               columns(values, middle)//" "//state_name(results%joint_state(point, plane)))
+            call row%cut(place)
+            call row%words(angles(plane))
+            call row%reals(values, middle)
+            call row%words(" "//state_name(results%joint_state(point, plane)))
+            call row%put(file)
          end do
          if (listed(point)) last = point
       end do

@@ -1,0 +1,62 @@
+/* The environment of the numerical libraries: threads that wait leave their processor to others,
+   threads are for harmonics and not for the matrices inside one, and OpenBLAS 0.3.21 takes newer
+   AMD processors for Haswell, whose kernels leave their AVX-512 units idle. The libraries ask for
+   these variables when they are loaded, before any code of the program; but what stands in the
+   program itself goes before the same names in the system's library, for all libraries that are
+   loaded. So they ask here, and are told what is right where the user has set nothing. This file is a part
+   of programs only, never of the library. scripts/environment sets the same for programs that are not
+   this one. */
+#define _GNU_SOURCE
+#include <fcntl.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Elsewhere the libraries are left to themselves, and where sanitizers are, which begin before all else */
+#if defined(__linux__) && defined(__GLIBC__) && (defined(__PIE__) || !defined(__PIC__)) && \
+   !defined(__SANITIZE_ADDRESS__)
+
+/* Value of a variable as it is set; NULL if it is not */
+static char *value_set(const char *name)
+{
+   const size_t length = strlen(name);
+   for (char **entry = environ; entry && *entry; ++entry)
+      if (strncmp(*entry, name, length) == 0 && (*entry)[length] == '=') return *entry + length + 1;
+   return NULL;
+}
+
+static int has_avx512(void)
+{
+#ifdef __x86_64__
+   __builtin_cpu_init();
+   return __builtin_cpu_supports("avx512f");
+#else
+   return 0;
+#endif
+}
+
+/* In place of the system's function: what is set, if empty, stays */
+char *getenv(const char *name)
+{
+   static char passive[] = "PASSIVE", one[] = "1", skylake[] = "SKYLAKEX";
+   char *value = value_set(name);
+   if (value) return value;
+   if (strcmp(name, "OMP_WAIT_POLICY") == 0) return passive;
+   if (strcmp(name, "OPENBLAS_NUM_THREADS") == 0) return one;
+   if (strcmp(name, "OPENBLAS_CORETYPE") == 0 && has_avx512()) return skylake;
+   return NULL;
+}
+
+/* A standard input or output that is closed is no number for the first file that is opened: the words for the screen
+   would get into it. What is read from or written to this one is an error. */
+static void occupy_standard_files(int argc, char **argv, char **environment)
+{
+   (void)argc, (void)argv, (void)environment;
+   for (int file = 0; file <= 2; ++file)
+      if (fcntl(file, F_GETFD) == -1) open("/dev/null", file == 0 ? O_WRONLY : O_RDONLY);
+}
+
+/* .preinit_array runs before the constructors of all libraries */
+__attribute__((section(".preinit_array"), used))
+static void (*const at_start)(int, char **, char **) = occupy_standard_files;
+
+#endif
