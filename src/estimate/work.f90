@@ -19,8 +19,8 @@ module axijoint_estimate_work
 
    !> Solutions of a mode: displacements with one refinement, condition of the matrix; with joints
    !> that yield those of the corrections and of what estimates of errors change, or without these
-   real(wp), parameter :: linear_solutions = 6.0_wp, yielding_solutions = 14.0_wp, &
-      unjudged_solutions = 5.0_wp
+   real(wp), parameter :: linear_solutions = 4.0_wp, yielding_solutions = 12.0_wp, &
+      unjudged_solutions = 3.0_wp
    !> Steps down on the fine level, each with a solution on the mesh
    real(wp), parameter :: steps_down = 3.0_wp
    !> Loads, displacements, reactions, smoothed stresses of the nodes: of the end with estimates of
