@@ -80,7 +80,11 @@ contains
 
       type(sections_type) :: sections
 
-      call open_deck(path, source, sections, diagnostics, bytes)
+      if (present(refinement)) then
+         call open_deck(path, source, sections, diagnostics, bytes, refinement%mesh_file)
+      else
+         call open_deck(path, source, sections, diagnostics, bytes)
+      end if
       if (source%n_cards == 0) return
       if (.not. sections%complete) return
       if (present(refinement)) call refine_sections(refinement, sections)
@@ -88,7 +92,7 @@ contains
    end subroutine read_deck
 
    !> Read the cards of a deck with all that it includes, and nothing more
-   subroutine open_deck(path, source, sections, diagnostics, bytes)
+   subroutine open_deck(path, source, sections, diagnostics, bytes, mesh)
       !> The deck
       character(len=*), intent(in) :: path
       !> Its cards, for the echo and the messages
@@ -99,11 +103,26 @@ contains
       type(diagnostics_type), intent(inout) :: diagnostics
       !> What the deck says, if it is not to be read from its file
       character(len=*), intent(in), optional :: bytes
+      !> File of the mesh, in place of that of the GMSH card; none if not allocated
+      character(len=:), allocatable, intent(in), optional :: mesh
 
       sections%complete = .false.
-      call read_source(path, without_readers(all_sections()), source, diagnostics, bytes)
+      if (is_another(mesh)) then
+         call read_source(path, without_readers(all_sections()), source, diagnostics, bytes, mesh)
+      else
+         call read_source(path, without_readers(all_sections()), source, diagnostics, bytes)
+      end if
       if (source%n_cards > 0) call read_sections(source, sections, diagnostics)
    end subroutine open_deck
+
+   !> Whether a file is named
+   pure logical function is_another(file)
+      !> Its path
+      character(len=:), allocatable, intent(in), optional :: file
+
+      is_another = .false.
+      if (present(file)) is_another = allocated(file)
+   end function is_another
 
    !> From the entries of the sections to a model, valid only if there are no errors among the
    !> messages

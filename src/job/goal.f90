@@ -13,6 +13,7 @@ module axijoint_job_goal
    use axijoint_job_combination, only : solve_combination
    use axijoint_job_job, only : job_type
    use axijoint_job_read, only : read_job
+   use axijoint_job_remesh, only : remake_mesh, check_mesh_file
    use axijoint_job_round_record, only : round_bytes, restore_round
    use axijoint_model_request, only : refinement_type
    implicit none
@@ -31,37 +32,46 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(round_type), allocatable :: rounds(:)
+      type(refinement_type) :: refinement
+      character(len=:), allocatable :: note
       integer :: k
 
-      call run_rounds(job, results, rounds, error)
+      call run_rounds(job, results, rounds, refinement, note, error)
       if (allocated(error)) return
       do k = 1, size(results)
          results(k)%rounds = rounds
-         call remark_on_goal(job%model, results(k))
+         call remark_on_goal(job%model, refinement, note, results(k))
       end do
    end subroutine refine_to_goal
 
    !> Solve all combinations, and again with a refined job, until the largest error is below
    !> the target or a limit is met
-   subroutine run_rounds(job, results, rounds, error)
+   subroutine run_rounds(job, results, rounds, refinement, note, error)
       !> The job; refined on return
       type(job_type), intent(inout), target :: job
       !> Results of its combinations
       type(results_type), allocatable, intent(out) :: results(:)
       !> What each round came to
       type(round_type), allocatable, intent(out) :: rounds(:)
+      !> How the job was refined in the round that the results are of
+      type(refinement_type), intent(out) :: refinement
+      !> Why its mesh is not made anew; empty if there is nothing to say
+      character(len=:), allocatable, intent(out) :: note
       !> Errors of the refined job
       type(error_type), allocatable, intent(out) :: error
 
-      type(refinement_type) :: refinement, before
+      type(refinement_type) :: before
       type(structure_type), allocatable :: solved
       integer :: worst
       logical :: changed, back
 
       allocate (rounds(0))
+      note = ''
       back = .false.
       if (allocated(job%checkpoint%round)) &
          call restore_round(job%checkpoint%round, rounds, refinement, before, back)
+      call check_mesh_file(refinement, error)
+      if (allocated(error)) return
       if (size(rounds) > 0) call read_refined(job, refinement, error)
       if (allocated(error)) return
       do
@@ -91,9 +101,10 @@ contains
          if (back) then
             call read_refined(job, refinement, error)
          else
-            call refine_job(job, results(worst)%budget, element_errors(results), refinement, &
-               changed, error)
+            call refine_job(job, results(worst)%budget, element_errors(results), size(rounds) + 1, &
+               refinement, changed, note, error)
             if (.not. (allocated(error) .or. changed)) then
+               refinement = before
                call move_alloc(solved, job%structure)  ! the results are of this round
                return
             end if
@@ -105,17 +116,21 @@ contains
 
    !> Refine the job, as far as unknowns are allowed. Harmonics and intervals come in whole numbers:
    !> what has more unknowns than there was room for is refined again with less
-   subroutine refine_job(job, budget, element_error, refinement, changed, error)
+   subroutine refine_job(job, budget, element_error, round, refinement, changed, note, error)
       !> The job as it was solved; refined on return
       type(job_type), intent(inout) :: job
       !> What its approximations leave
       type(error_share_type), intent(in) :: budget(:)
       !> Energy of the error of each element; empty if not known
       real(wp), intent(in) :: element_error(:)
+      !> Number of the next round
+      integer, intent(in) :: round
       !> How it is refined
       type(refinement_type), intent(inout) :: refinement
       !> Whether it was refined
       logical, intent(out) :: changed
+      !> Why its mesh is not made anew; empty if there is nothing to say
+      character(len=:), allocatable, intent(out) :: note
       !> Errors of the refined job
       type(error_type), allocatable, intent(out) :: error
 
@@ -123,13 +138,31 @@ contains
       type(refinement_type) :: before
       real(wp) :: room
       integer :: attempt
+      logical :: made
 
+      note = ''
       before = refinement
       room = room_for(job%model)
       do attempt = 1, most_attempts
          call refine_further(job%model, budget, element_error, room, refinement, changed)
+         if (allocated(refinement%sizes)) then
+            call remake_mesh(job, round, refinement, made, note, error)
+            if (allocated(error)) return
+            deallocate (refinement%sizes)
+            if (.not. made) refinement%mesh = before%mesh
+            changed = changed .or. made
+         end if
          if (.not. changed) return
          call read_refined(job, refinement, error)
+         if (allocated(error) .and. allocated(refinement%mesh_file)) then
+            if (error%code /= exit_deck) return
+            note = 'the deck does not fit '//refinement%mesh_file//', which Gmsh made'
+            deallocate (error)
+            refinement = before
+            call read_refined(job, refinement, error)
+            changed = .false.
+            return
+         end if
          if (allocated(error)) return
          if (room_for(job%model) >= 1.0_wp) return
          room = room*room_for(job%model)
@@ -176,8 +209,9 @@ contains
       type(diagnostics_type) :: diagnostics
 
       call read_job(job%deck, job, diagnostics, refinement)
-      if (diagnostics%n_errors > 0 .and. (allocated(refinement%strips) .or. &
-         abs(refinement%mesh - anint(refinement%mesh)) > 0.0_wp)) then
+      if (diagnostics%n_errors > 0 .and. .not. allocated(refinement%mesh_file) .and. &
+          (allocated(refinement%strips) .or. &
+           abs(refinement%mesh - anint(refinement%mesh)) > 0.0_wp)) then
          ! an edge that faces two others keeps facing them if all are divided by the same integer
          if (allocated(refinement%strips)) deallocate (refinement%strips)
          refinement%mesh = ceiling(refinement%mesh)

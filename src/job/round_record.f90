@@ -98,6 +98,11 @@ contains
       call writer%put(refinement%harmonic)
       call writer%put(refinement%planes)
       call writer%put(refinement%tolerance)
+      call writer%put(allocated(refinement%mesh_file))
+      if (allocated(refinement%mesh_file)) then
+         call writer%put(refinement%mesh_file)
+         call writer%put(refinement%mesh_hash)
+      end if
       call writer%put(allocated(refinement%strips))
       if (.not. allocated(refinement%strips)) return
       call writer%put(size(refinement%strips))
@@ -116,7 +121,7 @@ contains
       type(refinement_type), intent(out) :: refinement
 
       real(wp), allocatable :: line(:, :)
-      logical :: graded
+      logical :: graded, remade
       integer :: k, n
 
       call reader%get(refinement%mesh)
@@ -125,6 +130,11 @@ contains
       call reader%get(refinement%harmonic)
       call reader%get(refinement%planes)
       call reader%get(refinement%tolerance)
+      call reader%get(remade)
+      if (remade) then
+         call reader%get(refinement%mesh_file)
+         call reader%get(refinement%mesh_hash)
+      end if
       call reader%get(graded)
       if (.not. graded) return
       call reader%get(n)

@@ -159,6 +159,10 @@ module axijoint_model_request
       !> Whether the mesh can be refined, too; how, one of the `division_` parameters
       logical :: mesh_too = .false.
       integer :: division = division_graded
+      !> Whether all of the mesh is of a mesh file, so that a mesh with other sizes of elements would
+      !> be the same job; the file of its geometry for Gmsh, empty if the deck names none
+      logical :: remesh = .false.
+      character(len=:), allocatable :: geometry
    end type error_goal_type
 
    !> How a job is refined beyond what its deck says
@@ -169,6 +173,11 @@ module axijoint_model_request
       type(strip_type), allocatable :: strips(:)
       !> Whether BLOCKS of 4-node elements are made of 8-node elements
       logical :: quadratic = .false.
+      !> Size of elements wanted at each node of the mesh that was solved; not allocated if the mesh
+      !> is not to be made anew
+      real(wp), allocatable :: sizes(:)
+      !> File of the mesh and its hash; not allocated for that of the deck
+      character(len=:), allocatable :: mesh_file, mesh_hash
       !> Whether joints are brought to equilibrium by Newton's method, whatever CONTROL says
       logical :: newton = .false.
       !> M and the planes of CONTROL; zero for those of the deck

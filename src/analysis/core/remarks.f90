@@ -12,7 +12,7 @@ module axijoint_analysis_core_remarks
    use axijoint_joints_history, only : history_type
    use axijoint_joints_path, only : iteration_type
    use axijoint_model_model, only : model_type, bodies_yield
-   use axijoint_model_request, only : goal_names
+   use axijoint_model_request, only : goal_names, refinement_type
    implicit none
    private
    public :: remarks_on, remark_on_goal, mechanism_text
@@ -260,14 +260,20 @@ contains
    end subroutine remark_on_accuracy
 
    !> Whether the rounds of refinement met the target, and if not, why
-   subroutine remark_on_goal(model, results)
+   subroutine remark_on_goal(model, refinement, note, results)
       !> The job
       type(model_type), intent(in) :: model
+      !> How it was refined in the end
+      type(refinement_type), intent(in) :: refinement
+      !> Why its mesh was not made anew; empty if there is nothing to say
+      character(len=*), intent(in) :: note
       !> The results, with their rounds
       type(results_type), intent(inout) :: results
 
       character(len=:), allocatable :: why
 
+      if (allocated(refinement%mesh_file)) call add(results%remarks, 'the mesh is '// &
+         refinement%mesh_file//', which Gmsh made of '//model%error_goal%geometry)
       if (.not. results%converged) return
       associate (last => results%rounds(size(results%rounds)), goal => model%error_goal)
          if (last%error >= 0.0_wp .and. last%error <= goal%target) return
@@ -281,10 +287,12 @@ contains
                why = why//', as some load is concentrated in points'
          else if (size(results%rounds) >= goal%most_rounds) then
             why = 'so many rounds are allowed'
-         else if (goal%mesh_too) then
+         else if (len(note) > 0) then
+            why = note
+         else if (goal%mesh_too .or. goal%remesh) then
             why = 'more unknowns are not allowed'
          else
-            why = 'its mesh is not of BLOCKS alone, or cards call nodes by number'
+            why = 'its mesh is neither of BLOCKS nor of a mesh file alone, or cards call nodes by number'
          end if
          call add(results%remarks, 'the error target of '//to_text(100.0_wp*goal%target)// &
             ' % was not met in '// &

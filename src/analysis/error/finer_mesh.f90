@@ -1,20 +1,24 @@
 !> The next mesh of a job that leaves too much error: more elements, where the error is
 module axijoint_analysis_error_finer_mesh
    use axijoint_analysis_error_grading, only : grading_type, divide_strips
+   use axijoint_analysis_error_size_field, only : wanted_sizes
    use axijoint_base_kinds, only : wp
    use axijoint_fe_element_kind, only : formulation_plain
    use axijoint_model_material, only : rule_centroid
+   use axijoint_model_mesh, only : n_nodes
    use axijoint_model_model, only : model_type
    use axijoint_model_request, only : refinement_type, goal_energy
    use axijoint_model_strips, only : n_intervals, n_cells
    implicit none
    private
-   public :: refine_mesh
+   public :: refine_mesh, size_mesh
 
    !> Least and most that the elements along a side are multiplied by in a round, where blocks are
    !> graded on the average; most pieces of an interval then
    real(wp), parameter, public :: least = 1.3_wp
    real(wp), parameter :: most = 2.5_wp, most_pieces = 8.0_wp
+   !> Most that the size of an element is divided by where the mesh is made anew
+   real(wp), parameter :: most_sizes = 8.0_wp
    !> What 8-node elements in the place of 4-node ones divide the error of displacements by, about,
    !> and how many times the unknowns they have
    real(wp), parameter :: quadratic_gain = 4.0_wp, quadratic_growth = 3.0_wp
@@ -79,6 +83,60 @@ contains
       changed = .true.
    end subroutine refine_mesh
 
+   !> Find the sizes of elements that a mesh made anew should have
+   subroutine size_mesh(model, element_error, excess, order, room, refinement)
+      !> The job as it was solved
+      type(model_type), intent(in) :: model
+      !> Energy of the error of each element; empty if not known
+      real(wp), intent(in) :: element_error(:)
+      !> The error over what is left to the mesh
+      real(wp), intent(in) :: excess
+      !> Order that it falls with in uniform meshes with corners
+      real(wp), intent(in) :: order
+      !> The unknowns may become so many times as many
+      real(wp), intent(in) :: room
+      !> How it was refined; takes the sizes
+      type(refinement_type), intent(inout) :: refinement
+
+      type(grading_type) :: wish
+      real(wp) :: finer
+      integer :: corners(size(element_error))
+
+      if (size(element_error) == 0 .or. room < least**2) return
+      wish = general_wish(model, max(least**order, excess), order)
+      wish%fewest = coarsest
+      wish%most = most_sizes
+      wish%most_cells = ample*size(element_error)*min(most**2, room)
+      associate (mesh => model%mesh)
+         corners = merge(3, 4, mesh%element_size == 3 .or. mesh%element_size == 6)
+         allocate (refinement%sizes(n_nodes(mesh)))
+         call wanted_sizes(mesh%coordinates, mesh%element_nodes, corners, element_error, wish, &
+                           refinement%sizes, finer)
+      end associate
+      refinement%mesh = refinement%mesh*finer
+   end subroutine size_mesh
+
+   !> What is wished for of blocks and of meshes made anew
+   pure type(grading_type) function general_wish(model, need, order) result(wish)
+      !> The job as it was solved
+      type(model_type), intent(in) :: model
+      !> The error is to fall to one over this
+      real(wp), intent(in) :: need
+      !> Order that it falls with in uniform meshes with corners
+      real(wp), intent(in) :: order
+
+      real(wp) :: power
+
+      ! parts of the energy of the error are added up; the others follow it, the norm its root
+      power = merge(2.0_wp, 1.0_wp, model%error_goal%quantity == goal_energy)
+      wish%remains = need**(-power)
+      wish%order = power*order_gain*order
+      wish%degree = merge(1, 2, all(model%mesh%kinds%n_nodes <= 4))
+      associate (x => model%mesh%coordinates)
+         wish%shortest = shortest*maxval(maxval(x, 2) - minval(x, 2))
+      end associate
+   end function general_wish
+
    !> Divide the strips of the blocks anew
    subroutine grade_blocks(model, element_error, need, order, left, refinement, finer)
       !> The job as it was solved
@@ -97,19 +155,12 @@ contains
       real(wp), intent(out) :: finer
 
       type(grading_type) :: wish
-      real(wp) :: cells, power
+      real(wp) :: cells
 
-      ! parts of the energy of the error are added up; the others follow it, the norm its root
-      power = merge(2.0_wp, 1.0_wp, model%error_goal%quantity == goal_energy)
-      wish%remains = need**(-power)
-      wish%order = power*order_gain*order
-      wish%degree = merge(1, 2, all(model%mesh%kinds%n_nodes <= 4))
+      wish = general_wish(model, need, order)
       ! what was graded stays as fine: an error that has become small there is no reason to undo it
       wish%fewest = merge(1.0_wp, coarsest, allocated(refinement%strips))
       wish%most = most_pieces
-      associate (x => model%mesh%coordinates)
-         wish%shortest = shortest*maxval(maxval(x, 2) - minval(x, 2))
-      end associate
       cells = n_cells(model%grid, n_intervals(model%grid%strips))
       wish%most_cells = max(cells, ample*cells*left**2)
       call divide_strips(model%grid, element_error, wish, refinement%strips)

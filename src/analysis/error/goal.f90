@@ -3,7 +3,7 @@ module axijoint_analysis_error_goal
    use axijoint_analysis_core_results, only : error_share_type, results_type, &
       source_discretization, source_harmonics, &
       source_planes, source_iteration
-   use axijoint_analysis_error_finer_mesh, only : refine_mesh, least
+   use axijoint_analysis_error_finer_mesh, only : refine_mesh, size_mesh, least
    use axijoint_base_kinds, only : wp
    use axijoint_model_mesh, only : n_nodes
    use axijoint_model_model, only : model_type
@@ -126,9 +126,10 @@ contains
       real(wp), intent(in) :: element_error(:)
       !> The unknowns may become so many times as many
       real(wp), intent(in) :: room_for_all
-      !> How it was refined; further on return
+      !> How it was refined; further on return, with sizes of elements where the mesh is to be made
+      !> anew
       type(refinement_type), intent(inout) :: refinement
-      !> Whether anything could be raised
+      !> Whether anything else could be raised
       logical, intent(out) :: changed
 
       type(rule_type) :: rule
@@ -154,8 +155,8 @@ contains
             factor = excess**(1.0_wp/rule%order)
             ! where there is no room for both, harmonics leave half of it to the mesh, and at least
             ! what it can use
-            if (need > 0.0_wp .and. model%error_goal%mesh_too .and. factor*least**2 > room &
-                .and. room > least**2 .and. model%max_harmonic > 0) then
+            if (need > 0.0_wp .and. (model%error_goal%mesh_too .or. model%error_goal%remesh) &
+                .and. factor*least**2 > room .and. room > least**2 .and. model%max_harmonic > 0) then
                factor = aint(model%max_harmonic*min(factor, sqrt(room), room/least**2))/model%max_harmonic
                if (.not. factor > 1.0_wp) cycle
             end if
@@ -176,6 +177,8 @@ contains
       if (refinement%harmonic > 0) room = room*(model%max_harmonic + 1)/(refinement%harmonic + 1)
       if (need > 0.0_wp .and. model%error_goal%mesh_too) &
          call refine_mesh(model, element_error, need, mesh_order, room, refinement, changed)
+      if (need > 0.0_wp .and. model%error_goal%remesh) &
+         call size_mesh(model, element_error, need, mesh_order, room, refinement)
       changed = changed .and. room >= 1.0_wp
    end subroutine refine_further
 

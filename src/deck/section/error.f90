@@ -59,6 +59,9 @@ contains
       type(card_type) :: card
 
       deck%model%error_goal%mesh_too = can_refine_mesh(deck%sections)
+      deck%model%error_goal%remesh = can_remake_mesh(deck%sections)
+      deck%model%error_goal%geometry = ''
+      if (allocated(deck%source%geometry)) deck%model%error_goal%geometry = deck%source%geometry
       card = cards_of(deck, keyword_error)
       if (card%table%n == 0) return
       if (card%table%n > 1) then
@@ -122,16 +125,39 @@ contains
       type(sections_type), intent(in), target :: sections
 
       type(table_type), pointer :: blocks, groups
-      integer :: k
 
       blocks => table_of(sections, keyword_blocks)
       groups => table_of(sections, keyword_groups)
-      can_refine_mesh = blocks%n > 0 .and. groups%n == 0
+      can_refine_mesh = .not. names_nodes(sections)
+      can_refine_mesh = can_refine_mesh .and. blocks%n > 0 .and. groups%n == 0
+   end function can_refine_mesh
+
+   !> Whether another mesh of the same groups makes the same job: the mesh is of a mesh file alone
+   logical function can_remake_mesh(sections)
+      !> The deck
+      type(sections_type), intent(in), target :: sections
+
+      type(table_type), pointer :: blocks, groups
+
+      blocks => table_of(sections, keyword_blocks)
+      groups => table_of(sections, keyword_groups)
+      can_remake_mesh = .not. names_nodes(sections)
+      can_remake_mesh = can_remake_mesh .and. blocks%n == 0 .and. groups%n > 0
+   end function can_remake_mesh
+
+   !> Whether some card calls nodes by their numbers
+   logical function names_nodes(sections)
+      !> The deck
+      type(sections_type), intent(in), target :: sections
+
+      integer :: k
+
+      names_nodes = .false.
       do k = 1, size(sections%tables)
          associate (table => sections%tables(k))
-            if (table%n > 0 .and. any(table%fields%refers_to == 'node')) can_refine_mesh = .false.
+            if (table%n > 0) names_nodes = names_nodes .or. any(table%fields%refers_to == 'node')
          end associate
       end do
-   end function can_refine_mesh
+   end function names_nodes
 
 end module axijoint_deck_section_error

@@ -15,8 +15,8 @@ contains
       type(read_section_type) :: section
 
       section%name = 'GMSH'
-      section%purpose = 'path of a mesh file of Gmsh, from column 11 on; GROUPS says what its '// &
-         'groups mean'
+      section%purpose = 'path of a mesh file of Gmsh or its .geo file, from column 11 on; '// &
+         'GROUPS says what groups mean'
       section%form = form_file
       section%once = .true.
       section%stage = stage_properties

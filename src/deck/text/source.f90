@@ -58,6 +58,9 @@ module axijoint_deck_text_source
       logical :: complete = .true.
       !> Card of the Gmsh mesh, and index of its file; 0 without one
       integer :: mesh_card = 0, mesh_file = 0
+      !> The geometry that it is made of by Gmsh, if the card names that; the mesh that is read in
+      !> place of it
+      character(len=:), allocatable :: geometry, other_mesh
    end type source_type
 
 contains

@@ -16,7 +16,7 @@ module axijoint_deck_text_source_reader
 contains
 
    !> Read a deck and all that it includes
-   subroutine read_source(path, sections, source, diagnostics, bytes)
+   subroutine read_source(path, sections, source, diagnostics, bytes, mesh)
       !> The deck
       character(len=*), intent(in) :: path
       !> Sections that it may have
@@ -27,10 +27,13 @@ contains
       type(diagnostics_type), intent(inout) :: diagnostics
       !> What the deck says, if it is not to be read from its file
       character(len=*), intent(in), optional :: bytes
+      !> File of the mesh, in place of that of the GMSH card
+      character(len=*), intent(in), optional :: mesh
 
       character(len=:), allocatable :: text
 
       source%sections = sections
+      if (present(mesh)) source%other_mesh = mesh
       if (.not. present(bytes)) then
          call splice_file(source, path, 0, 0, 0, 0, 0, diagnostics)
          return
@@ -266,7 +269,8 @@ contains
       end if
    end subroutine include_file
 
-   !> Keep the file that a GMSH card names; it has no cards
+   !> Keep the file that a GMSH card names, or the mesh of the geometry that it names; it has no
+   !> cards
    subroutine attach_mesh(source, card, diagnostics)
       !> The deck
       type(source_type), intent(inout) :: source
@@ -276,7 +280,7 @@ contains
       type(diagnostics_type), intent(inout) :: diagnostics
 
       character(len=:), allocatable :: path, fault, bytes
-      integer :: first, last
+      integer :: first, last, dot
 
       source%mesh_card = card
       call find_path(source, card, path, first, last, fault)
@@ -284,10 +288,24 @@ contains
          call report_path(source, card, first, last, fault, diagnostics)
          return
       end if
+      dot = index(path, '.', back=.true.)
+      if (dot > 0) then
+         if (path(dot:) == '.geo') then
+            source%geometry = path
+            path = path(:dot)//'msh'
+         end if
+      end if
+      if (allocated(source%other_mesh)) path = source%other_mesh
       call read_bytes(path, bytes, fault)
       if (len(fault) > 0) then
          source%complete = .false.
-         call add_error(diagnostics, card, first, last, 'the mesh file '//path//': '//fault)
+         fault = 'the mesh file '//path//': '//fault
+         if (allocated(source%geometry)) then
+            call add_error(diagnostics, card, first, last, fault, mend='make it by gmsh -2 '// &
+                           source%geometry)
+         else
+            call add_error(diagnostics, card, first, last, fault)
+         end if
          return
       end if
       call add_file(source, path, bytes, source%cards(card)%file)
