@@ -168,7 +168,7 @@ class Cards:
         self._entry("LAWDETAILS", law, slip, opening, residual_cohesion, residual_friction, dilation, gap, initial_stress)
 
     def gmsh(self, path: Path) -> None:
-        """GMSH: path of a mesh file of Gmsh, from column 11 on; GROUPS says what its groups mean."""
+        """GMSH: path of a mesh file of Gmsh or its .geo file, from column 11 on; GROUPS says what groups mean."""
         self._path("GMSH", path)
 
     def groups(self, kind: Literal["BODY", "FACE", "JOINT"], number: int, *, material: int | None = None,
