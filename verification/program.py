@@ -49,6 +49,8 @@ class History:
         self.solutions = np.array([row["solutions"] for row in summary["yielding"]["increments"]])
         self.no_equilibrium_at = summary["yielding"]["no_equilibrium_at"]
         self.seconds = summary["seconds"]["total"]
+        self.errors = summary["yielding"]["errors"]
+        self.error_seconds = sum(summary["error_seconds"].values())
         with h5py.File(path) as file:
             history = file["history"]
             self.load_factor = history["load_factor"][()]

@@ -15,6 +15,7 @@ module axijoint_analysis_static
    use axijoint_analysis_error_corrections, only : correct_rounding, keep_claim, solver_keeps_claim
    use axijoint_analysis_error_discretization, only : estimate_discretization
    use axijoint_analysis_error_largest_values, only : largest_vector
+   use axijoint_analysis_error_plastic_errors, only : estimate_plastic_errors
    use axijoint_analysis_error_stiffer_joints, only : compare_stiffer
    use axijoint_analysis_error_yielding_errors, only : estimate_yielding_errors
    use axijoint_analysis_fine_difference, only : difference_type, new_difference
@@ -133,6 +134,8 @@ contains
       if (estimates) &
          call estimate_discretization(model, structure, history%loading, field, &
             history%largest_stress, mesh_error, results)
+      if (remarks .and. bodies_yield(model)) &
+         call estimate_plastic_errors(model, structure, combination, results, progress)
       call move_bodies(model, structure, results%states(size(results%states)), results)
       if (.not. estimates) results%discretization%largest_displacement = &
          largest_vector(results%modes, results%displacement)

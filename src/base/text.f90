@@ -4,7 +4,7 @@ module axijoint_base_text
    use axijoint_base_kinds, only : wp, i8
    implicit none
    private
-   public :: to_text, percent_text, lower, upper, count_of, edit_distance, nearest_word, &
+   public :: to_text, percent_text, fine_percent, lower, upper, count_of, edit_distance, nearest_word, &
       did_you_mean
 
    !> A number as text without blanks
@@ -229,5 +229,19 @@ contains
       nearest = nearest_word(word, choices)
       if (nearest > 0) question = 'did you mean '//trim(choices(nearest))//'?'
    end function did_you_mean
+
+   !> A small share in per cent, two digits
+   pure function fine_percent(value) result(text)
+      !> The share
+      real(wp), intent(in) :: value
+      !> Such as 0.12 %
+      character(len=:), allocatable :: text
+
+      character(len=12) :: number
+
+      write (number, '(es8.1)') 100.0_wp*value
+      if (100.0_wp*value >= 0.01_wp .and. value < 10.0_wp) write (number, '(f12.2)') 100.0_wp*value
+      text = trim(adjustl(number))//" %"
+   end function fine_percent
 
 end module axijoint_base_text

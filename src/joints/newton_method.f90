@@ -39,10 +39,11 @@ module axijoint_joints_newton_method
    real(wp), parameter :: loose = 1.0e-3_wp, closer = 1.0e-4_wp, near = 1.0e-2_wp, &
       strict = 1.0e-9_wp, part = 0.01_wp
    !> Where a law that jumps has no state, cohesion fades with opening: first over tensions as large
-   !> as it, then over a part of that whenever there is equilibrium, and last. It may be wider where
-   !> iterations do not get there, but not more
-   real(wp), parameter :: first_fading = 1.0_wp, fading_factor = 0.1_wp, last_fading = 1.0e-4_wp, &
-      widest_fading = 1.0e-2_wp
+   !> as it, then over a part of that whenever there is equilibrium, in small steps where these get no
+   !> farther, and last. It may be wider where iterations do not get there, but not more
+   real(wp), parameter :: first_fading = 1.0_wp, fading_factor = 0.1_wp, &
+      small_fading_factor = 0.5_wp, last_fading = 1.0e-4_wp, &
+      widest_fading = 1.01e-2_wp  ! 1 * 0.1 * 0.1 is above 0.01
    !> Rounding of the forces of the excess stress
    real(wp), parameter :: rounding = 1.0e2_wp*epsilon(1.0_wp)
    !> A step without a better residual for so many iterations has stalled
@@ -56,10 +57,11 @@ module axijoint_joints_newton_method
 
    !> What to try where the iterations ran away or stalled: nothing more, weaker springs than those
    !> that were taken away too early, the whole stiffness at once, steps as long as they want, weak
-   !> springs, cohesion that fades, and that fades as much as there was equilibrium for
+   !> springs, cohesion that fades, smaller steps of that, and as much of it as there was equilibrium
+   !> for
    enum, bind(c)
       enumerator :: give_up, weaker_springs, whole_stiffness, long_steps, weak_springs, &
-         fading_cohesion, wider_fading
+         fading_cohesion, slower_fading, wider_fading
    end enum
 
    !> The method
@@ -92,6 +94,8 @@ module axijoint_joints_newton_method
       logical :: in_stages = .false., far = .false., leaked = .false., ran = .false.
       !> Whether cohesion that fades was tried, and whether it is not to fade faster
       logical :: faded = .false., wide = .false.
+      !> What the fading is multiplied by whenever there is equilibrium
+      real(wp) :: faster = fading_factor
       !> Steps since the task changed
       integer :: n_steps = 0
    end type course_type
@@ -235,6 +239,8 @@ contains
          return
       else if (stalled .and. may_fade .and. .not. course%faded) then
          next = fading_cohesion
+      else if (stalled .and. fades_too_widely(course)) then
+         next = slower_fading
       else if (stalled .and. holds_faded(course)) then
          next = wider_fading
       else if (.not. field%leak > 0.0_wp .and. course%springs > last_leak) then
@@ -255,6 +261,17 @@ contains
       if (allocated(course%fading)) &
          holds = course%fading%fading <= widest_fading .and. .not. course%wide
    end function holds_faded
+
+   !> Whether there is a state in which cohesion fades, but over too much, and smaller steps were not
+   !> tried
+   pure logical function fades_too_widely(course) result(widely)
+      !> The iteration
+      type(course_type), intent(in) :: course
+
+      widely = .false.
+      if (allocated(course%fading)) widely = course%fading%fading > widest_fading &
+         .and. course%faster < small_fading_factor
+   end function fades_too_widely
 
    !> Whether weak springs may still help
    pure logical function may_hold_weakly(condensed, course, may_go_on) result(may)
@@ -300,6 +317,11 @@ contains
          course%faded = .true.
          field = course%start
          field%fading = first_fading
+         call begin_again(condensed, scene, 0.0_wp, field, course, verdict)
+      case (slower_fading)
+         course%faster = small_fading_factor
+         field = course%fading
+         field%fading = course%faster*field%fading
          call begin_again(condensed, scene, 0.0_wp, field, course, verdict)
       case (wider_fading)
          course%wide = .true.
@@ -388,7 +410,7 @@ contains
          else if (field%fading > last_fading .and. .not. course%wide) then
             again = found%ratio <= tolerance
             if (again) course%fading = field
-            if (again) field%fading = max(last_fading, fading_factor*field%fading)
+            if (again) field%fading = max(last_fading, course%faster*field%fading)
          else
             if (condensed%proportion > stiff &
                 .and. found%ratio <= merge(loosest_pass, loose_pass, &

@@ -1,17 +1,21 @@
 !> Fourier modes that a job needs
 module axijoint_model_modes
+   use axijoint_base_kinds, only : wp
+   use axijoint_element_yield_law, only : yield_none
    use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric, family_antisymmetric
    use axijoint_model_model, only : model_type, can_yield, bodies_yield
    implicit none
    private
-   public :: used_modes, greatest_divisor
+   public :: used_modes, highest_loaded, greatest_divisor
 
 contains
 
    !> Modes to solve, ascending, the symmetric before the antisymmetric; at least
    !> one. A linear job needs the loaded ones only. Opening, slip and yielding couple
    !> the harmonics, but what repeats g times round the circle stays so: only
-   !> multiples of g = gcd of the loaded harmonics are excited. One family stays
+   !> multiples of g = gcd of the loaded harmonics are excited, and of these only odd multiples
+   !> where loads of no others meet bodies that yield alike under a stress and its opposite: then
+   !> all changes sign with the turn by pi/g that turns the loads round. One family stays
    !> alone if the loads are symmetric; under antisymmetric loads, what yields answers
    !> in both.
    pure function used_modes(model) result(modes)
@@ -36,6 +40,8 @@ contains
             harmonics = pack(model%harmonics, model%harmonics == 0)
          else
             harmonics = pack(model%harmonics, mod(model%harmonics, g) == 0)
+            if (all(mod(loaded%harmonic/g, 2) == 1) .and. knows_no_sign(model)) &
+               harmonics = pack(harmonics, mod(harmonics/g, 2) == 1)
          end if
          if (any(loaded%family == family_antisymmetric)) then
             modes = [(mode_type(harmonics(k), family_symmetric), &
@@ -46,6 +52,29 @@ contains
       end if
       if (size(modes) == 0) modes = [mode_type(model%harmonics(1), family_symmetric)]
    end function used_modes
+
+   !> Whether all that yields does so alike under a stress and its opposite: no joint that opens or
+   !> slips, no criterion with friction or a tension cut-off
+   pure logical function knows_no_sign(model)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      associate (laws => model%materials%yield)
+         knows_no_sign = .not. can_yield(model) .and. all(laws%criterion == yield_none .or. &
+            (.not. laws%friction > 0.0_wp .and. .not. laws%tension < huge(1.0_wp)))
+      end associate
+   end function knows_no_sign
+
+   !> Highest harmonic that any load is given in; 0 if there is none
+   pure integer function highest_loaded(model)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      type(mode_type), allocatable :: loaded(:)
+
+      loaded = loaded_modes(model)
+      highest_loaded = max(0, maxval(loaded%harmonic))
+   end function highest_loaded
 
    !> Modes that any load is given in, ascending
    pure function loaded_modes(model) result(modes)

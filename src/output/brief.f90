@@ -16,6 +16,7 @@ module axijoint_output_brief
       count_states, n_unknowns
    use axijoint_output_listing_budget, only : sum_text, remedy_text, singular_text
    use axijoint_output_table_joint_proportion, only : proportions_text, stiffer_laws_text
+   use axijoint_output_table_yield_errors, only : yield_errors_text
    implicit none
    private
    public :: brief_text, status_text
@@ -59,6 +60,8 @@ contains
          if (len(remedy_text(results%budget)) > 0) &
             text = text//line("about half with", remedy_text(results%budget))
       end if
+      if (allocated(results%yield_errors)) &
+         text = text//line("error estimates", yield_errors_text(results%yield_errors))
       text = text// &
          line("time, peak memory", seconds_text(job%timer%seconds(phase_total))//" s, "// &
          to_text(nint(peak_memory_mb()))//" MB")// &

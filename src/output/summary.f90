@@ -154,6 +154,8 @@ contains
       integer :: i
 
       json = "null"
+      if (allocated(results%yield_errors)) &
+         json = '{"bodies that yield": '//json_number(results%yield_errors%seconds)//'}'
       if (.not. allocated(results%budget)) return
       json = "{"
       do i = 1, size(results%budget)

@@ -1,7 +1,7 @@
 !> The elastic structure as an operator on vectors that hold the unknowns of all modes, one mode
 !> after the other
 module axijoint_plastic_elastic
-   use axijoint_assembly_dofs, only : gather, expand
+   use axijoint_assembly_dofs, only : gather, expand, collect
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
       release_factor
@@ -10,7 +10,7 @@ module axijoint_plastic_elastic
    use axijoint_fe_fourier, only : circle_integral
    implicit none
    private
-   public :: n_unknowns, to_vector, to_nodes, stiff_force, elastic_response, ring_norm
+   public :: n_unknowns, pushed_modes, to_vector, from_nodes, to_nodes, stiff_force, elastic_response, ring_norm
 
 contains
 
@@ -61,6 +61,27 @@ contains
          end associate
       end do
    end function to_vector
+
+   !> Unknowns of all modes from displacements
+   pure function from_nodes(equations, displacement) result(vector)
+      !> The equations
+      type(equations_type), intent(in) :: equations
+      !> Amplitudes, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
+      !> The unknowns
+      real(wp), allocatable :: vector(:)
+
+      integer :: last(0:size(equations%modes)), k
+
+      last = last_unknowns(equations)
+      allocate (vector(last(size(equations%modes))))
+      do k = 1, size(equations%modes)
+         associate (class => equations%systems(equations%system(k))%class)
+            vector(last(k - 1) + 1:last(k)) = collect(equations%classes(class)%dofs, &
+               displacement(:, :, k))
+         end associate
+      end do
+   end function from_nodes
 
    !> Displacements of one mode from the unknowns of all
    pure function to_nodes(equations, vector, k) result(displacement)
@@ -136,6 +157,25 @@ contains
       end do
       !$omp end parallel do
    end subroutine elastic_response
+
+   !> Modes in which forces act, not by rounding alone
+   pure function pushed_modes(equations, force) result(pushed)
+      !> The equations
+      type(equations_type), intent(in) :: equations
+      !> Forces on the unknowns
+      real(wp), intent(in) :: force(:)
+      !> Shape (modes)
+      logical :: pushed(size(equations%modes))
+
+      !> Part of the largest force that is rounding
+      real(wp), parameter :: rounding = 1.0e-10_wp
+      integer :: last(0:size(equations%modes)), k
+
+      last = last_unknowns(equations)
+      do k = 1, size(pushed)
+         pushed(k) = any(abs(force(last(k - 1) + 1:last(k))) > rounding*maxval(abs(force)))
+      end do
+   end function pushed_modes
 
    !> Norm of forces on the unknowns: the forces on rings, squared and integrated round the circle
    pure real(wp) function ring_norm(equations, force) result(norm)

@@ -33,21 +33,27 @@ module axijoint_plastic_joint_side
       real(wp), allocatable :: balanced(:, :, :)
       !> How the last equilibrium was reached
       type(verdict_type) :: verdict
-      !> Whether residuals have their reference in this step
+      !> Whether residuals have their reference in this step, and modes that it loads: what plastic
+      !> strain changes in others is no measure of forces there
       logical :: begun = .false.
+      logical, allocatable :: pushed(:)
    end type joint_side_type
 
 contains
 
    !> Begin a step from the last increment in equilibrium
-   subroutine begin_joint_step(side, external)
+   subroutine begin_joint_step(side, pushed, external)
       !> The joints
       type(joint_side_type), intent(inout) :: side
+      !> Modes that the step loads
+      logical, intent(in) :: pushed(:)
       !> External forces on components, shape (3, nodes, modes)
       real(wp), intent(in) :: external(:, :, :)
 
       side%field = side%before
+      side%field%fading = 0.0_wp
       side%begun = .false.
+      side%pushed = pushed
       call put_work(side%condensed%floating, external, side%scene%loads)
    end subroutine begin_joint_step
 
@@ -67,7 +73,7 @@ contains
       real(wp), intent(out) :: force(:)
 
       type(iteration_type), allocatable :: path(:)
-      real(wp), allocatable :: nodal(:, :, :), displacement(:, :)
+      real(wp), allocatable :: nodal(:, :, :), displacement(:, :), change(:, :, :)
       integer :: k
 
       do k = 1, size(equations%modes)
@@ -77,16 +83,21 @@ contains
          side%scene%loads%largest(k) = maxval(abs(displacement))
       end do
       if (.not. side%begun) then
-         associate (stress => elastic_stress(side%condensed, side%scene, side%field))
-            if (.not. allocated(side%balanced)) &
-               allocate (side%balanced, source=0.0_wp*side%scene%loads%free)
-            call set_reference(side%condensed%measure, norm, stress - side%balanced, &
-               side%control%tolerance, side%scene%loads%reference)
-         end associate
+         if (.not. allocated(side%balanced)) &
+            allocate (side%balanced, source=0.0_wp*side%scene%loads%free)
+         change = elastic_stress(side%condensed, side%scene, side%field) - side%balanced
+         do k = 1, size(side%pushed)
+            if (.not. side%pushed(k)) change(:, :, k) = 0.0_wp
+         end do
+         call set_reference(side%condensed%measure, norm, change, side%control%tolerance, &
+            side%scene%loads%reference)
          side%begun = .true.
       end if
       allocate (path(0))
       side%field%memory = side%before%memory  ! bonds break in equilibrium, not on the way
+      ! where cohesion fades over an opening it goes on to in this step, so that states follow each
+      ! other without a jump
+      side%control%warm = side%field%fading > 0.0_wp
       call side%method%balance(side%condensed, side%scene, side%control, side%field, path, &
          side%verdict)
       allocate (nodal(3, size(displacement, 2), size(equations%modes)))

@@ -6,7 +6,7 @@ module axijoint_plastic_problem
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_joints_planes, only : planes_type
    use axijoint_plastic_bodies, only : bodies_type
-   use axijoint_plastic_elastic, only : elastic_response, ring_norm
+   use axijoint_plastic_elastic, only : elastic_response, pushed_modes, ring_norm
    use axijoint_plastic_field, only : body_field_type, body_load_type
    use axijoint_plastic_joint_side, only : joint_side_type, begin_joint_step, balance_joints
    use axijoint_plastic_residual, only : evaluate, elastic_force
@@ -44,6 +44,8 @@ module axijoint_plastic_problem
       type(steering_type) :: steering
       !> Joints that open and slip, if there are any
       type(joint_side_type), allocatable :: joints
+      !> Norm of the loads that are given, of those that balance each other, too
+      real(wp) :: load_norm = 0.0_wp
       !> Norm of the forces that the step would add if the bodies held
       real(wp) :: pushed = 0.0_wp
       !> Norm of the largest loads so far, which no residual is held against more; none if zero
@@ -92,7 +94,8 @@ contains
       problem%solutions = problem%solutions + 1
       field%unknowns = field%begun + share*field%moved + response
       problem%load = load
-      if (allocated(problem%joints)) call begin_joint_step(problem%joints, external)
+      if (allocated(problem%joints)) call begin_joint_step(problem%joints, &
+         pushed_modes(problem%equations, change), external)
    end subroutine put_load
 
    !> How much of the last increment a new one repeats; nothing if it turns back
@@ -218,7 +221,7 @@ contains
       real(wp) :: change
 
       call balance_joints(problem%joints, problem%equations, field%unknowns + iterate%response, &
-                          problem%load%held, ring_norm(problem%equations, problem%load%right), &
+                          problem%load%held, problem%load_norm, &
                           force)
       call turn(problem, force, response, change)
       problem%steering%factor = problem%steering%factor + change

@@ -3,19 +3,17 @@ module axijoint_plastic_stage
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_factors, only : report_failure
    use axijoint_assembly_loading, only : loading_type
-   use axijoint_assembly_solid_force, only : solid_force
    use axijoint_base_kinds, only : wp
-   use axijoint_joints_field, only : new_joint_field, set_initial_stress
-   use axijoint_joints_history, only : history_type, new_history
+   use axijoint_joints_field, only : set_initial_stress
+   use axijoint_joints_history, only : history_type
    use axijoint_joints_load_steps, only : step_type
-   use axijoint_joints_methods, only : new_method
    use axijoint_joints_residual, only : load_norm
    use axijoint_joints_stage, only : stage_type
    use axijoint_plastic_bodies, only : bodies_type
    use axijoint_plastic_elastic, only : to_vector
-   use axijoint_plastic_field, only : body_field_type, body_load_type, body_planes, &
-      new_body_field, no_body_load
+   use axijoint_plastic_field, only : body_field_type, body_load_type, new_body_field
    use axijoint_plastic_methods, only : body_verdict_type
+   use axijoint_plastic_posed, only : pose, take_load
    use axijoint_plastic_problem, only : problem_type, steering_type, put_load, steer, &
       go_to_displacement
    implicit none
@@ -57,29 +55,8 @@ contains
       !> What bodies and joints have in common, and the joints
       type(history_type), intent(out) :: history
 
-      associate (problem => stage%problem)
-         problem%equations => stage%equations
-         problem%bodies => bodies
-         problem%planes = body_planes(stage%equations%modes, stage%model%n_body_planes)
-         problem%load = no_body_load(stage%equations, bodies)
-         problem%associated_flow = all(abs(bodies%laws%friction - bodies%laws%dilation) <= 0.0_wp)
-         stage%bodies%field = new_body_field(stage%equations, bodies, problem%planes)
-         if (size(stage%condensed%points) > 0) then
-            call new_history(stage%model, stage%condensed, history)
-            allocate (problem%joints)
-            problem%joints%condensed => stage%condensed
-            problem%joints%scene = history%scene
-            problem%joints%method = new_method(stage%model%method)
-            problem%joints%before = history%field
-            problem%joints%field = history%field
-         else
-            history%field = new_joint_field(0, 1, size(stage%equations%modes), 0)
-            history%method = new_method(stage%model%method)
-            history%beside = ''
-            allocate (history%path(0), history%states(0), history%residuals(0), &
-               history%ahead(0), history%largest_stress(0))
-         end if
-      end associate
+      call pose(stage%model, stage%equations, stage%condensed, bodies, stage%problem, history)
+      stage%bodies%field = new_body_field(stage%equations, bodies, stage%problem%planes)
    end subroutine begin_history
 
    !> Put loads on
@@ -97,7 +74,8 @@ contains
          call stage%put_on_nodes(step%case_factor, history%loading)
          call note_peak(stage, history)
          problem%peak = history%peak_norm
-         call take_load(stage, history%loading, load)
+         problem%load_norm = history%load_norm
+         call take_load(stage%model, problem, history%loading, load)
          call put_load(problem, load, history%loading%external, stage%bodies%field)
          call report_failure(stage%equations, stage%model, history%failure)
          if (.not. allocated(problem%joints)) return
@@ -141,13 +119,16 @@ contains
       !> The history
       type(history_type), intent(inout) :: history
 
+      type(body_load_type) :: load
+
       associate (problem => stage%problem, found => stage%problem%steering%factor)
          step%case_factor = history%at%case_factor + found*step%steered
          step%load_factor = history%at%load_factor + found &
             *stage%model%increments(history%increment)%factor
          call stage%put_on_nodes(step%case_factor, history%loading)
          call note_peak(stage, history)
-         call take_load(stage, history%loading, problem%load)
+         call take_load(stage%model, problem, history%loading, load)
+         problem%load = load
          problem%steering = steering_type()
       end associate
    end subroutine put_found
@@ -164,52 +145,5 @@ contains
       history%peak_norm = history%load_norm
       history%peak = history%loading
    end subroutine note_peak
-
-   !> Loads on the nodes as methods see them
-   subroutine take_load(stage, loading, load)
-      !> What the increments act on
-      class(body_stage_type), intent(in) :: stage
-      !> Loads on the nodes
-      type(loading_type), intent(in) :: loading
-      !> The same for the bodies
-      type(body_load_type), intent(out) :: load
-
-      integer :: k
-
-      load%right = to_vector(stage%equations, loading%right)
-      if (allocated(loading%held)) load%held = loading%held
-      allocate (load%initial(6, size(stage%problem%bodies%laws), size(stage%equations%modes)))
-      do k = 1, size(stage%equations%modes)
-         load%initial(:, :, k) = stress_without_strain(stage, stage%problem%bodies, loading, k)
-      end do
-   end subroutine take_load
-
-   !> Stress amplitudes of one mode that the bodies have without strain: in-situ stress and
-   !> temperature
-   function stress_without_strain(stage, bodies, loading, k) result(stress)
-      !> What the increments act on
-      class(body_stage_type), intent(in) :: stage
-      !> The bodies
-      type(bodies_type), intent(in) :: bodies
-      !> The loads
-      type(loading_type), intent(in) :: loading
-      !> Place of the mode
-      integer, intent(in) :: k
-      !> Shape (6, points of the bodies)
-      real(wp), allocatable :: stress(:, :)
-
-      real(wp), allocatable :: everywhere(:, :), force(:, :), still(:, :)
-
-      if (.not. loading%initial%present) then
-         allocate (stress(6, size(bodies%laws)), source=0.0_wp)
-         return
-      end if
-      allocate (still(3, size(loading%external, 2)), source=0.0_wp)
-      allocate (force, mold=still)
-      allocate (everywhere(6, bodies%n_all))
-      call solid_force(stage%model, loading%initial, k, stage%equations%modes(k), still, force, &
-         everywhere)
-      stress = everywhere(:, bodies%place)
-   end function stress_without_strain
 
 end module axijoint_plastic_stage

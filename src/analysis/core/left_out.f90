@@ -39,6 +39,11 @@ contains
             call add(sentences, to_text(n_harmonics)//' harmonics of '// &
                to_text(size(model%harmonics))// &
                      ': all is the same round the circle')
+         else if (n_harmonics > 0 .and. .not. repeats(modes%harmonic)) then
+            call add(sentences, to_text(n_harmonics)//' harmonics of '// &
+               to_text(size(model%harmonics))// &
+                     ': loads of odd harmonics alone meet criteria that are the same for a '// &
+                     'stress and its opposite')
          else if (n_harmonics > 0) then
             call add(sentences, to_text(n_harmonics)//' harmonics of '// &
                to_text(size(model%harmonics))// &
@@ -72,6 +77,14 @@ contains
          end if
       end associate
    end function what_was_left_out
+
+   !> Whether all multiples of the least harmonic are there, as of 0, 3, 6; of 3, 9, 15 odd ones alone
+   pure logical function repeats(harmonics)
+      !> The harmonics; not all are zero
+      integer, intent(in) :: harmonics(:)
+
+      repeats = any(harmonics == 0)
+   end function repeats
 
    !> Number of harmonics of the deck that no mode uses
    pure integer function count_unused(harmonics, modes) result(unused)

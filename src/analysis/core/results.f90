@@ -3,6 +3,7 @@ module axijoint_analysis_core_results
    use axijoint_analysis_core_discretization_error, only : discretization_error_type
    use axijoint_analysis_core_in_situ, only : in_situ_type
    use axijoint_analysis_core_plastic_fields, only : plastic_fields_type
+   use axijoint_analysis_core_yield_errors, only : yield_errors_type
    use axijoint_analysis_fine_singular_places, only : singular_place_type
    use axijoint_base_kinds, only : wp, i8
    use axijoint_fe_mode, only : mode_type
@@ -254,6 +255,8 @@ module axijoint_analysis_core_results
       type(error_share_type) :: joint_errors(3)
       !> What the approximations leave of the error, side by side
       type(error_share_type), allocatable :: budget(:)
+      !> The same of bodies that yield; allocated if there are any
+      type(yield_errors_type), allocatable :: yield_errors
       !> What the mesh leaves of the error
       type(discretization_error_type) :: discretization
       !> Where stresses are infinite

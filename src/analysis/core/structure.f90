@@ -33,7 +33,7 @@ module axijoint_analysis_core_structure
    use omp_lib, only : omp_get_max_threads
    implicit none
    private
-   public :: structure_type, build_structure, plan_structure, take_loads_of, reuses_factors
+   public :: structure_type, build_structure, build_equations, plan_structure, take_loads_of, reuses_factors
 
    !> A structure ready to be loaded
    type :: structure_type
@@ -104,6 +104,42 @@ contains
       end associate
       call timer%pop()
       call timer%push(phase_joints)
+      call condense(model, structure, progress, error)
+      call timer%pop()
+   end subroutine build_structure
+
+   !> Assemble, factor and condense the equations of all modes and no more: no estimate of errors can
+   !> be made of it
+   subroutine build_equations(model, structure, progress, error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(out) :: structure
+      !> Where to show progress
+      type(progress_type), intent(inout) :: progress
+      !> Singular stiffness, or out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      call assemble(model, structure, progress, error)
+      if (allocated(error)) return
+      call factorize_equations(structure%equations, model, error)
+      if (allocated(error)) return
+      call condense(model, structure, progress, error)
+   end subroutine build_equations
+
+   !> Condense the structure to the joints that can yield
+   subroutine condense(model, structure, progress, error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, factored
+      type(structure_type), intent(inout) :: structure
+      !> Where to show progress
+      type(progress_type), intent(inout) :: progress
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: k
+
       structure%yielding = pack([(k, k=1, size(structure%joint_points))], &
                                 can_yield_at(model, structure%joint_points%material))
       if (size(structure%yielding) > 0) then
@@ -111,13 +147,11 @@ contains
             ' joint points')
          structure%planes = new_planes(model%n_planes, structure%modes, whole=.true.)
          call new_condensed(model, structure%joint_points, structure%support_points, &
-            structure%equations, &
-                            structure%condensed, error)
+            structure%equations, structure%condensed, error)
       else
          allocate (structure%condensed%points(0), structure%condensed%floating(0))
       end if
-      call timer%pop()
-   end subroutine build_structure
+   end subroutine condense
 
    !> Let a structure serve another job that has the same: the fine level knows its loads and laws, and
    !> cuts may be elsewhere

@@ -14,6 +14,7 @@ module axijoint_analysis_core_yielding_bodies
    use axijoint_joints_keeper, only : keeper_type
    use axijoint_model_load, only : combination_type
    use axijoint_model_model, only : model_type
+   use axijoint_plastic_field, only : body_field_type
    use axijoint_plastic_increments, only : run_body_increments
    use axijoint_plastic_stage, only : body_history_type
    implicit none
@@ -76,6 +77,8 @@ contains
          if (allocated(error)) return
          call stress_plastic_strain(model, state, history%loading)
       end associate
+      allocate (results%yield_errors)
+      results%yield_errors%softness = softness_of(bodies%field)
       results%plane_angles = model%output_angles
       if (size(structure%yielding) > 0) results%plane_angles = structure%planes%angle
       call check_stop(error)
@@ -84,6 +87,22 @@ contains
       results%tried = bodies%tried
       results%mechanism = failure_text(model, history, bodies, results)
    end subroutine solve_bodies
+
+   !> Growth of the displacement in the last step over that of the load, both over what they came to:
+   !> 1 of elastic bodies. Displacements count by the work of what the step added to the loads
+   pure real(wp) function softness_of(field) result(softness)
+      !> State of the bodies at the last equilibrium
+      type(body_field_type), intent(in) :: field
+
+      real(wp) :: load, displacement
+
+      softness = -1.0_wp
+      load = dot_product(field%pushed, field%right)
+      displacement = dot_product(field%pushed, field%begun)
+      if (.not. load*displacement > 0.0_wp) return
+      softness = dot_product(field%pushed, field%moved)/displacement &
+         *load/dot_product(field%pushed, field%pushed)
+   end function softness_of
 
    !> Why the increments ended, in words. That there is no equilibrium is said only if the bodies
    !> gave way: moved many times farther than elastic ones would, and were still out of balance

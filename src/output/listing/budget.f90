@@ -4,7 +4,7 @@ module axijoint_output_listing_budget
    use axijoint_analysis_core_results, only : results_type, error_share_type, source_names
    use axijoint_analysis_error_budget, only : sum_of_shares, is_known
    use axijoint_base_kinds, only : wp
-   use axijoint_base_text, only : to_text
+   use axijoint_base_text, only : to_text, fine_percent
    use axijoint_model_mesh, only : n_joints
    use axijoint_model_model, only : model_type
    use axijoint_output_file_columns, only : columns
@@ -239,12 +239,12 @@ contains
       !> Such as 4.62 %, most by discretization (2.31 %)
       character(len=:), allocatable :: text
 
-      text = percent(total)
+      text = fine_percent(total)
       if (.not. is_known(budget, shares)) text = "at least "//text
       if (total > 0.0_wp) then
          associate (most => maxloc(shares, 1))
             text = text//", most by "//trim(source_names(budget(most)%source))//" ("// &
-               percent(shares(most))//")"
+               fine_percent(shares(most))//")"
          end associate
       end if
    end function quantity_text
@@ -266,19 +266,5 @@ contains
       if (len(text) > 0) text = text//"; "
       text = text//budget(place(2))%remedy
    end function remedy_text
-
-   !> A share in per cent, two digits
-   pure function percent(value) result(text)
-      !> The share
-      real(wp), intent(in) :: value
-      !> Such as 0.12 %
-      character(len=:), allocatable :: text
-
-      character(len=12) :: number
-
-      write (number, '(es8.1)') 100.0_wp*value
-      if (100.0_wp*value >= 0.01_wp .and. value < 10.0_wp) write (number, '(f12.2)') 100.0_wp*value
-      text = trim(adjustl(number))//" %"
-   end function percent
 
 end module axijoint_output_listing_budget

@@ -35,7 +35,8 @@ module axijoint_output_listing_contents
    use axijoint_output_table_joint_proportion, only : write_proportions
    use axijoint_output_table_residuals, only : write_residuals
    use axijoint_output_table_strips, only : write_strips
-   use axijoint_output_table_yielding, only : write_yielding, write_unestimated
+   use axijoint_output_table_yielding, only : write_yielding
+   use axijoint_output_table_yield_errors, only : write_yield_errors
    implicit none
    private
    public :: write_listing
@@ -100,7 +101,7 @@ contains
          call write_face_reactions(file, model, results)
          call write_equilibrium(file, model, results)
          call write_budget(file, results)
-         call write_unestimated(file, results)
+         call write_yield_errors(file, results)
          call write_singular(file, model, results)
          call write_rounds(file, results)
          call write_strips(file, model, results)

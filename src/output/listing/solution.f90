@@ -308,6 +308,10 @@ contains
          write (line, format_estimates) sum(results%budget%seconds)
          call file%put(line)
       end if
+      if (allocated(results%yield_errors)) then
+         write (line, format_estimates) results%yield_errors%seconds
+         call file%put(line)
+      end if
       write (line, format_memory) "peak memory", peak_memory_mb(), " MB"
       call file%put(line)
       if (results%exchanged(2) == 0) return

@@ -10,16 +10,14 @@ module axijoint_output_table_yielding
    use axijoint_model_model, only : model_type, body_method_names
    use axijoint_output_file_columns, only : columns
    use axijoint_output_file_hdf5, only : hdf5_file_type
-   use axijoint_output_file_headings, only : write_heading, write_result_heading
+   use axijoint_output_file_headings, only : write_result_heading
    use axijoint_output_file_json, only : json_number
    use axijoint_output_file_text, only : text_file_type
+   use axijoint_output_table_yield_errors, only : yield_errors_json, write_yield_errors_group
    implicit none
    private
-   public :: write_yielding, write_unestimated, yielding_json, write_yield_group
+   public :: write_yielding, yielding_json, write_yield_group
 
-   !> Why there is no budget of errors
-   character(len=*), parameter :: unestimated = 'not estimated: the estimates of mesh, '// &
-      'harmonics, planes and iteration do not hold where bodies yield; compare with a finer run'
    !> Increment, iterations, elastic solutions
    character(len=*), parameter :: format_counts = '(3i10)'
    !> Number of an element, number of points
@@ -100,18 +98,6 @@ contains
       end associate
    end subroutine write_elements
 
-   !> In the place of the budget of errors: that there is none
-   subroutine write_unestimated(file, results)
-      !> The listing
-      class(text_file_type), intent(inout) :: file
-      !> Results
-      type(results_type), intent(in) :: results
-
-      if (.not. allocated(results%plastic%margin)) return
-      call write_heading(file, "ERROR BUDGET")
-      call file%put("  "//unestimated)
-   end subroutine write_unestimated
-
    !> In the summary: null if no body can yield
    pure function yielding_json(model, results) result(json)
       !> The job
@@ -135,7 +121,7 @@ contains
       else
          json = json//"null"
       end if
-      json = json//', "errors": "'//unestimated//'", "increments": ['
+      json = json//', "errors": '//yield_errors_json(results%yield_errors)//', "increments": ['
       do i = 1, size(results%states)
          if (i > 1) json = json//", "
          associate (state => results%states(i), bodies => results%states(i)%bodies)
@@ -162,7 +148,7 @@ contains
 
       if (.not. allocated(results%plastic%margin)) return
       call file%group("/yield")
-      call file%attribute("/yield", "errors", unestimated)
+      call write_yield_errors_group(file, results%yield_errors)
       call file%attribute("/yield", "method", lower(trim(body_method_names(model%body_method))))
       call write_laws(file, model)
       call write_fields(file, results%plastic)

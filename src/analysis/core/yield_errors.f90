@@ -1,0 +1,72 @@
+!> What the approximations leave of the error of a job whose bodies yield
+module axijoint_analysis_core_yield_errors
+   use axijoint_base_kinds, only : wp
+   implicit none
+   private
+   public :: yield_errors_type, yield_share_type, sum_of_yield_shares, loses_displacement
+   public :: yield_sources, yield_mesh, yield_harmonics, yield_planes, yield_iteration
+
+   !> Sources of the errors, and their names
+   integer, parameter :: yield_mesh = 1, yield_harmonics = 2, yield_planes = 3, yield_iteration = 4
+   character(len=14), parameter :: yield_sources(4) = [character(len=14) :: 'discretization', &
+      'harmonics', 'planes', 'iteration']
+
+   !> Errors, relative; negative if not known
+   type :: yield_share_type
+      !> Of the loads of the last increment, or of what holds the displacements that are given in
+      !> it, at the same displacement
+      real(wp) :: load = -1.0_wp
+      !> Of the displacement that the loads of the last increment do work on, under the same loads.
+      !> Where neither loads nor displacements are steered, largest change of any over the largest
+      real(wp) :: displacement = -1.0_wp
+   end type yield_share_type
+
+   !> All of it
+   type :: yield_errors_type
+      !> One a source
+      type(yield_share_type) :: shares(size(yield_sources))
+      !> Whether the loads were taken back on the way, so that nothing but the iteration is judged
+      logical :: turned_back = .false.
+      !> Whether loads are given, so that a small error of them moves bodies near their limit far
+      logical :: loaded = .false.
+      !> Growth of the displacement in the last step over that of the load, each over what it came
+      !> to: 1 of elastic bodies. Negative if the load grew no more
+      real(wp) :: softness = -1.0_wp
+      !> Time that the estimates took [second]
+      real(wp) :: seconds = 0.0_wp
+   end type yield_errors_type
+
+   !> Most of the displacement that an error of the load is let change: the load-displacement curve
+   !> is taken for straight on that way
+   real(wp), parameter :: most_moved = 0.5_wp
+
+contains
+
+   !> All shares together, without those that are not known
+   pure function sum_of_yield_shares(errors) result(total)
+      !> The errors
+      type(yield_errors_type), intent(in) :: errors
+      !> Their sums; negative if none is known
+      type(yield_share_type) :: total
+
+      associate (load => errors%shares%load, displacement => errors%shares%displacement)
+         if (any(load >= 0.0_wp)) total%load = sum(load, mask=load >= 0.0_wp)
+         if (any(displacement >= 0.0_wp)) total%displacement = sum(displacement, &
+            mask=displacement >= 0.0_wp)
+      end associate
+   end function sum_of_yield_shares
+
+   !> Whether the bodies are so near to their limit that nothing can be said of displacements under
+   !> the same loads
+   pure logical function loses_displacement(errors) result(loses)
+      !> The errors
+      type(yield_errors_type), intent(in) :: errors
+
+      type(yield_share_type) :: total
+
+      total = sum_of_yield_shares(errors)
+      loses = errors%loaded .and. .not. errors%turned_back &
+         .and. (errors%softness < 0.0_wp .or. errors%softness*total%load > most_moved)
+   end function loses_displacement
+
+end module axijoint_analysis_core_yield_errors
