@@ -42,6 +42,8 @@ module axijoint_plastic_single_step
    type :: single_state_type
       !> Whether there is equilibrium
       logical :: balanced = .false.
+      !> Ratio of the residual forces
+      real(wp) :: ratio = huge(1.0_wp)
       !> Load factor
       real(wp) :: factor = 0.0_wp
       !> Work of what holds components on the displacements that are given there; zero if there are
@@ -112,6 +114,7 @@ contains
       end if
       call balance_bodies(problem, control, field, verdict)
       state%balanced = verdict%converged
+      state%ratio = verdict%ratio
       state%solutions = problem%solutions
       state%factor = problem%steering%factor
       allocate (state%displacement, mold=start)

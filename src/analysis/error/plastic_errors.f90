@@ -32,8 +32,9 @@ module axijoint_analysis_error_plastic_errors
    !> half of it changes is half of the error; of harmonics, whose error goes like 1/M^2, what twice
    !> as many change is 3/4 of it
    real(wp), parameter :: error_over_change(3) = [2.0_wp, 4.0_wp/3.0_wp, 1.0_wp]
-   !> Residual ratio of the states that are compared, and most elastic solutions of each
-   real(wp), parameter :: tolerance = 1.0e-4_wp
+   !> Residual ratio of the states that are compared, what does if they come no nearer, and most
+   !> elastic solutions of each
+   real(wp), parameter :: tolerance = 1.0e-4_wp, loose = 1.0e-3_wp
    integer, parameter :: most = 1500
    !> Harmonics that are enough to see what the mesh leaves
    integer, parameter :: few = 3
@@ -164,6 +165,7 @@ contains
       call single_step(model, structure%equations, structure%condensed, structure%joint_points, &
          structure%support_points, job%loads, body_control_type(model%body_method, tolerance, most), &
          start, state)
+      state%balanced = state%balanced .or. state%ratio <= loose
    end subroutine find
 
    !> Twice as many intervals between planes
@@ -237,8 +239,8 @@ contains
          error_over_change(yield_harmonics), error)
    end subroutine by_harmonics
 
-   !> Elements half as large. What they change hardly depends on the harmonics: no more are taken
-   !> than the loads have, and a few
+   !> Elements half as large. What they change hardly depends on the harmonics: a few are taken, or,
+   !> if these come to no equilibrium, no more than the loads have
    subroutine by_mesh(model, structure, job, base, error, progress)
       !> The job
       type(model_type), intent(in) :: model
@@ -253,6 +255,32 @@ contains
       !> Where to show progress
       type(progress_type), intent(inout) :: progress
 
+      integer :: least, highest
+
+      least = min(model%max_harmonic, max(1, highest_loaded(model)))
+      highest = min(model%max_harmonic, max(few, least))
+      call compare_meshes(model, structure, job, base, highest, error, progress)
+      if (max(error%load, error%displacement) < 0.0_wp .and. least < highest) &
+         call compare_meshes(model, structure, job, base, least, error, progress)
+   end subroutine by_mesh
+
+   !> Elements half as large, with harmonics up to some
+   subroutine compare_meshes(model, structure, job, base, highest, error, progress)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Its structure
+      type(structure_type), intent(in) :: structure
+      !> The state that is found again
+      type(case_type), intent(in) :: job
+      !> That on the mesh of the job
+      type(single_state_type), intent(in) :: base
+      !> Highest harmonic
+      integer, intent(in) :: highest
+      !> Takes the error
+      type(yield_share_type), intent(inout) :: error
+      !> Where to show progress
+      type(progress_type), intent(inout) :: progress
+
       type(model_type) :: plain, finer
       type(structure_type) :: coarse, fine
       type(fine_mesh_type) :: mesh
@@ -261,8 +289,8 @@ contains
 
       plain = model
       before = base
-      if (model%max_harmonic > few) then
-         plain = with_harmonics(model, min(model%max_harmonic, max(few, highest_loaded(model))))
+      if (model%max_harmonic > highest) then
+         plain = with_harmonics(model, highest)
          plain%n_body_planes = 0
          call build_equations(plain, coarse, progress, failure)
          if (allocated(failure)) return  ! not known
@@ -279,7 +307,7 @@ contains
             after%displacement(:, :n, :) - before%displacement, &
             error_over_change(yield_mesh), error)
       end associate
-   end subroutine by_mesh
+   end subroutine compare_meshes
 
    !> A job with other harmonics
    function with_harmonics(model, highest) result(other)
