@@ -67,9 +67,10 @@ def sections(job, figures, views):
               ("equilibrium", "Resultants and equilibrium", tabular(tables.equilibrium)),
               ("materials", "Materials", tabular(tables.materials)), ("laws", "Joint laws", tabular(tables.laws)),
               ("loads", "Loads", tabular(tables.loads)), ("increments", "Increments", tabular(tables.increments)),
+              ("yielding", "Yielding", tabular(tables.yielding)),
               ("harmonics", "Harmonics", tabular(tables.equations)), ("sections", "Sections", tabular(tables.sections))]
     present = {"laws": len(job.result.mesh.law_label), "sections": len(job.result.section_numbers),
-               "errors": budget.known(job)}
+               "errors": budget.known(job), "yielding": isinstance(job.summary.get("yielding"), dict)}
     return [one for one in found if present.get(one[0], True)]
 
 

@@ -4,18 +4,29 @@ from .markup import is_number, joined, number, running, table, tag
 COLUMNS = {"energy": "energy", "displacement": "displacement", "joint_stress": "joint stress", "load": "load"}
 
 
+def said_of(job):
+    """What the summary of a run says of it; None if nothing. Without an equilibrium it means nothing, but where bodies
+    yield it is of the last one."""
+    bodies = job.summary.get("yielding")
+    if isinstance(bodies, dict) and isinstance(bodies.get("errors"), dict):
+        return bodies["errors"]
+    found = job.summary.get("errors")
+    return found if job.verdict == "converged" and isinstance(found, dict) else None
+
+
 def known(job):
-    """Whether the summary of a run says it. Without an equilibrium it means nothing."""
-    return job.verdict == "converged" and isinstance(job.summary.get("errors"), dict)
+    """Whether the summary of a run says it."""
+    return said_of(job) is not None
 
 
 def errors(job):
     """Displacement and joint stress in all, in words, then all contributions as a table."""
-    budget, seconds = job.summary["errors"], job.summary.get("error_seconds")
+    budget, seconds = said_of(job), job.summary.get("error_seconds")
     seconds = seconds if isinstance(seconds, dict) else {}
     shares = {source: share for source, share in budget.items() if isinstance(share, dict)}
-    said = [_sentence(key, value) for key, value in budget.items() if not isinstance(value, dict)]
-    keys = list(dict.fromkeys([*COLUMNS, *(key for share in shares.values() for key in share)]))
+    said = [_sentence(key, value) for key, value in budget.items() if not isinstance(value, dict) and value is not None]
+    present = dict.fromkeys(key for share in shares.values() for key in share)
+    keys = list(dict.fromkeys([*(key for key in COLUMNS if key in present), *present]))
     rows = [[words(source), *(_cell(share.get(key)) for key in keys), seconds.get(source)]
             for source, share in shares.items()]
     return joined([*said, table("Left by each approximation",
@@ -25,7 +36,7 @@ def errors(job):
 
 def line(job):
     """Displacement and joint stress in all, in words; None if they are not known."""
-    said = job.summary["errors"].get("in_words") if known(job) else None
+    said = said_of(job).get("in_words") if known(job) else None
     return said if isinstance(said, str) else None
 
 

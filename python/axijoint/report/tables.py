@@ -144,6 +144,19 @@ def _load_values(read, kind, count):
     return read({"ring": "loads/ring/force", "body": "loads/body/acceleration"}[kind]).reshape(count, 3)
 
 
+def yielding(job):
+    """Bodies that yield: what the increments took, how much has yielded, what was dissipated."""
+    bodies = job.summary["yielding"]
+    keys = ("increment", "load_factor", "iterations", "solutions", "yielded", "dissipated")
+    said = [f"Least yield margin {number(bodies['least_margin'])} (1 without shear, 0 at yield); largest equivalent plastic "
+            f"strain {number(bodies['largest_plastic_strain'])}."]
+    if bodies["no_equilibrium_at"] is not None:
+        said.append(f"No equilibrium was found at the load factor {number(bodies['no_equilibrium_at'])}.")
+    yield table("Bodies that yield", ["increment", "load factor", "iterations", "elastic solutions", "points yielded",
+                                      "dissipated"], [[row[key] for key in keys] for row in bodies["increments"]],
+                " ".join(said))
+
+
 def increments(job):
     """Load increments, and the convergence path."""
     read = job.result.read
