@@ -39,7 +39,7 @@ contains
             call add(sentences, to_text(n_harmonics)//' harmonics of '// &
                to_text(size(model%harmonics))// &
                      ': all is the same round the circle')
-         else if (n_harmonics > 0 .and. .not. repeats(modes%harmonic)) then
+         else if (n_harmonics > 0 .and. .not. repeats((modes%harmonic))) then
             call add(sentences, to_text(n_harmonics)//' harmonics of '// &
                to_text(size(model%harmonics))// &
                      ': loads of odd harmonics alone meet criteria that are the same for a '// &
