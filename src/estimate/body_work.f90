@@ -1,6 +1,7 @@
 !> What iterations of bodies that yield have to do
 module axijoint_estimate_body_work
    use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_analysis_error_plastic_errors, only : turns_back, few
    use axijoint_base_kinds, only : wp
    use axijoint_element_yield_law, only : yield_none
    use axijoint_estimate_terms, only : n_terms, body_laws, body_stresses, solved_entries, sums
@@ -19,25 +20,29 @@ module axijoint_estimate_body_work
    real(wp), parameter :: alone = 1.0_wp, beside_joints = 2.0_wp
    !> Stress, forces of the stress and of the excess of an iterate
    real(wp), parameter :: passes = 3.0_wp
+   !> Iterations of each state that errors are estimated by, found in one step; set by a pile in clay
+   real(wp), parameter :: state_iterations = 60.0_wp
    !> Components of stress, summed on planes and back
    real(wp), parameter :: sums_a_point = 12.0_wp
 
 contains
 
    !> Work of the iterations
-   function body_work(model, structure, iterations) result(work)
+   function body_work(model, structure, iterations, judged) result(work)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure, planned
       type(structure_type), intent(in) :: structure
       !> Iterations of all increments
       real(wp), intent(in) :: iterations
+      !> Whether errors are estimated
+      logical, intent(in) :: judged
       !> Counts of all terms
       real(wp) :: work(n_terms)
 
       type(reference_type), allocatable :: references(:)
       type(planes_type) :: planes
-      real(wp) :: points, shapes, modes, on, entries
+      real(wp) :: points, shapes, modes, on, entries, solved, judging(2)
       integer :: k
 
       work = 0.0_wp
@@ -57,11 +62,30 @@ contains
          end do
       end associate
       on = on_planes*points*size(planes%angle)
-      work(solved_entries) = iterations*entries*merge(beside_joints, alone, can_yield(model))
-      work(body_stresses) = iterations*passes*shapes*modes
-      work(body_laws) = iterations*on
-      work(sums) = iterations*sums_a_point*on*modes
+      judging = 0.0_wp
+      if (judged .and. .not. turns_back(model, model%combinations(1))) &
+         judging = state_iterations*judging_work(model%max_harmonic)
+      solved = iterations*merge(beside_joints, alone, can_yield(model))
+      work(solved_entries) = (solved + judging(1))*entries
+      work(body_stresses) = (iterations + judging(1))*passes*shapes*modes
+      work(body_laws) = (iterations + judging(2))*on
+      work(sums) = (iterations + 2.0_wp*judging(2))*sums_a_point*on*modes
    end function body_work
+
+   !> Work of an iteration of all states that errors are estimated by, in iterations of the job: the
+   !> same state, on twice the planes, with twice the harmonics on these, and on four times the
+   !> elements with few harmonics
+   pure function judging_work(m) result(work)
+      !> Highest harmonic
+      integer, intent(in) :: m
+      !> In solutions and stresses, and in laws
+      real(wp) :: work(2)
+
+      real(wp) :: share
+
+      share = real(min(m, few) + 1, wp)/(m + 1)
+      work = [1.0_wp + 1.0_wp + 2.0_wp + 4.0_wp*share, 1.0_wp + 2.0_wp + 2.0_wp + 4.0_wp*share]
+   end function judging_work
 
    !> Gauss points of the bodies that yield
    pure integer function n_body_points(model) result(n)

@@ -106,7 +106,7 @@ contains
       type(structure_type), intent(in) :: structure
       !> Iterations of all increments
       real(wp), intent(in) :: iterations
-      !> Whether errors are estimated, unless bodies yield
+      !> Whether errors are estimated
       logical, intent(in) :: judged
       !> Counts of all terms
       real(wp) :: work(n_terms)
@@ -124,7 +124,7 @@ contains
             + size(model%increments)
          work = joint_work(model, structure, iterations, estimates)
       end if
-      if (bodies_yield(model)) work = work + body_work(model, structure, iterations)
+      if (bodies_yield(model)) work = work + body_work(model, structure, iterations, judged)
       entries = 0.0_wp
       associate (equations => structure%equations)
          do k = 1, size(structure%modes)

@@ -26,7 +26,7 @@ module axijoint_analysis_error_plastic_errors
    use axijoint_plastic_single_step, only : single_load_type, single_state_type, single_step
    implicit none
    private
-   public :: estimate_plastic_errors
+   public :: estimate_plastic_errors, turns_back, few
 
    !> The error over the change: of limit loads, which converge like the size of the elements, what
    !> half of it changes is half of the error; of harmonics, whose error goes like 1/M^2, what twice
