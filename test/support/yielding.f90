@@ -14,6 +14,7 @@ module axijoint_test_yielding
    use axijoint_joints_history, only : history_type, new_history
    use axijoint_joints_method, only : control_type
    use axijoint_joints_methods, only : new_method
+   use axijoint_joints_residual, only : load_norm
    use axijoint_model_joint_points, only : new_joint_points
    use axijoint_model_load, only : combination_type
    use axijoint_model_model, only : model_type, yielding_nodes, can_yield, method_newton
@@ -139,6 +140,7 @@ contains
       load = yielding%problem%load
       load%right = factor*unit_load(yielding)
       if (allocated(yielding%loading%held)) load%held = factor*yielding%loading%held
+      yielding%problem%load_norm = abs(factor)*load_norm(yielding%equations, yielding%loading)
       call put_load(yielding%problem, load, external, yielding%field)
    end subroutine load_by
 
