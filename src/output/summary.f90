@@ -16,7 +16,7 @@ module axijoint_output_summary
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type, method_names
    use axijoint_output_file_echo, only : deck_text
-   use axijoint_output_file_json, only : json_string, json_number, json_integers, json_strings
+   use axijoint_output_file_json, only : json_string, json_number, known_number, json_integers, json_strings
    use axijoint_output_file_run, only : run_type, status_name, status_error
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_file_totals, only : count_states, n_unknowns
@@ -221,21 +221,10 @@ contains
          !> JSON
          character(len=:), allocatable :: json
 
-         json = '"'//trim(source_names(share%source))//'": {"energy": '//known(share%energy)// &
-                ', "displacement": '//known(share%displacement)//', "joint_stress": '// &
-                known(share%joint_stress)//', "load": '//known(share%load)//'}, '
+         json = '"'//trim(source_names(share%source))//'": {"energy": '//known_number(share%energy)// &
+                ', "displacement": '//known_number(share%displacement)//', "joint_stress": '// &
+                known_number(share%joint_stress)//', "load": '//known_number(share%load)//'}, '
       end function share_text
-
-      !> A share; null if it is not known
-      pure function known(value) result(json)
-         !> The share
-         real(wp), intent(in) :: value
-         !> JSON
-         character(len=:), allocatable :: json
-
-         json = "null"
-         if (value >= 0.0_wp) json = json_number(value)
-      end function known
 
    end function errors_text
 

@@ -111,7 +111,8 @@ contains
       if (jumps == 0) footprint%joint_work = 0
    end function data_footprint
 
-   !> Add the memory of bodies that yield: none of their errors is estimated, so there is no finer mesh
+   !> Add the memory of bodies that yield. The finer mesh of their estimated errors is not counted: it is
+   !> left out where it does not fit
    pure subroutine add_bodies(model, references, modes, footprint)
       !> The job
       type(model_type), intent(in) :: model

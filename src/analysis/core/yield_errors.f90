@@ -46,12 +46,12 @@ contains
    pure function sum_of_yield_shares(errors) result(total)
       !> The errors
       type(yield_errors_type), intent(in) :: errors
-      !> Their sums; negative if none is known
+      !> Their sums; negative if none is known but that of the iteration, which alone says little
       type(yield_share_type) :: total
 
       associate (load => errors%shares%load, displacement => errors%shares%displacement)
-         if (any(load >= 0.0_wp)) total%load = sum(load, mask=load >= 0.0_wp)
-         if (any(displacement >= 0.0_wp)) total%displacement = sum(displacement, &
+         if (any(load(:yield_iteration - 1) >= 0.0_wp)) total%load = sum(load, mask=load >= 0.0_wp)
+         if (any(displacement(:yield_iteration - 1) >= 0.0_wp)) total%displacement = sum(displacement, &
             mask=displacement >= 0.0_wp)
       end associate
    end function sum_of_yield_shares

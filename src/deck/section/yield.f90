@@ -188,8 +188,8 @@ contains
             mend='no section HARMONICS; loads that repeat round the circle leave harmonics out '// &
             'by themselves')
          if (model%error_goal%wanted) call add_error(deck%diagnostics, 0, 0, 0, &
-            'errors are not estimated for bodies that yield: the job has no target to go to', &
-            mend='no section ERROR; compare with a finer run')
+            'no rounds of refinement are made for bodies that yield, whose errors are told alone', &
+            mend='no section ERROR; raise what the error budget of the listing names')
       end associate
    end subroutine check_yielding
 

@@ -5,7 +5,7 @@ module axijoint_output_file_columns
    use axijoint_base_kinds, only : wp, i8
    implicit none
    private
-   public :: columns, put_columns
+   public :: columns, put_columns, known_column
 
    !> Characters of a real besides its decimals: blank, sign, first digit,
    !> point, E, sign and two digits of the exponent
@@ -53,6 +53,19 @@ contains
          if (.not. done) write (text(first:last), real_format(width, longer)) values(i)
       end do
    end subroutine put_columns
+
+   !> A value in its columns, or a dash if it is not known
+   pure function known_column(value, width) result(text)
+      !> The value, negative if not known
+      real(wp), intent(in) :: value
+      !> Characters of the column
+      integer, intent(in) :: width
+      !> The text
+      character(len=width) :: text
+
+      text = repeat(" ", width - 1)//"-"
+      if (value >= 0.0_wp) text = columns([value], width)
+   end function known_column
 
    !> Write a real
    pure subroutine put_real(value, decimals, places, text, done)

@@ -5,7 +5,7 @@ module axijoint_output_file_json
    use axijoint_base_text, only : to_text
    implicit none
    private
-   public :: json_string, json_number, json_integers, json_strings
+   public :: json_string, json_number, known_number, json_integers, json_strings
 
    !> Decimal digits that bring back the same real
    character(len=*), parameter :: format_real = '(es24.16e3)'
@@ -61,6 +61,17 @@ contains
       write (buffer, format_real) value
       json = trim(adjustl(buffer))
    end function json_real
+
+   !> A number that is null if it is not known
+   pure function known_number(value) result(json)
+      !> The number, negative if not known
+      real(wp), intent(in) :: value
+      !> The JSON number
+      character(len=:), allocatable :: json
+
+      json = "null"
+      if (value >= 0.0_wp) json = json_number(value)
+   end function known_number
 
    !> An integer
    pure function json_integer(value) result(json)

@@ -7,7 +7,7 @@ module axijoint_output_listing_budget
    use axijoint_base_text, only : to_text, fine_percent
    use axijoint_model_mesh, only : n_joints
    use axijoint_model_model, only : model_type
-   use axijoint_output_file_columns, only : columns
+   use axijoint_output_file_columns, only : known_column
    use axijoint_output_file_headings, only : write_heading, write_result_heading
    use axijoint_output_file_text, only : text_file_type
    implicit none
@@ -66,9 +66,9 @@ contains
       !> The line
       character(len=:), allocatable :: line
 
-      line = "  "//source_names(share%source)//value_text(share%energy)// &
-         value_text(share%displacement)// &
-             value_text(share%joint_stress)//value_text(share%load)
+      line = "  "//source_names(share%source)//known_column(share%energy, wide)// &
+         known_column(share%displacement, wide)// &
+             known_column(share%joint_stress, wide)//known_column(share%load, wide)
    end function share_line
 
    !> Rounds of refinement; no times, which differ from run to run
@@ -90,21 +90,10 @@ contains
          associate (round => results%rounds(i))
             write (line, format_round) i, round%mesh, round%nodes, round%harmonic, round%planes, &
                round%n_unknowns
-            call file%put(line//value_text(round%error))
+            call file%put(line//known_column(round%error, wide))
          end associate
       end do
    end subroutine write_rounds
-
-   !> A value in its columns
-   pure function value_text(value) result(text)
-      !> Relative value, negative if not known
-      real(wp), intent(in) :: value
-      !> The text
-      character(len=wide) :: text
-
-      text = repeat(" ", wide - 1)//"-"
-      if (value >= 0.0_wp) text = columns([value], wide)
-   end function value_text
 
    !> Where stresses are infinite
    subroutine write_singular(file, model, results)

@@ -6,22 +6,22 @@ module axijoint_output_table_yield_errors
       sum_of_yield_shares, loses_displacement, yield_sources, yield_iteration
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text, fine_percent
-   use axijoint_output_file_columns, only : columns
+   use axijoint_output_file_columns, only : known_column
    use axijoint_output_file_hdf5, only : hdf5_file_type
    use axijoint_output_file_headings, only : write_result_heading
-   use axijoint_output_file_json, only : json_number, json_string
+   use axijoint_output_file_json, only : json_string, known_number
    use axijoint_output_file_text, only : text_file_type
    implicit none
    private
    public :: write_yield_errors, yield_errors_json, write_yield_errors_group, yield_errors_text
 
    !> How they are found, and what is not promised
-   character(len=*), parameter :: way(3) = [character(len=80) :: &
-      'the state was found again in one step from no plastic strain, with twice the', &
-      'harmonics, planes, on elements half as large; not promised: a bound; what the', &
-      'steps leave; stress, strain and displacement at a point; one state if psi < phi']
-   !> Columns of a value
-   integer, parameter :: wide = 23
+   character(len=*), parameter :: way(3) = [character(len=83) :: &
+      'Found by the last state again, in one step from no plastic strain: with twice the', &
+      'harmonics, planes, on elements half as large. Not promised: a bound; what the', &
+      'steps leave; stress, strain, displacement at a point; one state if psi < phi.']
+   !> Columns of a value, and before it
+   integer, parameter :: wide = 15, gap = 8
 
 contains
 
@@ -43,14 +43,36 @@ contains
          do i = 1, size(errors%shares)
             call file%put("  "//yield_sources(i)//share_text(errors%shares(i)))
          end do
-         call file%put("  "//"sum           "//share_text(sum_of_yield_shares(errors)))
+         call file%put("  "//merge("sum (at least)", "sum           ", some_unknown(errors))// &
+                       share_text(sum_of_yield_shares(errors)))
          call file%put("  "//yield_errors_text(errors))
          if (errors%turned_back) return
          do i = 1, size(way)
-            call file%put("  ("//trim(way(i))//")")
+            call file%put("  "//trim(way(i)))
          end do
       end associate
    end subroutine write_yield_errors
+
+   !> Whether a sum lacks a source that is not known
+   pure logical function some_unknown(errors)
+      !> The errors
+      type(yield_errors_type), intent(in) :: errors
+
+      associate (shares => errors%shares(:yield_iteration - 1))
+         some_unknown = lacks((shares%load)) .or. lacks((shares%displacement))
+      end associate
+
+   contains
+
+      !> Whether some are known, not all
+      pure logical function lacks(values)
+         !> Negative if not known
+         real(wp), intent(in) :: values(:)
+
+         lacks = any(values >= 0.0_wp) .and. any(values < 0.0_wp)
+      end function lacks
+
+   end function some_unknown
 
    !> A share as columns of the table
    pure function share_text(share) result(text)
@@ -59,19 +81,9 @@ contains
       !> The columns
       character(len=:), allocatable :: text
 
-      text = value_text(share%load)//value_text(share%displacement)
+      text = repeat(" ", gap)//known_column(share%load, wide)//repeat(" ", gap)// &
+         known_column(share%displacement, wide)
    end function share_text
-
-   !> A value in its columns
-   pure function value_text(value) result(text)
-      !> Relative value, negative if not known
-      real(wp), intent(in) :: value
-      !> The text
-      character(len=wide) :: text
-
-      text = repeat(" ", wide - 1)//"-"
-      if (value >= 0.0_wp) text = columns([value], wide)
-   end function value_text
 
    !> Both in all, and what leaves most
    pure function yield_errors_text(errors) result(text)
@@ -136,7 +148,7 @@ contains
          json = json//'"'//trim(yield_sources(i))//'": '//share_json(errors%shares(i))//', '
       end do
       json = json//'"sum": '//share_json(sum_of_yield_shares(errors))//', "softness": '// &
-         known(errors%softness)//', "in_words": '//json_string(yield_errors_text(errors))//'}'
+         known_number(errors%softness)//', "in_words": '//json_string(yield_errors_text(errors))//'}'
    end function yield_errors_json
 
    !> A share in the summary
@@ -146,19 +158,8 @@ contains
       !> A JSON object
       character(len=:), allocatable :: json
 
-      json = '{"load": '//known(share%load)//', "displacement": '//known(share%displacement)//'}'
+      json = '{"load": '//known_number(share%load)//', "displacement": '//known_number(share%displacement)//'}'
    end function share_json
-
-   !> A value; null if it is not known
-   pure function known(value) result(json)
-      !> The value
-      real(wp), intent(in) :: value
-      !> JSON
-      character(len=:), allocatable :: json
-
-      json = "null"
-      if (value >= 0.0_wp) json = json_number(value)
-   end function known
 
    !> In the group /yield of the results file
    subroutine write_yield_errors_group(file, errors)
