@@ -68,6 +68,9 @@ module axijoint_element_joint_law
       real(wp) :: gap = 0.0_wp
       !> Normal stress before loading, in equilibrium with what is not modelled
       real(wp) :: initial_stress = 0.0_wp
+      !> Tension over which cohesion fades at most where it must, as a share of it: 1, or that of an
+      !> opening of C h/E, by which C deforms the bodies beside the joint
+      real(wp) :: edge = 1.0_wp
    end type joint_law_type
 
    !> What a point remembers from the last increment in equilibrium
@@ -147,14 +150,14 @@ contains
       real(wp), intent(out) :: stress(3)
       !> Derivatives of the stress by the trial stress
       real(wp), intent(out) :: tangent(3, 3)
-      !> Tension over which cohesion fades, as a share of it; at once if absent
+      !> Tension over which cohesion fades, as a share of the `edge`; at once if absent
       real(wp), intent(in), optional :: fading
 
       real(wp) :: friction, cohesion, span
       logical :: tension
 
       span = 0.0_wp
-      if (present(fading) .and. loses_at_opening(law)) span = fading*law%cohesion
+      if (present(fading) .and. loses_at_opening(law)) span = fading*law%edge*law%cohesion
       call strength(law, memory, cohesion, friction)
       tension = trial(eta) > 0.0_wp
       if (tension .and. law%dilation > 0.0_wp) then

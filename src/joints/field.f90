@@ -227,7 +227,7 @@ contains
       fades = .false.
       if (.not. field%fading > 0.0_wp .or. .not. loses_at_opening(law)) return
       trial = trial_of(law, k, j, field%jump(:, k, j), field)
-      fades = trial(eta) > 0.0_wp .and. trial(eta) < field%fading*law%cohesion .and. &
+      fades = trial(eta) > 0.0_wp .and. trial(eta) < field%fading*law%edge*law%cohesion .and. &
          .not. field%memory(k, j)%broken
    end function fades
 

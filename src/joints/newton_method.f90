@@ -94,8 +94,8 @@ module axijoint_joints_newton_method
       logical :: in_stages = .false., far = .false., leaked = .false., ran = .false.
       !> Whether cohesion that fades was tried, and whether it is not to fade faster
       logical :: faded = .false., wide = .false.
-      !> What the fading is multiplied by whenever there is equilibrium
-      real(wp) :: faster = fading_factor
+      !> What the fading is multiplied by whenever there is equilibrium, and how far down
+      real(wp) :: faster = fading_factor, least_fading = last_fading
       !> Steps since the task changed
       integer :: n_steps = 0
    end type course_type
@@ -190,6 +190,8 @@ contains
       course%in_stages = .not. warm .and. share < 1.0_wp
       if (course%in_stages) field%share = share
       if (.not. warm) field%fading = 0.0_wp
+      ! states that go on from each other fade alike
+      if (field%fading > 0.0_wp) course%least_fading = max(last_fading, field%fading)
       field%view_limit = newton_view
       course%begun = field%jump
       call look_again(condensed, scene, 1.0_wp, field, course)
@@ -407,10 +409,10 @@ contains
          else if (field%share < 1.0_wp) then
             again = found%whole <= stage_tolerance
             if (again) call stiffen(condensed, scene, field, course%residual)
-         else if (field%fading > last_fading .and. .not. course%wide) then
+         else if (field%fading > course%least_fading .and. .not. course%wide) then
             again = found%ratio <= tolerance
             if (again) course%fading = field
-            if (again) field%fading = max(last_fading, course%faster*field%fading)
+            if (again) field%fading = max(course%least_fading, course%faster*field%fading)
          else
             if (condensed%proportion > stiff &
                 .and. found%ratio <= merge(loosest_pass, loose_pass, &

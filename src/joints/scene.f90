@@ -3,7 +3,7 @@
 module axijoint_joints_scene
    use axijoint_assembly_force, only : joint_jump
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_element_joint_law, only : joint_law_type
+   use axijoint_element_joint_law, only : joint_law_type, eta
    use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
    use axijoint_joints_condensed, only : condensed_type, flexibility_type, rank_of
    use axijoint_joints_field, only : joint_field_type, admit_jump
@@ -50,7 +50,15 @@ contains
       !> The scene
       type(scene_type) :: scene
 
+      integer :: k
+
       scene%laws = model%joint_materials(condensed%points%material)%law
+      do k = 1, size(scene%laws)
+         associate (law => scene%laws(k))
+            law%edge = max(1.0_wp, condensed%points(k)%proportion*law%stiffness(eta) &
+               /max(tiny(1.0_wp), maxval(law%stiffness)))
+         end associate
+      end do
       scene%modes = condensed%modes
       scene%system = condensed%system
       allocate (scene%scale(size(scene%modes)), source=1.0_wp)

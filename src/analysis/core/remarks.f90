@@ -144,7 +144,7 @@ contains
             'steps, where the law, which loses it at once, has no equilibrium'
          if (field%fading > 0.0_wp) text = text//'; at the end at '// &
             to_text(n_fading(laws, field))//' joint points on planes, over '//to_text(maxval( &
-            field%fading*laws%cohesion/laws%stiffness(eta), laws%stiffness(eta) > 0.0_wp))
+            field%fading*laws%edge*laws%cohesion/laws%stiffness(eta), laws%stiffness(eta) > 0.0_wp))
       end associate
    end function fading_text
 
