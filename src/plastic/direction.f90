@@ -2,8 +2,9 @@
 !> steps of a Krylov method in the energy of the elastic structure, whose factors precondition it
 module axijoint_plastic_direction
    use axijoint_base_kinds, only : wp
+   use axijoint_plastic_elastic, only : stiff_force
    use axijoint_plastic_field, only : body_field_type
-   use axijoint_plastic_problem, only : problem_type, iterate_type, turn
+   use axijoint_plastic_problem, only : problem_type, iterate_type, turn, give_way
    use axijoint_plastic_residual, only : yielding_force
    implicit none
    private
@@ -28,7 +29,7 @@ contains
       !> The direction p
       real(wp), intent(out) :: direction(:)
 
-      if (problem%associated_flow) then
+      if (problem%has_potential) then
          call conjugate_gradients(problem, field, iterate, forcing, most, direction)
       else
          call minimal_residuals(problem, field, iterate, forcing, most, direction)
@@ -98,19 +99,22 @@ contains
       real(wp), allocatable :: s(:, :), product(:, :), answer(:, :)
       !> Residual, its response, K times the search direction
       real(wp), dimension(size(direction)) :: r, z, stiff
-      real(wp) :: length, along, unused
+      real(wp) :: length, along, energy, unused
       integer :: i, k, pass
 
       allocate (s(size(direction), most), product(size(direction), most), &
          answer(size(direction), most))
       direction = 0.0_wp
-      r = iterate%residual
       z = iterate%response
+      r = iterate%residual
+      if (allocated(problem%joints)) r = stiff_force(problem%equations, z)  ! of the pile, too
+      energy = dot_product(r, z)
       do k = 1, most
          s(:, k) = z
          stiff = r
          call yielding_force(problem%equations, problem%bodies, problem%planes, field, s(:, k), &
                              product(:, k))
+         call give_way(problem, product(:, k))
          product(:, k) = stiff - product(:, k)
          call turn(problem, product(:, k), answer(:, k), unused)
          do pass = 1, 2  ! twice is enough
@@ -122,7 +126,7 @@ contains
             end do
          end do
          length = sqrt(max(0.0_wp, dot_product(product(:, k), answer(:, k))))
-         if (.not. length > flat*iterate%energy) return
+         if (.not. length > flat*sqrt(energy)) return
          s(:, k) = s(:, k)/length
          product(:, k) = product(:, k)/length
          answer(:, k) = answer(:, k)/length
@@ -130,7 +134,7 @@ contains
          direction = direction + along*s(:, k)
          r = r - along*product(:, k)
          z = z - along*answer(:, k)
-         if (dot_product(r, z) <= (forcing*iterate%energy)**2) return
+         if (dot_product(r, z) <= forcing**2*energy) return
       end do
    end subroutine minimal_residuals
 

@@ -9,13 +9,22 @@ module axijoint_plastic_joint_side
    use axijoint_joints_field, only : joint_field_type, commit_field
    use axijoint_joints_loads, only : put_work
    use axijoint_joints_method, only : method_type, control_type, verdict_type
+   use axijoint_joints_newton, only : newton_type, new_newton, at_points
+   use axijoint_joints_newton_system, only : linear_type, solve
    use axijoint_joints_path, only : iteration_type
+   use axijoint_joints_planes, only : synthesize, analyse
    use axijoint_joints_residual, only : set_reference
    use axijoint_joints_scene, only : scene_type, elastic_stress
    use axijoint_plastic_elastic, only : to_vector, to_nodes
    implicit none
    private
-   public :: joint_side_type, begin_joint_step, balance_joints, commit_joints
+   public :: joint_side_type, begin_joint_step, balance_joints, linearize_joints, &
+      joint_tangent_force, commit_joints
+
+   !> What the linear solution of the joints leaves of its right side
+   real(wp), parameter :: linear_tolerance = 1.0e-4_wp
+   !> Share of the largest stress that is rounding there
+   real(wp), parameter :: rounding = 1.0e-14_wp
 
    !> The joints
    type :: joint_side_type
@@ -33,6 +42,8 @@ module axijoint_plastic_joint_side
       real(wp), allocatable :: balanced(:, :, :)
       !> How the last equilibrium was reached
       type(verdict_type) :: verdict
+      !> Their laws about that equilibrium
+      type(newton_type) :: tangent
       !> Whether residuals have their reference in this step, and modes that it loads: what plastic
       !> strain changes in others is no measure of forces there
       logical :: begun = .false.
@@ -73,7 +84,7 @@ contains
       real(wp), intent(out) :: force(:)
 
       type(iteration_type), allocatable :: path(:)
-      real(wp), allocatable :: nodal(:, :, :), displacement(:, :), change(:, :, :)
+      real(wp), allocatable :: displacement(:, :), change(:, :, :)
       integer :: k
 
       do k = 1, size(equations%modes)
@@ -100,13 +111,69 @@ contains
       side%control%warm = side%field%fading > 0.0_wp
       call side%method%balance(side%condensed, side%scene, side%control, side%field, path, &
          side%verdict)
-      allocate (nodal(3, size(displacement, 2), size(equations%modes)))
+      force = force_of(side, equations, side%field%excess, size(displacement, 2))
+   end subroutine balance_joints
+
+   !> Forces on the unknowns that excess stress gives
+   function force_of(side, equations, excess, n_nodes) result(force)
+      !> The joints
+      type(joint_side_type), intent(in) :: side
+      !> The equations
+      type(equations_type), intent(in) :: equations
+      !> Amplitudes, shape (3, points, modes)
+      real(wp), intent(in) :: excess(:, :, :)
+      !> Number of nodes
+      integer, intent(in) :: n_nodes
+      !> The forces
+      real(wp), allocatable :: force(:)
+
+      real(wp), allocatable :: nodal(:, :, :)
+      integer :: k
+
+      allocate (nodal(3, n_nodes, size(equations%modes)))
       do k = 1, size(equations%modes)
          nodal(:, :, k) = joint_force(side%condensed%points, equations%modes(k)%harmonic, &
-                                      side%field%excess(:, :, k), size(nodal, 2))
+                                      excess(:, :, k), n_nodes)
       end do
       force = to_vector(equations, nodal)
-   end subroutine balance_joints
+   end function force_of
+
+   !> Find the laws about the last equilibrium: only Newton's method asks for them
+   subroutine linearize_joints(side)
+      !> The joints
+      type(joint_side_type), intent(inout) :: side
+
+      side%tangent = new_newton(side%condensed, side%scene, side%field)
+   end subroutine linearize_joints
+
+   !> Forces on the unknowns by which joints answer small displacements of the elastic structure:
+   !> those of the excess stress e = A E' S (D v + F e)
+   subroutine joint_tangent_force(side, equations, displacement, force)
+      !> The joints, linearized
+      type(joint_side_type), intent(in) :: side
+      !> The equations
+      type(equations_type), intent(in) :: equations
+      !> Unknowns v
+      real(wp), intent(in) :: displacement(:)
+      !> The forces
+      real(wp), intent(out) :: force(:)
+
+      type(linear_type) :: linear
+      real(wp), allocatable :: nodal(:, :), change(:, :, :), jump(:, :, :)
+      integer :: k
+
+      allocate (jump, mold=side%field%excess)
+      do k = 1, size(equations%modes)
+         nodal = to_nodes(equations, displacement, k)
+         jump(:, :, k) = joint_jump(side%condensed%points, nodal)
+      end do
+      linear = side%tangent%linear_type
+      linear%residual = linear%kept*analyse(side%scene%planes, at_points(linear%slope, &
+         synthesize(side%scene%planes, jump)))
+      linear%rounding = rounding*maxval(abs(linear%residual))
+      call solve(side%condensed, side%scene, linear, linear_tolerance, change, jump)
+      force = force_of(side, equations, change, size(nodal, 2))
+   end subroutine joint_tangent_force
 
    !> Keep the slip of an increment in equilibrium
    subroutine commit_joints(side)

@@ -4,10 +4,12 @@ module axijoint_plastic_methods
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use axijoint_base_kinds, only : wp
    use axijoint_base_stop, only : stop_wished
+   use axijoint_joints_field, only : joint_field_type
    use axijoint_model_model, only : body_anderson, body_newton, body_lbfgs, body_transfer
    use axijoint_plastic_direction, only : newton_direction
    use axijoint_plastic_elastic, only : ring_norm
    use axijoint_plastic_field, only : body_field_type
+   use axijoint_plastic_joint_side, only : linearize_joints
    use axijoint_plastic_mixing, only : mixing_type, new_mixing, mix
    use axijoint_plastic_problem, only : problem_type, iterate_type, look, whole_force, resolution
    use axijoint_plastic_quasi_newton, only : curvature_type, new_curvature, quasi_newton_direction
@@ -115,7 +117,6 @@ contains
             call quasi_newton_steps(problem, field, course)
          case (body_anderson)
             call mix_steps(problem, field, course, depth, huge(1))
-            if (allocated(problem%joints)) cycle  ! the tangent of Newton's method knows none
             if (ended(problem, field, course)) exit
             call newton_and_mix(problem, field, course)
          end select
@@ -290,6 +291,7 @@ contains
 
       allocate (direction, mold=field%unknowns)
       call linearize(problem%bodies, problem%planes, field)
+      if (allocated(problem%joints)) call linearize_joints(problem%joints)
       call newton_direction(problem, field, iterate, forcing, most_inner, direction)
       call go_down(problem, field, iterate, direction, moved)
    end subroutine newton_step
@@ -308,11 +310,13 @@ contains
       !> Whether a step was made
       logical, intent(out) :: moved
 
+      type(joint_field_type) :: joints
       real(wp), allocatable :: start(:)
       real(wp) :: length, down, still, energy
       integer :: cut
 
       start = field%unknowns
+      if (allocated(problem%joints)) joints = problem%joints%field
       energy = iterate%energy
       down = dot_product(iterate%residual, direction)
       length = 1.0_wp
@@ -320,9 +324,17 @@ contains
          field%unknowns = start + length*direction
          call look(problem, field, iterate)
          moved = iterate%energy < (1.0_wp - 0.1_wp*length)*energy
+         if (allocated(problem%joints)) then
+            if (.not. problem%joints%verdict%converged) then
+               moved = .false.
+               problem%joints%field = joints
+               length = 0.5_wp*length
+               cycle
+            end if
+         end if
          still = dot_product(iterate%residual, direction)
          ! down a potential a step may be short, but not end far beyond the lowest place
-         if (problem%associated_flow) moved = moved .or. still >= -0.5_wp*down
+         if (problem%has_potential) moved = moved .or. still >= -0.5_wp*down
          if (moved) return
          if (still < 0.0_wp) then  ! beyond the lowest place on the way
             length = length*min(0.7_wp, max(0.1_wp, down/(down - still)))

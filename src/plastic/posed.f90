@@ -38,7 +38,8 @@ contains
       problem%bodies => bodies
       problem%planes = body_planes(equations%modes, model%n_body_planes)
       problem%load = no_body_load(equations, bodies)
-      problem%associated_flow = all(abs(bodies%laws%friction - bodies%laws%dilation) <= 0.0_wp)
+      problem%has_potential = size(condensed%points) == 0 &
+         .and. all(abs(bodies%laws%friction - bodies%laws%dilation) <= 0.0_wp)
       if (size(condensed%points) > 0) then
          call new_history(model, condensed, history)
          allocate (problem%joints)

@@ -8,12 +8,13 @@ module axijoint_plastic_problem
    use axijoint_plastic_bodies, only : bodies_type
    use axijoint_plastic_elastic, only : elastic_response, pushed_modes, ring_norm
    use axijoint_plastic_field, only : body_field_type, body_load_type
-   use axijoint_plastic_joint_side, only : joint_side_type, begin_joint_step, balance_joints
+   use axijoint_plastic_joint_side, only : joint_side_type, begin_joint_step, balance_joints, &
+      joint_tangent_force
    use axijoint_plastic_residual, only : evaluate, elastic_force
    implicit none
    private
    public :: problem_type, steering_type, iterate_type, put_load, steer, look, turn, &
-      go_to_displacement, whole_force, resolution
+      give_way, go_to_displacement, whole_force, resolution
 
    !> Increments are repeated so often at most, for the start of the next
    real(wp), parameter :: most_repeated = 10.0_wp
@@ -50,8 +51,9 @@ module axijoint_plastic_problem
       real(wp) :: pushed = 0.0_wp
       !> Norm of the largest loads so far, which no residual is held against more; none if zero
       real(wp) :: peak = 0.0_wp
-      !> Whether plastic strain is normal to all criteria, so that tangents are symmetric
-      logical :: associated_flow = .true.
+      !> Whether stresses have a potential, so that tangents are symmetric: plastic strain is normal
+      !> to all criteria, and no joint slips or opens
+      logical :: has_potential = .true.
       !> Elastic solutions of all modes so far
       integer :: solutions = 0
    end type problem_type
@@ -228,6 +230,23 @@ contains
       iterate%response = iterate%response + response
       iterate%residual = elastic_force(problem%equations, problem%bodies, iterate%response)
    end subroutine add_joints
+
+   !> Forces by which joints, linearized, answer forces: these and those together act on the elastic
+   !> structure
+   subroutine give_way(problem, force)
+      !> The problem
+      type(problem_type), intent(inout) :: problem
+      !> Forces on the unknowns; takes those of the joints
+      real(wp), intent(inout) :: force(:)
+
+      real(wp), dimension(size(force)) :: response, answer
+
+      if (.not. allocated(problem%joints)) return
+      call elastic_response(problem%equations, force, response)
+      problem%solutions = problem%solutions + 1
+      call joint_tangent_force(problem%joints, problem%equations, response, answer)
+      force = force + answer
+   end subroutine give_way
 
    !> Response of the elastic structure to forces. If a displacement is given, it does no work with
    !> the steering load: the forces are changed by as much of that load

@@ -74,7 +74,7 @@ contains
       yielding%problem%bodies => yielding%bodies
       yielding%problem%planes = body_planes(modes, n_planes)
       yielding%problem%load = no_body_load(yielding%equations, yielding%bodies)
-      yielding%problem%associated_flow = all(abs(laws%friction - laws%dilation) <= 0.0_wp)
+      yielding%problem%has_potential = all(abs(laws%friction - laws%dilation) <= 0.0_wp)
       if (can_yield(model)) call add_joints(model, yielding)
       yielding%field = new_body_field(yielding%equations, yielding%bodies, yielding%problem%planes)
    end subroutine new_yielding

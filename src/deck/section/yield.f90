@@ -17,7 +17,7 @@ module axijoint_deck_section_yield
       criterion_names
    use axijoint_model_material, only : solid_material_type
    use axijoint_model_model, only : model_type, bodies_yield, can_yield, method_transfer, &
-      body_newton, body_lbfgs
+      body_lbfgs
    implicit none
    private
    public :: yield_section, check_yielding
@@ -213,20 +213,19 @@ contains
       !> The job
       type(model_type), intent(in) :: model
 
-      character(len=*), parameter :: with_joints = 'ANDERSON or TRANSFER', &
-         with_dilation = 'ANDERSON, NEWTON or TRANSFER'
+      character(len=*), parameter :: others = 'ANDERSON, NEWTON or TRANSFER'
       logical :: associated_flow
 
-      if (any(model%body_method == [body_newton, body_lbfgs]) .and. can_yield(model)) then
-         call field_fault(card, field_body_method, 'this method knows no joints that open or '// &
-            'slip beside bodies that yield', allowed=with_joints)
+      if (model%body_method == body_lbfgs .and. can_yield(model)) then
+         call field_fault(card, field_body_method, 'LBFGS needs a potential, which joints '// &
+            'that open or slip do not have', allowed=others)
       else if (model%body_method == body_lbfgs) then
          associate (laws => model%materials%yield)
             associated_flow = all(abs(laws%friction - laws%dilation) <= 0.0_wp)
          end associate
          if (.not. associated_flow) call field_fault(card, field_body_method, &
             'LBFGS needs a potential, which there is only if psi = phi in all materials', &
-            allowed=with_dilation)
+            allowed=others)
       end if
       if (model%n_body_planes == 0) return
       associate (m => model%max_harmonic)
