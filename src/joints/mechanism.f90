@@ -150,7 +150,7 @@ contains
       real(wp), intent(out), contiguous :: value(:), rows(:, :)
 
       real(wp) :: elastic(size(value), size(value)), eigenvalue(size(value)), &
-         lost(size(value), size(value))
+         lost(size(value), size(value)), held(size(value))
       integer :: info, k
 
       call resist(condensed, scene, field, sticking, resistance, elastic)
@@ -159,6 +159,11 @@ contains
          to_unit(:, k) = elastic(:, k)/sqrt(eigenvalue(k))
       end do
       resistance = matmul(transpose(to_unit), matmul(resistance, to_unit))
+      if (allocated(scene%given%jump)) then  ! its work is held
+         held = matmul(scene%given%work, to_unit)
+         if (any(abs(held) > 0.0_wp)) resistance = resistance &
+            + spread(held, 2, size(held))*spread(held, 1, size(held))/sum(held**2)
+      end if
       lost = resistance
       call singular_values(lost, value, rows)
    end subroutine unit_resistance

@@ -68,6 +68,9 @@ module axijoint_joints_newton_system
       real(wp), allocatable :: slope(:, :, :, :)
       !> What a solution may leave at best
       real(wp) :: least_left = 0.0_wp
+      !> Their jumps under a unit of the load whose work is given, and the same times what makes them
+      !> shares of that work, shape (points, 3, modes); not allocated without
+      real(wp), allocatable :: given_jump(:, :, :), given_share(:, :, :)
       !> Inverses of what points do to themselves, where laws are stiff
       type(point_blocks_type), allocatable :: blocks
    contains
@@ -163,6 +166,10 @@ contains
 
       derivative%condensed => condensed
       derivative%scene => scene
+      if (allocated(scene%given%jump)) then
+         derivative%given_jump = by_component(scene%given%jump, points)
+         derivative%given_share = by_component(scene%given%weighted, points)/scene%given%compliance
+      end if
       allocate (derivative%slope(size(points), 3, 3, size(linear%slope, 4)))
       do j = 1, size(linear%slope, 4)
          do k = 1, size(points)
@@ -329,6 +336,8 @@ contains
       end do
       !$omp end parallel do
       if (self%condensed%shared) call tell_jumps(self%condensed, self%scene, jump)
+      if (allocated(self%given_jump)) &
+         jump = jump - sum(self%given_share*reshape(x, shape(jump)))*self%given_jump
       call find_excess(self, n, jump, excess)
       excess = reshape(x, shape(excess)) - excess
       if (allocated(self%blocks)) call precondition(self%blocks, excess)

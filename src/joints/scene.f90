@@ -13,7 +13,7 @@ module axijoint_joints_scene
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: scene_type, new_scene, jumps, tell_jumps, jumps_of_mode, own_flexibility, evaluate, &
+   public :: scene_type, given_work_type, new_scene, jumps, work_share, tell_jumps, jumps_of_mode, own_flexibility, evaluate, &
       views, &
       mismatch_of, elastic_stress
    public :: motion_of, multiples_of_motions, stand_where_they_are
@@ -22,6 +22,18 @@ module axijoint_joints_scene
    real(wp), parameter :: judged_view = 1.0e2_wp
    !> Joint points from which on products of the harmonics are worth threads
    integer, parameter :: worth_points = 64
+
+   !> A load whose work is given in place of its size: its size takes away what excess stress adds to
+   !> that work, so jumps follow from F - d d^T/a in place of the flexibility F, with the jumps d that
+   !> a unit of it makes in elastic joints, and its work a on the displacements of these
+   type :: given_work_type
+      !> The jumps d, amplitudes, and the same times what makes them forces, shape (3, points, modes)
+      real(wp), allocatable :: jump(:, :, :), weighted(:, :, :)
+      !> The work a
+      real(wp) :: compliance = 0.0_wp
+      !> Work of a unit on the floating motions
+      real(wp), allocatable :: work(:)
+   end type given_work_type
 
    !> What is asked of a condensed structure. It is small beside that: who asks something else makes
    !> a copy
@@ -37,6 +49,8 @@ module axijoint_joints_scene
       type(planes_type) :: planes
       !> The loads
       type(joint_loads_type) :: loads
+      !> The load whose work is given; its components are not allocated if there is none
+      type(given_work_type) :: given
    end type scene_type
 
 contains
@@ -91,8 +105,20 @@ contains
       end do
       !$omp end parallel do
       if (condensed%shared) call tell_jumps(condensed, scene, jump)
+      if (allocated(scene%given%jump)) jump = jump - work_share(scene%given, excess)*scene%given%jump
       if (free) jump = jump + scene%loads%free
    end function jumps
+
+   !> Work that the load of given work does where excess stress moves it, in units of that it does on
+   !> its own displacements: by as much the load becomes less
+   pure real(wp) function work_share(given, excess) result(share)
+      !> The load
+      type(given_work_type), intent(in) :: given
+      !> Amplitudes of the excess stress, shape (3, points, modes)
+      real(wp), intent(in) :: excess(:, :, :)
+
+      share = sum(given%weighted*excess)/given%compliance
+   end function work_share
 
    !> Let all ranks know the jumps that each has found with its flexibilities
    subroutine tell_jumps(condensed, scene, jump)

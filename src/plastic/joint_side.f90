@@ -5,6 +5,7 @@ module axijoint_plastic_joint_side
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_force, only : joint_force, joint_jump
    use axijoint_base_kinds, only : wp
+   use axijoint_fe_fourier, only : circle_integral
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, commit_field
    use axijoint_joints_loads, only : put_work
@@ -14,12 +15,12 @@ module axijoint_plastic_joint_side
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_planes, only : synthesize, analyse
    use axijoint_joints_residual, only : set_reference
-   use axijoint_joints_scene, only : scene_type, elastic_stress
-   use axijoint_plastic_elastic, only : to_vector, to_nodes
+   use axijoint_joints_scene, only : scene_type, given_work_type, elastic_stress
+   use axijoint_plastic_elastic, only : to_vector, to_nodes, from_nodes
    implicit none
    private
-   public :: joint_side_type, begin_joint_step, balance_joints, linearize_joints, &
-      joint_tangent_force, commit_joints
+   public :: joint_side_type, begin_joint_step, steer_joints, balance_joints, linearize_joints, &
+      joint_tangent_force, add_units, commit_joints
 
    !> What the linear solution of the joints leaves of its right side
    real(wp), parameter :: linear_tolerance = 1.0e-4_wp
@@ -48,6 +49,9 @@ module axijoint_plastic_joint_side
       !> strain changes in others is no measure of forces there
       logical :: begun = .false.
       logical, allocatable :: pushed(:)
+      !> What the step would add to the stress of joints that hold, if it is not what the loads add:
+      !> where work is given in place of a load, shape (3, points, modes)
+      real(wp), allocatable :: added(:, :, :)
    end type joint_side_type
 
 contains
@@ -65,8 +69,65 @@ contains
       side%field%fading = 0.0_wp
       side%begun = .false.
       side%pushed = pushed
+      if (allocated(side%added)) deallocate (side%added)
+      side%scene%given = given_work_type()
       call put_work(side%condensed%floating, external, side%scene%loads)
    end subroutine begin_joint_step
+
+   !> Let the work of a load be given in place of its size
+   subroutine steer_joints(side, equations, load, response, step)
+      !> The joints, at the begin of a step
+      type(joint_side_type), intent(inout) :: side
+      !> The equations
+      type(equations_type), intent(in) :: equations
+      !> A unit of the load on the unknowns, and the response of the elastic structure
+      real(wp), intent(in) :: load(:), response(:)
+      !> How many units the step would add if all were elastic
+      real(wp), intent(in) :: step
+
+      type(given_work_type) :: given
+      real(wp), allocatable :: motion(:, :, :)
+      integer :: k, p
+
+      associate (condensed => side%condensed)
+         allocate (given%jump, mold=side%field%excess)
+         do k = 1, size(equations%modes)
+            given%jump(:, :, k) = joint_jump(condensed%points, to_nodes(equations, response, k))
+         end do
+         given%weighted = given%jump
+         side%added = given%jump
+         do k = 1, size(equations%modes)
+            do p = 1, size(condensed%points)
+               given%weighted(:, p, k) = circle_integral(equations%modes(k)%harmonic) &
+                  *condensed%points(p)%weight*given%jump(:, p, k)
+               side%added(:, p, k) = step*condensed%points(p)%base*given%jump(:, p, k)
+            end do
+         end do
+         given%compliance = dot_product(load, response)
+         allocate (given%work(size(condensed%floating)))
+         do k = 1, size(given%work)
+            associate (floating => condensed%floating(k))
+               allocate (motion(3, size(floating%displacement, 2), size(equations%modes)), &
+                  source=0.0_wp)
+               motion(:, :, floating%mode) = floating%displacement
+               given%work(k) = dot_product(load, from_nodes(equations, motion))
+               deallocate (motion)
+            end associate
+         end do
+      end associate
+      side%scene%given = given
+   end subroutine steer_joints
+
+   !> Take note that more of the load acts whose work is given
+   subroutine add_units(side, units)
+      !> The joints
+      type(joint_side_type), intent(inout) :: side
+      !> How much more of it
+      real(wp), intent(in) :: units
+
+      if (allocated(side%scene%given%jump)) &
+         side%scene%loads%free = side%scene%loads%free + units*side%scene%given%jump
+   end subroutine add_units
 
    !> Equilibrium of the joints, and the forces of the stress that they do not admit
    subroutine balance_joints(side, equations, free, held, norm, force)
@@ -96,10 +157,14 @@ contains
       if (.not. side%begun) then
          if (.not. allocated(side%balanced)) &
             allocate (side%balanced, source=0.0_wp*side%scene%loads%free)
-         change = elastic_stress(side%condensed, side%scene, side%field) - side%balanced
-         do k = 1, size(side%pushed)
-            if (.not. side%pushed(k)) change(:, :, k) = 0.0_wp
-         end do
+         if (allocated(side%added)) then
+            change = side%added
+         else
+            change = elastic_stress(side%condensed, side%scene, side%field) - side%balanced
+            do k = 1, size(side%pushed)
+               if (.not. side%pushed(k)) change(:, :, k) = 0.0_wp
+            end do
+         end if
          call set_reference(side%condensed%measure, norm, change, side%control%tolerance, &
             side%scene%loads%reference)
          side%begun = .true.

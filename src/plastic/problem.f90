@@ -9,7 +9,7 @@ module axijoint_plastic_problem
    use axijoint_plastic_elastic, only : elastic_response, pushed_modes, ring_norm
    use axijoint_plastic_field, only : body_field_type, body_load_type
    use axijoint_plastic_joint_side, only : joint_side_type, begin_joint_step, balance_joints, &
-      joint_tangent_force
+      steer_joints, add_units, joint_tangent_force
    use axijoint_plastic_residual, only : evaluate, elastic_force
    implicit none
    private
@@ -140,6 +140,9 @@ contains
             *abs(step)/dot_product(steering%load, steering%response)
          field%unknowns = field%begun + going_on(step*dot_product(steering%load, field%moved), &
             dot_product(steering%load, field%moved)**2)*field%moved
+         if (allocated(problem%joints)) call steer_joints(problem%joints, problem%equations, &
+            steering%load, steering%response, &
+            step/dot_product(steering%load, steering%response))
          step = (work - dot_product(steering%load, field%unknowns)) &
             /dot_product(steering%load, steering%response)
          field%unknowns = field%unknowns + step*steering%response
@@ -173,14 +176,22 @@ contains
          min(problem%pushed, whole))
       if (.not. problem%pushed > 0.0_wp) forces = max(forces, field%scale)
       largest = problem%peak
-      if (allocated(problem%steering%load)) largest = max(largest, ring_norm(problem%equations, &
-         problem%load%right + problem%steering%factor*problem%steering%load))
+      if (allocated(problem%steering%load)) largest = max(largest, found_load(problem))
       if (largest > 0.0_wp) forces = min(forces, largest)
       iterate%ratio = ring_norm(problem%equations, iterate%residual)
       iterate%at_rounding = iterate%ratio <= resolution*whole
       if (iterate%ratio > 0.0_wp) iterate%ratio = iterate%ratio/max(forces, tiny(1.0_wp))
       iterate%scale = forces
    end subroutine look
+
+   !> Norm of the loads with the load factor that was found so far
+   pure real(wp) function found_load(problem)
+      !> The problem, steered
+      type(problem_type), intent(in) :: problem
+
+      found_load = ring_norm(problem%equations, &
+         problem%load%right + problem%steering%factor*problem%steering%load)
+   end function found_load
 
    !> Norm of the forces of the bodies
    pure real(wp) function whole_force(problem, field)
@@ -220,13 +231,15 @@ contains
       type(iterate_type), intent(inout) :: iterate
 
       real(wp), dimension(size(field%unknowns)) :: force, response
-      real(wp) :: change
+      real(wp) :: change, norm
 
+      norm = problem%load_norm
+      if (allocated(problem%steering%load)) norm = max(norm, found_load(problem))
       call balance_joints(problem%joints, problem%equations, field%unknowns + iterate%response, &
-                          problem%load%held, problem%load_norm, &
-                          force)
+                          problem%load%held, norm, force)
       call turn(problem, force, response, change)
       problem%steering%factor = problem%steering%factor + change
+      call add_units(problem%joints, change)
       iterate%response = iterate%response + response
       iterate%residual = elastic_force(problem%equations, problem%bodies, iterate%response)
    end subroutine add_joints

@@ -511,6 +511,142 @@ END
     return faults + expected('load factors', [1.0, 2.0, 3.0], [row['load_factor'] for row in rows])
 
 
+def pulled(cohesion, factors, rows=4):
+    """A pile in clay of Mises, s_u = 50, pulled by displacements in units of 2 pi R L s_u; the joint of its shaft has a
+    cohesion and is pressed, that of its toe bears no tension"""
+    return steered(f"""TITLE
+A pile pulled out of clay
+CONTROL
+0, , , 2
+MATERIALS
+1, 3.0E7, 0.2
+2, 3.0E4, 0.49
+YIELD
+2, MISES, {50.0*math.sqrt(3.0)}
+LAWS
+1, 1E6, 1E6, 1E6, {cohesion}, 0.0
+2, 1E6, 1E6, 1E6, 0.0, 0.0
+LAWDETAILS
+1, RESULTANT, , , , , , -100.0
+2, RESULTANT
+BLOCKS
+1, 1, 8, 1, {rows}
+0.0, -5.0, 0.5, 0.0
+2, 2, 8, {rows + 1}, {rows}, 100.0
+0.5, -5.0, 10.0, 0.0
+2, 2, 8, 1, {rows//2}, 1.0, 0.25
+0.0, -9.0, 0.5, -5.0
+2, 2, 8, {rows + 1}, {rows//2}, 100.0, 0.25
+0.5, -9.0, 10.0, -5.0
+FACES
+1, 1, 0.0, 0.0, 0.5, 0.0
+2, 2, 0.0, -9.0, 10.0, -9.0
+3, 2, 10.0, -9.0, 10.0, 0.0
+4, 1, 0.5, -5.0, 0.5, 0.0
+5, 2, 0.5, -5.0, 0.5, 0.0
+6, 1, 0.0, -5.0, 0.5, -5.0
+7, 2, 0.0, -5.0, 0.5, -5.0
+INTERFACES
+1, 4, 5
+2, 6, 7
+FIXEDFACES
+2, 111
+3, 101
+RESULTANTS
+1, AXIAL, {2.0*math.pi*0.5*5.0*50.0}
+INCREMENTS
+""" + ''.join(f'{factor},\n' for factor in factors) + 'END\n')
+
+
+def pulled_out(folder, program):
+    """Beyond the limit of a pile with a joint: 2 pi R L times its cohesion where the joint is the weaker, exactly; where
+    the clay is, that of the clay, a cylinder that shears, from above with the mesh"""
+    rows = run(program, folder, pulled(25.0, (0.4, 1.0, 3.0)))['increments']
+    faults = sum((off('joint', row['load_factor'], 0.5, 1e-5) for row in rows[1:]), [])
+    found = [run(program, folder, pulled(150.0, (0.4, 1.0, 3.0), n))['increments'][-1]['load_factor'] for n in (4, 8)]
+    if not (found[0] > found[1] > 1.0 and abs(2.0*found[1] - found[0] - 1.0) < 0.05):
+        faults.append(f'clay: {found}')
+    return faults
+
+
+def slipping_pile(increments, method='', more=''):
+    """A pile in clay pushed sideways, with a joint that slips and opens beside clay that yields"""
+    return f"""TITLE
+A pile with a joint, pushed sideways
+CONTROL
+3, , , 2, , , , {method}
+MATERIALS
+1, 3.0E7, 0.2
+2, 3.0E4, 0.45
+YIELD
+2, MISES, 86.6
+LAWS
+1, 1E6, 1E6, 1E6, 25.0, 0.0
+{more}BLOCKS
+1, 1, 8, 1, 4
+0.0, -3.0, 0.5, 0.0
+2, 2, 8, 4, 4, 10.0
+0.5, -3.0, 4.0, 0.0
+2, 2, 8, 1, 1
+0.0, -4.0, 0.5, -3.0
+2, 2, 8, 4, 1, 10.0
+0.5, -4.0, 4.0, -3.0
+FACES
+1, 1, 0.0, 0.0, 0.5, 0.0
+2, 2, 0.0, -4.0, 4.0, -4.0
+3, 2, 4.0, -4.0, 4.0, 0.0
+4, 1, 0.5, -3.0, 0.5, 0.0
+5, 2, 0.5, -3.0, 0.5, 0.0
+6, 1, 0.0, -3.0, 0.5, -3.0
+7, 2, 0.0, -3.0, 0.5, -3.0
+INTERFACES
+1, 4, 5
+1, 6, 7
+FIXEDFACES
+2, 111
+3, 111
+RESULTANTS
+1, LATERAL, 100.0
+INCREMENTS
+{increments}END
+"""
+
+
+PRESSED = 'LAWDETAILS\n1, RESULTANT, , , , , , -100.0\n'
+
+
+def found_loads(folder, program):
+    """Load factors that given displacements found, given as loads, lead to the same states beside joints that slip and
+    open; so does Newton's method, and loads can be taken back after"""
+    tail = '-1.0,\n'
+    rows = run(program, folder, slipping_pile('2.0, , , , DISPLACEMENT\n'*3 + tail, more=PRESSED))['increments']
+    loads = [row['load_factor'] for row in rows[:3]]
+    cards = ''.join(f'{load - before!r},\n' for load, before in zip(loads, [0.0, *loads])) + tail
+    faults = []
+    for method in ('ANDERSON', 'NEWTON'):
+        summary = run(program, folder, slipping_pile(cards, method, PRESSED))
+        faults += [] if summary['joint_states']['slip'] and summary['joint_states']['open'] else ['nothing slips or opens']
+        for row, other in zip(rows, summary['increments']):
+            for name in ('work', 'largest_displacement', 'dissipated'):
+                faults += off(f'{method}: {name}', other[name], row[name], 1e-5)
+    return faults
+
+
+def cohesion_that_is_lost(folder, program):
+    """A joint that loses its cohesion where it opens, without pressure, of ten times the usual stiffness: small steps
+    and large ones find about the same state, of elastic clay and of clay that yields"""
+    faults = []
+    for elastic in (False, True):
+        found = []
+        for steps in (2, 8):
+            deck = slipping_pile(f'{2.0/steps},\n'*steps).replace('1, 1E6, 1E6, 1E6', '1, 1E7, 1E7, 1E7')
+            if elastic:
+                deck = deck.replace('YIELD\n2, MISES, 86.6\n', '')
+            found.append(run(program, folder, deck)['increments'][-1]['largest_displacement'])
+        faults += off(f'displacement, elastic: {elastic}', found[1], found[0], 1e-2)
+    return faults
+
+
 def strength_with_depth(folder, program):
     """Ten units below its level the cylinder is as strong as the gradient says"""
     deck = cylinder((1.0, 0.4), 32, law=f'1, TRESCA, {YIELD_STRESS - 10.0}', more='YIELDDEPTH\n1, 1.0, 10.05\n')
@@ -586,4 +722,6 @@ def tests(program):
             made('harmonics', harmonics), made('back and forth', back_and_forth),
             made('disc in clay', disc_in_clay), made('footing on clay', footing_on_clay),
             made('errors estimated', estimates), made('odd harmonics', odd_harmonics), made('joint in weight', joint_in_weight),
+            made('pulled out', pulled_out), made('found loads beside joints', found_loads),
+            made('cohesion that is lost', cohesion_that_is_lost),
             made('no envelope', no_envelope), made('estimated', estimated), made('study', study), made('pictures', pictures)]

@@ -10,7 +10,7 @@ module axijoint_deck_section_increments
    use axijoint_deck_text_field, only : integer_field, real_field, word_field, described, &
       largest_number
    use axijoint_model_load, only : increment_type
-   use axijoint_model_model, only : bodies_yield, can_yield
+   use axijoint_model_model, only : bodies_yield, can_yield, method_newton
    implicit none
    private
    public :: increments_section, refer_increments, warn_of_idle_cases, check_control
@@ -113,10 +113,10 @@ contains
             if (.not. bodies_yield(model)) then
                call field_fault(card, field_control, 'no material yields: the load factor is found '// &
                   'only where one does', allowed='LOAD, or blank')
-            else if (can_yield(model)) then
-               call field_fault(card, field_control, 'the load factor is not found where joints '// &
-                  'open or slip', allowed='LOAD, or blank', mend='MOVEDFACES gives displacements, '// &
-                  'beyond the limit load, too')
+            else if (can_yield(model) .and. model%method /= method_newton) then
+               call field_fault(card, field_control, 'the load factor is found by the method NEWTON '// &
+                  'of the joints alone', allowed='LOAD, or blank', mend='leave columns 41-50 of '// &
+                  'CONTROL blank; MOVEDFACES gives displacements, beyond the limit load, too')
             else if (any([(applies(model%prescribed(k)%case), k=1, size(model%prescribed)), &
                            (applies(model%thermal_loads(k)%case), k=1, size(model%thermal_loads)), &
                            (applies(model%initial_stresses(k)%case), k=1, &
