@@ -622,13 +622,16 @@ def found_loads(folder, program):
     rows = run(program, folder, slipping_pile('2.0, , , , DISPLACEMENT\n'*3 + tail, more=PRESSED))['increments']
     loads = [row['load_factor'] for row in rows[:3]]
     cards = ''.join(f'{load - before!r},\n' for load, before in zip(loads, [0.0, *loads])) + tail
-    faults = []
+    faults, iterations = [], []
     for method in ('ANDERSON', 'NEWTON'):
         summary = run(program, folder, slipping_pile(cards, method, PRESSED))
         faults += [] if summary['joint_states']['slip'] and summary['joint_states']['open'] else ['nothing slips or opens']
+        iterations.append(summary['iterations'])
         for row, other in zip(rows, summary['increments']):
             for name in ('work', 'largest_displacement', 'dissipated'):
                 faults += off(f'{method}: {name}', other[name], row[name], 1e-5)
+    if iterations[1] > 0.7*iterations[0]:
+        faults.append(f"Newton's method does not pay: {iterations} iterations")
     return faults
 
 
