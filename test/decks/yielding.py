@@ -633,9 +633,11 @@ def found_loads(folder, program):
 
 
 def newton_beside_joints(folder, program):
-    """With the right tangent of bodies and joints Newton's method takes fewer iterations near the limit, to the same state"""
-    anderson, newton = (run(program, folder, slipping_pile('1.9,\n1.5,\n1.0,\n', method, PRESSED))
-                        for method in ('ANDERSON', 'NEWTON'))
+    """With the right tangent of bodies and joints Newton's method takes fewer iterations near the limit, to the same
+    state: the joint is smooth, for with cohesion that is lost where it opens there may be two"""
+    anderson, newton = (
+        run(program, folder, slipping_pile('1.9,\n1.0,\n0.6,\n', method, PRESSED).replace('25.0, 0.0', '0.0, 0.0'))
+        for method in ('ANDERSON', 'NEWTON'))
     faults = off('displacement', newton['increments'][-1]['largest_displacement'],
                  anderson['increments'][-1]['largest_displacement'], 1e-5)
     found = [summary['yielding']['increments'][-1]['iterations'] for summary in (anderson, newton)]
