@@ -13,9 +13,8 @@ module axijoint_joints_scene
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: scene_type, given_work_type, new_scene, jumps, work_share, tell_jumps, jumps_of_mode, own_flexibility, evaluate, &
-      views, &
-      mismatch_of, elastic_stress
+   public :: scene_type, given_work_type, new_scene, jumps, tell_jumps, jumps_of_mode, &
+      own_flexibility, evaluate, views, mismatch_of, elastic_stress
    public :: motion_of, multiples_of_motions, stand_where_they_are
 
    !> Stiffness k h/E of joints that a state is judged by

@@ -253,10 +253,10 @@ contains
       real(wp), intent(inout) :: force(:)
 
       real(wp), dimension(size(force)) :: response, answer
+      real(wp) :: unused
 
       if (.not. allocated(problem%joints)) return
-      call elastic_response(problem%equations, force, response)
-      problem%solutions = problem%solutions + 1
+      call turn(problem, force, response, unused)
       call joint_tangent_force(problem%joints, problem%equations, response, answer)
       force = force + answer
    end subroutine give_way
