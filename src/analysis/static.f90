@@ -186,7 +186,8 @@ contains
       type(joint_field_type), allocatable :: other
 
       call run_increments(model, structure%equations, structure%condensed, structure%joint_points, &
-                          structure%support_points, combination, history, progress, keeper)
+                          structure%support_points, combination, history, progress, keeper, &
+                          structure%answer)
       if (allocated(history%failure)) then
          error = history%failure
          return

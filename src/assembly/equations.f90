@@ -20,7 +20,7 @@ module axijoint_assembly_equations
    implicit none
    private
    public :: equations_type, system_type, plan_equations, assemble_equations
-   public :: solve_mode, backward_error, on_equations
+   public :: solve_mode, find_unbalanced, on_equations
    public :: own_modes, plan_solver, worth_threads, planned_seconds, refine_mode, find_condition
 
    !> With fewer equations in all, threads cost more than they save
@@ -315,13 +315,13 @@ contains
    end subroutine solve_mode
 
    !> One step of iterative refinement
-   subroutine refine_mode(equations, k, force, displacement, correction)
+   subroutine refine_mode(equations, k, unbalanced, displacement, correction)
       !> The equations, factored
       type(equations_type), intent(in) :: equations
       !> Place of the mode
       integer, intent(in) :: k
-      !> Forces on components, shape (3, nodes)
-      real(wp), intent(in) :: force(:, :)
+      !> Forces that the displacements leave, shape (n_equations)
+      real(wp), intent(in) :: unbalanced(:)
       !> Displacement amplitudes, shape (3, nodes)
       real(wp), intent(inout) :: displacement(:, :)
       !> Largest correction: what rounding did to the solution before, and about what it leaves
@@ -331,7 +331,7 @@ contains
 
       associate (dofs => equations%classes(equations%systems(equations%system(k))%class)%dofs)
          allocate (b(dofs%n_equations, 1))
-         b(:, 1) = gather(dofs, force) - elastic_force(equations, k, displacement)
+         b(:, 1) = unbalanced
          call equations%systems(equations%system(k))%factor%solve(b)
          displacement = displacement + expand(dofs, b(:, 1))
          correction = maxval([0.0_wp, abs(b)])
@@ -381,8 +381,9 @@ contains
       end associate
    end function elastic_force
 
-   !> Backward error |b - K u| / (|K| |u| + |b|) of one mode, maximum norms
-   function backward_error(equations, k, force, displacement) result(ratio)
+   !> Forces b - K u that displacements of one mode leave, and their backward error
+   !> |b - K u| / (|K| |u| + |b|), maximum norms
+   subroutine find_unbalanced(equations, k, force, displacement, unbalanced, backward_error)
       !> The equations
       type(equations_type), intent(in) :: equations
       !> Place of the mode
@@ -391,19 +392,19 @@ contains
       real(wp), intent(in) :: force(:, :)
       !> Displacement amplitudes, shape (3, nodes)
       real(wp), intent(in) :: displacement(:, :)
+      !> Forces on equations
+      real(wp), allocatable, intent(out) :: unbalanced(:)
       !> Backward error; zero without loads
-      real(wp) :: ratio
+      real(wp), intent(out) :: backward_error
 
-      real(wp), allocatable :: b(:)
       real(wp) :: scale
 
-      b = on_equations(equations, k, force)
+      unbalanced = on_equations(equations, k, force)
       scale = equations%systems(equations%system(k))%norm*maxval(abs(displacement)) &
-         + maxval([0.0_wp, abs(b)])
-      ratio = 0.0_wp
-      if (scale > 0.0_wp) then
-         ratio = maxval([0.0_wp, abs(b - elastic_force(equations, k, displacement))])/scale
-      end if
-   end function backward_error
+         + maxval([0.0_wp, abs(unbalanced)])
+      unbalanced = unbalanced - elastic_force(equations, k, displacement)
+      backward_error = 0.0_wp
+      if (scale > 0.0_wp) backward_error = maxval([0.0_wp, abs(unbalanced)])/scale
+   end subroutine find_unbalanced
 
 end module axijoint_assembly_equations

@@ -1,7 +1,7 @@
 !> Forces of edge loads and joints in one harmonic, on displacement components
 module axijoint_assembly_force
    use axijoint_base_kinds, only : wp
-   use axijoint_element_joint, only : jump_matrix
+   use axijoint_element_joint, only : jump_at, force_at
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_fe_quadrature, only : gauss_rule
    use axijoint_fe_shape, only : shape_line
@@ -52,13 +52,12 @@ contains
       !> Jumps, shape (3, points)
       real(wp) :: jump(3, size(points))
 
-      real(wp) :: matrix(3, 18)
-      integer :: k, n
+      integer :: k
 
       do k = 1, size(points)
-         n = 2*points(k)%n_pairs
-         call jump_matrix(points(k)%joint_point_type, matrix(:, :3*n))
-         jump(:, k) = matmul(matrix(:, :3*n), reshape(displacement(:, points(k)%nodes(:n)), [3*n]))
+         associate (nodes => points(k)%nodes(:2*points(k)%n_pairs))
+            jump(:, k) = jump_at(points(k)%joint_point_type, displacement(:, nodes))
+         end associate
       end do
    end function joint_jump
 
@@ -92,17 +91,16 @@ contains
       !> Forces, shape (3, nodes)
       real(wp) :: force(3, n_nodes)
 
-      real(wp) :: matrix(3, 18), weight
+      real(wp) :: at_nodes(3, 6)
       integer :: k, n
 
       force = 0.0_wp
       do k = 1, size(points)
          n = 2*points(k)%n_pairs
-         weight = circle_integral(harmonic)*points(k)%weight
-         call jump_matrix(points(k)%joint_point_type, matrix(:, :3*n))
+         at_nodes = force_at(points(k)%joint_point_type, circle_integral(harmonic) &
+            *points(k)%weight*stress(:, k))
          associate (nodes => points(k)%nodes(:n))
-            force(:, nodes) = force(:, nodes) &
-               + weight*reshape(matmul(stress(:, k), matrix(:, :3*n)), [3, n])
+            force(:, nodes) = force(:, nodes) + at_nodes(:, :n)
          end associate
       end do
    end function joint_force

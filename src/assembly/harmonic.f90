@@ -102,23 +102,37 @@ contains
       real(wp), allocatable :: y(:)
 
       real(wp), allocatable :: value(:), first(:, :)
-      real(wp) :: row_sum, second
-      integer :: i, j, k, n
+      real(wp) :: row_sum, second, v
+      integer(i8) :: start
+      integer :: i, j, k, n, w
 
       call harmonic_factors(stiffness, harmonic, first, second)
       allocate (value(size(first, 1)))
       associate (pattern => stiffness%pattern)
          allocate (y(pattern%n), source=0.0_wp)
          do i = 1, pattern%n
-            n = int(pattern%row_start(i + 1) - pattern%row_start(i))
-            call row_values(stiffness, i, first, second, value(:n))
-            row_sum = value(n)*x(i)
-            do k = 1, n - 1
-               j = pattern%column(pattern%row_start(i) + k - 1)
-               row_sum = row_sum + value(k)*x(j)
-               y(j) = y(j) + value(k)*x(i)
-            end do
-            y(i) = y(i) + row_sum
+            start = pattern%row_start(i) - 1
+            n = int(pattern%row_start(i + 1) - start) - 1
+            row_sum = 0.0_wp
+            if (stiffness%harmonic == any_harmonic .and. stiffness%regular(i)) then
+               w = stiffness%is_w(i)
+               do k = 1, n - 1  ! most rows: as `row_values`, without keeping them
+                  v = first(k, w)*stiffness%parts(1, start + k) + second*stiffness%parts(2, start + k)
+                  j = pattern%column(start + k)
+                  row_sum = row_sum + v*x(j)
+                  y(j) = y(j) + v*x(i)
+               end do
+               v = first(n, w)*stiffness%parts(1, start + n) + second*stiffness%parts(2, start + n)
+            else
+               call row_values(stiffness, i, first, second, value(:n))
+               do k = 1, n - 1
+                  j = pattern%column(start + k)
+                  row_sum = row_sum + value(k)*x(j)
+                  y(j) = y(j) + value(k)*x(i)
+               end do
+               v = value(n)
+            end if
+            y(i) = y(i) + row_sum + v*x(i)
          end do
       end associate
    end function harmonic_product

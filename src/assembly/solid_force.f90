@@ -2,19 +2,26 @@
 module axijoint_assembly_solid_force
    use axijoint_base_kinds, only : wp
    use axijoint_element_dilatation, only : dilatation_type, formulated_points, strain_shape
-   use axijoint_element_solid, only : solid_stress, add_solid_force
    use axijoint_element_solid_point, only : solid_point_type, solid_points
+   use axijoint_element_solid_stress, only : solid_strip_type, most_elements, put_element, &
+      strip_stresses, add_strip_forces
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
    use axijoint_fe_quadrature, only : max_element_points
    use axijoint_fe_reference, only : reference_type
    use axijoint_model_load, only : body_load_type, initial_stress_type, stress_before
    use axijoint_model_material, only : elasticity, thermal_strain
-   use axijoint_model_mesh, only : n_elements, max_element_nodes, element_references
+   use axijoint_model_mesh, only : mesh_type, n_elements, max_element_nodes, &
+      element_references
    use axijoint_model_model, only : model_type
    implicit none
    private
    public :: initial_state_type, solid_force, add_mass_force
+
+   !> Nodal forces of one mode or of several
+   interface solid_force
+      module procedure force_of_mode, force_of_modes
+   end interface solid_force
 
    !> What stresses the solids without strain
    type :: initial_state_type
@@ -33,7 +40,7 @@ module axijoint_assembly_solid_force
 contains
 
    !> Nodal forces that balance the stresses of one mode, and the stresses
-   subroutine solid_force(model, initial, k, mode, displacement, force, stress, body)
+   subroutine force_of_mode(model, initial, k, mode, displacement, force, stress, body)
       !> The job
       type(model_type), intent(in) :: model
       !> Stress without strain
@@ -50,50 +57,177 @@ contains
       !> Body whose elements alone count, without their stresses; all if absent or 0
       integer, intent(in), optional :: body
 
-      type(solid_point_type) :: points(max_element_points)
+      real(wp), allocatable :: forces(:, :, :), stresses(:, :, :)
+
+      allocate (forces(3, size(force, 2), 1))
+      if (present(stress)) then
+         allocate (stresses(6, size(stress, 2), 1))
+         call force_of_modes(model, initial, k, [mode], reshape(displacement, shape(forces)), &
+            forces, stresses, body)
+         stress = stresses(:, :, 1)
+      else
+         call force_of_modes(model, initial, k, [mode], reshape(displacement, shape(forces)), &
+            forces, body=body)
+      end if
+      force = forces(:, :, 1)
+   end subroutine force_of_mode
+
+   !> The same of several modes, one after the other in the order of all: what elements need of
+   !> shapes is found once for them
+   subroutine force_of_modes(model, initial, place, modes, displacement, force, stress, body)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Stress without strain
+      type(initial_state_type), intent(in) :: initial
+      !> The modes, and the place of the first
+      integer, intent(in) :: place
+      type(mode_type), intent(in) :: modes(:)
+      !> Displacement amplitudes, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
+      !> Forces on components, shape (3, nodes, modes)
+      real(wp), intent(out) :: force(:, :, :)
+      !> Stress amplitudes at the Gauss points, shape (6, points, modes)
+      real(wp), intent(out), optional :: stress(:, :, :)
+      !> Body whose elements alone count, without their stresses; all if absent or 0
+      integer, intent(in), optional :: body
+
       type(reference_type), allocatable :: references(:)
-      type(dilatation_type) :: dilatation
-      real(wp) :: d(6, 6), now(6), in_situ(6)
-      real(wp), dimension(3, max_element_nodes) :: local, element_force
-      integer :: element, n, n_points, i, last
+      type(solid_strip_type) :: strip
+      real(wp), dimension(most_elements, 6, max_element_points) :: now, in_situ
+      real(wp), dimension(most_elements, 3, max_element_nodes) :: local, balance
+      real(wp) :: d(6, 6)
+      integer :: before, e, first, i, k, last, node
+      logical :: averaged
 
       references = element_references(model%mesh)
       force = 0.0_wp
+      local = 0.0_wp
+      before = 0
       last = 0
-      do element = 1, n_elements(model%mesh)
+      do while (last < n_elements(model%mesh))
+         first = last + 1
+         last = end_of_strip(model%mesh, first)
          if (present(body)) then
-            if (all(body /= [0, model%mesh%element_body(element)])) cycle
+            if (all(body /= [0, model%mesh%element_body(first)])) cycle
          end if
-         n = model%mesh%element_size(element)
-         associate (reference => references(model%mesh%element_kind(element)), &
-                    nodes => model%mesh%element_nodes(:n, element), &
-                    material => model%materials(model%mesh%element_material(element)))
-            d = elasticity(material)
-            n_points = reference%n_points
-            call formulated_points(model%mesh%coordinates(:, nodes), reference, points(:n_points), &
-               dilatation)
-            local(:, :n) = displacement(:, nodes)
-            element_force = 0.0_wp
-            do i = 1, n_points
-               now = solid_stress(points(i), n, d, mode%harmonic, local, dilatation)
-               if (initial%present) then
-                  now = now + thermal_stress(model, initial, k, element, &
-                     strain_shape(dilatation, points(i)), d)
-                  if (allocated(initial%taken)) now = now - initial%taken(:, last + i, k)
-               end if
-               call add_solid_force(points(i), n, mode%harmonic, now, element_force, dilatation)
-               if (initial%present) then  ! equilibrium in situ knows of no means
-                  in_situ = in_situ_stress(model, initial, mode, element, points(i))
-                  call add_solid_force(points(i), n, mode%harmonic, in_situ, element_force)
-                  now = now + in_situ
-               end if
-               if (present(stress)) stress(:, last + i) = now
+         call fill_strip(model%mesh, references(model%mesh%element_kind(first)), first, last, strip)
+         d = elasticity(model%materials(model%mesh%element_material(first)))
+         do k = 1, size(modes)
+            do i = 1, strip%n
+               do e = first, last
+                  local(e - first + 1, :, i) = displacement(:, model%mesh%element_nodes(i, e), k)
+               end do
             end do
-            last = last + n_points
-            force(:, nodes) = force(:, nodes) + circle_integral(mode%harmonic)*element_force(:, :n)
+            call strip_stresses(strip, d, modes(k)%harmonic, local, now)
+            if (initial%present) call find_free_stress(model, initial, place + k - 1, modes(k), &
+               references(model%mesh%element_kind(first)), first, last, before, d, now, in_situ)
+            balance = 0.0_wp
+            call add_strip_forces(strip, modes(k)%harmonic, now, balance)
+            if (initial%present) then  ! equilibrium in situ knows of no means
+               averaged = strip%averaged
+               strip%averaged = .false.
+               call add_strip_forces(strip, modes(k)%harmonic, in_situ, balance)
+               strip%averaged = averaged
+               now(:, :, :strip%n_points) = now(:, :, :strip%n_points) &
+                  + in_situ(:, :, :strip%n_points)
+            end if
+            do e = 1, last - first + 1
+               do i = 1, strip%n
+                  node = model%mesh%element_nodes(i, first + e - 1)
+                  force(:, node, k) = force(:, node, k) &
+                     + circle_integral(modes(k)%harmonic)*balance(e, :, i)
+               end do
+               if (.not. present(stress)) cycle
+               do i = 1, strip%n_points
+                  stress(:, before + (e - 1)*strip%n_points + i, k) = now(e, :, i)
+               end do
+            end do
+         end do
+         before = before + (last - first + 1)*strip%n_points
+      end do
+   end subroutine force_of_modes
+
+   !> Last of the elements from one on that are like it, and not too many
+   pure integer function end_of_strip(mesh, first) result(last)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The first
+      integer, intent(in) :: first
+
+      last = first
+      do while (last < min(first + most_elements - 1, n_elements(mesh)))
+         if (mesh%element_kind(last + 1) /= mesh%element_kind(first)) exit
+         if (mesh%element_material(last + 1) /= mesh%element_material(first)) exit
+         if (mesh%element_body(last + 1) /= mesh%element_body(first)) exit
+         last = last + 1
+      end do
+   end function end_of_strip
+
+   !> Put elements into a strip
+   pure subroutine fill_strip(mesh, reference, first, last, strip)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> Their kind
+      type(reference_type), intent(in) :: reference
+      !> First and last
+      integer, intent(in) :: first, last
+      !> The strip
+      type(solid_strip_type), intent(inout) :: strip
+
+      type(solid_point_type) :: points(max_element_points)
+      type(dilatation_type) :: dilatation
+      integer :: e
+
+      do e = first, last
+         call formulated_points(mesh%coordinates(:, mesh%element_nodes(:reference%n_nodes, e)), &
+            reference, points(:reference%n_points), dilatation)
+         call put_element(points(:reference%n_points), reference%n_nodes, dilatation, &
+            e - first + 1, strip)
+      end do
+   end subroutine fill_strip
+
+   !> Stress of a strip in one mode that is there without strain
+   pure subroutine find_free_stress(model, initial, k, mode, reference, first, last, before, d, now, &
+      in_situ)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Stress without strain
+      type(initial_state_type), intent(in) :: initial
+      !> Place of the mode, and the mode
+      integer, intent(in) :: k
+      type(mode_type), intent(in) :: mode
+      !> Kind of the elements
+      type(reference_type), intent(in) :: reference
+      !> First and last element, and points of all elements before them
+      integer, intent(in) :: first, last, before
+      !> Elasticity matrix
+      real(wp), intent(in) :: d(6, 6)
+      !> Stress of the strains; takes that of temperatures and of plastic strain
+      real(wp), intent(inout) :: now(most_elements, 6, max_element_points)
+      !> In-situ stress
+      real(wp), intent(inout) :: in_situ(most_elements, 6, max_element_points)
+
+      type(solid_point_type) :: points(max_element_points)
+      type(dilatation_type) :: dilatation
+      integer :: e, i, n
+
+      in_situ = 0.0_wp
+      n = reference%n_points
+      do e = 1, last - first + 1
+         associate (element => first + e - 1)
+            call formulated_points(model%mesh%coordinates(:, &
+               model%mesh%element_nodes(:reference%n_nodes, element)), reference, points(:n), &
+               dilatation)
+            do i = 1, n
+               now(e, :, i) = now(e, :, i) + thermal_stress(model, initial, k, element, &
+                  strain_shape(dilatation, points(i)), d)
+               if (allocated(initial%taken)) &
+                  now(e, :, i) = now(e, :, i) - initial%taken(:, before + (e - 1)*n + i, k)
+               in_situ(e, :, i) = in_situ_stress(model, initial, mode, element, points(i))
+            end do
          end associate
       end do
-   end subroutine solid_force
+   end subroutine find_free_stress
 
    !> Stress at a point that temperature gives without strain: - D alpha T
    pure function thermal_stress(model, initial, k, element, shape, d) result(stress)

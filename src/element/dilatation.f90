@@ -7,7 +7,7 @@ module axijoint_element_dilatation
    use axijoint_fe_reference, only : reference_type
    implicit none
    private
-   public :: dilatation_type, formulated_points, average_volume, mean_volume, strain_shape
+   public :: dilatation_type, formulated_points, average_volume, strain_shape
 
    !> Means over an element: what is linear in the harmonic stays so, as the mean of B0 + m B1 is
    !> the sum of the means
@@ -86,25 +86,6 @@ contains
          b1(i, :) = b1(i, :) + change1/3.0_wp
       end do
    end subroutine average_volume
-
-   !> Mean volumetric strain of one harmonic in an element
-   pure real(wp) function mean_volume(dilatation, n, harmonic, displacement)
-      !> Means over the element
-      type(dilatation_type), intent(in) :: dilatation
-      !> Number of nodes, and harmonic m
-      integer, intent(in) :: n, harmonic
-      !> Amplitudes u, v, w of the nodes, shape (3, n)
-      real(wp), intent(in) :: displacement(:, :)
-
-      integer :: i
-
-      mean_volume = 0.0_wp
-      do i = 1, n
-         associate (mean => dilatation%gradient(:, i), u => displacement(:, i))
-            mean_volume = mean_volume + mean(1)*u(1) + mean(2)*u(2) + mean(3)*(u(1) + harmonic*u(3))
-         end associate
-      end do
-   end function mean_volume
 
    !> Shape functions that go with the strain at a point: a mean strain goes with the mean
    !> temperature

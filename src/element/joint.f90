@@ -4,7 +4,7 @@ module axijoint_element_joint
    use axijoint_fe_shape, only : shape_line
    implicit none
    private
-   public :: joint_point_type, new_joint_point, jump_matrix, joint_stiffness
+   public :: joint_point_type, new_joint_point, jump_matrix, jump_at, force_at, joint_stiffness
 
    !> Number of the node on the 1-2 side, and opposite on the 4-3 side, of the
    !> first, last and middle pair of nodes (Fig. 2)
@@ -72,6 +72,46 @@ contains
          n(:, upper - 2:upper) = point%shape(pair)*rotation
       end do
    end subroutine jump_matrix
+
+   !> Its product with nodal displacements
+   pure function jump_at(point, displacement) result(jump)
+      !> Where
+      type(joint_point_type), intent(in) :: point
+      !> Amplitudes u, v, w of the nodes, shape (3, 4 | 6)
+      real(wp), intent(in) :: displacement(:, :)
+      !> Relative displacement xi, eta, theta
+      real(wp) :: jump(3)
+
+      real(wp) :: d(3)
+      integer :: pair
+
+      d = 0.0_wp
+      do pair = 1, point%n_pairs
+         d = d + point%shape(pair)*(displacement(:, upper_node(pair)) &
+                                    - displacement(:, lower_node(pair)))
+      end do
+      jump = [point%cosine*d(1) + point%sine*d(2), point%cosine*d(2) - point%sine*d(1), d(3)]
+   end function jump_at
+
+   !> Product of its transpose with a stress: forces on the nodes of which it is the stress a unit area
+   pure function force_at(point, stress) result(force)
+      !> Where
+      type(joint_point_type), intent(in) :: point
+      !> tau_xi, sigma, tau_theta
+      real(wp), intent(in) :: stress(3)
+      !> Forces on u, v, w, the first 4 or 6 columns in use
+      real(wp) :: force(3, 6)
+
+      real(wp) :: t(3)
+      integer :: pair
+
+      t = [point%cosine*stress(1) - point%sine*stress(2), &
+           point%sine*stress(1) + point%cosine*stress(2), stress(3)]
+      do pair = 1, point%n_pairs
+         force(:, lower_node(pair)) = -point%shape(pair)*t
+         force(:, upper_node(pair)) = point%shape(pair)*t
+      end do
+   end function force_at
 
    !> Contribution of a point to the joint's stiffness, to be multiplied by c_m;
    !> the same for every harmonic (Eq. 12)

@@ -1,13 +1,13 @@
-!> Quadrilateral and triangular rings: stiffness and stress of one harmonic
+!> Quadrilateral and triangular rings: stiffness of one harmonic
 module axijoint_element_solid
    use axijoint_base_kinds, only : wp
    use axijoint_element_blocks, only : n_blocks, pack_blocks, unpack_block
-   use axijoint_element_dilatation, only : dilatation_type, average_volume, mean_volume
+   use axijoint_element_dilatation, only : dilatation_type, average_volume
    use axijoint_element_solid_point, only : solid_point_type, strain_matrices
    use axijoint_linalg_lapack, only : dgemm
    implicit none
    private
-   public :: solid_stiffness, solid_blocks, solid_stress, add_solid_force
+   public :: solid_stiffness, solid_blocks
    public :: stiffness_kernel_type, new_stiffness_kernel
 
    !> Elasticity between displacement gradients: the strain of a node's
@@ -201,93 +201,5 @@ contains
       end do
       s = s + transpose(s)
    end subroutine averaged_stiffness
-
-   !> Stress amplitudes of one harmonic at a point: d B_m u, with the sums of
-   !> B_m u (Eq. 4) written out
-   pure function solid_stress(point, n, d, harmonic, displacement, dilatation) result(stress)
-      !> Where
-      type(solid_point_type), intent(in) :: point
-      !> Number of nodes
-      integer, intent(in) :: n
-      !> Elasticity matrix
-      real(wp), intent(in) :: d(6, 6)
-      !> Harmonic m
-      integer, intent(in) :: harmonic
-      !> Amplitudes u, v, w of the nodes, shape (3, n)
-      real(wp), intent(in) :: displacement(:, :)
-      !> Means over the element, if it takes the volumetric strain as its mean
-      type(dilatation_type), intent(in), optional :: dilatation
-      !> Amplitudes of r, z, theta, rz, r-theta, z-theta
-      real(wp) :: stress(6)
-
-      real(wp), dimension(3) :: along_r, along_z, over_r
-      real(wp) :: strain(6)
-      integer :: i
-
-      along_r = 0.0_wp
-      along_z = 0.0_wp
-      over_r = 0.0_wp
-      do i = 1, n
-         along_r = along_r + point%gradient(1, i)*displacement(:, i)
-         along_z = along_z + point%gradient(2, i)*displacement(:, i)
-         over_r = over_r + point%shape(i)*displacement(:, i)
-      end do
-      over_r = over_r/point%position(1)
-      strain = [along_r(1), along_z(2), over_r(1) + harmonic*over_r(3), &
-                along_z(1) + along_r(2), &
-                along_r(3) - over_r(3) - harmonic*over_r(1), &
-                along_z(3) - harmonic*over_r(2)]
-      if (present(dilatation)) then
-         if (dilatation%averaged) then
-            strain(1:3) = strain(1:3) + (mean_volume(dilatation, n, harmonic, displacement) &
-                                         - sum(strain(1:3)))/3.0_wp
-         end if
-      end if
-      stress = matmul(d, strain)
-   end function solid_stress
-
-   !> Add the nodal forces that balance a stress of one harmonic at a point,
-   !> but for the factor c_m: weight B_m^T stress, written out
-   pure subroutine add_solid_force(point, n, harmonic, stress, force, dilatation)
-      !> Where
-      type(solid_point_type), intent(in) :: point
-      !> Number of nodes
-      integer, intent(in) :: n
-      !> Harmonic m
-      integer, intent(in) :: harmonic
-      !> Stress amplitudes
-      real(wp), intent(in) :: stress(6)
-      !> Generalized nodal forces on u, v, w, shape (3, n)
-      real(wp), intent(inout) :: force(:, :)
-      !> Means over the element, if it takes the volumetric strain as its mean
-      type(dilatation_type), intent(in), optional :: dilatation
-
-      real(wp), dimension(3) :: along_r, along_z, over_r
-      real(wp) :: deviator(6), pressure
-      integer :: i
-
-      deviator = stress
-      if (present(dilatation)) then
-         if (dilatation%averaged) then  ! the mean stress works on the mean volumetric strain
-            pressure = sum(stress(1:3))/3.0_wp
-            deviator(1:3) = deviator(1:3) - pressure
-            do i = 1, n
-               associate (mean => dilatation%gradient(:, i))
-                  force(:, i) = force(:, i) + point%weight*pressure &
-                     *[mean(1) + mean(3), mean(2), harmonic*mean(3)]
-               end associate
-            end do
-         end if
-      end if
-      along_r = point%weight*deviator([1, 4, 5])
-      along_z = point%weight*deviator([4, 2, 6])
-      over_r = point%weight/point%position(1) &
-         *[deviator(3) - harmonic*deviator(5), -harmonic*deviator(6), &
-           harmonic*deviator(3) - deviator(5)]
-      do i = 1, n
-         force(:, i) = force(:, i) + point%gradient(1, i)*along_r + point%gradient(2, i)*along_z &
-            + point%shape(i)*over_r
-      end do
-   end subroutine add_solid_force
 
 end module axijoint_element_solid

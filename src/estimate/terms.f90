@@ -62,19 +62,19 @@ module axijoint_estimate_terms
       term_type('block_entries', phase_condense, common, .true., &
                 'entries of flexibilities', 2.8e-09_wp), &
       term_type('solved_entries', phase_joints, common, .true., &
-                'entries of factors, solution by solution', 7.0e-10_wp), &
+                'entries of factors, solution by solution', 5.7e-10_wp), &
       term_type('node_modes', phase_joints, common, .false., &
                 'loads and displacements, node by mode', 2.3e-06_wp), &
       term_type('laws', phase_joints, common, .false., &
-                'laws at points and planes', 1.3e-07_wp), &
+                'laws at points and planes', 1.1e-07_wp), &
       term_type('sums', phase_joints, common, .false., &
                 'sums of harmonics on planes', 1.9e-08_wp), &
       term_type('flexibility', phase_joints, common, .false., &
-                'products with flexibilities', 1.4e-08_wp), &
+                'products with flexibilities', 1.0e-08_wp), &
       term_type('fine_blocks', phase_errors, common, .true., &
                 'stiffness of the mesh half as large', 2.3e-07_wp), &
       term_type('stress_modes', phase_recover, common, .false., &
-                'stresses at Gauss points, mode by mode', 8.6e-08_wp), &
+                'stresses at Gauss points, mode by mode', 3.5e-08_wp), &
       term_type('files', phase_write, common, .false., &
                 'files opened, closed and named', 9.2e-03_wp), &
       term_type('lines', phase_write, common, .false., &
@@ -84,11 +84,11 @@ module axijoint_estimate_terms
       term_type('swept_values', phase_write, common, .false., &
                 'numbers for ParaView', 7.9e-07_wp), &
       term_type('row_stresses', phase_recover, common, .false., &
-                'quantities of rows', 3.0e-09_wp), &
+                'quantities of rows', 4.0e-10_wp), &
       term_type('formed_entries', phase_factor, common, .true., &
                 'entries of matrices', 7.3e-09_wp), &
       term_type('rows', phase_recover, common, .false., &
-                'increments of rows: their fields, quantities, notes', 2.5e-03_wp), &
+                'increments of rows: their fields, quantities, notes', 1.5e-03_wp), &
       term_type('body_stresses', phase_joints, common, .true., &
                 'stress and forces of bodies that yield', 5.4e-8_wp), &
       term_type('body_laws', phase_joints, common, .true., &

@@ -18,15 +18,17 @@ module axijoint_estimate_work
    public :: structure_work, state_work, row_work, n_shown, n_points
 
    !> Solutions of a mode: displacements with one refinement, condition of the matrix; with joints
-   !> that yield those of the corrections and of what estimates of errors change, or without these
-   real(wp), parameter :: linear_solutions = 4.0_wp, yielding_solutions = 12.0_wp, &
-      unjudged_solutions = 3.0_wp
+   !> that yield those of the corrections and of what estimates of errors change; or displacements
+   !> alone, and the product by which they need no refinement
+   real(wp), parameter :: linear_solutions = 4.0_wp, yielding_solutions = 11.0_wp, &
+      unjudged_solutions = 1.5_wp
    !> Steps down on the fine level, each with a solution on the mesh
    real(wp), parameter :: steps_down = 3.0_wp
    !> Loads, displacements, reactions, smoothed stresses of the nodes: of the end with estimates of
-   !> errors and without, of an increment that is shown, of any other, as multiples of one
-   real(wp), parameter :: nodes_judged = 4.0_wp, nodes_last = 0.5_wp, nodes_shown = 1.0_wp, &
-      nodes_loaded = 0.3_wp
+   !> errors and without, of the end of a row, of an increment that is shown, of any other, as multiples
+   !> of one
+   real(wp), parameter :: nodes_judged = 4.0_wp, nodes_last = 0.5_wp, nodes_of_row = 0.15_wp, &
+      nodes_shown = 1.0_wp, nodes_loaded = 0.3_wp
    !> Stresses of the end with estimates of errors, as multiples of those of an increment
    real(wp), parameter :: points_judged = 2.0_wp
    !> Angles at which a row of a study looks for its largest stress
@@ -134,9 +136,9 @@ contains
       end associate
       associate (mesh => model%mesh, modes => real(size(structure%modes), wp))
          work(solved_entries) = work(solved_entries) + entries*(solutions + merge(steps_down, 0.0_wp, estimates))
-         work(node_modes) = n_nodes(mesh)*modes*(merge(nodes_judged, nodes_last, estimates) &
-                                                 + nodes_shown*shown &
-                                                 + nodes_loaded*(size(model%increments) - 1))
+         work(node_modes) = n_nodes(mesh)*modes*( &
+            merge(nodes_judged, merge(nodes_last, nodes_of_row, judged), estimates) &
+            + nodes_shown*shown + nodes_loaded*(size(model%increments) - 1))
          if (estimates) work(fine_blocks) = modes*sum(fine_nodes_of(mesh%element_size) &
                                                       *blocks_of(mesh%element_size))
          work(stress_modes) = shape_values(model)*modes*(merge(points_judged, 1.0_wp, estimates) &

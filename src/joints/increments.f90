@@ -16,7 +16,7 @@ module axijoint_joints_increments
                                        note_residual
    use axijoint_joints_keeper, only : keeper_type
    use axijoint_joints_load_steps, only : step_type
-   use axijoint_joints_loads, only : put_loads
+   use axijoint_joints_loads, only : put_loads, answer_type
    use axijoint_joints_method, only : method_type, control_type, verdict_type
    use axijoint_joints_methods, only : other_loop, second_opinion
    use axijoint_joints_path, only : iteration_type
@@ -32,6 +32,8 @@ module axijoint_joints_increments
 
    !> What the increments of joints act on
    type, extends(stage_type) :: joint_stage_type
+      !> The last answer of the elastic structure to loads, if it is kept
+      type(answer_type), pointer :: answer => null()
    contains
       !> Put the loads of a step on and iterate
       procedure :: try => try_step
@@ -47,7 +49,7 @@ contains
    !> slip is kept; one that finds none is halved (not if stress is accumulated, which
    !> is all the memory then).
    subroutine run_increments(model, equations, condensed, joint_points, supports, combination, &
-      history, progress, keeper)
+      history, progress, keeper, answer)
       !> The job
       type(model_type), intent(in), target :: model
       !> Equations of all modes, assembled
@@ -65,6 +67,8 @@ contains
       type(progress_type), intent(inout) :: progress
       !> Who may know how far an earlier run came, and is told of every step in equilibrium
       class(keeper_type), intent(inout), optional :: keeper
+      !> The last answer of the elastic structure to loads; becomes the next
+      type(answer_type), intent(inout), target, optional :: answer
 
       type(joint_stage_type) :: stage
 
@@ -74,6 +78,7 @@ contains
       stage%joint_points => joint_points
       stage%supports => supports
       stage%combination => combination
+      if (present(answer)) stage%answer => answer
       call new_history(model, condensed, history)
       if (history%method%accumulates .and. .not. all(cuts_back(history%scene%laws))) then
          call fatal_error(history%failure, exit_deck, &
@@ -171,7 +176,12 @@ contains
       type(history_type), intent(inout) :: history
 
       call stage%put_on_nodes(step%case_factor, history%loading)
-      call put_loads(stage%equations, stage%condensed, history%loading, history%scene%loads)
+      if (associated(stage%answer)) then
+         call put_loads(stage%equations, stage%condensed, history%loading, history%scene%loads, &
+            stage%answer)
+      else
+         call put_loads(stage%equations, stage%condensed, history%loading, history%scene%loads)
+      end if
       history%largest_elastic = maxval([history%largest_elastic, history%scene%loads%largest])
       history%load_norm = load_norm(stage%equations, history%loading)
       call report_failure(stage%equations, stage%model, history%failure)

@@ -12,7 +12,7 @@ module axijoint_joints_loads
    use axijoint_model_joint_points, only : model_joint_point_type
    implicit none
    private
-   public :: joint_loads_type, new_joint_loads, put_loads, put_work
+   public :: joint_loads_type, new_joint_loads, put_loads, put_work, answer_type
 
    !> Loads as the joint points see them
    type :: joint_loads_type
@@ -28,6 +28,14 @@ module axijoint_joints_loads
       !> What residual forces are held against
       type(reference_type) :: reference
    end type joint_loads_type
+
+   !> What loads did when they were put on last: to many states of a study the same is done
+   type :: answer_type
+      !> Right sides, and displacements that are held, shape (3, nodes, modes)
+      real(wp), allocatable :: right(:, :, :), held(:, :, :)
+      !> Jumps, and largest displacements, as above
+      real(wp), allocatable :: free(:, :, :), largest(:)
+   end type answer_type
 
 contains
 
@@ -46,7 +54,7 @@ contains
    end function new_joint_loads
 
    !> Load the condensed structure
-   subroutine put_loads(equations, condensed, loading, loads)
+   subroutine put_loads(equations, condensed, loading, loads, answer)
       !> Equations of all modes, assembled; systems that cannot be factored are marked there
       type(equations_type), intent(inout) :: equations
       !> The condensed structure
@@ -55,8 +63,23 @@ contains
       type(loading_type), intent(in) :: loading
       !> The loads
       type(joint_loads_type), intent(inout) :: loads
+      !> The last answer to loads; becomes that to these
+      type(answer_type), intent(inout), optional :: answer
 
-      call put_jumps(equations, condensed%points, loading, loads)
+      logical :: known
+
+      known = .false.
+      if (present(answer)) known = is_same(loading, answer)
+      if (known) then
+         loads%free = answer%free
+         loads%largest = answer%largest
+      else
+         call put_jumps(equations, condensed%points, loading, loads)
+         if (present(answer)) then
+            if (equations%team%all_of(.not. any(equations%systems%failed))) &
+               call remember(loading, loads, answer)
+         end if
+      end if
       call put_work(condensed%floating, loading%external, loads)
    end subroutine put_loads
 
@@ -87,8 +110,9 @@ contains
                call solve_mode(equations, k, loading%right(:, :, k), displacement)
             end if
             if (allocated(loading%held)) displacement = displacement + loading%held(:, :, k)
-            loads%free(:, :, k) = joint_jump(points, displacement)
             loads%largest(k) = maxval(abs(displacement))
+            loads%free(:, :, k) = 0.0_wp
+            if (loads%largest(k) > 0.0_wp) loads%free(:, :, k) = joint_jump(points, displacement)
          end do
          call release_factor(equations, s, spaces(own()))
       end do
@@ -96,6 +120,35 @@ contains
       call equations%team%gather(loads%free, size(loads%free, kind=i8), equations%last_mode)
       call equations%team%gather(loads%largest, size(loads%largest, kind=i8), equations%last_mode)
    end subroutine put_jumps
+
+   !> Whether an answer is that to some loads
+   pure logical function is_same(loading, answer)
+      !> The loads
+      type(loading_type), intent(in) :: loading
+      !> The answer
+      type(answer_type), intent(in) :: answer
+
+      is_same = allocated(answer%right) .and. (allocated(loading%held) .eqv. allocated(answer%held))
+      if (is_same) is_same = all(shape(loading%right) == shape(answer%right))
+      if (is_same) is_same = .not. any(abs(loading%right - answer%right) > 0.0_wp)
+      if (is_same .and. allocated(loading%held)) &
+         is_same = .not. any(abs(loading%held - answer%held) > 0.0_wp)
+   end function is_same
+
+   !> Keep an answer
+   pure subroutine remember(loading, loads, answer)
+      !> The loads
+      type(loading_type), intent(in) :: loading
+      !> What they did
+      type(joint_loads_type), intent(in) :: loads
+      !> The answer
+      type(answer_type), intent(out) :: answer
+
+      answer%right = loading%right
+      if (allocated(loading%held)) answer%held = loading%held
+      answer%free = loads%free
+      answer%largest = loads%largest
+   end subroutine remember
 
    !> Put external forces on the motions
    pure subroutine put_work(motions, external, loads)

@@ -127,9 +127,12 @@ contains
                   seen_by_law(scene%laws(k), k, j, view(k), field), &
                           admitted, tangent, view(k)*field%fading)
                missing(:, k, j) = admitted - stress
-               inverse = inverse_of(identity - (1.0_wp - view(k)/limit(k))*tangent)
-               newton%rest(:, k, j) = matmul(inverse, missing(:, k, j))
-               tangent = view(k)/limit(k)*matmul(inverse, tangent)
+               newton%rest(:, k, j) = missing(:, k, j)
+               if (abs(view(k) - limit(k)) > 0.0_wp) then
+                  inverse = inverse_of(identity - (1.0_wp - view(k)/limit(k))*tangent)
+                  newton%rest(:, k, j) = matmul(inverse, missing(:, k, j))
+                  tangent = view(k)/limit(k)*matmul(inverse, tangent)
+               end if
                do i = 1, 3
                   newton%by_jump(:, i, k, j) = limit(k)*field%share*tangent(:, i)*law%stiffness(i)
                   newton%slope(:, i, k, j) = -newton%by_jump(:, i, k, j)

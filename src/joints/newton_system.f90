@@ -195,7 +195,7 @@ contains
    !> Gather the flexibility of some points
    subroutine gather(whole, n, points, double, gathered)
       !> Flexibility of all points, and their number
-      real(wp), intent(in) :: whole(:, :)
+      real(wp), intent(in), contiguous :: whole(:, :)
       integer, intent(in) :: n
       !> These points
       integer, intent(in) :: points(:)
@@ -204,22 +204,31 @@ contains
       !> Their flexibility
       type(gathered_type), intent(out) :: gathered
 
-      integer :: place(3*size(points)), i, j, k, m
+      real(wp) :: scale
+      logical :: starts(3*size(points))
+      integer, allocatable :: first(:), last(:), shift(:)
+      integer :: place(3*size(points)), i, j, k
 
       place = [points, n + points, 2*n + points]
       if (double) then
          gathered%double = whole(place, place)
          return
       end if
-      do j = 1, size(place)  ! in a range that single precision has
+      do j = 1, size(place)
          gathered%unit = max(gathered%unit, tiny(1.0_wp), abs(whole(place(j), place(j))))
       end do
+      gathered%unit = 2.0_wp**exponent(gathered%unit)  ! in a range that single precision has
+      scale = 1.0_wp/gathered%unit
+      starts = .true.
+      starts(2:) = place(2:) /= place(:size(place) - 1) + 1
+      first = pack([(i, i=1, size(place))], starts)
+      last = [first(2:) - 1, size(place)]
+      shift = place(first) - first
       allocate (gathered%single(size(place), size(place)))
       do j = 1, size(place)
-         do k = 0, 2  ! the components
-            m = k*size(points)
-            do i = 1, size(points)
-               gathered%single(m + i, j) = real(whole(k*n + points(i), place(j))/gathered%unit, sp)
+         do k = 1, size(first)  ! neighbours are copied together
+            do i = first(k), last(k)
+               gathered%single(i, j) = real(scale*whole(i + shift(k), place(j)), sp)
             end do
          end do
       end do

@@ -256,12 +256,33 @@ contains
 
       do k = 1, size(equations%modes)
          associate (external => loading%external(:, :, k), right => loading%right(:, :, k))
+            squared(k) = 0.0_wp
+            if (.not. (is_loaded(external) .or. is_loaded(right))) cycle
             squared(k) = (sum(on_equations(equations, k, external)**2) &
                           + sum(on_equations(equations, k, right - external)**2)) &
                /circle_integral(equations%modes(k)%harmonic)
          end associate
       end do
       norm = sqrt(sum(squared))
+
+   contains
+
+      !> Whether there is any force: most harmonics of most jobs are not loaded
+      pure logical function is_loaded(force)
+         !> Forces on components, shape (3, nodes)
+         real(wp), intent(in) :: force(:, :)
+
+         integer :: i, node
+
+         is_loaded = .true.
+         do node = 1, size(force, 2)
+            do i = 1, 3
+               if (abs(force(i, node)) > 0.0_wp) return
+            end do
+         end do
+         is_loaded = .false.
+      end function is_loaded
+
    end function load_norm
 
    !> Quotient of two sizes; zero over zero is zero

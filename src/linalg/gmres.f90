@@ -55,8 +55,7 @@ contains
       reduction = 0.0_wp
       size_b = norm2(b)
       if (.not. size_b > 0.0_wp) return
-      allocate (basis(size(b), most + 1), h(most + 1, most))
-      h = 0.0_wp
+      allocate (basis(size(b), most + 1), h(most + 1, most))  ! as far as they are used they are set
       g = 0.0_wp
       g(1) = size_b
       basis(:, 1) = b/size_b
@@ -103,7 +102,7 @@ contains
       real(wp) :: part(size(basis, 2)), along(size(v)), before, left
       integer :: pass
 
-      h = 0.0_wp
+      h(:) = 0.0_wp
       before = dot_product(v, v)
       do pass = 1, 2
          call transposed_vector(basis, v, part)

@@ -4,7 +4,7 @@ module axijoint_linalg_lapack
    use axijoint_base_kinds, only : wp, sp
    implicit none
    private
-   public :: band_cholesky, dpbtrs, dtrsm, dgemm, dsyrk, dpotrf
+   public :: band_cholesky, dpbtrs, dtrsm, dgemm, dgemv, dsyrk, dpotrf
    public :: cholesky, inverse_from_cholesky, product_with_transpose, symmetric_eigen, &
       use_one_blas_thread
    public :: product_rate

@@ -2,7 +2,7 @@
 module axijoint_plastic_bodies
    use axijoint_base_kinds, only : wp
    use axijoint_element_dilatation, only : dilatation_type, formulated_points
-   use axijoint_element_solid, only : solid_stress, add_solid_force
+   use axijoint_element_solid_stress, only : solid_stress, add_solid_force
    use axijoint_element_solid_point, only : solid_point_type
    use axijoint_element_yield_law, only : yield_law_type, law_at, yield_none
    use axijoint_fe_fourier, only : circle_integral

@@ -21,8 +21,8 @@ typedef struct {
    int64_t *start, *row;
    int32_t *from;
    /* Of a factor: room for the solution of one right-hand side, so that none is refused for want
-      of memory: the unknowns, the same in the order of the factor, and the rows of a supernode */
-   cholmod_dense *solution, *permuted, *supernode;
+      of memory: the unknowns in the order of the factor, and the rows of a supernode */
+   double *permuted, *rows;
    omp_lock_t reserved;
 } handle_type;
 
@@ -90,14 +90,13 @@ void axijoint_cholmod_free(void *pointer) {
    handle_type *handle = pointer;
    if (!handle) return;
    cholmod_l_free_factor(&handle->factor, &handle->common);
-   cholmod_l_free_dense(&handle->solution, &handle->common);
-   cholmod_l_free_dense(&handle->permuted, &handle->common);
-   cholmod_l_free_dense(&handle->supernode, &handle->common);
    cholmod_l_finish(&handle->common);
    omp_destroy_lock(&handle->reserved);
    free(handle->start);
    free(handle->row);
    free(handle->from);
+   free(handle->permuted);
+   free(handle->rows);
    free(handle);
 }
 
@@ -159,6 +158,15 @@ static int arrange(handle_type *plan, const int64_t *start, const int32_t *colum
    return !ok;
 }
 
+/* Rows of the supernode that has most */
+static size_t most_rows(const cholmod_factor *l) {
+   const int64_t *pi = l->pi;
+   int64_t most = 0;
+   for (size_t s = 0; s < l->nsuper; s++)
+      if (pi[s + 1] - pi[s] > most) most = pi[s + 1] - pi[s];
+   return (size_t)most;
+}
+
 /* Plan for a pattern: null if there is no memory. Gives the entries of the factor, the
    operations of a factorization, and the bytes of a factor and of what a factorization takes
    besides. */
@@ -180,7 +188,7 @@ static handle_type *new_plan(int64_t n, const int64_t *start, const int32_t *col
    }
    *bytes = (int64_t)sizeof(double) * (int64_t)plan->factor->xsize
             + (int64_t)sizeof(int64_t) * ((int64_t)plan->factor->ssize + 3 * n)
-            + (int64_t)sizeof(double) * (2 * n + (int64_t)plan->factor->maxesize);
+            + (int64_t)sizeof(double) * (n + (int64_t)most_rows(plan->factor));
    *work_bytes = (int64_t)sizeof(int32_t) * (3 * n + 3 * (int64_t)plan->factor->nsuper);
    return plan;
 }
@@ -196,11 +204,9 @@ void *axijoint_cholmod_analyse(int64_t n, const int64_t *start, const int32_t *c
 
 /* Room for the solution of one right-hand side; 1 if there is no memory */
 static int reserve(handle_type *handle) {
-   size_t n = (size_t)handle->n, rows = handle->factor->maxesize;
-   handle->solution = cholmod_l_allocate_dense(n, 1, n, CHOLMOD_REAL, &handle->common);
-   handle->permuted = cholmod_l_allocate_dense(n, 1, n, CHOLMOD_REAL, &handle->common);
-   handle->supernode = cholmod_l_allocate_dense(1, rows, 1, CHOLMOD_REAL, &handle->common);
-   return !handle->solution || !handle->permuted || !handle->supernode;
+   handle->permuted = malloc(sizeof(double) * (size_t)(handle->n + 1));
+   handle->rows = malloc(sizeof(double) * (most_rows(handle->factor) + 1));
+   return !handle->permuted || !handle->rows;
 }
 
 /* A factor of the plan, without values, in large pages or not; null if there is no memory */
@@ -229,13 +235,22 @@ typedef struct {
 void axijoint_supernodal_factorize(const structure_type *structure, const double *value, double *l,
                                    int64_t *failed, int32_t *code);
 
+/* supernodal_solve.f90 */
+void axijoint_supernodal_solve(const structure_type *structure, const double *l, double *x, double *work);
+
+/* Structure of a factor; the pattern of the matrix is known to a plan alone */
+static structure_type structure_of(const handle_type *plan, const cholmod_factor *l) {
+   structure_type structure = {plan->n, (int64_t)l->nsuper, l->super, l->pi, l->px, l->s,
+                               plan->start, plan->row, plan->from};
+   return structure;
+}
+
 /* Numeric factor in the order of the plan; 0 if there is no memory */
 static int factorize(const handle_type *plan, const double *value, handle_type *handle,
                      int64_t *failed) {
    cholmod_factor *l = handle->factor;
    int32_t code;
-   structure_type structure = {plan->n, (int64_t)l->nsuper, l->super, l->pi, l->px, l->s,
-                               plan->start, plan->row, plan->from};
+   structure_type structure = structure_of(plan, l);
    axijoint_supernodal_factorize(&structure, value, l->x, failed, &code);
    l->is_ll = 1;
    l->minor = (size_t)plan->n;
@@ -297,25 +312,33 @@ static int has_room(const handle_type *handle, int64_t n_rhs) {
    return room != NULL;
 }
 
+/* Solve for one right-hand side in place: its unknowns in the order of the factor, and the rows of a supernode, take
+   the room given */
+static void solve_one(const handle_type *handle, double *b, double *permuted, double *rows) {
+   const cholmod_factor *l = handle->factor;
+   const int64_t *order = l->Perm;
+   structure_type structure = structure_of(handle, l);
+   int64_t k;
+   for (k = 0; k < handle->n; k++) permuted[k] = b[order[k]];
+   axijoint_supernodal_solve(&structure, l->x, permuted, rows);
+   for (k = 0; k < handle->n; k++) b[order[k]] = permuted[k];
+}
+
 /* Solve for a block of right-hand sides in place: all at once, or if there is no memory for that,
    one after the other in the room reserved, one thread at a time */
 void axijoint_cholmod_solve(void *pointer, int64_t n_rhs, double *b) {
    handle_type *handle = pointer;
-   cholmod_dense right = columns(handle->n, n_rhs, b), *x;
+   cholmod_dense right = columns(handle->n, n_rhs, b), *x = NULL;
    int levels = forbid_threads();
-   x = has_room(handle, n_rhs)
-          ? cholmod_l_solve(CHOLMOD_A, handle->factor, &right, &handle->common) : NULL;
+   if (n_rhs > 1 && has_room(handle, n_rhs))
+      x = cholmod_l_solve(CHOLMOD_A, handle->factor, &right, &handle->common);
    if (x) {
       memcpy(b, x->x, sizeof(double) * right.nzmax);
       cholmod_l_free_dense(&x, &handle->common);
    } else {
       omp_set_lock(&handle->reserved);
-      for (int64_t k = 0; k < n_rhs; k++) {
-         right = columns(handle->n, 1, b + k * handle->n);
-         cholmod_l_solve2(CHOLMOD_A, handle->factor, &right, NULL, &handle->solution, NULL,
-                          &handle->permuted, &handle->supernode, &handle->common);
-         memcpy(b + k * handle->n, handle->solution->x, sizeof(double) * right.nzmax);
-      }
+      for (int64_t k = 0; k < n_rhs; k++)
+         solve_one(handle, b + k * handle->n, handle->permuted, handle->rows);
       omp_unset_lock(&handle->reserved);
    }
    omp_set_max_active_levels(levels);

@@ -116,39 +116,81 @@ contains
 
    end function quantity_values
 
-   !> Largest stress of von Mises at a Gauss point and any of the angles 0, 15, ... degrees
+   !> Largest stress of von Mises at a Gauss point and any of the angles 0, 15, ... degrees. It is a
+   !> norm: the modes together cannot give more than the sum of what each gives, squared not more than
+   !> their number times the sum of the squares. By that most points need not be looked at
    pure real(wp) function largest_mises(results) result(largest)
       !> Results with stresses
       type(results_type), intent(in) :: results
 
       real(wp), parameter :: step = pi/12.0_wp
-      !> Points that are looked at together: a fast memory has room for them
-      integer, parameter :: portion = 128
-      real(wp) :: all_there(6, portion), angle
-      integer :: first, last, j, k, n
+      !> What rounding may take from the bound
+      real(wp), parameter :: rounding = 1.0e-12_wp
+      real(wp) :: most(size(results%stress, 2))
+      real(wp), allocatable :: even(:, :), odd(:, :)
+      integer :: j, k, n, point
 
+      largest = 0.0_wp
+      if (size(most) == 0) return
       n = 12
       if (any(results%modes%family /= results%modes(1)%family)) n = 23
-      largest = 0.0_wp
-      do first = 1, size(results%stress, 2), portion
-         last = min(first + portion - 1, size(results%stress, 2))
-         associate (stress => all_there(:, :last - first + 1))
-            do j = 0, n
-               angle = j*step
-               stress = 0.0_wp
-               do k = 1, size(results%modes)
-                  stress(:4, :) = stress(:4, :) + meridional(results%modes(k), angle) &
-                     *results%stress(:4, first:last, k)
-                  stress(5:, :) = stress(5:, :) + circumferential(results%modes(k), angle) &
-                     *results%stress(5:, first:last, k)
-               end do
-               largest = max(largest, maxval(0.5_wp*((stress(1, :) - stress(2, :))**2 + &
-                  (stress(2, :) - stress(3, :))**2 + (stress(3, :) - stress(1, :))**2) + &
-                  3.0_wp*sum(stress(4:, :)**2, 1)))
-            end do
-         end associate
+      allocate (even(0:n, size(results%modes)), odd(0:n, size(results%modes)))
+      do j = 0, n
+         even(j, :) = meridional(results%modes, j*step)
+         odd(j, :) = circumferential(results%modes, j*step)
+      end do
+      most = 0.0_wp
+      do k = 1, size(results%modes)
+         do point = 1, size(most)
+            most(point) = most(point) + max(in_plane(results%stress(:4, point, k)), &
+               across(results%stress(5:, point, k)))
+         end do
+      end do
+      most = (1.0_wp + rounding)*size(results%modes)*most
+      largest = there(maxloc(most, 1))
+      do point = 1, size(most)
+         if (most(point) > largest) largest = max(largest, there(point))
       end do
       largest = sqrt(largest)
+
+   contains
+
+      !> Square of the largest at a point
+      pure real(wp) function there(point)
+         !> The point
+         integer, intent(in) :: point
+
+         real(wp) :: stress(6)
+         integer :: j, k
+
+         there = 0.0_wp
+         do j = 0, n
+            stress = 0.0_wp
+            do k = 1, size(results%modes)
+               stress(:4) = stress(:4) + even(j, k)*results%stress(:4, point, k)
+               stress(5:) = stress(5:) + odd(j, k)*results%stress(5:, point, k)
+            end do
+            there = max(there, in_plane(stress(:4)) + across(stress(5:)))
+         end do
+      end function there
+
    end function largest_mises
+
+   !> Square of the stress of von Mises of r, z, theta, rz
+   pure real(wp) function in_plane(stress)
+      !> The stresses
+      real(wp), intent(in) :: stress(4)
+
+      in_plane = 0.5_wp*((stress(1) - stress(2))**2 + (stress(2) - stress(3))**2 &
+                         + (stress(3) - stress(1))**2) + 3.0_wp*stress(4)**2
+   end function in_plane
+
+   !> Square of the stress of von Mises of r-theta, z-theta
+   pure real(wp) function across(stress)
+      !> The stresses
+      real(wp), intent(in) :: stress(2)
+
+      across = 3.0_wp*sum(stress**2)
+   end function across
 
 end module axijoint_study_quantities

@@ -32,6 +32,10 @@ module axijoint_study_rows
    private
    public :: rows_type, row_type, new_rows, make_row, solve_row, row_order, free_columns
 
+   !> What rounding may leave of the displacements of a row, over the largest, without a step of
+   !> refinement: much less than the tolerance of an increment claims, and what is printed shows
+   real(wp), parameter :: negligible = 1.0e-10_wp
+
    !> What is shared by the rows that are solved
    type :: rows_type
       !> The deck's cards, and what they say
@@ -231,7 +235,7 @@ contains
 
       if (allocated(rows%structure)) then
          if (same_structure(model, rows%built_for, rows%structure)) then
-            call take_loads_of(model, rows%structure)
+            call take_loads_of(model, rows%structure, rows%estimated)
             return
          end if
          deallocate (rows%structure, rows%built_for)
@@ -242,6 +246,8 @@ contains
          deallocate (rows%structure)
          return
       end if
+      if (.not. rows%estimated) rows%structure%negligible = negligible
+      allocate (rows%structure%answer)
       rows%built_for = model
       rows%n_structures = rows%n_structures + 1
    end subroutine find_structure

@@ -171,7 +171,8 @@ def processes(program, folder):
     """Rows by three processes have the digits of one, also when one of them is killed; told to end, all end, and the
     same study by two goes on"""
     deck = os.path.join(INPUTS, 'case3_balanced.dat')
-    table = CASE3.format(lines='0:38/6, 0;0.2, 0.2;0.4')
+    # enough rows that each process still has some when the last has begun
+    table = CASE3.format(lines='0:38/30, 0;0.2, 0.2;0.4')
     whole, faults = study(program, folder, table, deck, name='whole')
     apart, more = study(program, folder, table, deck, '--processes', '3', name='apart')
     faults += more + same_rows(whole, apart)

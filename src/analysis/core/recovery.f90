@@ -1,5 +1,6 @@
 !> Stresses, reactions and equilibrium from the displacements
 module axijoint_analysis_core_recovery
+   use omp_lib, only : omp_get_max_threads
    use axijoint_analysis_core_results, only : results_type, axial, lateral, moment, torque, &
                                          lateral_90, moment_90, n_resultants
    use axijoint_analysis_core_rigid, only : rigid_resultants
@@ -11,9 +12,7 @@ module axijoint_analysis_core_recovery
    use axijoint_assembly_solid_force, only : solid_force
    use axijoint_assembly_support, only : add_support_force
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_element_solid_point, only : solid_point_type, solid_points
    use axijoint_fe_mode, only : mode_type, same_mode, mode_integral, is_torsion, family_symmetric
-   use axijoint_fe_quadrature, only : max_element_points
    use axijoint_fe_reference, only : reference_type
    use axijoint_joints_field, only : joint_field_type, stress_amplitude
    use axijoint_joints_residual, only : ratio, load_norm
@@ -45,35 +44,52 @@ contains
       real(wp), dimension(n_resultants, size(results%modes)) :: applied, resultant, reacted
       real(wp), allocatable :: unbalance(:, :, :)
       ! threads' stacks are small
-      real(wp), allocatable :: internal(:, :), force(:, :), spring(:, :)
+      real(wp), allocatable :: left(:, :), joints(:, :), spring(:, :)
+      logical, allocatable :: is_held(:, :)
       integer, allocatable :: part(:)
-      integer :: k, own(2)
+      integer :: i, k, node, own(2)
 
       call new_points(model, results)
       call solid_parts(model%mesh, part)
       own = own_modes(structure%equations)
       allocate (unbalance(n_resultants, maxval(part), size(results%modes)))
       allocate (results%reaction, results%acting, results%taken, mold=results%displacement)
-      !$omp parallel do schedule(dynamic) private(internal, force, spring) &
+      call find_solid_forces(model, structure, loading, results)
+      !$omp parallel do schedule(dynamic) private(left, joints, spring, is_held, i, node) &
       !$omp if (worth_threads(structure%equations))
       do k = own(1), own(2)
-         associate (mode => results%modes(k), reaction => results%reaction(:, :, k))
-            force = loading%external(:, :, k)
-            internal = internal_force(k)
-            unbalanced(k) = sum(on_equations(structure%equations, k, force - internal)**2) &
-               /mode_integral(mode)
-            reaction = merge(internal - force, 0.0_wp, held(model, mode))
-            results%acting(:, :, k) = force + reaction
+         associate (mode => results%modes(k))
             spring = spring_force(k)
-            internal = internal - spring
-            reaction = reaction - spring
-            applied(:, k) = rigid_resultants(model%mesh%coordinates, mode, force)
+            joints = all_joints(k)
+            is_held = held(model, mode)
+            allocate (left(3, size(spring, 2)))
+            do node = 1, size(left, 2)
+               do i = 1, 3
+                  results%taken(i, node, k) = results%taken(i, node, k) + spring(i, node)
+                  left(i, node) = loading%external(i, node, k) - results%taken(i, node, k) &
+                     - joints(i, node)
+                  results%reaction(i, node, k) = merge(-left(i, node), 0.0_wp, is_held(i, node))
+                  results%acting(i, node, k) = loading%external(i, node, k) &
+                     + results%reaction(i, node, k)
+               end do
+            end do
+            unbalanced(k) = sum(on_equations(structure%equations, k, left)**2)/mode_integral(mode)
+            scale(k) = 0.0_wp  ! displacements and temperatures load without external forces
+            do node = 1, size(left, 2)
+               do i = 1, 3
+                  left(i, node) = left(i, node) + results%reaction(i, node, k)
+                  results%reaction(i, node, k) = results%reaction(i, node, k) - spring(i, node)
+                  scale(k) = scale(k) + abs(peak%external(i, node, k)) &
+                     + abs(peak%right(i, node, k) - peak%external(i, node, k))
+               end do
+            end do
+            applied(:, k) = rigid_resultants(model%mesh%coordinates, mode, &
+                                             loading%external(:, :, k))
             resultant(:, k) = rigid_resultants(model%mesh%coordinates, mode, peak%external(:, :, k))
-            reacted(:, k) = rigid_resultants(model%mesh%coordinates, mode, reaction)
-            unbalance(:, :, k) = part_resultants(model, mode, part, force - internal + reaction)
-            ! displacements and temperatures load without external forces
-            scale(k) = sum(abs(peak%external(:, :, k))) &
-               + sum(abs(peak%right(:, :, k) - peak%external(:, :, k)))
+            reacted(:, k) = rigid_resultants(model%mesh%coordinates, mode, &
+                                             results%reaction(:, :, k))
+            unbalance(:, :, k) = part_resultants(model, mode, part, left)
+            deallocate (left)
          end associate
       end do
       !$omp end parallel do
@@ -98,22 +114,17 @@ contains
 
    contains
 
-      !> Nodal forces of solids, springs and joints in one mode; fills the stress
-      function internal_force(k) result(internal)
+      !> Nodal forces of the joints in one mode
+      function all_joints(k) result(force)
          !> Place of the mode
          integer, intent(in) :: k
          !> Forces on components, shape (3, nodes)
-         real(wp), allocatable :: internal(:, :)
+         real(wp), allocatable :: force(:, :)
 
-         allocate (internal, mold=results%displacement(:, :, k))
-         call solid_force(model, loading%initial, k, results%modes(k), &
-                          results%displacement(:, :, k), internal, results%stress(:, :, k))
-         internal = internal + spring_force(k)
-         results%taken(:, :, k) = internal
-         internal = internal + joint_force(structure%joint_points, results%modes(k)%harmonic, &
+         force = joint_force(structure%joint_points, results%modes(k)%harmonic, &
             stress_amplitude(structure%joint_points, results%modes(k), &
-                             results%displacement(:, :, k), field, k), size(internal, 2))
-      end function internal_force
+                             results%displacement(:, :, k), field, k), n_nodes(model%mesh))
+      end function all_joints
 
       !> Nodal forces that hold the springs in one mode
       function spring_force(k) result(force)
@@ -128,6 +139,31 @@ contains
       end function spring_force
 
    end subroutine recover
+
+   !> Stresses of the solids, and the nodal forces that balance them
+   subroutine find_solid_forces(model, structure, loading, results)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Equations, for the modes of this rank
+      type(structure_type), intent(in) :: structure
+      !> Loads, for the stress without strain
+      type(loading_type), intent(in) :: loading
+      !> Results with displacements; take the stresses, and the forces in what solids and springs take
+      type(results_type), intent(inout) :: results
+
+      integer :: k, last, own(2), width
+
+      own = own_modes(structure%equations)
+      width = 1 + (own(2) - own(1))/omp_get_max_threads()  ! something to do for each thread
+      !$omp parallel do schedule(dynamic) private(last) if (worth_threads(structure%equations))
+      do k = own(1), own(2), width
+         last = min(k + width - 1, own(2))
+         call solid_force(model, loading%initial, k, results%modes(k:last), &
+            results%displacement(:, :, k:last), results%taken(:, :, k:last), &
+            results%stress(:, :, k:last))
+      end do
+      !$omp end parallel do
+   end subroutine find_solid_forces
 
    !> Let all ranks know the fields that were found mode by mode
    subroutine share_fields(equations, results)
@@ -160,7 +196,6 @@ contains
       !> Results that take elements and positions of the points
       type(results_type), intent(inout) :: results
 
-      type(solid_point_type) :: points(max_element_points)
       type(reference_type), allocatable :: references(:)
       integer :: element, n, last
 
@@ -172,15 +207,13 @@ contains
          last = 0
          do element = 1, n_elements(mesh)
             associate (reference => references(mesh%element_kind(element)))
-               call solid_points(mesh%coordinates(:, &
+               n = reference%n_points
+               results%point_element(last + 1:last + n) = element
+               results%point_position(:, last + 1:last + n) = matmul(mesh%coordinates(:, &
                   mesh%element_nodes(:reference%n_nodes, element)), &
-                                 reference, points(:reference%n_points))
+                  reference%shape(:reference%n_nodes, :n))
+               last = last + n
             end associate
-            do n = 1, references(mesh%element_kind(element))%n_points
-               last = last + 1
-               results%point_element(last) = element
-               results%point_position(:, last) = points(n)%position
-            end do
          end do
       end associate
    end subroutine new_points
@@ -228,13 +261,14 @@ contains
       !> The resultants, shape (n_resultants, parts)
       real(wp) :: resultant(n_resultants, maxval(part))
 
-      integer :: k
+      integer, allocatable :: nodes(:)
+      integer :: i, k
 
       resultant = 0.0_wp
       if (mode%harmonic > 1) return  ! no resultants
       do k = 1, size(resultant, 2)
-         resultant(:, k) = rigid_resultants(model%mesh%coordinates, mode, &
-                                            merge(force, 0.0_wp, spread(part == k, 1, 3)))
+         nodes = pack([(i, i=1, size(part))], part == k)
+         resultant(:, k) = rigid_resultants(model%mesh%coordinates(:, nodes), mode, force(:, nodes))
       end do
    end function part_resultants
 

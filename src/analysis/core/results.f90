@@ -45,10 +45,10 @@ module axijoint_analysis_core_results
       integer(i8) :: factor_entries = 0
       !> Smallest ratio of a pivot to the diagonal entry it started from
       real(wp) :: smallest_pivot = 0.0_wp
-      !> Backward error after one step of iterative refinement,
-      !> max |b - K u| / (|K| |u| + |b|)
+      !> Backward error max |b - K u| / (|K| |u| + |b|), after one step of iterative refinement if
+      !> that was needed
       real(wp) :: backward_error = 0.0_wp
-      !> Largest correction by that step [length]
+      !> Largest correction by that step; without it a bound of what rounding leaves [length]
       real(wp) :: correction = 0.0_wp
       !> Estimate of the condition number |K| |K^-1| in the 1-norm (a lower bound,
       !> seldom more than three times too small)

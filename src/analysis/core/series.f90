@@ -74,8 +74,10 @@ contains
       allocate (series%joints(n_resultants, size(model%mesh%joint_label), n))
       allocate (series%faces(n_resultants, size(model%supported_faces), n))
       allocate (series%points(3, size(model%points), size(results%modes), n))
-      allocate (series%before, source=0.0_wp*results%displacement)
-      allocate (series%acting, series%taken, source=series%before)
+      allocate (series%before, series%acting, series%taken, mold=results%displacement)
+      series%before = 0.0_wp
+      series%acting = 0.0_wp
+      series%taken = 0.0_wp
    end function new_series
 
    !> Add the next increment
@@ -120,11 +122,10 @@ contains
          series%joints(:, :, i) = now%joint_resultants
          series%faces(:, :, i) = now%face_reactions
          call interpolate_points(model, now, series%points(:, :, :, i))
-         associate (change => now%displacement - series%before)
-            series%work(i) = 0.5_wp*sum((series%acting + now%acting)*change)
-            plastic = plastic_work(series%plastic, now%plastic)
-            series%stored = series%stored + 0.5_wp*sum((series%taken + now%taken)*change) - plastic
-         end associate
+         plastic = plastic_work(series%plastic, now%plastic)
+         series%work(i) = mean_work(series%acting, now%acting, series%before, now%displacement)
+         series%stored = series%stored - plastic &
+            + mean_work(series%taken, now%taken, series%before, now%displacement)
          series%energy(i) = series%stored + now%joint_energy
          series%dissipated(i) = sliding_work(model, structure, series%state, state) &
             + plastic
@@ -132,6 +133,7 @@ contains
             series%work(i) = series%work(i) + series%work(i - 1)
             series%dissipated(i) = series%dissipated(i) + series%dissipated(i - 1)
          end if
+         if (i == size(series%increment)) return  ! nothing follows
          series%before = now%displacement
          series%acting = now%acting
          series%taken = now%taken
@@ -139,6 +141,25 @@ contains
          series%state = state
       end associate
    end subroutine append_increment
+
+   !> Work of forces from one state to another, by their mean
+   pure real(wp) function mean_work(force_before, force, before, displacement) result(work)
+      !> Forces and displacements of both states, shape (3, nodes, modes)
+      real(wp), intent(in), dimension(:, :, :) :: force_before, force, before, displacement
+
+      integer :: i, k, node
+
+      work = 0.0_wp
+      do k = 1, size(force, 3)
+         do node = 1, size(force, 2)
+            do i = 1, 3
+               work = work + (force_before(i, node, k) + force(i, node, k)) &
+                  *(displacement(i, node, k) - before(i, node, k))
+            end do
+         end do
+      end do
+      work = 0.5_wp*work
+   end function mean_work
 
    !> Residual of the last load step of an increment, if joints were iterated on
    pure real(wp) function residual_of(final, increment, whole) result(residual)

@@ -7,7 +7,7 @@ module axijoint_analysis_core_solution
                                                 share_difference
    use axijoint_analysis_fine_level, only : fine_load_type, new_fine_load
    use axijoint_assembly_equations, only : equations_type, own_modes, solve_mode, refine_mode, &
-                                           backward_error, find_condition
+                                           find_unbalanced, find_condition
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
                                          release_factor, report_failure
    use axijoint_assembly_force, only : joint_force
@@ -21,9 +21,9 @@ module axijoint_analysis_core_solution
 
 contains
 
-   !> Displacements under loads and excess joint stress, a step of refinement in them. A factor
-   !> that is not kept is made, used for all that needs it, and given up. Each rank solves its
-   !> systems, and learns the rest.
+   !> Displacements under loads and excess joint stress, a step of refinement in them unless the
+   !> structure takes what rounding leaves without it. A factor that is not kept is made, used for all
+   !> that needs it, and given up. Each rank solves its systems, and learns the rest.
    subroutine solve_displacements(structure, model, loading, displacement, solves, error, excess, &
       difference)
       !> The structure, assembled
@@ -77,9 +77,8 @@ contains
                                                                   acting(:, :, k), &
                                                                   size(displacement, 2))
                      call solve_mode(equations, k, force, displacement(:, :, k))
-                     call refine_mode(equations, k, force, displacement(:, :, k), &
-                        solves(k)%correction)
-                     call report_solve(equations, k, force, displacement(:, :, k), solves(k))
+                     call refine_solve(equations, k, force, structure%negligible, &
+                        displacement(:, :, k), solves(k))
                      if (allocated(loading%held)) then
                         displacement(:, :, k) = displacement(:, :, k) + loading%held(:, :, k)
                      end if
@@ -136,23 +135,35 @@ contains
       end do
    end subroutine share_solves
 
-   !> How well the equations of one mode are solved
-   subroutine report_solve(equations, k, force, displacement, report)
+   !> Refine the solution of one mode, and see how well its equations are solved. A backward error is
+   !> a relative change of the data, which the condition number passes on at most: where that is
+   !> negligible, it stands for the correction that is not made
+   subroutine refine_solve(equations, k, force, negligible, displacement, report)
       !> The equations
       type(equations_type), intent(in) :: equations
       !> Place of the mode
       integer, intent(in) :: k
       !> Forces on components, shape (3, nodes)
       real(wp), intent(in) :: force(:, :)
+      !> What rounding may leave without refinement, over the largest displacement
+      real(wp), intent(in) :: negligible
       !> Displacement amplitudes, shape (3, nodes)
-      real(wp), intent(in) :: displacement(:, :)
+      real(wp), intent(inout) :: displacement(:, :)
       !> The report; its condition number is there
       type(mode_solve_type), intent(inout) :: report
 
-      associate (system => equations%systems(equations%system(k)))
-         report%smallest_pivot = system%pivots%smallest
-         report%backward_error = backward_error(equations, k, force, displacement)
-      end associate
-   end subroutine report_solve
+      real(wp), allocatable :: unbalanced(:)
+      real(wp) :: left
+
+      report%smallest_pivot = equations%systems(equations%system(k))%pivots%smallest
+      call find_unbalanced(equations, k, force, displacement, unbalanced, report%backward_error)
+      left = report%backward_error*report%condition
+      if (left <= negligible) then
+         report%correction = left*maxval(abs(displacement))
+         return
+      end if
+      call refine_mode(equations, k, unbalanced, displacement, report%correction)
+      call find_unbalanced(equations, k, force, displacement, unbalanced, report%backward_error)
+   end subroutine refine_solve
 
 end module axijoint_analysis_core_solution

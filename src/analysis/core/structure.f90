@@ -20,6 +20,7 @@ module axijoint_analysis_core_structure
    use axijoint_base_timer, only : timer_type, phase_assemble, phase_factor, phase_joints
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_condensed, only : condensed_type, new_condensed
+   use axijoint_joints_loads, only : answer_type
    use axijoint_joints_planes, only : planes_type, new_planes
    use axijoint_linalg_blas_buffers, only : reserve_blas_buffers
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points
@@ -61,6 +62,11 @@ module axijoint_analysis_core_structure
       type(line_type), allocatable :: sections(:)
       !> Orders of the nodes side by side
       type(ordering_type), allocatable :: orderings(:)
+      !> What rounding may leave of displacements, over the largest, without a step of refinement:
+      !> nothing unless who builds the structure says so
+      real(wp) :: negligible = -1.0_wp
+      !> The last answer of the elastic structure to loads, if many states are expected to have the same
+      type(answer_type), allocatable :: answer
    end type structure_type
 
 contains
@@ -155,13 +161,15 @@ contains
 
    !> Let a structure serve another job that has the same: the fine level knows its loads and laws, and
    !> cuts may be elsewhere
-   subroutine take_loads_of(model, structure)
+   subroutine take_loads_of(model, structure, estimated)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure
       type(structure_type), intent(inout) :: structure
+      !> Whether errors are estimated, for which the fine level is
+      logical, intent(in) :: estimated
 
-      call take_fine_model(model, structure%fine)
+      if (estimated) call take_fine_model(model, structure%fine)
       structure%sections = cut_sections(model%mesh, model%cuts)
    end subroutine take_loads_of
 

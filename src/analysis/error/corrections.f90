@@ -11,7 +11,6 @@ module axijoint_analysis_error_corrections
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
    use axijoint_joints_condensed, only : condensed_type
-   use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_history, only : history_type
    use axijoint_joints_increments, only : balance_again
    use axijoint_joints_residual, only : strictest_type, strictest
@@ -106,19 +105,20 @@ contains
       integer, parameter :: most_attempts = 3
       !> Part of the tolerance that would do if errors fell with it
       real(wp), parameter :: ample = 0.3_wp
-      type(error_share_type) :: share
-      type(joint_field_type), allocatable :: balanced
+      type(error_share_type) :: share, wanted
       real(wp) :: tolerance, excess
       integer :: k
 
       associate (condensed => structure%condensed, scene => history%scene)
          if (.not. results%converged .or. history%method%accumulates) return
          tolerance = results%tolerance
+         wanted%displacement = claim(condensed, results%tolerance)
+         wanted%joint_stress = merge(wanted%displacement, huge(1.0_wp), condensed%proportion <= stiff)
          do k = 0, most_attempts
-            call iteration_error(structure, history, results, balanced, share)
+            call iteration_error(structure, history, results, wanted, share)
             excess = share%displacement
             if (condensed%proportion <= stiff) excess = max(excess, share%joint_stress)
-            excess = excess/claim(condensed, results%tolerance)
+            excess = excess/wanted%displacement
             if (excess <= 1.0_wp) return
             if (k == most_attempts) exit
             tolerance = ample*tolerance/excess

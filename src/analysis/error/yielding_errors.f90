@@ -4,6 +4,7 @@ module axijoint_analysis_error_yielding_errors
    use omp_lib, only : omp_get_wtime
    use axijoint_analysis_core_results, only : results_type, error_share_type
    use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_analysis_error_excess_bound, only : bound_excess_effect
    use axijoint_analysis_error_excess_effect, only : add_excess_effect
    use axijoint_analysis_error_largest_values, only : largest_vector, largest_elastic_stress
    use axijoint_analysis_fine_difference, only : difference_type, new_difference, &
@@ -91,34 +92,71 @@ contains
       end associate
    end subroutine estimate_yielding_errors
 
-   !> What the iteration left, by the state in which the joints are wholly balanced
-   subroutine iteration_error(structure, history, results, balanced, share)
+   !> What the iteration left, by the state in which the joints are wholly balanced: a bound where
+   !> that is within what is wanted
+   subroutine iteration_error(structure, history, results, wanted, share)
       !> The structure, condensed
       type(structure_type), intent(inout) :: structure
       !> What the increments came to by a method on total jumps
       type(history_type), intent(in) :: history
       !> Results with displacements
       type(results_type), intent(in) :: results
-      !> The state wholly balanced
-      type(joint_field_type), allocatable, intent(out) :: balanced
+      !> Displacement and joint stress that the error need not be below
+      type(error_share_type), intent(in) :: wanted
       !> The error
       type(error_share_type), intent(out) :: share
 
+      type(joint_field_type), allocatable :: balanced
       type(joint_change_type) :: change
       real(wp), allocatable :: displacement(:, :, :)
+      real(wp) :: largest
 
       associate (condensed => structure%condensed, scene => history%scene, field => history%field)
-         allocate (balanced, source=field)
          if (nothing_is_left(structure, history, results)) return
+         allocate (balanced, source=field)
          balanced%memory = history%memory
          call settle_wholly(condensed, scene, balanced)
          change = change_between(scene, field, balanced, structure%judged(structure%yielding))
          displacement = results%displacement
          call add_motions(condensed%floating, field%offset, displacement)
-         call take_share(structure, history, results, largest_vector(results%modes, displacement), &
-            change, share)
+         largest = largest_vector(results%modes, displacement)
+         if (change%known .and. .not. condensed%shared) then
+            call bound_share(structure, history, largest, change, share)
+            if (share%displacement <= wanted%displacement .and. &
+                share%joint_stress <= wanted%joint_stress) return
+         end if
+         call take_share(structure, history, results, largest, change, share)
       end associate
    end subroutine iteration_error
+
+   !> A bound of an error in relative numbers, found without a solution
+   subroutine bound_share(structure, history, largest, change, share)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> Largest displacement
+      real(wp), intent(in) :: largest
+      !> The change of the joints
+      type(joint_change_type), intent(in) :: change
+      !> Takes stress and displacement
+      type(error_share_type), intent(out) :: share
+
+      real(wp) :: displacement, stress
+      integer :: k
+
+      call bound_excess_effect(structure, history%scene, change%excess, elastic_points(structure), &
+         displacement, stress)
+      do k = 1, size(change%offset)
+         displacement = displacement + abs(change%offset(k)) &
+            *sqrt(3.0_wp)*maxval(abs(structure%condensed%floating(k)%displacement))
+         stress = merge(huge(1.0_wp), stress, abs(change%offset(k)) > 0.0_wp)
+      end do
+      share%displacement = ratio(displacement + change%beyond, &
+         max(largest, none*history%largest_elastic))
+      share%joint_stress = ratio(max(change%stress, stress), &
+         maxval(history%largest_stress, mask=structure%judged(structure%yielding)))
+   end subroutine bound_share
 
    !> Whether all loads were taken away, and displacements and stress of joints with them. Then
    !> bodies that joints alone held may stand anywhere, and there is nothing that an error is a part of
