@@ -135,11 +135,11 @@ contains
       n_modes = size(modes)
       vector = 3*n_nodes(model%mesh)*n_modes
       earlier = size(model%increments) - 1
-      footprint%bodies = real_bytes*(7*points*planes + amplitude_arrays*6*points*n_modes &
+      footprint%bodies = real_bytes*(8*points*planes + amplitude_arrays*6*points*n_modes &
                                      + held_vectors*vector)
-      ! stress taken, hardening and two amplitudes of each increment, of the points that have yielded,
+      ! stress taken, hardening, dissipation and two amplitudes of each increment, of the points that have yielded,
       ! which may be all; when one is appended they are there twice
-      footprint%bodies = footprint%bodies + 2*real_bytes*earlier*points*(7*planes + 12*n_modes)
+      footprint%bodies = footprint%bodies + 2*real_bytes*earlier*points*(8*planes + 12*n_modes)
       footprint%body_work = real_bytes*(19*points*planes + 2*6*points*n_modes + mixed_vectors*vector)
       footprint%fine = 0
       footprint%fine_work = 0
