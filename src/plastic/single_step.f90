@@ -65,7 +65,7 @@ module axijoint_plastic_single_step
    !> Most elastic solutions, and how much less well the value may be known after these
    integer, parameter :: most = 150
    real(wp), parameter :: hardly = 5.0_wp
-   !> Residual ratio that is equilibrium, and one that is far from any
+   !> Residual ratio that is equilibrium, and one that is far from any where there is no potential
    real(wp), parameter :: balanced = 1.0e-6_wp, far = 0.3_wp
    !> Residual ratio of joints, and most of their iterations
    real(wp), parameter :: joint_tolerance = 1.0e-5_wp
@@ -151,7 +151,7 @@ contains
          if (.not. (allocated(loads%steered) .or. loads%held)) &
             settling%size = maxval(abs(field%unknowns))
          call note(settling, state%value)
-         call judge(problem, settling, way%iterate, state%found, ended)
+         call judge(problem, settling, way, state%found, ended)
          if (ended) exit
          do k = 1, stride
             call step(problem, field, way)
@@ -195,26 +195,30 @@ contains
       end if
    end subroutine step
 
-   !> Whether the value is found, and whether no more is to be tried
-   subroutine judge(problem, settling, iterate, found, ended)
+   !> Whether the value is found, and whether no more is to be tried. Down a potential a value that
+   !> stands still is near its end however large the residual is; else it may have got stuck
+   subroutine judge(problem, settling, way, found, ended)
       !> The problem
       type(problem_type), intent(in) :: problem
       !> Values so far
       type(settling_type), intent(in) :: settling
-      !> The last iterate
-      type(iterate_type), intent(in) :: iterate
+      !> The way so far
+      type(way_type), intent(in) :: way
       !> What is said
       logical, intent(out) :: found, ended
 
-      logical :: fails
+      logical :: fails, near
 
-      fails = stop_wished() .or. .not. ieee_is_finite(iterate%ratio)
-      if (allocated(problem%joints)) fails = fails .or. .not. problem%joints%verdict%converged
-      found = .not. fails .and. (iterate%at_rounding .or. iterate%ratio <= balanced &
-         .or. (iterate%ratio <= far .and. is_settled(settling, 1.0_wp)))
+      associate (iterate => way%iterate)
+         fails = stop_wished() .or. .not. ieee_is_finite(iterate%ratio)
+         if (allocated(problem%joints)) fails = fails .or. .not. problem%joints%verdict%converged
+         near = way%downhill .or. iterate%ratio <= far
+         found = iterate%at_rounding .or. iterate%ratio <= balanced &
+            .or. (near .and. is_settled(settling, 1.0_wp))
+      end associate
       ended = fails .or. found .or. problem%solutions > most
-      if (ended .and. .not. fails) &
-         found = found .or. (iterate%ratio <= far .and. is_settled(settling, hardly))
+      if (ended) found = found .or. (near .and. is_settled(settling, hardly))
+      found = found .and. .not. fails
    end subroutine judge
 
    !> Displacement amplitudes of the state
