@@ -2,6 +2,7 @@
 load."""
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import PowerNorm
 from matplotlib.tri import Triangulation
 
 from .. import circle
@@ -54,12 +55,12 @@ def draw_dissipation(result, options=Options()):
         return None
     units = style.Units(result, options)
     return _by_element(result, options, values, units.label("work dissipated per volume", units.stress),
-                       "in the last increment dissipated per volume up to {:.3g}")
+                       "dissipated per volume up to {:.3g}", power=0.5)  # edges of what moves are singular
 
 
-def _by_element(result, options, of_points, label, words):
+def _by_element(result, options, of_points, label, words, power=1.0):
     """Elements by the largest value of their points, shape (planes, points), on two opposite planes; words of the
-    heading for that of all."""
+    heading for that of all; colours go with a power of the values."""
     mesh, planes, element = result.mesh, Planes(result, options, extra=0.6, stretch=False), result.read("stress/element") - 1
     by_element = {}
     for plane in planes.angles:
@@ -72,8 +73,8 @@ def _by_element(result, options, of_points, label, words):
         yielded = planes.chosen[values[planes.chosen] > NONE*high]
         shapes = [planes.place(polygon, plane) for polygon in pieces.element_polygons(mesh, mesh.coordinates, yielded)]
         order = [one for _, group in mesh.groups(yielded) for one in group]
-        drawn = axes.add_collection(PolyCollection(shapes, array=values[order], clim=limits, cmap="viridis_r",
-                                                   edgecolors="none"))
+        drawn = axes.add_collection(PolyCollection(shapes, array=values[order], norm=PowerNorm(power, *limits),
+                                                   cmap="viridis_r", edgecolors="none"))
         lines = [planes.place(line, plane) for line in pieces.element_edges(mesh, mesh.coordinates, planes.chosen)]
         axes.add_collection(LineCollection(lines, colors="0.75", lw=0.2))
         lines = [planes.place(line, plane) for line in pieces.outlines(mesh, mesh.coordinates, planes.mask)]
