@@ -2,6 +2,7 @@
 import json
 import os
 import pathlib
+import resource
 import subprocess
 
 import h5py
@@ -43,7 +44,8 @@ class Results:
 class History:
     """What the tables need of a job in increments of bodies that yield; arrays have one row an increment"""
 
-    def __init__(self, path, summary):
+    def __init__(self, path, summary, processor):
+        self.processor = processor
         self.messages = summary["messages"]
         self.iterations = np.array([row["iterations"] for row in summary["yielding"]["increments"]])
         self.solutions = np.array([row["solutions"] for row in summary["yielding"]["increments"]])
@@ -78,30 +80,38 @@ class Program:
 
     def __init__(self, path, directory):
         self.path, self.directory = path, pathlib.Path(directory)
+        self.processor = 0.0  # seconds that the last run took of it
+
+    def _run(self, deck):
+        """Runs a deck in a file by one thread"""
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        done = subprocess.run([self.path, "run", deck, "-o", self.directory, "--threads", "1"],
+                              capture_output=True, text=True, env=os.environ, check=False)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.processor = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        return done
 
     def run(self, name, text):
         """Runs a deck; its results"""
         deck = self.directory/f"{name}.dat"
         deck.write_text(text)
-        done = subprocess.run([self.path, "run", deck, "-o", self.directory, "--threads", "1"],
-                              capture_output=True, text=True, env=os.environ, check=False)
+        done = self._run(deck)
         if done.returncode:
             words = "\n".join((done.stderr or done.stdout).strip().splitlines()[:5])
             raise ProgramError(f"{deck}: exit code {done.returncode}\n{words}")
         return Results(self.directory/f"{name}.h5")
 
     def seconds(self, name, text):
-        """Seconds that a deck takes"""
+        """Processor seconds that a deck takes"""
         self.run(name, text)
-        return json.loads((self.directory/f"{name}.json").read_text())["seconds"]["total"]
+        return self.processor
 
     def history(self, name, text):
         """Runs a deck of bodies that yield, to its end or to its limit load"""
         deck = self.directory/f"{name}.dat"
         deck.write_text(text)
-        done = subprocess.run([self.path, "run", deck, "-o", self.directory, "--threads", "1"],
-                              capture_output=True, text=True, env=os.environ, check=False)
+        done = self._run(deck)
         if done.returncode not in (0, 4):
             words = "\n".join((done.stderr or done.stdout).strip().splitlines()[:5])
             raise ProgramError(f"{deck}: exit code {done.returncode}\n{words}")
-        return History(self.directory/f"{name}.h5", json.loads((self.directory/f"{name}.json").read_text()))
+        return History(self.directory/f"{name}.h5", json.loads((self.directory/f"{name}.json").read_text()), self.processor)

@@ -65,7 +65,7 @@ class Figures(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             result = axijoint.open(self.results(folder, "pile_clay"))
             found = dict(plot.figures(result, ["yielding"]))
-            self.assertEqual(found.keys(), {"yielding", "yielding_unrolled"})
+            self.assertEqual(found.keys(), {"yielding", "yielding_unrolled", "dissipation"})
             for name, figure in found.items():
                 self.assertEqual(overlaps(figure), [], name)
             angles = [float(angle) for angle in result.read("yield/planes")*180/3.141592653589793]
@@ -83,6 +83,26 @@ class Figures(unittest.TestCase):
             found = dict(plot.figures(result, ["yielding"]))
             self.assertIn("mechanism", found)
             self.assertEqual(overlaps(found["mechanism"]), [])
+            dissipated = result.read("yield/dissipated")
+            self.assertAlmostEqual(self.dissipation(result), dissipated[-1] - dissipated[dissipated < dissipated[-1]].max(initial=0.0),
+                                   delta=1e-10*dissipated[-1])
+
+    def dissipation(self, result):
+        """Integral of the work dissipated per volume"""
+        return (result.read("yield/dissipation")*result.read("yield/point_weight")).sum(1) @ result.read("yield/plane_weight")
+
+    def test_dissipation(self):
+        """A thick cylinder of TRESCA at its collapse, displacements given: nothing but plastic flow u = C/r, so that the
+        work per volume of an increment is strength times C/r^2, and in all what is told of the increment"""
+        with tempfile.TemporaryDirectory() as folder:
+            jobs.run(folder, "collapse", yielding_decks.steered(yielding_decks.cylinder((1.0, 0.2, 0.3, 0.4, 8.0, 8.0), 16)))
+            result = axijoint.open(pathlib.Path(folder)/"collapse.h5")
+            dissipated, density = result.read("yield/dissipated"), result.read("yield/dissipation")
+            self.assertAlmostEqual(self.dissipation(result)/(dissipated[-1] - dissipated[-2]), 1.0, delta=1e-10)
+            radius = result.read("stress/position")[:, 0]
+            moved = yielding_decks.INSIDE*np.diff(result.read("history/largest_displacement"))[-1]
+            exact = yielding_decks.YIELD_STRESS*moved/radius**2
+            self.assertLess(abs(density/exact - 1.0).max(), 5e-3)
 
     def test_a_linear_job_without_joints(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,7 +1,8 @@
 !> What iterations of bodies that yield have to do
 module axijoint_estimate_body_work
    use axijoint_analysis_core_structure, only : structure_type
-   use axijoint_analysis_error_plastic_errors, only : turns_back, few
+   use axijoint_analysis_error_plastic_errors, only : turns_back
+   use axijoint_analysis_error_plastic_variants, only : mesh_harmonics
    use axijoint_base_kinds, only : wp
    use axijoint_element_yield_law, only : yield_none
    use axijoint_estimate_terms, only : n_terms, body_laws, body_stresses, solved_entries, sums
@@ -64,7 +65,7 @@ contains
       on = on_planes*points*size(planes%angle)
       judging = 0.0_wp
       if (judged .and. .not. turns_back(model, model%combinations(1))) &
-         judging = state_iterations*judging_work(model%max_harmonic)
+         judging = state_iterations*judging_work(model)
       solved = iterations*merge(beside_joints, alone, can_yield(model))
       work(solved_entries) = (solved + judging(1))*entries
       work(body_stresses) = (iterations + judging(1))*passes*shapes*modes
@@ -73,18 +74,20 @@ contains
    end function body_work
 
    !> Work of an iteration of all states that errors are estimated by, in iterations of the job: the
-   !> same state, on twice the planes, with twice the harmonics on these, and on four times the
-   !> elements with few harmonics
-   pure function judging_work(m) result(work)
-      !> Highest harmonic
-      integer, intent(in) :: m
+   !> same state, on twice the planes, with twice the harmonics on these, with few harmonics, and with
+   !> these on four times the elements
+   pure function judging_work(model) result(work)
+      !> The job
+      type(model_type), intent(in) :: model
       !> In solutions and stresses, and in laws
       real(wp) :: work(2)
 
       real(wp) :: share
+      integer :: few, other
 
-      share = real(min(m, few) + 1, wp)/(m + 1)
-      work = [1.0_wp + 1.0_wp + 2.0_wp + 4.0_wp*share, 1.0_wp + 2.0_wp + 2.0_wp + 4.0_wp*share]
+      call mesh_harmonics(model, .not. can_yield(model), few, other)
+      share = real(few + 1, wp)/(model%max_harmonic + 1)
+      work = [1.0_wp + 1.0_wp + 2.0_wp + 5.0_wp*share, 1.0_wp + 2.0_wp + 2.0_wp + 5.0_wp*share]
    end function judging_work
 
    !> Gauss points of the bodies that yield

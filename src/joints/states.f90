@@ -18,6 +18,9 @@ module axijoint_joints_states
       real(wp), allocatable :: amplitude(:, :, :), carried(:, :, :)
       !> Work that plastic strain has dissipated so far [force length]
       real(wp) :: dissipated = 0.0_wp
+      !> The same per volume in this increment, or in the last before it that had any step in
+      !> equilibrium, shape (points, planes) [stress]
+      real(wp), allocatable :: dissipation(:, :)
       !> Iterations and elastic solutions of the increment, share of the points of these bodies that
       !> planes were needed for, and how many yield on any plane at its end
       integer :: iterations = 0, solutions = 0

@@ -60,6 +60,11 @@ module axijoint_plastic_field
       real(wp) :: scale = 0.0_wp
       !> Work that plastic strain has dissipated up to there [force length]
       real(wp) :: dissipated = 0.0_wp
+      !> The same per volume, in the steps of the increment that is at work, or of the last that had
+      !> any in equilibrium, shape (points, planes) [stress]; whether the next step is the first of
+      !> an increment
+      real(wp), allocatable :: dissipation(:, :)
+      logical :: begins = .true.
    end type body_field_type
 
 contains
@@ -105,7 +110,7 @@ contains
          field%force_before = field%force
          allocate (field%taken(6, n, n_planes), field%amplitude(6, n, n_modes), source=0.0_wp)
          allocate (field%elastic, field%carried, field%elastic_before, source=field%amplitude)
-         allocate (field%gained(n, n_planes), source=0.0_wp)
+         allocate (field%gained(n, n_planes), field%dissipation(n, n_planes), source=0.0_wp)
          allocate (field%marked(n), field%yields(n), source=.false.)
          allocate (field%on(0))
       end associate
@@ -137,7 +142,7 @@ contains
 
       integer :: i
 
-      field%dissipated = field%dissipated + dissipation(bodies, planes, field)
+      call dissipate(bodies, planes, field)
       do i = 1, size(field%on)
          associate (p => field%on(i))
             field%taken(:, p, :) = field%excess(:, i, :)
@@ -153,31 +158,34 @@ contains
       field%right = load%right
    end subroutine commit
 
-   !> Work of the stress on the plastic strain of an increment, by the mean of the stresses at its
+   !> Add the work of the stress on the plastic strain of a step, by the mean of the stresses at its
    !> ends: what is hardened by it is in it, too
-   real(wp) function dissipation(bodies, planes, field) result(work)
+   subroutine dissipate(bodies, planes, field)
       !> The bodies
       type(bodies_type), intent(in) :: bodies
       !> The planes
       type(planes_type), intent(in) :: planes
       !> The state, evaluated, not committed
-      type(body_field_type), intent(in) :: field
+      type(body_field_type), intent(inout) :: field
 
       real(wp), allocatable :: before(:, :, :), weight(:)
+      real(wp) :: work
       integer :: i, j
 
-      work = 0.0_wp
+      if (field%begins) field%dissipation = 0.0_wp
+      field%begins = .false.
       before = synthesize(planes, field%elastic_before(:, field%on, :))
       weight = plane_weights(planes)
       do j = 1, size(weight)
          do i = 1, size(field%on)
             associate (p => field%on(i))
-               work = work + weight(j)*bodies%weight(p)*0.5_wp*dot_product( &
-                  before(:, i, j) - field%taken(:, p, j) + field%stress(:, i, j), &
+               work = 0.5_wp*dot_product(before(:, i, j) - field%taken(:, p, j) + field%stress(:, i, j), &
                   elastic_strain(bodies%laws(p), field%excess(:, i, j) - field%taken(:, p, j)))
+               field%dissipation(p, j) = field%dissipation(p, j) + work
+               field%dissipated = field%dissipated + weight(j)*bodies%weight(p)*work
             end associate
          end do
       end do
-   end function dissipation
+   end subroutine dissipate
 
 end module axijoint_plastic_field

@@ -129,6 +129,7 @@ contains
       class(body_increments_type), intent(inout) :: self
 
       self%bodies%counts = 0
+      self%bodies%field%begins = .true.
    end subroutine begin_increment
 
    !> Put the loads of a step on and iterate

@@ -16,7 +16,7 @@ module axijoint_plastic_methods
    use axijoint_plastic_residual, only : evaluate, linearize, excess_force
    implicit none
    private
-   public :: body_control_type, body_verdict_type, balance_bodies
+   public :: body_control_type, body_verdict_type, balance_bodies, quasi_newton_step
 
    !> Steps of the Krylov method in a step of Newton's, and the share of the residual left
    integer, parameter :: most_inner = 40
@@ -24,7 +24,7 @@ module axijoint_plastic_methods
    !> Iterates that the mix remembers, and steps that it takes in Newton's place
    integer, parameter :: depth = 10, substitute = 20
    !> Steps that limited-memory BFGS remembers
-   integer, parameter :: remembered_steps = 20
+   integer, parameter, public :: remembered_steps = 20
    !> Share of the residual, in energy, that a step of Newton's may leave; the mix takes over if it
    !> leaves more
    real(wp), parameter :: enough = 0.5_wp
@@ -256,26 +256,39 @@ contains
       type(course_type), intent(inout) :: course
 
       type(curvature_type) :: memory
+
+      memory = new_curvature(size(field%unknowns), remembered_steps)
+      do
+         if (ended(problem, field, course)) return
+         call quasi_newton_step(problem, field, course%iterate, memory)
+         course%verdict%iterations = course%verdict%iterations + 1
+      end do
+   end subroutine quasi_newton_steps
+
+   !> A step of limited-memory BFGS
+   subroutine quasi_newton_step(problem, field, iterate, memory)
+      !> The problem
+      type(problem_type), intent(inout) :: problem
+      !> The state
+      type(body_field_type), intent(inout) :: field
+      !> What it leaves out of balance
+      type(iterate_type), intent(inout) :: iterate
+      !> What the last steps showed of the tangent
+      type(curvature_type), intent(inout) :: memory
+
       real(wp), allocatable :: direction(:)
       logical :: moved
 
       allocate (direction, mold=field%unknowns)
+      call quasi_newton_direction(memory, field%unknowns, iterate%residual, iterate%response, &
+         direction)
+      call go_down(problem, field, iterate, direction, moved)
+      if (moved) return
+      ! no step that helps: forget what was learned, go where the elastic structure would
       memory = new_curvature(size(direction), remembered_steps)
-      associate (iterate => course%iterate)
-         do
-            if (ended(problem, field, course)) return
-            call quasi_newton_direction(memory, field%unknowns, iterate%residual, &
-               iterate%response, direction)
-            call go_down(problem, field, iterate, direction, moved)
-            course%verdict%iterations = course%verdict%iterations + 1
-            if (moved) cycle
-            ! no step that helps: forget what was learned, go where the elastic structure would
-            memory = new_curvature(size(direction), remembered_steps)
-            field%unknowns = field%unknowns + iterate%response
-            call look(problem, field, iterate)
-         end do
-      end associate
-   end subroutine quasi_newton_steps
+      field%unknowns = field%unknowns + iterate%response
+      call look(problem, field, iterate)
+   end subroutine quasi_newton_step
 
    !> A step of Newton's method
    subroutine newton_step(problem, field, iterate)

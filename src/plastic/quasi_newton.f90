@@ -14,8 +14,10 @@ module axijoint_plastic_quasi_newton
    type :: curvature_type
       private
       !> Changes of the unknowns, of the forces that balance them, -r, and of the responses -K^-1 r to
-      !> those, the latest first; products of the first two
+      !> those; products of the first two
       real(wp), allocatable :: du(:, :), df(:, :), dz(:, :), work(:)
+      !> Columns of the steps, the latest first
+      integer, allocatable :: column(:)
       !> The last unknowns, residual and response
       real(wp), allocatable :: u(:), r(:), z(:)
       !> Steps in use
@@ -32,7 +34,7 @@ contains
       type(curvature_type) :: memory
 
       allocate (memory%du(size, depth), memory%df(size, depth), memory%dz(size, depth), &
-         memory%work(depth))
+         memory%work(depth), memory%column(depth))
    end function new_curvature
 
    !> Direction from an iterate u with residual r and response z = K^-1 r. It takes no elastic
@@ -55,15 +57,22 @@ contains
       left = r
       direction = z
       do i = 1, memory%n
-         share(i) = dot_product(memory%du(:, i), left)/memory%work(i)
-         left = left - share(i)*memory%df(:, i)
-         direction = direction - share(i)*memory%dz(:, i)
+         associate (c => memory%column(i))
+            share(i) = dot_product(memory%du(:, c), left)/memory%work(c)
+            left = left - share(i)*memory%df(:, c)
+            direction = direction - share(i)*memory%dz(:, c)
+         end associate
       end do
-      if (memory%n > 0) direction = direction*memory%work(1) &
-         /dot_product(memory%df(:, 1), memory%dz(:, 1))  ! as soft as the last step
+      if (memory%n > 0) then  ! as soft as the last step
+         associate (c => memory%column(1))
+            direction = direction*memory%work(c)/dot_product(memory%df(:, c), memory%dz(:, c))
+         end associate
+      end if
       do i = memory%n, 1, -1
-         direction = direction + memory%du(:, i) &
-            *(share(i) - dot_product(memory%df(:, i), direction)/memory%work(i))
+         associate (c => memory%column(i))
+            direction = direction + memory%du(:, c) &
+               *(share(i) - dot_product(memory%df(:, c), direction)/memory%work(c))
+         end associate
       end do
    end subroutine quasi_newton_direction
 
@@ -78,17 +87,17 @@ contains
 
       work = dot_product(du, df)
       if (.not. work > flat*dot_product(df, dz)) return
-      memory%n = min(memory%n + 1, size(memory%work))
-      associate (n => memory%n)
-         memory%du(:, 2:n) = memory%du(:, :n - 1)
-         memory%df(:, 2:n) = memory%df(:, :n - 1)
-         memory%dz(:, 2:n) = memory%dz(:, :n - 1)
-         memory%work(2:n) = memory%work(:n - 1)
+      associate (n => memory%n, column => memory%column)
+         if (n < size(column)) then
+            n = n + 1
+            column(n) = n
+         end if
+         column(:n) = cshift(column(:n), -1)  ! the oldest makes room
+         memory%du(:, column(1)) = du
+         memory%df(:, column(1)) = df
+         memory%dz(:, column(1)) = dz
+         memory%work(column(1)) = work
       end associate
-      memory%du(:, 1) = du
-      memory%df(:, 1) = df
-      memory%dz(:, 1) = dz
-      memory%work(1) = work
    end subroutine learn
 
 end module axijoint_plastic_quasi_newton

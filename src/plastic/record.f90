@@ -33,6 +33,7 @@ contains
       state%carried = field%carried(:, points, :)
       state%amplitude = analyse(planes, state%taken)
       state%dissipated = field%dissipated
+      state%dissipation = field%dissipation(points, :)
    end function snapshot
 
    !> Amplitudes of some points as those of all Gauss points
@@ -75,6 +76,8 @@ contains
       call writer%put(marked)
       call writer%put(field%scale)
       call writer%put(field%dissipated)
+      call writer%put(field%dissipation)
+      call writer%put(field%begins)
       call writer%put(counts(1))
       call writer%put(counts(2))
       bytes = writer%bytes()
@@ -110,6 +113,8 @@ contains
       call reader%get(marked)
       call reader%get(field%scale)
       call reader%get(field%dissipated)
+      call reader%get(field%dissipation)
+      call reader%get(field%begins)
       call reader%get(counts(1))
       call reader%get(counts(2))
       fits = .not. reader%failed .and. reader%at_end()

@@ -1,11 +1,14 @@
-!> All loads of a state put on at once, and equilibrium sought from given displacements on: what
-!> another mesh, other harmonics or planes change of a state is seen so, without its history
+!> All loads of a state put on at once, and equilibrium approached from given displacements on until
+!> the load, or the displacement, is known well enough: what another mesh, other harmonics or planes
+!> change of a state is seen so, without its history
 module axijoint_plastic_single_step
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_loading, only : loading_type, new_loading
    use axijoint_assembly_solid_force, only : solid_force
    use axijoint_assembly_support, only : support_point_type
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use axijoint_base_kinds, only : wp
+   use axijoint_base_stop, only : stop_wished
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : set_initial_stress
    use axijoint_joints_history, only : history_type
@@ -18,11 +21,14 @@ module axijoint_plastic_single_step
       ring_norm
    use axijoint_plastic_field, only : body_field_type, body_load_type, new_body_field
    use axijoint_plastic_joint_side, only : begin_joint_step
-   use axijoint_plastic_methods, only : body_control_type, body_verdict_type, balance_bodies
+   use axijoint_plastic_methods, only : quasi_newton_step, remembered_steps
+   use axijoint_plastic_mixing, only : mixing_type, new_mixing, mix
    use axijoint_plastic_posed, only : pose, take_load
-   use axijoint_plastic_problem, only : problem_type, steer
+   use axijoint_plastic_problem, only : problem_type, iterate_type, steer, look
+   use axijoint_plastic_quasi_newton, only : curvature_type, new_curvature
    use axijoint_plastic_record, only : on_all_points
    use axijoint_plastic_residual, only : evaluate
+   use axijoint_plastic_settling, only : settling_type, note, is_settled
    implicit none
    private
    public :: single_load_type, single_state_type, single_step
@@ -36,30 +42,52 @@ module axijoint_plastic_single_step
       real(wp), allocatable :: steered(:)
       !> Load factor to begin with
       real(wp) :: factor = 0.0_wp
+      !> Whether what holds displacements that are given is asked for
+      logical :: held = .false.
    end type single_load_type
 
    !> The state
    type :: single_state_type
-      !> Whether there is equilibrium
-      logical :: balanced = .false.
-      !> Ratio of the residual forces
-      real(wp) :: ratio = huge(1.0_wp)
-      !> Load factor
-      real(wp) :: factor = 0.0_wp
-      !> Work of what holds components on the displacements that are given there; zero if there are
-      !> none [force length]
-      real(wp) :: held_work = 0.0_wp
+      !> Whether the value is known well enough
+      logical :: found = .false.
+      !> Load factor; or work of what holds components on the displacements that are given there
+      !> [force length]; or, if loads are given, largest component of what changed of the
+      !> displacement amplitudes [length]
+      real(wp) :: value = 0.0_wp
       !> Displacement amplitudes, held ones too, shape (3, nodes, modes) [length]
       real(wp), allocatable :: displacement(:, :, :)
       !> Elastic solutions
       integer :: solutions = 0
    end type single_state_type
 
+   !> The value is looked at after so many steps
+   integer, parameter :: stride = 5
+   !> Most elastic solutions, and how much less well the value may be known after these
+   integer, parameter :: most = 150
+   real(wp), parameter :: hardly = 5.0_wp
+   !> Residual ratio that is equilibrium, and one that is far from any where there is no potential
+   real(wp), parameter :: balanced = 1.0e-6_wp, far = 0.3_wp
+   !> Residual ratio of joints, and most of their iterations
+   real(wp), parameter :: joint_tolerance = 1.0e-5_wp
+   integer, parameter :: joint_iterations = 1500
+   !> Iterates that the mix remembers
+   integer, parameter :: depth = 10
+
+   !> The way there: limited-memory BFGS where there is a potential, else Anderson's mix
+   type :: way_type
+      !> What the last iterate leaves out of balance
+      type(iterate_type) :: iterate
+      !> What the method remembers
+      type(curvature_type) :: curvature
+      type(mixing_type) :: mixing
+      logical :: downhill = .false.
+   end type way_type
+
 contains
 
    !> Find the state
-   subroutine single_step(model, equations, condensed, joint_points, supports, loads, control, &
-      start, state)
+   subroutine single_step(model, equations, condensed, joint_points, supports, loads, start, &
+      state, reference)
       !> The job; its planes of bodies are taken
       type(model_type), intent(in) :: model
       !> Equations of all modes, assembled
@@ -71,20 +99,22 @@ contains
       type(support_point_type), intent(in) :: supports(:)
       !> The loads
       type(single_load_type), intent(in) :: loads
-      !> When the iterations end
-      type(body_control_type), intent(in) :: control
       !> Displacements to begin with, shape (3, nodes, modes)
       real(wp), intent(in) :: start(:, :, :)
       !> The state
       type(single_state_type), intent(out) :: state
+      !> Value whose difference to that of the state is asked for; the value itself if absent
+      real(wp), intent(in), optional :: reference
 
       type(bodies_type), target :: bodies
       type(problem_type) :: problem
       type(body_field_type) :: field
-      type(body_verdict_type) :: verdict
+      type(settling_type) :: settling
       type(body_load_type) :: load
       type(loading_type) :: loading, direction
       type(history_type) :: history
+      type(way_type) :: way
+      logical :: ended
       integer :: k
 
       call new_bodies(model, (model%materials%yield), bodies)
@@ -98,6 +128,7 @@ contains
       problem%load_norm = load_norm(equations, loading)
       problem%pushed = ring_norm(equations, load%right)
       field%unknowns = from_nodes(equations, start)
+      field%begun = field%unknowns
       if (allocated(loads%steered)) then
          call new_loading(model, joint_points, supports, equations%modes, &
             combination_type(0, loads%steered), direction)
@@ -109,23 +140,137 @@ contains
       if (allocated(problem%joints)) then
          call begin_joint_step(problem%joints, pushed_modes(equations, load%right), loading%external)
          call set_initial_stress(model, condensed%points, loads%given, problem%joints%field)
-         problem%joints%control%tolerance = 1.0e-2_wp*control%tolerance
-         problem%joints%control%most = control%most
+         problem%joints%control%tolerance = joint_tolerance
+         problem%joints%control%most = joint_iterations
       end if
-      call balance_bodies(problem, control, field, verdict)
-      state%balanced = verdict%converged
-      state%ratio = verdict%ratio
-      state%solutions = problem%solutions
-      state%factor = problem%steering%factor
-      allocate (state%displacement, mold=start)
-      do k = 1, size(start, 3)
-         state%displacement(:, :, k) = to_nodes(equations, field%unknowns, k)
-         if (allocated(load%held)) state%displacement(:, :, k) = state%displacement(:, :, k) &
-            + load%held(:, :, k)
+      if (present(reference)) settling%reference = reference
+      call begin_way(problem, field, way)
+      do
+         call take_displacement(equations, field, load, state%displacement)
+         call find_value(model, problem, field, loads, loading, way%iterate, state)
+         if (.not. (allocated(loads%steered) .or. loads%held)) &
+            settling%size = maxval(abs(field%unknowns))
+         call note(settling, state%value)
+         call judge(problem, settling, way, state%found, ended)
+         if (ended) exit
+         do k = 1, stride
+            call step(problem, field, way)
+         end do
       end do
-      if (allocated(load%held)) call find_held_work(model, equations, bodies, field, &
-         loading, state)
+      state%solutions = problem%solutions
    end subroutine single_step
+
+   !> Look where the way begins
+   subroutine begin_way(problem, field, way)
+      !> The problem
+      type(problem_type), intent(inout) :: problem
+      !> The state
+      type(body_field_type), intent(inout) :: field
+      !> The way
+      type(way_type), intent(out) :: way
+
+      way%downhill = problem%has_potential .and. .not. allocated(problem%joints)
+      if (way%downhill) then
+         way%curvature = new_curvature(size(field%unknowns), remembered_steps)
+      else
+         way%mixing = new_mixing(size(field%unknowns), depth)
+      end if
+      call look(problem, field, way%iterate)
+   end subroutine begin_way
+
+   !> A step
+   subroutine step(problem, field, way)
+      !> The problem
+      type(problem_type), intent(inout) :: problem
+      !> The state
+      type(body_field_type), intent(inout) :: field
+      !> The way so far
+      type(way_type), intent(inout) :: way
+
+      if (way%downhill) then
+         call quasi_newton_step(problem, field, way%iterate, way%curvature)
+      else
+         call mix(way%mixing, field%unknowns, way%iterate%residual, way%iterate%response)
+         call look(problem, field, way%iterate)
+      end if
+   end subroutine step
+
+   !> Whether the value is found, and whether no more is to be tried. Down a potential a value that
+   !> stands still is near its end however large the residual is; else it may have got stuck
+   subroutine judge(problem, settling, way, found, ended)
+      !> The problem
+      type(problem_type), intent(in) :: problem
+      !> Values so far
+      type(settling_type), intent(in) :: settling
+      !> The way so far
+      type(way_type), intent(in) :: way
+      !> What is said
+      logical, intent(out) :: found, ended
+
+      logical :: fails, near
+
+      associate (iterate => way%iterate)
+         fails = stop_wished() .or. .not. ieee_is_finite(iterate%ratio)
+         if (allocated(problem%joints)) fails = fails .or. .not. problem%joints%verdict%converged
+         near = way%downhill .or. iterate%ratio <= far
+         found = iterate%at_rounding .or. iterate%ratio <= balanced &
+            .or. (near .and. is_settled(settling, 1.0_wp))
+      end associate
+      ended = fails .or. found .or. problem%solutions > most
+      if (ended) found = found .or. (near .and. is_settled(settling, hardly))
+      found = found .and. .not. fails
+   end subroutine judge
+
+   !> Displacement amplitudes of the state
+   subroutine take_displacement(equations, field, load, displacement)
+      !> The equations
+      type(equations_type), intent(in) :: equations
+      !> The state
+      type(body_field_type), intent(in) :: field
+      !> The loads, with displacements that are given
+      type(body_load_type), intent(in) :: load
+      !> Shape (3, nodes, modes)
+      real(wp), allocatable, intent(inout) :: displacement(:, :, :)
+
+      integer :: k
+
+      if (.not. allocated(displacement)) allocate (displacement, mold=field%force)
+      do k = 1, size(displacement, 3)
+         displacement(:, :, k) = to_nodes(equations, field%unknowns, k)
+      end do
+      if (allocated(load%held)) displacement = displacement + load%held
+   end subroutine take_displacement
+
+   !> The value; of loads by virtual work on the displacements themselves, whose error is of second
+   !> order in theirs where all displacements grow in proportion. It is known long before the
+   !> residual is small
+   subroutine find_value(model, problem, field, loads, loading, iterate, state)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The problem
+      type(problem_type), intent(in) :: problem
+      !> The state
+      type(body_field_type), intent(in) :: field
+      !> The loads, what is asked for, and on the nodes
+      type(single_load_type), intent(in) :: loads
+      type(loading_type), intent(inout) :: loading
+      !> What the state leaves out of balance
+      type(iterate_type), intent(in) :: iterate
+      !> The state, with displacements; takes the value
+      type(single_state_type), intent(inout) :: state
+
+      real(wp) :: left
+
+      left = dot_product(iterate%residual, field%unknowns)
+      if (allocated(problem%steering%load)) then
+         state%value = problem%steering%factor &
+            - left/dot_product(problem%steering%load, field%unknowns)
+      else if (loads%held) then
+         state%value = held_work(model, problem, field, loading, state%displacement) - left
+      else
+         state%value = maxval(abs(field%unknowns - field%begun))
+      end if
+   end subroutine find_value
 
    !> Note the forces of the stress in situ: residuals are held against what is more than these
    subroutine note_in_situ(problem, load, field)
@@ -145,33 +290,33 @@ contains
       field%force_before = field%force
    end subroutine note_in_situ
 
-   !> Work of what holds components
-   subroutine find_held_work(model, equations, bodies, field, loading, state)
+   !> Work of what holds components on the displacements that are given there
+   real(wp) function held_work(model, problem, field, loading, displacement) result(work)
       !> The job
       type(model_type), intent(in) :: model
-      !> Equations, for the modes
-      type(equations_type), intent(in) :: equations
-      !> The bodies, and their state
-      type(bodies_type), intent(in) :: bodies
+      !> The problem, for modes and bodies
+      type(problem_type), intent(in) :: problem
+      !> The state
       type(body_field_type), intent(in) :: field
       !> The loads, with displacements that are given
       type(loading_type), intent(inout) :: loading
-      !> The state, with displacements; takes the work
-      type(single_state_type), intent(inout) :: state
+      !> Displacement amplitudes, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
 
       real(wp), allocatable :: force(:, :)
       integer :: k
 
-      allocate (force(3, size(state%displacement, 2)))
+      work = 0.0_wp
+      allocate (force(3, size(displacement, 2)))
       loading%initial%present = .true.
-      loading%initial%taken = on_all_points(bodies%place, field%amplitude, bodies%n_all)
-      do k = 1, size(state%displacement, 3)
-         if (.not. any(abs(loading%held(:, :, k)) > 0.0_wp)) cycle
-         call solid_force(model, loading%initial, k, equations%modes(k), state%displacement(:, :, k), &
-            force)
-         state%held_work = state%held_work &
-            + sum((force - loading%external(:, :, k))*loading%held(:, :, k))
-      end do
-   end subroutine find_held_work
+      associate (bodies => problem%bodies, modes => problem%equations%modes)
+         loading%initial%taken = on_all_points(bodies%place, field%amplitude, bodies%n_all)
+         do k = 1, size(modes)
+            if (.not. any(abs(loading%held(:, :, k)) > 0.0_wp)) cycle
+            call solid_force(model, loading%initial, k, modes(k), displacement(:, :, k), force)
+            work = work + sum((force - loading%external(:, :, k))*loading%held(:, :, k))
+         end do
+      end associate
+   end function held_work
 
 end module axijoint_plastic_single_step

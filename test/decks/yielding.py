@@ -682,7 +682,7 @@ def counts(program, folder, deck, *options):
 
 def estimated(folder, program):
     """`axijoint estimate` counts iterations of bodies, in proportion to them, the estimates of errors besides, and the
-    memory that a run takes"""
+    memory that a run takes; with less of it the run says which errors it left out, and why"""
     deck = write(folder, 'estimated.dat', disc(24, 7))
     assumed, once, twice, thrice = counts(program, folder, deck), *(
         counts(program, folder, deck, '--iterations', number) for number in ('20', '40', '60'))
@@ -694,7 +694,13 @@ def estimated(folder, program):
     with open(os.path.join(folder, 'estimated.json'), encoding='utf-8') as file:
         summary = json.load(file)
     ratio = assumed['memory']/summary['peak_memory_mb']
-    return faults + ran.ended_with(0) + ([] if 0.7 < ratio < 1.4 else [f'memory: {ratio} of that of the run'])
+    faults += ran.ended_with(0) + ([] if 0.7 < ratio < 1.4 else [f'memory: {ratio} of that of the run'])
+    ran = program.run('run', deck, '-o', folder, '--threads', '1', '--memory', str(round(0.8*summary['peak_memory_mb'])),
+                      folder=folder)
+    with open(os.path.join(folder, 'estimated.json'), encoding='utf-8') as file:
+        errors = json.load(file)['yielding']['errors']
+    missing = 'discretization left out: it needs more memory than there is'
+    return faults + ran.ended_with(0) + expected(missing, (True, None), (missing in errors['in_words'], errors['discretization']['load']))
 
 
 def study(folder, program):

@@ -94,6 +94,7 @@ def _yielding(result, options):
         raise NothingToDraw("no material yields")
     yield "yielding", yielding.draw_zones(result, options)
     for name, figure in (("yielding_unrolled", yielding.draw_unrolled(result, options)),
+                         ("dissipation", yielding.draw_dissipation(result, options)),
                          ("mechanism", yielding.draw_mechanism(result, options))):
         if figure is not None:
             yield name, figure
@@ -164,5 +165,5 @@ KINDS = {
     "pressure": Kind("pressure in joints round the circle", _pressure, ("increments", "depths", "range"),
                      tables=lambda result, options: [("pressure", polar.table(result, options))],
                      tells=_has_joints),
-    "yielding": Kind("plastic strain on two opposite planes, yield margin round a circle, what moves beyond the limit load",
+    "yielding": Kind("plastic strain and dissipation on two opposite planes, yield margin round a circle, what moves beyond the limit load",
                      _yielding, ("body", "material", "angles", "range"), tells=yielding.has)}

@@ -1,6 +1,8 @@
-"""Bodies that yield: plastic zones on two opposite planes and round the axis, what moves beyond the limit load."""
+"""Bodies that yield: plastic zones and dissipation on two opposite planes, zones round the axis, what moves beyond the limit
+load."""
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import PowerNorm
 from matplotlib.tri import Triangulation
 
 from .. import circle
@@ -40,12 +42,30 @@ def plane_at(result, theta):
 @style.styled
 def draw_zones(result, options=Options()):
     """Elements by their largest equivalent plastic strain, on two opposite planes: a Figure."""
-    mesh, planes = result.mesh, Planes(result, options, extra=0.6, stretch=False)
-    strain, element = result.read("yield/equivalent"), result.read("stress/element") - 1
+    return _by_element(result, options, result.read("yield/equivalent"), "equivalent plastic strain",
+                       "plastic strain up to {:.3g}")
+
+
+@style.styled
+def draw_dissipation(result, options=Options()):
+    """Elements by the largest work that plastic strain dissipated in them per volume in the last increment, on two
+    opposite planes: a Figure; None if there is none. Near a limit load it shows where the mechanism shears."""
+    values = result.read("yield/dissipation")
+    if not values.max() > 0.0:
+        return None
+    units = style.Units(result, options)
+    return _by_element(result, options, values, units.label("work dissipated per volume", units.stress),
+                       "dissipated per volume up to {:.3g}", power=0.5)  # edges of what moves are singular
+
+
+def _by_element(result, options, of_points, label, words, power=1.0):
+    """Elements by the largest value of their points, shape (planes, points), on two opposite planes; words of the
+    heading for that of all; colours go with a power of the values."""
+    mesh, planes, element = result.mesh, Planes(result, options, extra=0.6, stretch=False), result.read("stress/element") - 1
     by_element = {}
     for plane in planes.angles:
         by_element[plane] = np.zeros(len(mesh.element_material))
-        np.maximum.at(by_element[plane], element, strain[plane_at(result, plane)])
+        np.maximum.at(by_element[plane], element, of_points[plane_at(result, plane)])
     high = max(values[planes.chosen].max() for values in by_element.values())
     limits = options.range or (0.0, high if high > 0.0 else 1.0)
     for plane, values in by_element.items():
@@ -53,16 +73,16 @@ def draw_zones(result, options=Options()):
         yielded = planes.chosen[values[planes.chosen] > NONE*high]
         shapes = [planes.place(polygon, plane) for polygon in pieces.element_polygons(mesh, mesh.coordinates, yielded)]
         order = [one for _, group in mesh.groups(yielded) for one in group]
-        drawn = axes.add_collection(PolyCollection(shapes, array=values[order], clim=limits, cmap="viridis_r",
-                                                   edgecolors="none"))
+        drawn = axes.add_collection(PolyCollection(shapes, array=values[order], norm=PowerNorm(power, *limits),
+                                                   cmap="viridis_r", edgecolors="none"))
         lines = [planes.place(line, plane) for line in pieces.element_edges(mesh, mesh.coordinates, planes.chosen)]
         axes.add_collection(LineCollection(lines, colors="0.75", lw=0.2))
         lines = [planes.place(line, plane) for line in pieces.outlines(mesh, mesh.coordinates, planes.mask)]
         axes.add_collection(LineCollection(lines, colors="black", lw=0.8))
-    bar = planes.figure.colorbar(drawn, ax=planes.all_axes, shrink=0.85, pad=0.02, label="equivalent plastic strain")
+    bar = planes.figure.colorbar(drawn, ax=planes.all_axes, shrink=0.85, pad=0.02, label=label)
     bar.outline.set_linewidth(0.5)
     return planes.finish(style.heading(result, options, ", ".join(
-        one for one in (solids(options), f"plastic strain up to {high:.3g}") if one)))
+        one for one in (solids(options), words.format(high)) if one)))
 
 
 def _circle(result):

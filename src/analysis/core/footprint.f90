@@ -10,7 +10,8 @@ module axijoint_analysis_core_footprint
    use axijoint_joints_planes, only : planes_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, element_references
-   use axijoint_model_model, only : model_type, bodies_yield, can_yield_at, yielding_nodes
+   use axijoint_model_model, only : model_type, bodies_yield, can_yield, can_yield_at, &
+      yielding_nodes
    use axijoint_model_modes, only : used_modes
    use axijoint_plastic_field, only : body_planes
    implicit none
@@ -33,9 +34,11 @@ module axijoint_analysis_core_footprint
    integer(i8), parameter :: fine_mesh_bytes = 250
 
    !> Amplitudes at the points of bodies that yield: elastic stress, before, excess, carried,
-   !> in-situ stress, and copies; vectors of unknowns that a step starts from, and that the mix of
-   !> ten iterates works with
-   integer(i8), parameter :: amplitude_arrays = 7, held_vectors = 10, mixed_vectors = 36
+   !> in-situ stress, and copies; vectors of unknowns that a step starts from, that the mix of ten
+   !> iterates works with, and that limited-memory BFGS with twenty steps does, by which errors are
+   !> estimated where there is a potential
+   integer(i8), parameter :: amplitude_arrays = 7, held_vectors = 10, mixed_vectors = 36, &
+      learned_vectors = 67
 
    !> Bytes
    type :: footprint_type
@@ -124,7 +127,7 @@ contains
       type(footprint_type), intent(inout) :: footprint
 
       type(planes_type) :: on
-      integer(i8) :: points, planes, n_modes, vector, earlier
+      integer(i8) :: points, planes, n_modes, vector, earlier, vectors
 
       associate (mesh => model%mesh)
          points = sum(int(references(mesh%element_kind)%n_points, i8), &
@@ -134,13 +137,17 @@ contains
       planes = size(on%angle)
       n_modes = size(modes)
       vector = 3*n_nodes(model%mesh)*n_modes
+      associate (laws => model%materials%yield)
+         vectors = merge(mixed_vectors, learned_vectors, &
+                         can_yield(model) .or. any(abs(laws%friction - laws%dilation) > 0.0_wp))
+      end associate
       earlier = size(model%increments) - 1
-      footprint%bodies = real_bytes*(7*points*planes + amplitude_arrays*6*points*n_modes &
+      footprint%bodies = real_bytes*(8*points*planes + amplitude_arrays*6*points*n_modes &
                                      + held_vectors*vector)
-      ! stress taken, hardening and two amplitudes of each increment, of the points that have yielded,
+      ! stress taken, hardening, dissipation and two amplitudes of each increment, of the points that have yielded,
       ! which may be all; when one is appended they are there twice
-      footprint%bodies = footprint%bodies + 2*real_bytes*earlier*points*(7*planes + 12*n_modes)
-      footprint%body_work = real_bytes*(19*points*planes + 2*6*points*n_modes + mixed_vectors*vector)
+      footprint%bodies = footprint%bodies + 2*real_bytes*earlier*points*(8*planes + 12*n_modes)
+      footprint%body_work = real_bytes*(19*points*planes + 2*6*points*n_modes + vectors*vector)
       footprint%fine = 0
       footprint%fine_work = 0
    end subroutine add_bodies

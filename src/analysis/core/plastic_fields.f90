@@ -26,6 +26,12 @@ module axijoint_analysis_core_plastic_fields
       real(wp), allocatable :: margin(:, :), equivalent(:, :)
       !> What of the criterion bears, places in `bearing_names`, shape (points, planes)
       integer, allocatable :: bearing(:, :)
+      !> Work that plastic strain has dissipated per volume in the increment, shape (points, planes)
+      !> [stress]
+      real(wp), allocatable :: dissipation(:, :)
+      !> Weights of all Gauss points in an integral over r and z, r included; zero where nothing can
+      !> yield
+      real(wp), allocatable :: weight(:)
       !> Stress and plastic strain of the points of bodies that can yield, shape
       !> (6, points of these, planes), and weights of these points and planes in an integral over
       !> the bodies
@@ -67,6 +73,10 @@ contains
          allocate (fields%amplitude, source=0.0_wp*stress)
          allocate (fields%margin(size(stress, 2), n_planes), source=1.0_wp)
          allocate (fields%equivalent(size(stress, 2), n_planes), source=0.0_wp)
+         allocate (fields%weight(size(stress, 2)), source=0.0_wp)
+         fields%weight(bodies%place) = bodies%weight
+         allocate (fields%dissipation(size(stress, 2), n_planes), source=0.0_wp)
+         fields%dissipation(state%place, :) = state%dissipation
          allocate (fields%bearing(size(stress, 2), n_planes), source=0)
          do i = 1, size(state%place)
             associate (p => own(state%place(i)))

@@ -19,6 +19,8 @@ module axijoint_analysis_core_yield_errors
       !> Of the displacement that the loads of the last increment do work on, under the same loads.
       !> Where neither loads nor displacements are steered, largest change of any over the largest
       real(wp) :: displacement = -1.0_wp
+      !> Whether it is not known for lack of memory
+      logical :: no_memory = .false.
    end type yield_share_type
 
    !> All of it
@@ -27,6 +29,9 @@ module axijoint_analysis_core_yield_errors
       type(yield_share_type) :: shares(size(yield_sources))
       !> Whether the loads were taken back on the way, so that nothing but the iteration is judged
       logical :: turned_back = .false.
+      !> Whether the history ended before its loads and these cannot be steered: the displacement
+      !> under loads that are almost the last means nothing
+      logical :: at_limit = .false.
       !> Whether loads are given, so that a small error of them moves bodies near their limit far
       logical :: loaded = .false.
       !> Growth of the displacement in the last step over that of the load, each over what it came

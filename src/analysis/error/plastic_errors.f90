@@ -9,9 +9,11 @@ module axijoint_analysis_error_plastic_errors
    use axijoint_analysis_core_yield_errors, only : yield_share_type, loses_displacement, &
       yield_mesh, yield_harmonics, yield_planes, yield_iteration
    use axijoint_analysis_error_largest_values, only : largest_vector
+   use axijoint_analysis_error_plastic_variants, only : take_more_planes, take_more_harmonics, &
+      take_fewer_harmonics, mesh_harmonics
    use axijoint_analysis_fine_mesh, only : fine_mesh_type, prolong
    use axijoint_analysis_fine_whole_model, only : new_whole_model
-   use axijoint_base_error, only : error_type
+   use axijoint_base_error, only : error_type, exit_memory
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : progress_type, show_progress
    use axijoint_fe_mode, only : mode_type, same_mode
@@ -21,32 +23,16 @@ module axijoint_analysis_error_plastic_errors
    use axijoint_model_load, only : combination_type
    use axijoint_model_mesh, only : n_nodes
    use axijoint_model_model, only : model_type, can_yield
-   use axijoint_model_modes, only : used_modes, highest_loaded
-   use axijoint_plastic_methods, only : body_control_type
+   use axijoint_model_modes, only : highest_loaded
    use axijoint_plastic_single_step, only : single_load_type, single_state_type, single_step
    implicit none
    private
-   public :: estimate_plastic_errors, turns_back, few
+   public :: estimate_plastic_errors, turns_back
 
    !> The error over the change: of limit loads, which converge like the size of the elements, what
    !> half of it changes is half of the error; of harmonics, whose error goes like 1/M^2, what twice
    !> as many change is 3/4 of it
    real(wp), parameter :: error_over_change(3) = [2.0_wp, 4.0_wp/3.0_wp, 1.0_wp]
-   !> Residual ratio of the states that are compared, what does if they come no nearer, and most
-   !> elastic solutions of each
-   real(wp), parameter :: tolerance = 1.0e-4_wp, loose = 1.0e-3_wp
-   integer, parameter :: most = 1500
-   !> Harmonics that are enough to see what the mesh leaves
-   integer, parameter :: few = 3
-
-   !> The state that is found again
-   type :: case_type
-      !> Loads
-      type(single_load_type) :: loads
-      !> Whether displacements are given: forces are what holds them then
-      logical :: held = .false.
-   end type case_type
-
 contains
 
    !> Estimate all errors
@@ -62,23 +48,24 @@ contains
       !> Where to show progress
       type(progress_type), intent(inout) :: progress
 
-      type(case_type) :: job
+      type(single_load_type) :: loads
       type(single_state_type) :: base, planes
       real(wp) :: start
 
       start = omp_get_wtime()
       associate (errors => results%yield_errors, shares => results%yield_errors%shares)
-         call last_loads(model, results%states, job)
-         errors%loaded = allocated(job%loads%steered)
+         call last_loads(model, results%states, loads)
+         errors%loaded = allocated(loads%steered)
          shares(yield_iteration)%load = results%residual_ratio
          errors%turned_back = turns_back(model, combination)
-         if (errors%turned_back) return
+         errors%at_limit = .not. (results%converged .or. loads%held .or. errors%loaded)
+         if (errors%turned_back .or. errors%at_limit) return
          call show_progress(progress, 'estimating errors of bodies that yield')
-         call find(model, structure, job, results%displacement, base)
-         if (base%balanced) then
-            call by_planes(model, structure, job, base, planes, shares(yield_planes))
-            call by_harmonics(model, structure, job, planes, shares(yield_harmonics), progress)
-            call by_mesh(model, structure, job, base, shares(yield_mesh), progress)
+         call find(model, structure, loads, results%displacement, base)
+         if (base%found) then
+            call by_planes(model, structure, loads, base, planes, shares(yield_planes))
+            call by_harmonics(model, structure, loads, planes, shares(yield_harmonics), progress)
+            call by_mesh(model, structure, loads, base, shares(yield_mesh), progress)
          end if
          if (errors%loaded .and. .not. loses_displacement(errors)) &
             call find_moved(errors%softness, shares)
@@ -116,13 +103,13 @@ contains
    end function turns_back
 
    !> What the last state is under, and what of it the last increment changed
-   pure subroutine last_loads(model, states, job)
+   pure subroutine last_loads(model, states, loads)
       !> The job
       type(model_type), intent(in) :: model
       !> States at the ends of the increments
       type(increment_state_type), intent(in) :: states(:)
       !> Takes the loads
-      type(case_type), intent(out) :: job
+      type(single_load_type), intent(out) :: loads
 
       real(wp), allocatable :: change(:)
       logical, allocatable :: changes(:)
@@ -135,47 +122,53 @@ contains
             change = total - states(n)%case_factor
             exit
          end do
-         job%loads%given = total
+         loads%given = total
          changes = abs(change) > 0.0_wp
          if (any(changes(model%prescribed%case))) then
-            job%held = .true.
+            loads%held = .true.
          else if (.not. any([changes(model%thermal_loads%case), &
                              changes(model%initial_stresses%case)]) .and. any(changes) &
             .and. .not. can_yield(model)) then  ! load factors are not found beside joints
-            job%loads%steered = change
-            job%loads%factor = dot_product(total, change)/dot_product(change, change)
-            job%loads%given = total - job%loads%factor*change
+            loads%steered = change
+            loads%factor = dot_product(total, change)/dot_product(change, change)
+            loads%given = total - loads%factor*change
          end if
       end associate
    end subroutine last_loads
 
    !> Find the state on a structure
-   subroutine find(model, structure, job, start, state)
+   subroutine find(model, structure, loads, start, state, beside)
       !> The job
       type(model_type), intent(in) :: model
       !> Its structure
       type(structure_type), intent(inout), target :: structure
-      !> The state that is found again
-      type(case_type), intent(in) :: job
+      !> Its loads
+      type(single_load_type), intent(in) :: loads
       !> Displacements to begin with, shape (3, nodes, modes)
       real(wp), intent(in) :: start(:, :, :)
       !> The state
       type(single_state_type), intent(out) :: state
+      !> The state that it is compared with, whose displacements it begins with, if there is one
+      type(single_state_type), intent(in), optional :: beside
 
+      real(wp), allocatable :: reference
+
+      if (present(beside)) then
+         reference = 0.0_wp  ! of what changed of the displacements
+         if (loads%held .or. allocated(loads%steered)) reference = beside%value
+      end if
       call single_step(model, structure%equations, structure%condensed, structure%joint_points, &
-         structure%support_points, job%loads, body_control_type(model%body_method, tolerance, most), &
-         start, state)
-      state%balanced = state%balanced .or. state%ratio <= loose
+         structure%support_points, loads, start, state, reference)
    end subroutine find
 
    !> Twice as many intervals between planes
-   subroutine by_planes(model, structure, job, base, finer, error)
+   subroutine by_planes(model, structure, loads, base, finer, error)
       !> The job
       type(model_type), intent(in) :: model
       !> Its structure
       type(structure_type), intent(inout) :: structure
-      !> The state that is found again
-      type(case_type), intent(in) :: job
+      !> Its loads
+      type(single_load_type), intent(in) :: loads
       !> That on the planes of the job, and on more
       type(single_state_type), intent(in) :: base
       type(single_state_type), intent(out) :: finer
@@ -183,31 +176,21 @@ contains
       type(yield_share_type), intent(inout) :: error
 
       type(model_type) :: denser
-      denser = model
-      denser%n_body_planes = more_planes(model%max_harmonic, model%n_body_planes)
-      if (.not. base%balanced) return
-      call find(denser, structure, job, base%displacement, finer)
-      call compare(job, structure%modes, base, finer, finer%displacement - base%displacement, &
+      call take_more_planes(model, denser)
+      if (.not. base%found) return
+      call find(denser, structure, loads, base%displacement, finer, base)
+      call compare(loads, structure%modes, base, finer, finer%displacement - base%displacement, &
          error_over_change(yield_planes), error)
    end subroutine by_planes
 
-   !> Twice as many intervals, or the usual planes of twice as many harmonics and one more
-   pure integer function more_planes(harmonic, n)
-      !> Highest harmonic, and number of planes; 0 for the usual
-      integer, intent(in) :: harmonic, n
-
-      more_planes = 4*max(2, harmonic) + 3
-      if (n > 0) more_planes = max(more_planes, 2*n - 1)
-   end function more_planes
-
    !> Twice as many harmonics and one more
-   subroutine by_harmonics(model, structure, job, base, error, progress)
+   subroutine by_harmonics(model, structure, loads, base, error, progress)
       !> The job
       type(model_type), intent(in) :: model
       !> Its structure
       type(structure_type), intent(in) :: structure
-      !> The state that is found again
-      type(case_type), intent(in) :: job
+      !> Its loads
+      type(single_load_type), intent(in) :: loads
       !> That with the harmonics of the job, on more planes
       type(single_state_type), intent(in) :: base
       !> Takes the error
@@ -222,32 +205,28 @@ contains
 
       if (highest_loaded(model) == 0) then
          error%load = 0.0_wp
-         if (.not. (job%held .or. allocated(job%loads%steered))) error%displacement = 0.0_wp
+         if (.not. (loads%held .or. allocated(loads%steered))) error%displacement = 0.0_wp
          return
       end if
-      if (.not. base%balanced) return
-      richer = with_harmonics(model, 2*model%max_harmonic + 1)
-      if (size(used_modes(richer)) == size(structure%modes)) &  ! odd multiples alone
-         richer = with_harmonics(model, 3*model%max_harmonic)
-      richer%n_body_planes = more_planes(model%max_harmonic, model%n_body_planes)
+      if (.not. base%found) return
+      call take_more_harmonics(model, richer)
       call build_equations(richer, larger, progress, failure)
-      if (allocated(failure)) return  ! not known
-      call find(richer, larger, job, in_modes(base%displacement, structure%modes, larger%modes), &
-         state)
-      call compare(job, larger%modes, base, state, &
+      if (left_out(failure, error)) return
+      call find(richer, larger, loads, in_modes(base%displacement, structure%modes, larger%modes), &
+         state, base)
+      call compare(loads, larger%modes, base, state, &
          state%displacement - in_modes(base%displacement, structure%modes, larger%modes), &
          error_over_change(yield_harmonics), error)
    end subroutine by_harmonics
 
-   !> Elements half as large. What they change hardly depends on the harmonics: a few are taken, or,
-   !> if these come to no equilibrium, no more than the loads have
-   subroutine by_mesh(model, structure, job, base, error, progress)
+   !> Elements half as large, with a few harmonics
+   subroutine by_mesh(model, structure, loads, base, error, progress)
       !> The job
       type(model_type), intent(in) :: model
       !> Its structure
       type(structure_type), intent(in) :: structure
-      !> The state that is found again
-      type(case_type), intent(in) :: job
+      !> Its loads
+      type(single_load_type), intent(in) :: loads
       !> That on the mesh of the job
       type(single_state_type), intent(in) :: base
       !> Takes the error
@@ -255,23 +234,22 @@ contains
       !> Where to show progress
       type(progress_type), intent(inout) :: progress
 
-      integer :: least, highest
+      integer :: first, second
 
-      least = min(model%max_harmonic, max(1, highest_loaded(model)))
-      highest = min(model%max_harmonic, max(few, least))
-      call compare_meshes(model, structure, job, base, highest, error, progress)
-      if (max(error%load, error%displacement) < 0.0_wp .and. least < highest) &
-         call compare_meshes(model, structure, job, base, least, error, progress)
+      call mesh_harmonics(model, loads%held .or. allocated(loads%steered), first, second)
+      call compare_meshes(model, structure, loads, base, first, error, progress)
+      if (max(error%load, error%displacement) < 0.0_wp .and. first /= second) &
+         call compare_meshes(model, structure, loads, base, second, error, progress)
    end subroutine by_mesh
 
    !> Elements half as large, with harmonics up to some
-   subroutine compare_meshes(model, structure, job, base, highest, error, progress)
+   subroutine compare_meshes(model, structure, loads, base, highest, error, progress)
       !> The job
       type(model_type), intent(in) :: model
       !> Its structure
       type(structure_type), intent(in) :: structure
-      !> The state that is found again
-      type(case_type), intent(in) :: job
+      !> Its loads
+      type(single_load_type), intent(in) :: loads
       !> That on the mesh of the job
       type(single_state_type), intent(in) :: base
       !> Highest harmonic
@@ -282,48 +260,65 @@ contains
       type(progress_type), intent(inout) :: progress
 
       type(model_type) :: plain, finer
-      type(structure_type) :: coarse, fine
+      type(structure_type) :: fine
       type(fine_mesh_type) :: mesh
       type(single_state_type) :: before, after
       type(error_type), allocatable :: failure
 
-      plain = model
-      before = base
+      call take_fewer_harmonics(model, highest, plain)
       if (model%max_harmonic > highest) then
-         plain = with_harmonics(model, highest)
-         plain%n_body_planes = 0
-         call build_equations(plain, coarse, progress, failure)
-         if (allocated(failure)) return  ! not known
-         call find(plain, coarse, job, in_modes(base%displacement, structure%modes, coarse%modes), &
-            before)
-         if (.not. before%balanced) return
+         call find_plain(plain, structure, loads, base, before, failure, progress)
+         if (left_out(failure, error)) return
+      else
+         before = base
       end if
+      if (.not. before%found) return
       call new_whole_model(plain, mesh, finer)
       call build_equations(finer, fine, progress, failure)
-      if (allocated(failure)) return
-      call find(finer, fine, job, on_fine(mesh, before%displacement), after)
+      if (left_out(failure, error)) return
+      call find(finer, fine, loads, on_fine(mesh, before%displacement), after, before)
       associate (n => size(before%displacement, 2))  ! between nodes shape functions differ, too
-         call compare(job, fine%modes, before, after, &
+         call compare(loads, fine%modes, before, after, &
             after%displacement(:, :n, :) - before%displacement, &
             error_over_change(yield_mesh), error)
       end associate
    end subroutine compare_meshes
 
-   !> A job with other harmonics
-   function with_harmonics(model, highest) result(other)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Highest harmonic
-      integer, intent(in) :: highest
-      !> The other
-      type(model_type) :: other
+   !> The state on the mesh of the job with fewer harmonics
+   subroutine find_plain(plain, structure, loads, base, state, failure, progress)
+      !> The job with fewer harmonics
+      type(model_type), intent(in) :: plain
+      !> The structure of the job
+      type(structure_type), intent(in) :: structure
+      !> Its loads
+      type(single_load_type), intent(in) :: loads
+      !> The state with all harmonics
+      type(single_state_type), intent(in) :: base
+      !> The state
+      type(single_state_type), intent(out) :: state
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: failure
+      !> Where to show progress
+      type(progress_type), intent(inout) :: progress
 
-      integer :: m
+      type(structure_type) :: coarse
 
-      other = model
-      other%max_harmonic = highest
-      other%harmonics = [(m, m=0, highest)]
-   end function with_harmonics
+      call build_equations(plain, coarse, progress, failure)
+      if (allocated(failure)) return
+      call find(plain, coarse, loads, in_modes(base%displacement, structure%modes, coarse%modes), &
+         state)
+   end subroutine find_plain
+
+   !> Whether a source is left out because its equations could not be made; notes a lack of memory
+   logical function left_out(failure, error)
+      !> Why, if they could not
+      type(error_type), allocatable, intent(in) :: failure
+      !> The error; takes the reason
+      type(yield_share_type), intent(inout) :: error
+
+      left_out = allocated(failure)
+      if (left_out) error%no_memory = failure%code == exit_memory
+   end function left_out
 
    !> Displacements in other modes
    pure function in_modes(displacement, modes, others) result(moved)
@@ -362,9 +357,9 @@ contains
    end function on_fine
 
    !> The error from two states
-   subroutine compare(job, modes, before, after, change, times, error)
+   subroutine compare(loads, modes, before, after, change, times, error)
       !> What was found
-      type(case_type), intent(in) :: job
+      type(single_load_type), intent(in) :: loads
       !> Modes of the change
       type(mode_type), intent(in) :: modes(:)
       !> The states
@@ -376,11 +371,9 @@ contains
       !> The error
       type(yield_share_type), intent(inout) :: error
 
-      if (.not. (before%balanced .and. after%balanced)) return
-      if (job%held) then
-         error%load = times*ratio(abs(after%held_work - before%held_work), abs(after%held_work))
-      else if (allocated(job%loads%steered)) then
-         error%load = times*ratio(abs(after%factor - before%factor), abs(after%factor))
+      if (.not. (before%found .and. after%found)) return
+      if (loads%held .or. allocated(loads%steered)) then
+         error%load = times*ratio(abs(after%value - before%value), abs(after%value))
       else
          error%displacement = times*ratio(largest_vector(modes, change), &
             largest_vector(modes, after%displacement))

@@ -46,7 +46,7 @@ contains
          call file%put("  "//merge("sum (at least)", "sum           ", some_unknown(errors))// &
                        share_text(sum_of_yield_shares(errors)))
          call file%put("  "//yield_errors_text(errors))
-         if (errors%turned_back) return
+         if (errors%turned_back .or. errors%at_limit) return
          do i = 1, size(way)
             call file%put("  "//trim(way(i)))
          end do
@@ -93,10 +93,16 @@ contains
       character(len=:), allocatable :: text
 
       type(yield_share_type) :: total
+      integer :: i
 
       if (errors%turned_back) then
          text = 'not estimated: loads were taken back on the way, and what stays of plastic '// &
             'strain then is not known to a state found in one step'
+         return
+      end if
+      if (errors%at_limit) then
+         text = 'not estimated: the history ended before its loads, and displacements under '// &
+            'loads that are almost the last say nothing'
          return
       end if
       total = sum_of_yield_shares(errors)
@@ -104,6 +110,7 @@ contains
       if (all(errors%shares(:yield_iteration - 1)%load < 0.0_wp .and. &
               errors%shares(:yield_iteration - 1)%displacement < 0.0_wp)) then
          text = 'not estimated: the state was not found again in one step'
+         if (any(errors%shares%no_memory)) text = 'not estimated'
       else if (total%displacement >= 0.0_wp) then
          text = text//'; '//quantity_text('displacement', (errors%shares%displacement), &
             total%displacement)
@@ -115,6 +122,10 @@ contains
       else
          text = text//'; displacement not estimated: the load grew no more'
       end if
+      do i = 1, size(errors%shares)
+         if (errors%shares(i)%no_memory) text = text//'; '//trim(yield_sources(i))// &
+            ' left out: it needs more memory than there is'
+      end do
    end function yield_errors_text
 
    !> A quantity in all, and its largest source

@@ -222,6 +222,12 @@ contains
          "Equivalent plastic strain sqrt(2/3 e:e); (point, plane)")
       call file%write("/yield/margin", fields%margin, &
          "Share of the strength that is left, 1 without shear, 0 at yield; (point, plane)")
+      call file%write("/yield/dissipation", fields%dissipation, "Work that plastic strain dissipated per volume in the "// &
+         "last increment that had a step in equilibrium; (point, plane) [stress]")
+      call file%write("/yield/point_weight", fields%weight, "Weight of the point in an integral over r, z, "// &
+         "r included, 0 where nothing can yield; (point) [length^3]")
+      call file%write("/yield/plane_weight", fields%plane_weight, "Weight of the plane in an integral round the "// &
+         "circle; (plane) [radian]")
       names = ""
       do i = lbound(bearing_names, 1), ubound(bearing_names, 1)
          names = names//to_text(i)//" "//trim(bearing_names(i))//", "
