@@ -74,9 +74,13 @@ def main():
             for name in COMPARED:
                 wanted = found["increments"][-1][name]
                 worst[name] = max(worst[name], abs(float(row[name]) - wanted)/abs(wanted))
+        processors = len(os.sched_getaffinity(0))
+        everywhere = timed([args.axijoint, "study", table, deck, "-o", os.path.join(folder, "all"), "--processes",
+                            str(processors)])/len(rows)
     row = statistics.median(float(row["seconds"]) for row in rows)
     run = statistics.median(seconds)
     print(f"a run {run:.3f} s (median of {len(seconds)}), a row {row:.4f} s (median): 1/{run/row:.1f} of it (bar: 1/20)")
+    print(f"by {processors} processes {everywhere:.4f} s a row (whole study over its rows): 1/{run/everywhere:.1f} of a run")
     print("largest differences of these runs to their rows: "
           + ", ".join(f"{name} {value:.0e}" for name, value in worst.items()) + f"; other exit codes: {others}")
 
