@@ -154,7 +154,8 @@ contains
       integer :: k, last, own(2), width
 
       own = own_modes(structure%equations)
-      width = 1 + (own(2) - own(1))/omp_get_max_threads()  ! something to do for each thread
+      ! something to do for each thread; a rank may have no modes
+      width = 1 + max(0, own(2) - own(1))/omp_get_max_threads()
       !$omp parallel do schedule(dynamic) private(last) if (worth_threads(structure%equations))
       do k = own(1), own(2), width
          last = min(k + width - 1, own(2))
