@@ -450,24 +450,12 @@ def odd_harmonics(folder, program):
     return faults
 
 
-def joint_in_weight(folder, program):
-    """A pile in clay with weight and a joint that slips, opens and loses its strength there: what is balanced by
-    in-situ stress is no measure of residuals that nothing could meet"""
-    summary = run(program, folder, f"""TITLE
-A pile with a joint in clay that has weight
-CONTROL
-2, , , 2
-MATERIALS
-1, 3.0E7, 0.2, 1.8
-2, 3.0E4, 0.45, 1.8
-YIELD
-2, MISES, 86.6
-LAWS
-1, 1E6, 1E6, 1E6, 20.0, 0.0
-BLOCKS
-1, 1, 8, 1, 3
+def joined_pile(rows):
+    """Mesh of a pile in ground, with a joint of law 1 at its shaft and toe; the head is face 1"""
+    return f"""BLOCKS
+1, 1, 8, 1, {rows}
 0.0, -3.0, 0.5, 0.0
-2, 2, 8, 4, 3, 10.0
+2, 2, 8, 4, {rows}, 10.0
 0.5, -3.0, 4.0, 0.0
 2, 2, 8, 1, 1
 0.0, -4.0, 0.5, -3.0
@@ -487,7 +475,24 @@ INTERFACES
 FIXEDFACES
 2, 111
 3, 111
-CASE
+"""
+
+
+def joint_in_weight(folder, program):
+    """A pile in clay with weight and a joint that slips, opens and loses its strength there: what is balanced by
+    in-situ stress is no measure of residuals that nothing could meet"""
+    summary = run(program, folder, f"""TITLE
+A pile with a joint in clay that has weight
+CONTROL
+2, , , 2
+MATERIALS
+1, 3.0E7, 0.2, 1.8
+2, 3.0E4, 0.45, 1.8
+YIELD
+2, MISES, 86.6
+LAWS
+1, 1E6, 1E6, 1E6, 20.0, 0.0
+{joined_pile(3)}CASE
 1
 GRAVITY
 -10.0
@@ -576,30 +581,7 @@ YIELD
 2, MISES, 86.6
 LAWS
 1, 1E6, 1E6, 1E6, 25.0, 0.0
-{more}BLOCKS
-1, 1, 8, 1, 4
-0.0, -3.0, 0.5, 0.0
-2, 2, 8, 4, 4, 10.0
-0.5, -3.0, 4.0, 0.0
-2, 2, 8, 1, 1
-0.0, -4.0, 0.5, -3.0
-2, 2, 8, 4, 1, 10.0
-0.5, -4.0, 4.0, -3.0
-FACES
-1, 1, 0.0, 0.0, 0.5, 0.0
-2, 2, 0.0, -4.0, 4.0, -4.0
-3, 2, 4.0, -4.0, 4.0, 0.0
-4, 1, 0.5, -3.0, 0.5, 0.0
-5, 2, 0.5, -3.0, 0.5, 0.0
-6, 1, 0.0, -3.0, 0.5, -3.0
-7, 2, 0.0, -3.0, 0.5, -3.0
-INTERFACES
-1, 4, 5
-1, 6, 7
-FIXEDFACES
-2, 111
-3, 111
-RESULTANTS
+{more}{joined_pile(4)}RESULTANTS
 1, LATERAL, 100.0
 INCREMENTS
 {increments}END
