@@ -51,7 +51,7 @@ contains
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      integer(i8) :: room
+      integer(i8) :: found, room
 
       associate (n => equations%last - equations%first + 1)
          equations%n_workers = 1
@@ -60,7 +60,8 @@ contains
          end if
          equations%n_kept = merge(n, 0, keep)
       end associate
-      room = free_memory(limit, equations%team%sharers) - other_bytes
+      found = free_memory(limit, equations%team%sharers)
+      room = found - other_bytes
       do while (coming_bytes(equations) > room)
          if (equations%n_kept > 0) then
             equations%n_kept = equations%n_kept - 1
@@ -72,7 +73,7 @@ contains
       end do
       call require_memory(coming_bytes(equations) + other_bytes, &
                           'the factor of one harmonic and the results', limit, error, &
-                          equations%team%sharers)
+                          equations%team%sharers, found)
    end subroutine plan_factors
 
    !> Bytes that assembling and factoring will take

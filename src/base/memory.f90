@@ -21,7 +21,7 @@ contains
 
    !> Make sure that memory is there before it is allocated: a system that
    !> promises more than it has would kill the process later without a word
-   subroutine require_memory(bytes, purpose, limit, error, sharers)
+   subroutine require_memory(bytes, purpose, limit, error, sharers, found)
       !> Bytes needed, without the head-room of the libraries
       integer(i8), intent(in) :: bytes
       !> What for
@@ -32,8 +32,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Processes that share the machine for the same work; 1 if absent
       integer, intent(in), optional :: sharers
+      !> What `free_memory` has just found; it looks if absent
+      integer(i8), intent(in), optional :: found
 
-      if (bytes <= free_memory(limit, sharers)) return
+      if (present(found)) then
+         if (bytes <= found) return
+      else if (bytes <= free_memory(limit, sharers)) then
+         return
+      end if
       if (bytes > left_of(limit)) then
          call fatal_error(error, exit_memory, 'out of memory: '//purpose//' need '// &
                           in_mebibytes(bytes)//', the limit given leaves '// &

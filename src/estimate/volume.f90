@@ -22,7 +22,7 @@ module axijoint_estimate_volume
       summary_bytes = 6.0e3_wp
    !> Numbers of a point of swept bodies: displacement, stress; bytes of one, with its share of
    !> points and cells
-   real(wp), parameter :: numbers_a_point = 9.0_wp, swept_bytes = 13.0_wp
+   real(wp), parameter :: numbers_a_point = 9.0_wp, swept_bytes = 24.0_wp
 
 contains
 

@@ -151,8 +151,8 @@ contains
       character(len=*), intent(in) :: description
 
       call write_array(self%file, name, h5t_ieee_f64le, h5t_native_double, &
-         extent_of(shape(values, kind=hsize_t)), c_loc(values), self%failure)
-      call self%attribute(name, "description", description)
+         extent_of(shape(values, kind=hsize_t)), c_loc(values), description, &
+         self%failure)
    end subroutine write_reals
 
    !> Write integers of any rank
@@ -167,8 +167,8 @@ contains
       character(len=*), intent(in) :: description
 
       call write_array(self%file, name, h5t_std_i32le, h5t_native_integer, &
-         extent_of(shape(values, kind=hsize_t)), c_loc(values), self%failure)
-      call self%attribute(name, "description", description)
+         extent_of(shape(values, kind=hsize_t)), c_loc(values), description, &
+         self%failure)
    end subroutine write_integers
 
    !> Write long integers of any rank
@@ -183,8 +183,8 @@ contains
       character(len=*), intent(in) :: description
 
       call write_array(self%file, name, h5t_std_i64le, h5kind_to_type(i8, h5_integer_kind), &
-         extent_of(shape(values, kind=hsize_t)), c_loc(values), self%failure)
-      call self%attribute(name, "description", description)
+         extent_of(shape(values, kind=hsize_t)), c_loc(values), description, &
+         self%failure)
    end subroutine write_longs
 
    !> Make a dataset that is written piece by piece along its last dimension
@@ -207,8 +207,8 @@ contains
       types(kind_real) = h5t_ieee_f64le
       types(kind_long) = h5t_std_i64le
       types(kind_byte) = h5t_std_u8le
-      call open_series(series, self%file, name, types(kind), int(extent, hsize_t), self%failure)
-      call self%attribute(name, "description", description)
+      call open_series(series, self%file, name, types(kind), int(extent, hsize_t), description, &
+         self%failure)
    end subroutine begin
 
    !> Write the next piece of reals: values of whole leading indices, of one last index if they
@@ -272,8 +272,7 @@ contains
       !> Meaning
       character(len=*), intent(in) :: description
 
-      call write_string(self%file, name, text, self%failure)
-      call self%attribute(name, "description", description)
+      call write_string(self%file, name, text, description, self%failure)
    end subroutine write_text
 
    !> Attach a text to a group or dataset

@@ -5,26 +5,20 @@ module axijoint_output_file_hdf5_data
    use axijoint_base_system, only : last_error, set_last_error
    use hdf5, only : hid_t, hsize_t, size_t, h5screate_simple_f, h5screate_f, &
       h5sclose_f, h5s_scalar_f, h5pcreate_f, &
-      h5pset_chunk_f, h5pset_shuffle_f, h5pset_deflate_f, h5pset_fletcher32_f, h5pclose_f, &
+      h5pset_chunk_f, h5pset_fletcher32_f, h5pclose_f, &
       h5p_dataset_create_f, h5dcreate_f, h5dwrite_f, h5dclose_f, h5acreate_f, h5awrite_f, &
       h5aclose_f, h5oopen_f, h5oclose_f, h5tcopy_f, h5tset_size_f, h5tset_cset_f, &
-      h5tset_strpad_f, h5tclose_f, h5t_cset_utf8_f, h5t_cset_ascii_f, h5t_str_nullpad_f, h5t_c_s1, &
-      h5zfilter_avail_f, h5z_filter_deflate_f
+      h5tset_strpad_f, h5tclose_f, h5t_cset_utf8_f, h5t_cset_ascii_f, h5t_str_nullpad_f, h5t_c_s1
    implicit none
    private
    public :: hdf5_failure_type, no_handle
    public :: write_array, write_string, write_attribute, write_string_attribute
-   public :: make_space, make_properties, close_handles
+   public :: make_space, make_properties, describe, close_handles
 
    !> A handle that is not open
    integer(hid_t), parameter :: no_handle = -1_hid_t
    !> Values of a chunk at most; about a megabyte of reals
    integer(hsize_t), parameter :: chunk_values = 131072_hsize_t
-   !> No array is compressed: of numbers with all their digits a quarter goes, at a rate below that of
-   !> the disk, so that a third of all that follows the solution would go there
-   integer(hsize_t), parameter :: never = huge(1_hsize_t)
-   !> Effort of the compression, from 1 (fast) to 9
-   integer, parameter :: deflate_level = 1
 
    !> The first failure of a file; nothing is done after it
    type :: hdf5_failure_type
@@ -59,8 +53,8 @@ contains
       if (present(errno)) self%errno = errno
    end subroutine check
 
-   !> Write an array with checksums
-   subroutine write_array(file, name, file_type, memory_type, extent, values, failure)
+   !> Write an array with checksums, and what it is
+   subroutine write_array(file, name, file_type, memory_type, extent, values, description, failure)
       !> Handle of the file
       integer(hid_t), intent(in) :: file
       !> Absolute path in the file
@@ -71,6 +65,8 @@ contains
       integer(hsize_t), intent(in) :: extent(:)
       !> The first value
       type(c_ptr), intent(in) :: values
+      !> Meaning, order of indices in Fortran, unit
+      character(len=*), intent(in) :: description
       !> What failed first; nothing is done after a failure
       type(hdf5_failure_type), intent(inout) :: failure
 
@@ -81,7 +77,7 @@ contains
       space = no_handle; properties = no_handle; dataset = no_handle
       call set_last_error(0)
       call make_space(name, extent, space, failure)
-      call make_properties(name, extent, never, properties, failure)
+      call make_properties(name, extent, properties, failure)
       if (.not. failure%failed) then
          call h5dcreate_f(file, name, file_type, space, dataset, status, properties)
          call failure%check(status, name)
@@ -90,17 +86,18 @@ contains
          call h5dwrite_f(dataset, memory_type, values, status)
          call failure%check(status, name)
       end if
+      call describe(dataset, name, description, failure)
       call close_handles(name, failure, dataset, properties, space)
    end subroutine write_array
 
-   !> Write a text as a scalar dataset of fixed length, UTF-8
-   subroutine write_string(file, name, text, failure)
+   !> Write a text as a scalar dataset of fixed length, UTF-8, and what it is
+   subroutine write_string(file, name, text, description, failure)
       !> Handle of the file
       integer(hid_t), intent(in) :: file
       !> Absolute path in the file
       character(len=*), intent(in) :: name
-      !> The text
-      character(len=*), intent(in) :: text
+      !> The text, and its meaning
+      character(len=*), intent(in) :: text, description
       !> What failed first; nothing is done after a failure
       type(hdf5_failure_type), intent(inout) :: failure
 
@@ -123,14 +120,47 @@ contains
          call h5dwrite_f(dataset, type, c_loc(copy), status)
          call failure%check(status, name)
       end if
+      call describe(dataset, name, description, failure)
       call close_handles(name, failure, dataset=dataset, type=type, space=space)
    end subroutine write_string
+
+   !> Say what a dataset is that is open
+   subroutine describe(dataset, name, description, failure)
+      !> Handle of the dataset
+      integer(hid_t), intent(in) :: dataset
+      !> Its absolute path, for the message, and what it is
+      character(len=*), intent(in) :: name, description
+      !> What failed first; nothing is done after a failure
+      type(hdf5_failure_type), intent(inout) :: failure
+
+      call attach_text(dataset, name, 'description', description, .false., failure)
+   end subroutine describe
 
    !> Attach a text to a group or dataset, fixed length
    subroutine write_string_attribute(file, object, name, text, ascii, failure)
       !> Handle of the file
       integer(hid_t), intent(in) :: file
       !> Absolute path of the group or dataset, and name of the attribute
+      character(len=*), intent(in) :: object, name
+      !> The text
+      character(len=*), intent(in) :: text
+      !> Whether to mark it as ASCII, else as UTF-8
+      logical, intent(in) :: ascii
+      !> What failed first; nothing is done after a failure
+      type(hdf5_failure_type), intent(inout) :: failure
+
+      integer(hid_t) :: owner
+
+      call open_object(file, object, owner, failure)
+      call attach_text(owner, object, name, text, ascii, failure)
+      call close_object(object, owner, failure)
+   end subroutine write_string_attribute
+
+   !> Attach a text to an open object
+   subroutine attach_text(owner, object, name, text, ascii, failure)
+      !> Handle of the object
+      integer(hid_t), intent(in) :: owner
+      !> Its absolute path, for the message, and name of the attribute
       character(len=*), intent(in) :: object, name
       !> The text
       character(len=*), intent(in) :: text
@@ -146,9 +176,9 @@ contains
       copy = not_empty(text)
       call set_last_error(0)
       call make_text_type(len(copy), ascii, type, object, failure)
-      call write_attribute(file, object, name, type, type, c_loc(copy), failure)
+      call attach(owner, object, name, type, type, c_loc(copy), failure)
       call close_handles(object, failure, type=type)
-   end subroutine write_string_attribute
+   end subroutine attach_text
 
    !> Make the space of an array
    subroutine make_space(name, extent, space, failure)
@@ -169,21 +199,19 @@ contains
       call failure%check(status, name)
    end subroutine make_space
 
-   !> Storage of an array: chunks with checksums, compressed from a size on where the library can. An
-   !> empty array cannot be cut into chunks.
-   subroutine make_properties(name, extent, compressed_from, properties, failure)
+   !> Storage of an array: chunks with checksums. An empty array cannot be cut into chunks. Nothing is
+   !> compressed: of numbers with all their digits a quarter to a half goes, at a rate below that of
+   !> the disk, so that most of the seconds of writing would go there
+   subroutine make_properties(name, extent, properties, failure)
       !> Dataset, for the message
       character(len=*), intent(in) :: name
       !> Extents of what is written at once
       integer(hsize_t), intent(in) :: extent(:)
-      !> Values from which it is compressed
-      integer(hsize_t), intent(in) :: compressed_from
       !> The properties
       integer(hid_t), intent(out) :: properties
       !> What failed first; nothing is done after a failure
       type(hdf5_failure_type), intent(inout) :: failure
 
-      logical :: can_deflate
       integer :: status
 
       properties = no_handle
@@ -193,14 +221,6 @@ contains
       if (failure%failed .or. product(extent) == 0_hsize_t) return
       call h5pset_chunk_f(properties, size(extent), chunk_extent(extent), status)
       call failure%check(status, name)
-      call h5zfilter_avail_f(h5z_filter_deflate_f, can_deflate, status)
-      call failure%check(status, name)
-      if (can_deflate .and. product(extent) >= compressed_from) then
-         call h5pset_shuffle_f(properties, status)
-         call failure%check(status, name)
-         call h5pset_deflate_f(properties, deflate_level, status)
-         call failure%check(status, name)
-      end if
       call h5pset_fletcher32_f(properties, status)
       call failure%check(status, name)
    end subroutine make_properties
@@ -265,19 +285,39 @@ contains
       !> Length of a vector
       integer(hsize_t), intent(in), optional :: length
 
-      integer(hid_t) :: owner, space, attribute
+      integer(hid_t) :: owner
+
+      call open_object(file, object, owner, failure)
+      call attach(owner, object, name, file_type, memory_type, value, failure, length)
+      call close_object(object, owner, failure)
+   end subroutine write_attribute
+
+   !> Attach a scalar, or a vector, to an open object
+   subroutine attach(owner, object, name, file_type, memory_type, value, failure, length)
+      !> Handle of the object
+      integer(hid_t), intent(in) :: owner
+      !> Its absolute path, for the message, and name of the attribute
+      character(len=*), intent(in) :: object, name
+      !> Type of the value in the file and in memory
+      integer(hid_t), intent(in) :: file_type, memory_type
+      !> The value
+      type(c_ptr), intent(in) :: value
+      !> What failed first; nothing is done after a failure
+      type(hdf5_failure_type), intent(inout) :: failure
+      !> Length of a vector
+      integer(hsize_t), intent(in), optional :: length
+
+      integer(hid_t) :: space, attribute
       integer :: status
 
       if (failure%failed) return
-      owner = no_handle; space = no_handle; attribute = no_handle
+      space = no_handle; attribute = no_handle
       call set_last_error(0)
       if (present(length)) then
          call h5screate_simple_f(1, [length], space, status)
       else
          call h5screate_f(h5s_scalar_f, space, status)
       end if
-      call failure%check(status, object)
-      call h5oopen_f(file, object, owner, status)
       call failure%check(status, object)
       if (.not. failure%failed) then
          call h5acreate_f(owner, name, file_type, space, attribute, status)
@@ -291,12 +331,44 @@ contains
          call h5aclose_f(attribute, status)
          call failure%check(status, object)
       end if
-      if (owner >= 0) then
-         call h5oclose_f(owner, status)
-         call failure%check(status, object)
-      end if
       call close_handles(object, failure, space=space)
-   end subroutine write_attribute
+   end subroutine attach
+
+   !> Open a group or dataset
+   subroutine open_object(file, object, owner, failure)
+      !> Handle of the file
+      integer(hid_t), intent(in) :: file
+      !> Absolute path of the group or dataset
+      character(len=*), intent(in) :: object
+      !> Its handle; `no_handle` after a failure
+      integer(hid_t), intent(out) :: owner
+      !> What failed first; nothing is done after a failure
+      type(hdf5_failure_type), intent(inout) :: failure
+
+      integer :: status
+
+      owner = no_handle
+      if (failure%failed) return
+      call set_last_error(0)
+      call h5oopen_f(file, object, owner, status)
+      call failure%check(status, object)
+   end subroutine open_object
+
+   !> Close a group or dataset
+   subroutine close_object(object, owner, failure)
+      !> Its absolute path, for the message
+      character(len=*), intent(in) :: object
+      !> Its handle; `no_handle` if not open
+      integer(hid_t), intent(in) :: owner
+      !> What failed first; the handle is closed after a failure too
+      type(hdf5_failure_type), intent(inout) :: failure
+
+      integer :: status
+
+      if (owner < 0) return
+      call h5oclose_f(owner, status)
+      call failure%check(status, object)
+   end subroutine close_object
 
    !> Close the handles that are open
    subroutine close_handles(name, failure, dataset, properties, space, type)

@@ -5,15 +5,12 @@ module axijoint_output_file_hdf5_series
    use axijoint_base_system, only : set_last_error
    use axijoint_output_file_hdf5_data, only : hdf5_failure_type, no_handle, make_space, &
       make_properties, &
-      close_handles
+      describe, close_handles
    use hdf5, only : hid_t, hsize_t, h5dcreate_f, h5dwrite_f, h5dget_space_f, h5s_select_set_f, &
       h5sselect_hyperslab_f
    implicit none
    private
    public :: hdf5_series_type, open_series, append_piece, piece_length, close_series
-
-   !> Values from which a series is compressed: there are few, and they are most of a file
-   integer(hsize_t), parameter :: compressed_from = 4096_hsize_t
 
    !> A dataset under way
    type :: hdf5_series_type
@@ -31,7 +28,7 @@ module axijoint_output_file_hdf5_series
 contains
 
    !> Make the dataset, without values
-   subroutine open_series(series, file, name, file_type, extent, failure)
+   subroutine open_series(series, file, name, file_type, extent, description, failure)
       !> The dataset
       type(hdf5_series_type), intent(out) :: series
       !> Handle of the file
@@ -42,6 +39,8 @@ contains
       integer(hid_t), intent(in) :: file_type
       !> Extents of the whole
       integer(hsize_t), intent(in) :: extent(:)
+      !> Meaning, order of indices in Fortran, unit
+      character(len=*), intent(in) :: description
       !> What failed first; nothing is done after a failure
       type(hdf5_failure_type), intent(inout) :: failure
 
@@ -53,11 +52,12 @@ contains
       if (failure%failed) return
       call set_last_error(0)
       call make_space(name, extent, space, failure)
-      call make_properties(name, extent, compressed_from, properties, failure)
+      call make_properties(name, extent, properties, failure)
       if (.not. failure%failed) then
          call h5dcreate_f(file, name, file_type, space, series%dataset, status, properties)
          call failure%check(status, name)
       end if
+      call describe(series%dataset, name, description, failure)
       call close_handles(name, failure, properties=properties, space=space)
    end subroutine open_series
 
