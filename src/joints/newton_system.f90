@@ -31,7 +31,7 @@ module axijoint_joints_newton_system
    integer, parameter :: most_solutions = 6
    !> Numbers of flexibilities that a processor keeps at hand
    real(wp), parameter :: at_hand = 1.0e5_wp
-   !> Points times values from which on a product is worth threads
+   !> Points times values, or numbers to gather, from which on threads are worth their start
    real(wp), parameter :: worth_threads = 1.0e6_wp
 
    !> What is solved
@@ -182,14 +182,27 @@ contains
          call new_point_blocks(condensed, scene, linear%slope, linear%kept, points, linear%stiff, &
             derivative%blocks)
       end if
-      double = stiff .or. 9.0_wp*size(points)**2*size(condensed%flexibilities) <= at_hand
+      double = stiff .or. n_numbers(size(points)) <= at_hand
       derivative%least_left = merge(0.0_wp, single_tolerance, double)
       allocate (derivative%flexibilities(size(condensed%flexibilities)))
+      !$omp parallel do schedule(static, 1) if (n_numbers(size(points)) > worth_threads)
       do s = 1, size(condensed%flexibilities)
          if (.not. allocated(condensed%flexibilities(s)%matrix)) cycle
          call gather(condensed%flexibilities(s)%matrix, size(condensed%points), points, double, &
             derivative%flexibilities(s))
       end do
+      !$omp end parallel do
+
+   contains
+
+      !> Numbers of the flexibilities of some points
+      pure real(wp) function n_numbers(n)
+         !> How many points
+         integer, intent(in) :: n
+
+         n_numbers = 9.0_wp*real(n, wp)**2*size(condensed%flexibilities)
+      end function n_numbers
+
    end subroutine new_derivative
 
    !> Gather the flexibility of some points

@@ -39,6 +39,8 @@ contains
       call c_f_pointer(structure%first_number, first_number, [n + 1])
       call c_f_pointer(structure%row, row, [first_row(n + 1)])
       do s = 1, n
+         ! Loads on few nodes, as those of joints, touch few panels up to the root; NaN is not skipped
+         if (all(abs(x(column(s):column(s + 1) - 1)) <= 0.0_wp)) cycle
          call forward(int(first_row(s + 1) - first_row(s)), int(column(s + 1) - column(s)), &
             l(first_number(s)), row(first_row(s) + 1:first_row(s + 1)), x, work)
       end do
