@@ -31,11 +31,13 @@ def case3(factor):
 
 def monopile(factor, elastic=False):
     """A pile with weight, stress of the ground before it, gap and friction, pushed and half let go; or its elastic analysis,
-    all loads at once on joints that neither open nor slip"""
+    all loads at once on joints that neither open nor slip, in as many harmonics, which next to nothing loads"""
     text = estimate_decks.finer(estimate_decks.with_harmonics(estimate_decks.inputs("monopile"), 8, 33), factor)
     if elastic:
         text = re.sub(r"^(LAWS.*\n +1 +100.0 +200.0 +100.0) +0.0 +26.0$", r"\1" + " "*20 + "ELASTIC", text, flags=re.MULTILINE)
         text = re.sub(r"^(LAWDETAILS|INCREMENTS).*\n(?: .*\n)+", "", text, flags=re.MULTILINE)
+        loads = "".join(f"{1:5}{m:5}{'1.0E-6':>10}\n" for m in range(2, 9))
+        text = text.replace("COMBINE ", f"PRESSURES\n{loads}COMBINE ", 1)
     return text
 
 
@@ -48,7 +50,8 @@ HISTORIES = {f"monopile, {n} times": lambda n=n: (monopile(n), monopile(n, True)
 class Run:
     """A job that is run some times: medians of its times, and what its summary says"""
 
-    def __init__(self, program, text, rounds):
+    def __init__(self, program, text, rounds, workers=None):
+        environment = os.environ | ({"OMP_NUM_THREADS": str(workers)} if workers else {})
         times, clocks, phases, writing = [], [], [], []
         with tempfile.TemporaryDirectory() as folder:
             deck = os.path.join(folder, "job.dat")
@@ -56,7 +59,8 @@ class Run:
                 file.write(text)
             for _ in range(rounds):
                 before = resource.getrusage(resource.RUSAGE_CHILDREN)
-                done = subprocess.run([program, "run", deck, "-o", folder, "--quiet"], check=False, capture_output=True, text=True)
+                done = subprocess.run([program, "run", deck, "-o", folder, "--quiet"], check=False, capture_output=True, text=True,
+                                      env=environment)
                 after = resource.getrusage(resource.RUSAGE_CHILDREN)
                 if done.returncode:
                     raise SystemExit(f"exit code {done.returncode}: {done.stderr}")
@@ -67,10 +71,11 @@ class Run:
                 writing.append(float(re.findall(r"^  write +\S+ +(\S+)", listing, re.MULTILINE)[-1]))
                 times.append(after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime)
                 clocks.append(self.summary["seconds"]["total"])
-                phases.append([*(self.summary["seconds"][name] for name in PHASES), sum(self.summary["error_seconds"].values())])
+                phases.append([*(self.summary["seconds"][name] for name in PHASES), self.summary["increment_seconds"],
+                               sum(self.summary["error_seconds"].values())])
         self.listing, self.writing = len(listing), min(writing)  # bytes; processor seconds until the listing ends
         self.processor, self.clock = statistics.median(times), statistics.median(clocks)
-        *self.phases, self.estimates = (statistics.median(column) for column in zip(*phases))
+        *self.phases, self.increments, self.estimates = (statistics.median(column) for column in zip(*phases))
         self.unknowns = self.summary["unknowns"]
         errors = self.summary.get("errors") or {}
         total = errors.get("sum", {}) if isinstance(errors, dict) else {}
@@ -177,17 +182,21 @@ def start(args):
 
 
 def history(args):
-    """Histories with joints beside their elastic analyses"""
+    """Histories with joints beside their elastic analyses in the same harmonics: the seconds of the increments over those of
+    the elastic analysis without estimates of errors; and two threads beside one, by the clock"""
     head()
-    print(f"{'job':18} {'unknowns':>9} {'iterations':>10} {'seconds':>8} {'processor':>9} {'elastic':>8} {'ratio':>6}  estimated error")
+    print("increments over elastic analysis: bar 1; two threads: bar 1.7 times as fast")
+    print(f"{'job':18} {'unknowns':>9} {'iterations':>10} {'seconds':>8} {'increments':>10} {'estimates':>9} {'elastic':>8} "
+          f"{'increments/elastic':>18} {'whole/elastic':>13} {'two threads':>11}  estimated error")
     rows = []
     for job, make in HISTORIES.items():
         if args.quick and job != "monopile, 1 times":
             continue
-        run, elastic = (Run(args.axijoint, text, args.rounds) for text in make())
-        rows.append((job, run))
-        print(f"{job:18} {run.unknowns:9} {run.iterations:10} {run.clock:8.3f} {run.processor:9.3f} {elastic.processor:8.3f} "
-              f"{run.processor/elastic.processor:6.2f}  {run.error:.3g} %", flush=True)
+        (run, elastic), two = (Run(args.axijoint, text, args.rounds, 1) for text in make()), Run(args.axijoint, make()[0], args.rounds, 2)
+        rows.append((job, run if threads() == "1" else two))
+        alone = elastic.clock - elastic.estimates
+        print(f"{job:18} {run.unknowns:9} {run.iterations:10} {run.clock:8.3f} {run.increments:10.3f} {run.estimates:9.3f} {alone:8.3f} "
+              f"{run.increments/alone:18.2f} {run.clock/elastic.clock:13.2f} {run.clock/two.clock:11.2f}  {run.error:.3g} %", flush=True)
     return rows
 
 

@@ -199,6 +199,7 @@ contains
          call compare_loops(model, structure%condensed, history, results%other_loop, other)
       results%path = history%path
       results%exchanged(1) = history%exchanged
+      results%increment_seconds = history%seconds
       results%tolerance = model%increments(size(model%increments))%tolerance
       allocate (results%displacement, mold=history%loading%right)
       if (allocated(history%runaway)) then

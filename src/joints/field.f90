@@ -106,15 +106,13 @@ contains
    !> Let the laws admit the stress of total jumps. Gives what they do not admit. Where the view is
    !> less than 1, P = law(P + view (t - P)) stands for P = law(t): the same in the end, but a stiff
    !> joint makes no large stress of a small jump on the way
-   pure subroutine admit_jump(laws, base, jump, view, field, excess)
+   pure subroutine admit_jump(laws, base, view, field, excess)
       !> Laws of the points, and stiffness that the structure has there, shape (3, points)
       type(joint_law_type), intent(in) :: laws(:)
       real(wp), intent(in) :: base(:, :)
-      !> Relative displacements, shape (3, points, planes)
-      real(wp), intent(in) :: jump(:, :, :)
       !> The view of each point, > 0 and <= 1
       real(wp), intent(in) :: view(:)
-      !> Field that takes jumps and stresses
+      !> Field with its jumps; takes the stresses
       type(joint_field_type), intent(inout) :: field
       !> Stress of the elastic structure + initial stress - P on the planes, shape (3, points,
       !> planes)
@@ -123,13 +121,12 @@ contains
       real(wp) :: trial(3), tangent(3, 3)
       integer :: j, k
 
-      field%jump = jump
-      do j = 1, size(jump, 3)
+      do j = 1, size(excess, 3)
          do k = 1, size(laws)
             trial = seen_by_law(laws(k), k, j, view(k), field)
             call admit(laws(k), field%memory(k, j), trial, field%stress(:, k, j), tangent, &
                view(k)*field%fading)
-            excess(:, k, j) = base(:, k)*(jump(:, k, j) - field%moved(:, k, j)) + &
+            excess(:, k, j) = base(:, k)*(field%jump(:, k, j) - field%moved(:, k, j)) + &
                field%initial(:, k) &
                - field%stress(:, k, j)
          end do

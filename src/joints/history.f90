@@ -68,6 +68,8 @@ module axijoint_joints_history
       real(wp) :: largest_elastic = 0.0_wp
       !> Bytes that this process sent and received in the iterations, where several share the work
       integer(i8) :: exchanged = 0
+      !> Time that the increments took [second]
+      real(wp) :: seconds = 0.0_wp
       !> Largest joint stress at the end of a step, of each point: what errors are measured by, for
       !> joints that were unloaded have none at the end
       real(wp), allocatable :: largest_stress(:)

@@ -1,5 +1,6 @@
 !> Load increments one after the other, each to equilibrium at the joints
 module axijoint_joints_increments
+   use omp_lib, only : omp_get_wtime
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_factors, only : report_failure
    use axijoint_assembly_support, only : support_point_type
@@ -71,6 +72,7 @@ contains
       type(answer_type), intent(inout), target, optional :: answer
 
       type(joint_stage_type) :: stage
+      real(wp) :: began
 
       stage%model => model
       stage%equations => equations
@@ -86,7 +88,9 @@ contains
                           ' does not follow from: METHOD may be NEWTON, ANDERSON or TOTAL')
          return
       end if
+      began = omp_get_wtime()
       call apply_increments(stage, history, progress, keeper)
+      history%seconds = omp_get_wtime() - began
    end subroutine run_increments
 
    !> Put the loads of a step on and iterate

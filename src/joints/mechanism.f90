@@ -182,71 +182,66 @@ contains
       !> The works, shape (motions, motions)
       real(wp), intent(out) :: resistance(:, :), elastic(:, :)
 
-      real(wp), allocatable :: tangent(:, :, :, :)
       real(wp), dimension(3, size(field%jump, 3), size(condensed%floating)) :: made, share
-      real(wp) :: stress(3, size(field%jump, 3)), base(3)
+      real(wp) :: view(size(condensed%points)), tangent(3, 3), stress(3)
       integer :: j, k, y, z
 
-      allocate (tangent(3, 3, size(condensed%points), size(field%jump, 3)))
-      call linearize(condensed, scene, field, sticking, tangent)
-      associate (motions => condensed%floating)
+      view = views(condensed, scene, field)
+      resistance = 0.0_wp
+      elastic = 0.0_wp
+      associate (motions => condensed%floating, points => condensed%points)
          do z = 1, size(motions)
             made(:, :, z) = mode_on_planes(scene%planes, motions(z)%mode)
             share(:, :, z) = circle_integral(scene%modes(motions(z)%mode)%harmonic) &
                *mode_from_planes(scene%planes, motions(z)%mode)
          end do
-         resistance = 0.0_wp
-         elastic = 0.0_wp
-         do z = 1, size(motions)
-            do k = 1, size(condensed%points)
-               base = condensed%points(k)%base*motions(z)%jump(:, k)
-               do j = 1, size(stress, 2)
-                  stress(:, j) = matmul(tangent(:, :, k, j), base*made(:, j, z))
-               end do
-               do y = 1, size(motions)
-                  associate (jump => condensed%points(k)%weight*motions(y)%jump(:, k))
-                     resistance(y, z) = resistance(y, z) &
-                        + dot_product(jump, sum(share(:, :, y)*stress, 2))
-                     if (motions(y)%mode == motions(z)%mode) elastic(y, z) = elastic(y, z) &
-                        + circle_integral(scene%modes(motions(z)%mode)%harmonic)*dot_product(jump, base)
-                  end associate
+         do j = 1, size(field%jump, 3)
+            do k = 1, size(points)
+               tangent = tangent_of(k, j)
+               if (all(abs(tangent) <= 0.0_wp)) cycle
+               do z = 1, size(motions)
+                  stress = matmul(tangent, points(k)%base*motions(z)%jump(:, k)*made(:, j, z))
+                  do y = 1, size(motions)
+                     resistance(y, z) = resistance(y, z) + points(k)%weight &
+                        *dot_product(motions(y)%jump(:, k)*share(:, j, y), stress)
+                  end do
                end do
             end do
          end do
-      end associate
-   end subroutine resist
-
-   !> Derivatives of the stress admitted by the trial stress
-   subroutine linearize(condensed, scene, field, sticking, tangent)
-      !> The condensed structure
-      type(condensed_type), intent(in) :: condensed
-      !> Laws, planes and loads
-      type(scene_type), intent(in) :: scene
-      !> The state
-      type(joint_field_type), intent(in) :: field
-      !> Whether points that touch count as sticking
-      logical, intent(in) :: sticking
-      !> The derivatives, shape (3, 3, points, planes)
-      real(wp), intent(out) :: tangent(:, :, :, :)
-
-      real(wp), parameter :: identity(9) = [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, &
-         0.0_wp, 0.0_wp, 1.0_wp]
-      real(wp) :: view(size(condensed%points)), admitted(3)
-      integer :: j, k
-
-      view = views(condensed, scene, field)
-      do j = 1, size(tangent, 4)
-         do k = 1, size(tangent, 3)
-            associate (law => scene%laws(k), t => tangent(:, :, k, j))
-               call admit(law, field%memory(k, j), &
-                  seen_by_law(scene%laws(k), k, j, view(k), field), admitted, t, &
-                  view(k)*field%fading)
-               if (.not. sticking .or. .not. t(eta, eta) > 0.0_wp) cycle
-               if (law%friction > 0.0_wp .or. law%cohesion > 0.0_wp) t = reshape(identity, [3, 3])
-            end associate
+         do z = 1, size(motions)
+            do y = 1, size(motions)
+               if (motions(y)%mode /= motions(z)%mode) cycle
+               do k = 1, size(points)
+                  elastic(y, z) = elastic(y, z) + points(k)%weight &
+                     *dot_product(motions(y)%jump(:, k), points(k)%base*motions(z)%jump(:, k))
+               end do
+               elastic(y, z) = circle_integral(scene%modes(motions(z)%mode)%harmonic)*elastic(y, z)
+            end do
          end do
-      end do
-   end subroutine linearize
+      end associate
+
+   contains
+
+      !> Derivatives of the stress admitted by the trial stress, of a point on a plane
+      function tangent_of(k, j) result(tangent)
+         !> Point and plane
+         integer, intent(in) :: k, j
+         !> The derivatives
+         real(wp) :: tangent(3, 3)
+
+         real(wp), parameter :: identity(9) = [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, &
+            0.0_wp, 0.0_wp, 1.0_wp]
+         real(wp) :: admitted(3)
+
+         associate (law => scene%laws(k))
+            call admit(law, field%memory(k, j), seen_by_law(law, k, j, view(k), field), admitted, &
+               tangent, view(k)*field%fading)
+            if (.not. sticking .or. .not. tangent(eta, eta) > 0.0_wp) return
+            if (law%friction > 0.0_wp .or. law%cohesion > 0.0_wp) tangent = reshape(identity, [3, 3])
+         end associate
+      end function tangent_of
+
+   end subroutine resist
 
    !> Force that acts on each motion and is not balanced by joints, and what of it may be rounding
    subroutine act(condensed, scene, field, force, least)

@@ -16,11 +16,10 @@ module axijoint_joints_newton
    use axijoint_joints_field, only : joint_field_type, seen_by_law
    use axijoint_joints_newton_system, only : linear_type, solve
    use axijoint_joints_planes, only : synthesize, analyse
-   use axijoint_joints_scene, only : scene_type, evaluate, views
+   use axijoint_joints_scene, only : scene_type, views
    implicit none
    private
-   public :: newton_type, step_bounds_type, new_newton, newton_step, at_points, &
-      newton_view, bold
+   public :: newton_type, step_bounds_type, see, linearize, newton_step, at_points, newton_view, bold
 
    !> Stiffness k h/E of joints that the laws see at most at a time
    real(wp), parameter :: newton_view = 10.0_wp
@@ -83,50 +82,71 @@ contains
       end do
    end function at_points
 
-   !> Linearize the laws at the jumps of an iterate
-   function new_newton(condensed, scene, field, far) result(newton)
+   !> Let the laws see the jumps of an iterate, and linearize them there
+   subroutine see(condensed, scene, far, field, residual, newton)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
-      !> The iterate, its jumps evaluated
-      type(joint_field_type), intent(in) :: field
-      !> Its residual ratio; zero if absent
-      real(wp), intent(in), optional :: far
+      !> The residual ratio of the iterate
+      real(wp), intent(in) :: far
+      !> The iterate with its jumps; takes the stress that is admitted
+      type(joint_field_type), intent(inout) :: field
+      !> Excess stress that is not transferred, shape (3, points, modes)
+      real(wp), intent(out) :: residual(:, :, :)
       !> The laws about it
-      type(newton_type) :: newton
+      type(newton_type), intent(inout) :: newton
+
+      real(wp), allocatable :: admitted(:, :, :)
+
+      allocate (admitted, mold=field%stress)
+      call linearize(condensed, scene, far, field, newton, admitted, residual)
+      call move_alloc(admitted, field%stress)
+   end subroutine see
+
+   !> Linearize the laws at the jumps of an iterate
+   subroutine linearize(condensed, scene, far, field, newton, stress, residual)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> The residual ratio of the iterate
+      real(wp), intent(in) :: far
+      !> The iterate with its jumps
+      type(joint_field_type), intent(in) :: field
+      !> The laws about it
+      type(newton_type), intent(inout) :: newton
+      !> Stress that the laws admit on the planes, shape (3, points, planes), and the excess stress
+      !> that it leaves to transfer, shape (3, points, modes)
+      real(wp), intent(out), optional :: stress(:, :, :), residual(:, :, :)
 
       real(wp) :: admitted(3), tangent(3, 3), inverse(3, 3), identity(3, 3)
       real(wp) :: view(size(condensed%points)), limit(size(condensed%points))
-      real(wp), allocatable :: excess(:, :, :), missing(:, :, :)
+      real(wp), allocatable :: left(:, :, :), missing(:, :, :)
       integer :: i, j, k
 
       view = views(condensed, scene, field)
-      limit = 1.0_wp
-      do k = 1, size(limit)
-         associate (proportion => field%share*condensed%points(k)%proportion)
-            if (present(far)) limit(k) = min(1.0_wp, steepest(far)/max(tiny(1.0_wp), proportion))
-            if (.not. present(far)) &
-               limit(k) = min(1.0_wp, steepest(0.0_wp)/max(tiny(1.0_wp), proportion))
-         end associate
-      end do
+      limit = [(min(1.0_wp, steepest(far)/max(tiny(1.0_wp), &
+         field%share*condensed%points(k)%proportion)), k=1, size(limit))]
       newton%stiff = [(any(field%share*scene%laws(k)%stiffness &
                            > condensed%points(k)%base), k=1, size(condensed%points))]
       identity = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], &
          [3, 3])
-      allocate (newton%by_jump(3, 3, size(field%jump, 2), size(field%jump, 3)))
-      allocate (newton%slope, mold=newton%by_jump)
-      allocate (newton%rest, excess, missing, mold=field%jump)
+      if (.not. allocated(newton%slope)) then
+         allocate (newton%by_jump(3, 3, size(field%jump, 2), size(field%jump, 3)))
+         allocate (newton%slope, mold=newton%by_jump)
+         allocate (newton%rest, mold=field%jump)
+      end if
+      allocate (left, missing, mold=field%jump)
       !$omp parallel do private(i, k, admitted, tangent, inverse) if &
       !$omp (size(field%jump) >= worth_threads)
       do j = 1, size(field%jump, 3)
          do k = 1, size(field%jump, 2)
-            associate (point => condensed%points(k), stress => field%carried(:, k, j), &
-                       law => scene%laws(k))
-               call admit(law, field%memory(k, j), &
-                  seen_by_law(scene%laws(k), k, j, view(k), field), &
-                          admitted, tangent, view(k)*field%fading)
-               missing(:, k, j) = admitted - stress
+            associate (point => condensed%points(k), law => scene%laws(k))
+               call admit(law, field%memory(k, j), seen_by_law(law, k, j, view(k), field), &
+                  admitted, tangent, view(k)*field%fading)
+               if (present(stress)) stress(:, k, j) = admitted
+               missing(:, k, j) = admitted - field%carried(:, k, j)
                newton%rest(:, k, j) = missing(:, k, j)
                if (abs(view(k) - limit(k)) > 0.0_wp) then
                   inverse = inverse_of(identity - (1.0_wp - view(k)/limit(k))*tangent)
@@ -138,18 +158,25 @@ contains
                   newton%slope(:, i, k, j) = -newton%by_jump(:, i, k, j)
                   newton%slope(i, i, k, j) = newton%slope(i, i, k, j) + point%base(i)
                end do
-               excess(:, k, j) = point%base*(field%jump(:, k, j) - field%moved(:, k, j)) + &
-                  field%initial(:, k) - stress
+               left(:, k, j) = point%base*(field%jump(:, k, j) - field%moved(:, k, j)) + &
+                  field%initial(:, k) - admitted
             end associate
          end do
       end do
       !$omp end parallel do
       newton%kept = 1.0_wp - field%leak
-      newton%residual = newton%kept*analyse(scene%planes, excess) - field%excess
-      newton%merit = merit_of(condensed, newton%residual, missing)
-      newton%residual = newton%residual - newton%kept*analyse(scene%planes, newton%rest)
-      newton%rounding = rounding*maxval(abs(field%stress))
-   end function new_newton
+      newton%residual = newton%kept*analyse(scene%planes, left) - field%excess
+      if (present(residual)) residual = newton%residual
+      newton%merit = merit_of(condensed, newton%residual &
+         + newton%kept*analyse(scene%planes, missing), missing)
+      if (any(abs(view - limit) > 0.0_wp)) newton%residual = newton%residual &
+         + newton%kept*analyse(scene%planes, missing - newton%rest)
+      if (present(stress)) then
+         newton%rounding = rounding*maxval(abs(stress))
+      else
+         newton%rounding = rounding*maxval(abs(field%stress))
+      end if
+   end subroutine linearize
 
    !> Stiffness k h/E above which laws are linearized as if they had no more: far from equilibrium a
    !> stiff law predicts stresses that the next iterate does not see; near to it, what such a
@@ -262,8 +289,7 @@ contains
          type(joint_field_type), intent(in) :: iterate
 
          field = iterate
-         call evaluate(condensed, scene, field, residual)
-         newton = new_newton(condensed, scene, field, bounds%far)
+         call see(condensed, scene, bounds%far, field, residual, newton)
       end subroutine go_to
 
    end subroutine newton_step
@@ -286,7 +312,7 @@ contains
       !> Whether the jumps are a state, and whether not much more is missing than before
       logical, intent(out) :: made, falls
 
-      real(wp), allocatable :: start(:, :, :), carried(:, :, :), change(:, :, :), &
+      real(wp), allocatable :: start(:, :, :), carried(:, :, :), begun(:, :, :), change(:, :, :), &
          amplitude(:, :, :), change_carried(:, :, :), jump(:, :, :)
       real(wp) :: length, before, least
 
@@ -296,6 +322,7 @@ contains
       change_carried = newton%rest + at_points(newton%by_jump, jump)
       start = field%excess
       carried = field%carried
+      begun = field%jump
       before = newton%merit
       length = 1.0_wp
       if (maxval(abs(jump)) > bounds%radius) then
@@ -306,8 +333,8 @@ contains
       do
          field%excess = start + length*change
          field%carried = carried + length*change_carried
-         call evaluate(condensed, scene, field, residual)
-         newton = new_newton(condensed, scene, field, bounds%far)
+         field%jump = begun + length*jump
+         call see(condensed, scene, bounds%far, field, residual, newton)
          made = maxval(abs(field%jump)) <= bounds%largest
          falls = newton%merit < merge(bold, bounds%more, bounds%damping > 0.0_wp)*before
          if (made .and. falls .or. length <= least) exit

@@ -10,12 +10,12 @@ module axijoint_joints_newton_method
    use axijoint_joints_field, only : joint_field_type, break_bonds, n_fading
    use axijoint_joints_mechanism, only : find_mechanism
    use axijoint_joints_method, only : method_type, control_type, verdict_type
-   use axijoint_joints_newton, only : newton_type, new_newton, newton_step, step_bounds_type, &
+   use axijoint_joints_newton, only : newton_type, see, linearize, newton_step, step_bounds_type, &
       newton_view, bold
    use axijoint_joints_passes, only : pass_on
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_residual, only : strictest_type, strictest, residual_norm
-   use axijoint_joints_scene, only : scene_type, evaluate
+   use axijoint_joints_scene, only : scene_type, evaluate, find_jumps
    use axijoint_joints_watch, only : watch_type, new_watch, note, end_watch, runaway
    implicit none
    private
@@ -199,7 +199,7 @@ contains
       course%start = field
       course%watch = new_watch(scene, field)
       course%bounds%radius = first_radius*course%watch%largest/runaway
-      course%newton = new_newton(condensed, scene, field, 1.0_wp)
+      if (moved) call linearize(condensed, scene, 1.0_wp, field, course%newton)
       call find_mechanism(condensed, scene, field, .false., verdict%mechanism)
       if (verdict%mechanism%loaded) call hold_weakly(condensed, scene, field, course, verdict)
    end subroutine begin
@@ -508,7 +508,7 @@ contains
             bounds%largest = bounds%largest/field%leak
          else
             call approach(condensed, scene, .true., course%begun, field, course%residual, moved)
-            if (moved) course%newton = new_newton(condensed, scene, field, ratio)
+            if (moved) call linearize(condensed, scene, ratio, field, course%newton)
          end if
          if (course%far) bounds%radius = bounds%largest
          bounds%more = merge(bold, careful, falls .or. course%far)
@@ -516,7 +516,7 @@ contains
       end associate
       if (.not. made .and. .not. field%leak > 0.0_wp) then  ! what slips may stop farther on
          call approach(condensed, scene, .false., course%begun, field, course%residual, made)
-         if (made) course%newton = new_newton(condensed, scene, field, ratio)
+         if (made) call linearize(condensed, scene, ratio, field, course%newton)
       end if
       course%ran = .not. made
    end subroutine take_step
@@ -534,8 +534,8 @@ contains
       !> The iteration
       type(course_type), intent(inout) :: course
 
-      call evaluate(condensed, scene, field, course%residual)
-      course%newton = new_newton(condensed, scene, field, ratio)
+      call find_jumps(condensed, scene, field)
+      call see(condensed, scene, ratio, field, course%residual, course%newton)
    end subroutine look_again
 
 end module axijoint_joints_newton_method

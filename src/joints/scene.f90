@@ -13,7 +13,7 @@ module axijoint_joints_scene
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: scene_type, given_work_type, new_scene, jumps, tell_jumps, jumps_of_mode, &
+   public :: scene_type, given_work_type, new_scene, find_jumps, jumps, tell_jumps, jumps_of_mode, &
       own_flexibility, evaluate, views, mismatch_of, elastic_stress
    public :: motion_of, multiples_of_motions, stand_where_they_are
 
@@ -186,6 +186,22 @@ contains
       flexibility = condensed%own(:, :, k, scene%system(mode))
    end function own_flexibility
 
+   !> Jumps that loads and transferred stress give
+   subroutine find_jumps(condensed, scene, field)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> State of the joints; jumps follow its excess stress
+      type(joint_field_type), intent(inout) :: field
+
+      field%jump = synthesize(scene%planes, jumps(condensed, scene, field%excess, free=.true.))
+      if (any(abs(field%offset) > 0.0_wp)) then
+         field%moved = synthesize(scene%planes, motion_of(condensed, scene, field%offset))
+         field%jump = field%jump + field%moved
+      end if
+   end subroutine find_jumps
+
    !> Excess stress that is not yet transferred, from the jumps that loads and
    !> transferred stress give
    subroutine evaluate(condensed, scene, field, residual, judged)
@@ -200,22 +216,17 @@ contains
       !> Whether the laws see the jumps as a state is judged; false if absent
       logical, intent(in), optional :: judged
 
-      real(wp), allocatable :: total(:, :, :), excess(:, :, :)
+      real(wp), allocatable :: excess(:, :, :)
       real(wp) :: view(size(condensed%points))
       integer :: k
 
-      total = synthesize(scene%planes, jumps(condensed, scene, field%excess, free=.true.))
-      if (any(abs(field%offset) > 0.0_wp)) then
-         field%moved = synthesize(scene%planes, motion_of(condensed, scene, field%offset))
-         total = total + field%moved
-      end if
-      excess = total  ! for its shape
+      call find_jumps(condensed, scene, field)
       view = views(condensed, scene, field)
       if (present(judged)) &
          view = min(1.0_wp, judged_view/max(tiny(1.0_wp), condensed%points%proportion))
+      allocate (excess, mold=field%jump)
       call admit_jump(scene%laws, reshape([(condensed%points(k)%base, k=1, size(view))], &
-         [3, size(view)]), &
-                      total, view, field, excess)
+         [3, size(view)]), view, field, excess)
       residual = (1.0_wp - field%leak)*analyse(scene%planes, excess) - field%excess
    end subroutine evaluate
 

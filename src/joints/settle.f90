@@ -5,7 +5,7 @@ module axijoint_joints_settle
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_method, only : control_type, verdict_type
-   use axijoint_joints_newton, only : newton_type, step_bounds_type, new_newton, newton_step, &
+   use axijoint_joints_newton, only : newton_type, step_bounds_type, linearize, newton_step, &
       newton_view
    use axijoint_joints_newton_method, only : newton_method_type
    use axijoint_joints_path, only : iteration_type
@@ -113,7 +113,7 @@ contains
       allocate (residual, mold=field%excess)
       call evaluate(condensed, scene, field, residual)
       field%carried = field%stress
-      newton = new_newton(condensed, scene, field)
+      call linearize(condensed, scene, 0.0_wp, field, newton)
       enough = max(share**2*newton%merit, rounding(condensed, field))  ! squares
       made = .true.
       do k = 1, most_steps

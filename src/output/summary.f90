@@ -91,6 +91,7 @@ contains
          call put_pair(file, "errors", errors_text(results))
          call put_pair(file, "singular", singular_json(model, results))
          call put_pair(file, "error_seconds", error_seconds_text(results))
+         call put_pair(file, "increment_seconds", json_number(results%increment_seconds))
          if (allocated(results%rounds)) then
             call put_pair(file, "rounds", rounds_text(results))
             call put_pair(file, "strips", strips_json(model, results))

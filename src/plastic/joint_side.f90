@@ -10,7 +10,7 @@ module axijoint_plastic_joint_side
    use axijoint_joints_field, only : joint_field_type, commit_field
    use axijoint_joints_loads, only : put_work
    use axijoint_joints_method, only : method_type, control_type, verdict_type
-   use axijoint_joints_newton, only : newton_type, new_newton, at_points
+   use axijoint_joints_newton, only : newton_type, linearize, at_points
    use axijoint_joints_newton_system, only : linear_type, solve
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_planes, only : synthesize, analyse
@@ -208,7 +208,7 @@ contains
       !> The joints
       type(joint_side_type), intent(inout) :: side
 
-      side%tangent = new_newton(side%condensed, side%scene, side%field)
+      call linearize(side%condensed, side%scene, 0.0_wp, side%field, side%tangent)
    end subroutine linearize_joints
 
    !> Forces on the unknowns by which joints answer small displacements of the elastic structure:

@@ -227,6 +227,8 @@ module axijoint_analysis_core_results
       !> Bytes that this process sent and received: in the iterations on the joints, and in all;
       !> zero if it is alone
       integer(i8) :: exchanged(2) = 0
+      !> Time that the increments of joints took, part of the phase of joints [second]
+      real(wp) :: increment_seconds = 0.0_wp
       !> Resultants of the applied loads and of the reactions
       real(wp) :: applied(n_resultants) = 0.0_wp, reacted(n_resultants) = 0.0_wp
       !> Resultants of the stresses on the cuts of the deck, shape (n_resultants, cuts): of

@@ -67,7 +67,8 @@ contains
       left = jump  ! for its shape
       laws = level%model%joint_materials(points%material)%law
       base = reshape([(points(k)%base, k=1, size(points))], [3, size(points)])
-      call admit_jump(laws, base, jump + moved, [(1.0_wp, k=1, size(points))], fine_field, left)
+      fine_field%jump = jump + moved
+      call admit_jump(laws, base, [(1.0_wp, k=1, size(points))], fine_field, left)
       if (stiffness_ratio(condensed%points) > stiff) then
          call spread_stress(level%model, condensed%points, field%stress, fine_field%stress)
          do k = 1, size(points)

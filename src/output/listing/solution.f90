@@ -36,7 +36,9 @@ module axijoint_output_listing_solution
    character(len=*), parameter :: format_states = '(2i12)'
    !> Phase, its wall clock and processor time, its share
    character(len=*), parameter :: format_time = '(2x, a, t14, 2f14.3, f12.1)'
-   !> Time of the error estimates, part of the phases above
+   !> Time of the increments, and of the error estimates, part of the phases above
+   character(len=*), parameter :: format_increments = &
+      '(2x, "increments", t14, f14.3, "  (part of joints)")'
    character(len=*), parameter :: format_estimates = &
       '(2x, "estimates", t14, f14.3, "  (part of joints and recover)")'
    !> Memory
@@ -304,6 +306,10 @@ contains
             timer%cpu_seconds(phase), 100.0_wp*seconds(phase)/total
          call file%put(line)
       end do
+      if (results%increment_seconds > 0.0_wp) then
+         write (line, format_increments) results%increment_seconds
+         call file%put(line)
+      end if
       if (allocated(results%budget)) then
          write (line, format_estimates) sum(results%budget%seconds)
          call file%put(line)
