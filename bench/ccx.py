@@ -72,12 +72,12 @@ def displacements(path):
     return found
 
 
-def solve(folder, density, element_type, solver, threads, runs=5):
+def solve(folder, density, element_type, solver, threads, runs=3, long=15.0):
     """Unknowns, lateral displacement of the pile's end, largest pressure of the vertical joint, cost"""
     mesh = half_pile(Density.of(*density), QUADRATIC[element_type])
     with open(os.path.join(folder, "job.inp"), "w", encoding="ascii") as file:
         file.write("\n".join(deck_lines(mesh, element_type, solver)) + "\n")
-    cost = measure(["ccx", "job"], folder, threads, runs)
+    cost = measure(["ccx", "job"], folder, threads, runs, long)
     moved = displacements(os.path.join(folder, "job.dat"))
     overlaps = [np.dot(moved[a] - moved[b], (*mesh.nodes[a][:2], 0.0))/RADIUS for a, b in joint_pairs(mesh)]
     return 3*len(mesh.nodes), moved[tip(mesh)][0], NORMAL*max(overlaps), cost

@@ -15,7 +15,7 @@ sys.path[:0] = [os.path.join(ROOT, "verification"), os.path.join(ROOT, "verifica
 import piles
 import program as verification
 from ccx import numbers
-from half_pile import RADIUS, Builder, core, ring
+from half_pile import RADIUS, Builder, core, graded, ring
 from work_precision import RunError, measure
 
 DISPLACEMENTS = (0.01, 0.04, 0.1)  # of the head [m]
@@ -23,12 +23,6 @@ STEPS = (4, 6, 6)                  # increments to each
 OUTER = 10.0
 # Elements on half the circle (a multiple of 4); from shaft to far side; shares of the rows of axijoint's mesh
 SIZES = [(8, 6, 0.6), (12, 6, 0.6), (8, 8, 1.0)]
-
-
-def graded(first, last, n, ratio):
-    """Ends of n elements between two places, the last `ratio` times as long as the first"""
-    lengths = ratio**(np.arange(n)/max(1, n - 1))
-    return first + (last - first)*np.concatenate([[0.0], np.cumsum(lengths)])/lengths.sum()
 
 
 def rows_of(share):
@@ -47,9 +41,9 @@ def annulus(inner, outer):
 def half(around, across, share):
     """Mesh of half the ground with its pile, and the elements of the pile"""
     build, pile = Builder(True), []
-    radii = graded(RADIUS, OUTER, across, piles.CLAY[-1])
+    radii = RADIUS + (OUTER - RADIUS)*graded(across, piles.CLAY[-1])
     for low, high, n, grading in rows_of(share):
-        ends = graded(low, high, n, grading)
+        ends = low + (high - low)*graded(n, grading)
         for bottom, top in zip(ends[:-1], ends[1:]):
             up = {"up": "head"} if top > -1e-9 else {}
             first = len(build.mesh.elements)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 RADIUS, OUTER = 0.5, 2.0
-PILE_END, MOUTH, ROOF, TOP = -0.5, 0.0, 1.0, 2.0
+PILE_END, MOUTH, MIDDLE, ROOF, TOP = -0.5, 0.0, 0.5, 1.0, 2.0
 CORE = 0.54*RADIUS  # half the side of the square core
 # Corners of an element: bottom, top. Then the middles of its edges: bottom, top, between
 CORNERS = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)]
@@ -23,20 +23,23 @@ FACE_MIDDLES = {INWARD: (11, 16, 15, 19), OUTWARD: (9, 18, 13, 17), DOWN: (8, 9,
 
 @dataclass(frozen=True)
 class Density:
-    """Elements along the edges of the blocks"""
+    """Elements along the edges of the blocks; the ratio of the largest to the least element along the radius and the height,
+    where elements are small at the shaft and at the ends of the socket"""
     around: int   # on the half circle: a multiple of 4
     ring: int     # of the pile, from the core to its shaft
     end: int      # along the pile outside of the socket
-    socket: int   # along the socket
+    half: int     # along half the socket
     footing: int  # of the footing, outward
     cover: int    # of the footing, above the socket
+    ratio: float = 1.0
 
     @classmethod
-    def of(cls, around, meridional):
-        """`around` elements on a quarter of the half circle; meridional mesh of inputs/case3.dat divided by 2,
-        times `meridional`"""
-        n = meridional
-        return cls(4*around, max(1, round(n)), max(1, round(n)), round(4*n), round(3*n), round(2*n))
+    def of(cls, around, meridional, ratio=1.0):
+        """`around` elements on the half circle; meridional mesh of inputs/case3.dat times `meridional`, of whose elements
+        along the pile's radius the core takes one"""
+        def times(n):
+            return max(1, round(n*meridional))
+        return cls(around, max(1, times(4) - 1), times(2), times(4), times(6), times(4), ratio)
 
 
 @dataclass
@@ -82,6 +85,12 @@ def annulus(s, t):
     return r*math.cos(math.pi*t), r*math.sin(math.pi*t)
 
 
+def graded(n, ratio):
+    """Ends of n elements between 0 and 1, the last `ratio` times as long as the first"""
+    lengths = ratio**(np.arange(n)/max(1, n - 1))
+    return np.concatenate([[0.0], np.cumsum(lengths)])/lengths.sum()
+
+
 class Builder:
     """Adds blocks to a mesh; nodes at one place in one body are one"""
 
@@ -97,16 +106,18 @@ class Builder:
             self.mesh.nodes.append(point)
         return self.places[key]
 
-    def block(self, body, cross_section, n, low, high, **faces):
-        """n elements along s, t and z between two heights; faces name its sides: side=name"""
+    def block(self, body, cross_section, n, low, high, ratios=(1.0, 1.0), **faces):
+        """n elements along s, t and z between two heights; ratios of the last to the first element along s and z; faces
+        name its sides: side=name"""
         shape = CORNERS + (MIDDLES if self.mesh.quadratic else [])
+        across, along = graded(n[0], ratios[0]), low + (high - low)*graded(n[2], ratios[1])
         for k in range(n[2]):
             for j in range(n[1]):
                 for i in range(n[0]):
                     nodes = []
                     for a, b, c in shape:
-                        x, y = cross_section((i + a/2)/n[0], (j + b/2)/n[1])
-                        nodes.append(self.node(body, (x, y, low + (high - low)*(k + c/2)/n[2])))
+                        x, y = cross_section(between(across, i, a/2), (j + b/2)/n[1])
+                        nodes.append(self.node(body, (x, y, between(along, k, c/2))))
                     self.mesh.elements.append(nodes)
                     at = {"inward": (INWARD, i == 0), "outward": (OUTWARD, i == n[0] - 1),
                           "down": (DOWN, k == 0), "up": (UP, k == n[2] - 1)}
@@ -116,17 +127,25 @@ class Builder:
                             self.mesh.faces.setdefault(name, []).append((len(self.mesh.elements) - 1, face))
 
 
+def between(ends, element, share):
+    """The place at a share of an element, from its ends"""
+    return float((1 - share)*ends[element] + share*ends[element + 1])
+
+
 def half_pile(density, quadratic):
     """Pile (body 1) and footing (body 2), with the faces end, shaft, wall, head, roof, top"""
-    build = Builder(quadratic)
-    quarter = density.around//4
-    for section, n in ((core, (2*quarter, quarter)), (ring, (density.ring, density.around))):
+    build, d = Builder(quadratic), density
+    quarter, first, last = d.around//4, d.ratio, 1/d.ratio  # small elements at the first or last end
+    sockets = ((MOUTH, MIDDLE, first), (MIDDLE, ROOF, last))
+    for section, n, ratio in ((core, (2*quarter, quarter), 1.0), (ring, (d.ring, d.around), last)):
         shaft = {"outward": "shaft"} if section is ring else {}
-        build.block(1, section, (*n, density.end), PILE_END, MOUTH, down="end")
-        build.block(1, section, (*n, density.socket), MOUTH, ROOF, up="head", **shaft)
-        build.block(2, section, (*n, density.cover), ROOF, TOP, down="roof", up="top")
-    build.block(2, annulus, (density.footing, density.around, density.socket), MOUTH, ROOF, inward="wall")
-    build.block(2, annulus, (density.footing, density.around, density.cover), ROOF, TOP, up="top")
+        build.block(1, section, (*n, d.end), PILE_END, MOUTH, (ratio, last), down="end")
+        for low, high, along in sockets:
+            build.block(1, section, (*n, d.half), low, high, (ratio, along), **shaft, **({"up": "head"} if high == ROOF else {}))
+        build.block(2, section, (*n, d.cover), ROOF, TOP, (ratio, first), down="roof", up="top")
+    for low, high, along in sockets:
+        build.block(2, annulus, (d.footing, d.around, d.half), low, high, (first, along), inward="wall")
+    build.block(2, annulus, (d.footing, d.around, d.cover), ROOF, TOP, (first, first), up="top")
     return build.mesh
 
 

@@ -68,9 +68,9 @@ class Deck:
                                        None if cohesion is None else (cohesion, STRESS), friction,
                                        dilation, (gap, LENGTH), (initial, STRESS)))
 
-    def block(self, body, material, nodes, n1, n2, *corners, ratio=None):
-        """Two cards of BLOCKS"""
-        return self.add('BLOCKS', (body, material, nodes, n1, n2, ratio),
+    def block(self, body, material, nodes, n1, n2, *corners, ratio=None, along=None):
+        """Two cards of BLOCKS; ratios of the last to the first element along both sides"""
+        return self.add('BLOCKS', (body, material, nodes, n1, n2, ratio, *(() if along is None else (along,))),
                         tuple((float(x), LENGTH) for x in corners))
 
     def faces(self, *faces):
@@ -316,9 +316,10 @@ CAPACITIES = {
 
 
 def example(number, *, factor=1.0, method='NEWTON', tolerance=1e-10, most=500, harmonic=8, planes=33, bond=True,
-            refined=1, nodes=4, units=METRE):
+            refined=1, nodes=4, units=METRE, ratio=None):
     """The example of the paper (inputs/case1.dat to case3.dat): joint stiffness times a factor, and
-    the bond law in cases 1 and 2; elements of so many nodes"""
+    the bond law in cases 1 and 2; elements of so many nodes; ratio of the largest element to the least, where they
+    are small at the shaft and the ends of the socket"""
     cohesion, friction = {1: (2.0, 30.0), 2: (0.5, 30.0), 3: (0.0, 0.0)}[number]
     deck = Deck(f'Case {number}, joint stiffness x {factor:g}', harmonic, planes, method, units)
     deck.material(1, 2e4, 0.17).material(2, 2e4, 0.17)
@@ -326,9 +327,13 @@ def example(number, *, factor=1.0, method='NEWTON', tolerance=1e-10, most=500, h
     deck.law(1, stiffness, cohesion, friction).law(2, stiffness, kind='ELASTIC')
     if bond and cohesion > 0.0:
         deck.details(1, 'COMPONENTS', 'BOND')
-    for body, n1, n2, *corners in ((1, 4, 2, 0, -0.5, 0.5, 0), (1, 4, 8, 0, 0, 0.5, 1), (2, 6, 8, 0.5, 0, 2, 1),
-                                   (2, 6, 4, 0.5, 1, 2, 2), (2, 4, 4, 0, 1, 0.5, 2)):
-        deck.block(body, body, nodes, round(n1*refined), round(n2*refined), *corners)
+    large, small = (None, None) if ratio is None else (float(ratio), 1.0/ratio)
+    socket = ((8, 0, 1, None),) if ratio is None else ((4, 0, 0.5, large), (4, 0.5, 1, small))
+    blocks = [(1, 4, 2, small, small, 0, -0.5, 0.5, 0), *((1, 4, n, small, along, 0, low, 0.5, high) for n, low, high, along in socket),
+              *((2, 6, n, large, along, 0.5, low, 2, high) for n, low, high, along in socket),
+              (2, 6, 4, large, large, 0.5, 1, 2, 2), (2, 4, 4, small, large, 0, 1, 0.5, 2)]
+    for body, n1, n2, across, along, *corners in blocks:
+        deck.block(body, body, nodes, round(n1*refined), round(n2*refined), *corners, ratio=across, along=along)
     deck.faces((1, 1, 0, -0.5, 0.5, -0.5), (2, 1, 0.5, 0, 0.5, 1), (3, 2, 0.5, 0, 0.5, 1),
                (4, 1, 0, 1, 0.5, 1), (5, 2, 0, 1, 0.5, 1), (6, 2, 0, 2, 2, 2))
     deck.add('INTERFACES', (1, 2, 3), (2, 4, 5)).add('FIXEDFACES', (6, '111'))
