@@ -183,7 +183,8 @@ contains
       real(wp), intent(out) :: resistance(:, :), elastic(:, :)
 
       real(wp), dimension(3, size(field%jump, 3), size(condensed%floating)) :: made, share
-      real(wp) :: view(size(condensed%points)), tangent(3, 3), stress(3)
+      real(wp) :: view(size(condensed%points)), base(3)
+      real(wp) :: tangent(3, 3, size(field%jump, 3)), stress(3, size(field%jump, 3))
       integer :: j, k, y, z
 
       view = views(condensed, scene, field)
@@ -195,16 +196,18 @@ contains
             share(:, :, z) = circle_integral(scene%modes(motions(z)%mode)%harmonic) &
                *mode_from_planes(scene%planes, motions(z)%mode)
          end do
-         do j = 1, size(field%jump, 3)
-            do k = 1, size(points)
-               tangent = tangent_of(k, j)
-               if (all(abs(tangent) <= 0.0_wp)) cycle
-               do z = 1, size(motions)
-                  stress = matmul(tangent, points(k)%base*motions(z)%jump(:, k)*made(:, j, z))
-                  do y = 1, size(motions)
-                     resistance(y, z) = resistance(y, z) + points(k)%weight &
-                        *dot_product(motions(y)%jump(:, k)*share(:, j, y), stress)
-                  end do
+         do k = 1, size(points)  ! what cancels round the circle does so point by point
+            do j = 1, size(tangent, 3)
+               tangent(:, :, j) = tangent_of(k, j)
+            end do
+            do z = 1, size(motions)
+               base = points(k)%base*motions(z)%jump(:, k)
+               do j = 1, size(tangent, 3)
+                  stress(:, j) = matmul(tangent(:, :, j), base*made(:, j, z))
+               end do
+               do y = 1, size(motions)
+                  resistance(y, z) = resistance(y, z) + dot_product(points(k)%weight &
+                     *motions(y)%jump(:, k), sum(share(:, :, y)*stress, 2))
                end do
             end do
          end do

@@ -30,7 +30,7 @@ contains
       !> The statistics; of no rows zeros
       type(statistics_type) :: statistics
 
-      real(wp), allocatable :: sample(:)
+      real(wp), allocatable :: samples(:, :), sample(:)
       integer, allocatable :: good(:)
       integer :: q, k
 
@@ -38,32 +38,34 @@ contains
       good = pack([(k, k=1, size(rows))], &
                   [(rows(k)%number > 0 .and. rows(k)%code == 0, k=1, size(rows))])
       if (size(good) == 0) return
-      allocate (sample(size(good)))
-      do q = 1, n_quantities
-         do k = 1, size(good)
-            associate (values => rows(good(k))%values)
-               sample(k) = values(q, size(values, 2))
-            end associate
-         end do
-         statistics%values(:, q) = of_sample(sample)
+      allocate (samples(n_quantities, size(good)))
+      do k = 1, size(good)
+         associate (values => rows(good(k))%values)
+            samples(:, k) = values(:n_quantities, size(values, 2))
+         end associate
       end do
+      do q = 1, n_quantities
+         sample = samples(q, :)
+         call sort(sample)
+         samples(q, :) = sample
+         statistics%values(:8, q) = of_sample(sample)
+      end do
+      statistics%values(9:, :) = intervals_of_means(samples)
    end function new_statistics
 
-   !> Statistics of a sample
+   !> Statistics of a sample, without the interval of its mean
    function of_sample(sample) result(values)
-      !> The sample
-      real(wp), intent(inout) :: sample(:)
+      !> The sample, ascending
+      real(wp), intent(in) :: sample(:)
       !> The statistics
-      real(wp) :: values(size(statistic_names))
+      real(wp) :: values(8)
 
       real(wp) :: mean, deviation
 
-      call sort(sample)
       mean = sum(sample)/size(sample)
       deviation = sqrt(sum((sample - mean)**2)/max(1, size(sample) - 1))
-      values(:8) = [real(size(sample), wp), mean, deviation, sample(1), at_share(0.05_wp), &
-                    at_share(0.5_wp), at_share(0.95_wp), sample(size(sample))]
-      values(9:) = interval_of_mean(sample)
+      values = [real(size(sample), wp), mean, deviation, sample(1), at_share(0.05_wp), &
+                at_share(0.5_wp), at_share(0.95_wp), sample(size(sample))]
 
    contains
 
@@ -83,30 +85,35 @@ contains
 
    end function of_sample
 
-   !> Interval of 95 % confidence of the mean, by samples with replacement (Efron, Ann. Statist. 7,
-   !> 1979)
-   function interval_of_mean(sample) result(ends)
-      !> The sample
-      real(wp), intent(in) :: sample(:)
-      !> The ends
-      real(wp) :: ends(2)
+   !> Intervals of 95 % confidence of the means, by samples with replacement (Efron, Ann. Statist. 7,
+   !> 1979): the same places of all samples
+   function intervals_of_means(samples) result(ends)
+      !> The samples, each ascending, shape (samples, values)
+      real(wp), intent(in) :: samples(:, :)
+      !> The ends, shape (2, samples)
+      real(wp) :: ends(2, size(samples, 1))
 
       type(generator_type) :: generator
-      real(wp) :: means(n_resamples), share
+      real(wp) :: means(size(samples, 1), n_resamples), sorted(n_resamples), share
       integer :: i, k
 
-      generator = new_generator(1, size(sample))
-      means = 0.0_wp
-      do k = 1, n_resamples
-         do i = 1, size(sample)
-            call next_uniform(generator, share)
-            means(k) = means(k) + sample(min(size(sample), 1 + int(share*size(sample))))
+      associate (n => size(samples, 2))
+         generator = new_generator(1, n)
+         means = 0.0_wp
+         do k = 1, n_resamples
+            do i = 1, n
+               call next_uniform(generator, share)
+               means(:, k) = means(:, k) + samples(:, min(n, 1 + int(share*n)))
+            end do
          end do
+         means = means/n
+      end associate
+      do i = 1, size(means, 1)
+         sorted = means(i, :)
+         call sort(sorted)
+         ends(:, i) = sorted([nint(0.025_wp*n_resamples), nint(0.975_wp*n_resamples)])
       end do
-      means = means/size(sample)
-      call sort(means)
-      ends = means([nint(0.025_wp*n_resamples), nint(0.975_wp*n_resamples)])
-   end function interval_of_mean
+   end function intervals_of_means
 
    !> Sort ascending
    pure recursive subroutine sort(values)
