@@ -45,7 +45,7 @@ class Measured:
             for name in ("job.json", "rows.study.csv", "rows.study.rows", "rows.study.h5"):
                 if os.path.exists(os.path.join(folder, name)):
                     os.remove(os.path.join(folder, name))
-            seconds, mib, code, said = spent(words)
+            seconds, mib, code, said = spent(words, folder)
             if code:
                 self.why = f"exit code {code}: {said}"
                 return
@@ -61,7 +61,7 @@ class Measured:
         they are taken to wait as much as these phases do"""
         with open(path + ".json", encoding="utf-8") as file:
             summary = json.load(file)
-        with open(path + ".lis", "rb") as file:  # not all of it: what a child takes is not told below what its parent has
+        with open(path + ".lis", "rb") as file:
             file.seek(max(0, os.path.getsize(file.name) - TAIL))
             self.values |= {name: float(seconds) for name, seconds in TIMES.findall(file.read().decode())}
         self.unknowns, self.iterations, self.solver = summary["unknowns"], summary["iterations"], summary["solver"]
@@ -72,15 +72,15 @@ class Measured:
             self.values["iteration"] = (worked - self.values["estimates"])/self.iterations
 
 
-def spent(words):
-    """Processor seconds and MiB at the peak of a command, its exit code, and the first line of what it says"""
-    with tempfile.TemporaryFile() as said:
-        process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=said)
-        _, status, used = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        said.seek(0)
-        lines = [line for line in said.read().decode(errors="replace").split("\n") if line.strip()]
-    return used.ru_utime + used.ru_stime, used.ru_maxrss/1024, process.returncode, lines[0][:150] if lines else ""
+def spent(words, folder):
+    """Processor seconds and MiB at the peak of a command, its exit code, and the first line of what it says; by measured.py"""
+    said = os.path.join(folder, "said")
+    found = subprocess.run([sys.executable, "-S", "-E", os.path.join(HERE, "measured.py"), said, *words], capture_output=True,
+                           text=True, check=True)
+    cost = json.loads(found.stdout)
+    with open(said, encoding="utf-8", errors="replace") as file:
+        lines = [line.strip() for line in file if line.strip()]
+    return cost["processor"], cost["memory"], cost["exit_code"], lines[0][:150] if lines else ""
 
 
 def exponent(rows, column):
@@ -180,7 +180,8 @@ def of_harmonics(args, folder, verdicts):
         rows = [row for row in rows if row.size >= FROM]
         verdicts.judge(f"harmonics, {title.split(',')[0]}: seconds of the run from M = {FROM} on", rows, "processor", HARMONICS_BAR)
         if title in planes:
-            verdicts.judge(f"harmonics, {title.split(',')[0]}: seconds of joints an iteration without estimates", rows, "iteration", SUMS_BAR)
+            verdicts.judge(f"harmonics, {title.split(',')[0]}: seconds of joints an iteration without estimates", rows, "iteration",
+                           SUMS_BAR)
 
 
 def long_joint(across, rows):
@@ -222,7 +223,7 @@ def share(args, folder, title, row, text, options, verdicts):
     with open(deck, "w", encoding="utf-8") as file:
         file.write(text)
     seconds, _, code, said = spent(["env", f"LD_PRELOAD={shim}", f"DENSE_CALLS={told}", args.axijoint, "run", deck, "-o", folder,
-                                    "--quiet", *options])
+                                    "--quiet", *options], folder)
     if code:
         verdicts.note(f"joint points, {title}: share of dense steps not known, exit code {code}: {said}", False)
         return
