@@ -181,52 +181,60 @@ contains
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      integer, allocatable :: unknowns(:), place(:, :, :)
-      real(wp), allocatable :: coefficient(:, :, :), inverse(:, :), half(:, :)
-      integer :: k, i, column
+      integer, allocatable :: unknowns(:), place(:, :, :), first(:), from(:)
+      real(wp), allocatable :: coefficient(:, :, :), inverse(:, :), factor(:), half(:)
+      integer :: column, row, l
 
       associate (dofs => equations%classes(equations%systems(s)%class)%dofs)
          call jump_rows(dofs, points, unknowns, place, coefficient)
       end associate
       call equations%systems(s)%factor%inverse_block(unknowns, inverse, error)
       if (allocated(error)) return
-      allocate (half(size(unknowns), 3*size(points)), matrix(3*size(points), 3*size(points)))
-      do k = 1, size(points)
-         do i = 1, 3
-            column = k + (i - 1)*size(points)
-            half(:, column) = combination(inverse, place(:, i, k), coefficient(:, i, k))
-            half(:, column) = &
-               circle_integral(equations%systems(s)%harmonic)*points(k)%weight*half(:, column)
+      call by_component(place, coefficient, first, from, factor)
+      allocate (half(size(unknowns)), matrix(3*size(points), 3*size(points)))
+      do column = 1, size(matrix, 2)
+         half = 0.0_wp
+         do l = first(column), first(column + 1) - 1
+            half = half + factor(l)*inverse(:, from(l))
+         end do
+         half = circle_integral(equations%systems(s)%harmonic) &
+            *points(1 + mod(column - 1, size(points)))%weight*half
+         do row = 1, size(matrix, 1)
+            matrix(row, column) = 0.0_wp
+            do l = first(row), first(row + 1) - 1
+               matrix(row, column) = matrix(row, column) + factor(l)*half(from(l))
+            end do
          end do
       end do
-      half = transpose(half)
-      do k = 1, size(points)
-         do i = 1, 3
-            column = k + (i - 1)*size(points)
-            matrix(:, column) = combination(half, place(:, i, k), coefficient(:, i, k))
-         end do
-      end do
-      matrix = transpose(matrix)
 
    contains
 
-      !> Sum of some columns
-      pure function combination(columns, place, coefficient) result(total)
-         !> The columns
-         real(wp), intent(in) :: columns(:, :)
-         !> Which, zero for none, and their factors
-         integer, intent(in) :: place(:)
-         real(wp), intent(in) :: coefficient(:)
-         !> The sum
-         real(wp) :: total(size(columns, 1))
+      !> What jumps are made of, without zeros, for all points of component 1, 2, 3
+      pure subroutine by_component(place, coefficient, first, from, factor)
+         !> For each jump: places among the unknowns, zero for none, and factors, shape (18, 3, points)
+         integer, intent(in) :: place(:, :, :)
+         real(wp), intent(in) :: coefficient(:, :, :)
+         !> First entry of each jump, shape (3 points + 1); place and factor of each entry
+         integer, allocatable, intent(out) :: first(:), from(:)
+         real(wp), allocatable, intent(out) :: factor(:)
 
-         integer :: l
+         integer :: i, k, l, n
 
-         total = 0.0_wp
-         do l = 1, size(place)
-            if (place(l) > 0) total = total + coefficient(l)*columns(:, place(l))
+         allocate (first(3*size(place, 3) + 1), from(size(place)), factor(size(place)))
+         n = 0
+         do i = 1, 3
+            do k = 1, size(place, 3)
+               first((i - 1)*size(place, 3) + k) = n + 1
+               do l = 1, size(place, 1)
+                  if (place(l, i, k) == 0 .or. .not. abs(coefficient(l, i, k)) > 0.0_wp) cycle
+                  n = n + 1
+                  from(n) = place(l, i, k)
+                  factor(n) = coefficient(l, i, k)
+               end do
+            end do
          end do
-      end function combination
+         first(size(first)) = n + 1
+      end subroutine by_component
 
    end subroutine condense
 

@@ -258,12 +258,9 @@ contains
       real(wp), intent(out) :: force(:), least(:)
 
       real(wp), allocatable :: largest(:, :, :)
-      integer :: m
 
-      allocate (largest, mold=field%excess)
-      do m = 1, size(largest, 3)
-         largest(:, :, m) = max(scene%loads%stress, maxval(abs(field%stress), 3))
-      end do
+      largest = spread(max(scene%loads%stress, maxval(abs(field%stress), 3)), 3, &
+         size(field%excess, 3))
       force = scene%loads%work - works(condensed, scene, analyse(scene%planes, field%stress))
       least = rounding*scene%loads%size + leftover*works(condensed, scene, largest, sizes=.true.)
    end subroutine act

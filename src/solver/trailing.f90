@@ -77,6 +77,10 @@ contains
          do j = k, last
             do l = j, size(set)
                inverse(order(l), order(j)) = b(set(order(l)) - first + 1, j - k + 1)
+            end do
+         end do
+         do l = k, size(set)  ! rows of some columns, which the cache holds
+            do j = k, min(l, last)
                inverse(order(j), order(l)) = inverse(order(l), order(j))
             end do
          end do
