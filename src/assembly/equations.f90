@@ -10,7 +10,7 @@ module axijoint_assembly_equations
    use axijoint_base_team, only : team_type, take_team, equal_shares
    use axijoint_fe_mode, only : mode_type
    use axijoint_model_joint_points, only : model_joint_point_type
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, yielding_nodes
    use axijoint_order_graph, only : bandwidth
    use axijoint_order_orders, only : orders_type
    use axijoint_solver_entry, only : solver_entry_type
@@ -21,12 +21,15 @@ module axijoint_assembly_equations
    private
    public :: equations_type, system_type, plan_equations, assemble_equations
    public :: solve_mode, find_unbalanced, on_equations
-   public :: own_modes, plan_solver, worth_threads, planned_seconds, refine_mode, find_condition
+   public :: own_modes, plan_solver, worth_threads, planned_seconds, condensing_operations, &
+      refine_mode, find_condition
 
    !> With fewer equations in all, threads cost more than they save
    integer, parameter :: least_equations = 5000
    !> Rate of matrix products that solvers are chosen by [operations/second]
    real(wp), parameter :: nominal_rate = 5.0e10_wp
+   !> Time of an operation of condensing to joints [second]
+   real(wp), parameter :: seconds_of_operation = 1.3e-10_wp
    !> Time of all that a mode takes besides, solutions, estimates and stresses, an equation [second]
    real(wp), parameter :: seconds_of_equation = 8.0e-6_wp
 
@@ -100,8 +103,9 @@ contains
 
       type(solver_entry_type), allocatable :: solvers(:)
       type(equations_type), allocatable :: others
-      integer :: k
+      integer :: k, set
 
+      set = 3*count(yielding_nodes(model))
       if (allocated(model%solver)) then
          call plan_solver(equations, model, modes, orders, model%solver, error)
          return
@@ -112,12 +116,42 @@ contains
          call plan_solver(others, model, modes, orders, solvers(k), error)
          if (allocated(error)) return
          if (allocated(equations)) then
-            if (planned_seconds(equations, kept=.true.) <= planned_seconds(others, kept=.true.)) &
-               cycle
+            if (seconds_in_all(equations, set) <= seconds_in_all(others, set)) cycle
          end if
          call move_alloc(others, equations)
       end do
    end subroutine plan_equations
+
+   !> Expected time of factorizations and of condensing to joints
+   pure real(wp) function seconds_in_all(equations, set) result(seconds)
+      !> The equations, planned
+      type(equations_type), intent(in) :: equations
+      !> Equations that are condensed to
+      integer, intent(in) :: set
+
+      seconds = planned_seconds(equations, kept=.true.) &
+         + seconds_of_operation*condensing_operations(equations, set)
+   end function seconds_in_all
+
+   !> Operations that condensing all systems to some equations takes: where these are last in the
+   !> factor, the inverse of its last triangle; else solutions for unit loads
+   pure real(wp) function condensing_operations(equations, set) result(n)
+      !> The equations, planned
+      type(equations_type), intent(in) :: equations
+      !> Equations that are condensed to
+      integer, intent(in) :: set
+
+      integer :: s
+
+      n = 0.0_wp
+      do s = 1, size(equations%systems)
+         if (equations%solver%holds_last) then
+            n = n + 2.0_wp/3.0_wp*real(set, wp)**3
+         else
+            n = n + 2.0_wp*set*equations%plans(equations%systems(s)%class)%solver%factor_entries
+         end if
+      end do
+   end function condensing_operations
 
    !> Whether a solver need be thought of where the choice is the program's
    pure logical function may_be_fastest(solver, orders)

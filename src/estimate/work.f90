@@ -2,7 +2,7 @@
 module axijoint_estimate_work
    use axijoint_analysis_core_footprint, only : fine_nodes_of => fine_nodes, blocks_of
    use axijoint_analysis_core_structure, only : structure_type, reuses_factors
-   use axijoint_assembly_equations, only : planned_seconds
+   use axijoint_assembly_equations, only : planned_seconds, condensing_operations
    use axijoint_base_kinds, only : wp, i8
    use axijoint_estimate_body_work, only : body_work
    use axijoint_estimate_joint_work, only : joint_work, n_yielding
@@ -70,16 +70,8 @@ contains
          set = 3.0_wp*count(yielding_nodes(model))
          jumps = 3.0_wp*n_yielding(model, structure)
          if (.not. jumps > 0.0_wp) return
-         do s = 1, size(equations%systems)
-            associate (plan => equations%plans(equations%systems(s)%class)%solver)
-               if (equations%solver%holds_last) then
-                  work(inverse) = work(inverse) + 2.0_wp/3.0_wp*set**3
-               else  ! unit loads
-                  work(inverse) = work(inverse) + 2.0_wp*plan%factor_entries*set
-               end if
-            end associate
-            work(block_entries) = work(block_entries) + set**2 + 6.0_wp*set*jumps + jumps**2
-         end do
+         work(inverse) = condensing_operations(equations, nint(set))
+         work(block_entries) = size(equations%systems)*(set**2 + 6.0_wp*set*jumps + jumps**2)
       end associate
    end function structure_work
 
