@@ -53,6 +53,19 @@ def solid(inner, outer, height, across, along, harmonics, nodes=9, combinations=
     return "\n".join(lines + ["END", ""])
 
 
+def long_joint(across, rows):
+    """A pile in a ring of ground, a joint all along with stress before loading and friction that slips in a part of it: so many
+    rows of 8-node elements along it, and so many across the pile and the ring"""
+    pile, ring = across
+    return "\n".join([
+        "TITLE", "Long joint", "CONTROL", "    2    9", "MATERIALS", "1, 2.0E4, 0.2", "2, 50.0, 0.3",
+        "LAWS", "1, 100.0, 200.0, 100.0, 0.0, 26.0", "LAWDETAILS", "1, RESULTANT, , , , , , -0.05",
+        "BLOCKS", f"1, 1, 8, {pile}, {rows}", "0.0, -10.0, 0.5, 0.0", f"2, 2, 8, {ring}, {rows}, 4.0", "0.5, -10.0, 10.0, 0.0",
+        "FACES", "1, 1, 0.0, 0.0, 0.5, 0.0", "2, 1, 0.5, -10.0, 0.5, 0.0", "3, 2, 0.5, -10.0, 0.5, 0.0",
+        "4, 2, 10.0, -10.0, 10.0, 0.0", "5, 2, 0.5, -10.0, 10.0, -10.0", "INTERFACES", "1, 2, 3", "FIXEDFACES", "4, 111", "5, 111",
+        "RESULTANTS", "1, LATERAL, 0.2", "1, AXIAL, -0.06", "INCREMENTS", "0.5, 1.0E-6", "0.5, 1.0E-6", "END", ""])
+
+
 def fitted():
     """Name: deck, options"""
     decks = {name: (inputs("gallery/" + name), []) for name in
@@ -70,6 +83,8 @@ def fitted():
     decks["shaft_vtk"] = inputs("gallery/lined_shaft"), ["--vtk"]
     decks["pipe_vtk"] = inputs("gallery/pipe"), ["--vtk"]
     decks["flange_vtk"] = inputs("gallery/flange"), ["--vtk"]
+    decks["long_joint"] = long_joint((8, 12), 100), []
+    decks["long_joint_band"] = long_joint((8, 12), 100), ["--solver", "band"]
     decks["shaft"] = solid(0.0, 0.4, 8.0, 10, 130, [0, 1, 2]), []
     decks["tube"] = solid(0.9, 1.0, 40.0, 7, 800, [1, 2, 4], nodes=8), []
     decks["base"] = solid(0.0, 6.0, 3.0, 80, 40, [0, 1, 3], nodes=4), []

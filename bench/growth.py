@@ -184,19 +184,6 @@ def of_harmonics(args, folder, verdicts):
                            SUMS_BAR)
 
 
-def long_joint(across, rows):
-    """A pile in a ring of ground, a joint all along with stress before loading and friction that slips in a part of it: so many
-    rows of 8-node elements along it, and so many across the pile and the ring"""
-    pile, ring = across
-    return "\n".join([
-        "TITLE", "Long joint", "CONTROL", "    2    9", "MATERIALS", "1, 2.0E4, 0.2", "2, 50.0, 0.3",
-        "LAWS", "1, 100.0, 200.0, 100.0, 0.0, 26.0", "LAWDETAILS", "1, RESULTANT, , , , , , -0.05",
-        "BLOCKS", f"1, 1, 8, {pile}, {rows}", "0.0, -10.0, 0.5, 0.0", f"2, 2, 8, {ring}, {rows}, 4.0", "0.5, -10.0, 10.0, 0.0",
-        "FACES", "1, 1, 0.0, 0.0, 0.5, 0.0", "2, 1, 0.5, -10.0, 0.5, 0.0", "3, 2, 0.5, -10.0, 0.5, 0.0",
-        "4, 2, 10.0, -10.0, 10.0, 0.0", "5, 2, 0.5, -10.0, 10.0, -10.0", "INTERFACES", "1, 2, 3", "FIXEDFACES", "4, 111", "5, 111",
-        "RESULTANTS", "1, LATERAL, 0.2", "1, AXIAL, -0.06", "INCREMENTS", "0.5, 1.0E-6", "0.5, 1.0E-6", "END", ""])
-
-
 def along(args, folder, verdicts):
     """Joint points, the mesh refined along the joint alone"""
     sizes = [4, 13, 40, 133] + ([] if args.quick else [400]) + ([800, 1667] if args.full else [])
@@ -209,10 +196,10 @@ def along(args, folder, verdicts):
     for title, (across, options, most) in jobs.items():
         here = [n for n in sizes if n <= most]
         rows = table(f"Joint points: {title}, {sum(across)} elements across, harmonics 0 to 2", "joint points",
-                     (Measured(args, long_joint(across, n), folder, 3*n, str(3*n), options) for n in here))
+                     (Measured(args, estimate_decks.long_joint(across, n), folder, 3*n, str(3*n), options) for n in here))
         verdicts.judge(f"joint points, {title}: seconds of the run", rows, "processor", RUN_BAR)
         if rows:
-            share(args, folder, title, rows[-1], long_joint(across, rows[-1].size//3), options, verdicts)
+            share(args, folder, title, rows[-1], estimate_decks.long_joint(across, rows[-1].size//3), options, verdicts)
 
 
 def share(args, folder, title, row, text, options, verdicts):
