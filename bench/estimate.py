@@ -6,13 +6,16 @@ import math
 import os
 import re
 import resource
+import statistics
 import subprocess
 import sys
 import tempfile
 
-from estimate_decks import fitted, shown, studies
+from estimate_decks import fitted, inputs, shown, studies
 
-REPEATS = 3
+LEAST_RUNS, MOST_RUNS, LEAST_SECONDS = 3, 10, 2.0  # of each deck, one after the other
+PROBES = 4  # of the machine's rates before each
+RATES = ("text_rate", "product_rate")
 MEMORY_BAR, TIME_BAR = 0.10, 0.30
 MEGABYTE = 2.0**20
 # Terms of the phases that a run has a clock for
@@ -41,11 +44,6 @@ def speeds(found):
     """What seconds of each term are multiplied by on this machine"""
     text, product = (found[name][1]/found[name][0] for name in ("text_rate", "product_rate"))
     return {name: 1.0 if name in MEASURED else product if name == "inverse" else text for name in sum(GROUPS.values(), ())}
-
-
-def pace(found):
-    """How fast the machine is in common work"""
-    return found["text_rate"][0]
 
 
 def run(program, path, options, folder):
@@ -79,9 +77,22 @@ def total_of(listing):
     return float(found[1]) if found else 0.0
 
 
+def on_average(program, folder, once):
+    """Means of what `once` finds of a deck, which begins with processor seconds, run after run; and the rates of the machine meanwhile:
+    its speed changes within a tenth of a second where others share it"""
+    tiny = os.path.join(folder, "tiny.dat")
+    with open(tiny, "w", encoding="utf-8") as file:
+        file.write(inputs("first"))
+    found, probes = [], []
+    while len(found) < LEAST_RUNS or len(found) < MOST_RUNS and sum(one[0] for one in found) < LEAST_SECONDS:
+        probes += [counts(program, tiny, []) for _ in range(PROBES)]
+        found.append(once())
+    rates = {name: (statistics.harmonic_mean(probe[name][0] for probe in probes), probes[0][name][1]) for name in RATES}
+    return [statistics.fmean(column) for column in zip(*found)], rates
+
+
 def measure(program, decks, folder):
-    """Of each deck: what is predicted with the usual and with the true number of iterations, and what it took. Others may
-    work on the machine: of several runs that one counts beside which the machine was fastest, with the rates of then"""
+    """Of each deck: what is predicted with the usual and with the true number of iterations, and what it took"""
     rows = []
     out = os.path.join(folder, "out")
     os.makedirs(out, exist_ok=True)
@@ -89,17 +100,18 @@ def measure(program, decks, folder):
         path = os.path.join(folder, name + ".dat")
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
-        tries = []
-        after = counts(program, path, options)
-        for _ in range(REPEATS):
-            before = after
-            found = run(program, path, options, out)
-            after = counts(program, path, options)
-            tries.append((min(pace(before), pace(after)), len(tries), found, min(before, after, key=pace)))
-        _, _, found, usual = max(tries)
-        once, twice = (counts(program, path, [*options, "--iterations", str(n)]) for n in (1, 2))
+        last = {}
+
+        def once():
+            last.update(run(program, path, options, out))
+            return [last["total"], *last["groups"].values()]
+
+        (total, *groups), rates = on_average(program, folder, once)
+        found = last | {"total": total, "groups": dict(zip(last["groups"], groups))}
+        usual = counts(program, path, options) | rates
+        single, double = (counts(program, path, [*options, "--iterations", str(n)]) for n in (1, 2))
         each = found["iterations"]/max(1, found["increments"])
-        true = {term: once[term][0] + (each - 1.0)*(twice[term][0] - once[term][0]) if term in ("laws", "sums", "flexibility")
+        true = {term: single[term][0] + (each - 1.0)*(double[term][0] - single[term][0]) if term in ("laws", "sums", "flexibility")
                 else usual[term][0] for term in sum(GROUPS.values(), ())}
         rows.append({"deck": name, "found": found, "usual": usual, "true": true, "speeds": speeds(usual)})
     return rows
@@ -113,18 +125,14 @@ def measure_studies(program, folder):
         for path, text in zip(paths, (table, deck)):
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text)
-        tries = []
-        after = counts(program, paths[1], ["--study", paths[0], *options])
-        for _ in range(REPEATS):
-            out = tempfile.mkdtemp(dir=folder)
-            before = after
-            # a process begins with the peak memory of the one that starts it: a small one in between
-            used = subprocess.run([sys.executable, "-c", USED, program, "study", *paths, "-o", out, "--quiet", *options],
-                                  capture_output=True, text=True, check=True).stdout.split()
-            after = counts(program, paths[1], ["--study", paths[0], *options])
-            told = min(before, after, key=pace)
-            tries.append((pace(told), len(tries), float(used[0]), float(used[1])/1024.0, told))
-        _, _, total, memory, told = max(tries)
+        # a process begins with the peak memory of the one that starts it: a small one in between
+        def once():
+            used = subprocess.run([sys.executable, "-c", USED, program, "study", *paths, "-o", tempfile.mkdtemp(dir=folder), "--quiet",
+                                   *options], capture_output=True, text=True, check=True).stdout.split()
+            return [float(used[0]), float(used[1])/1024.0]
+
+        (total, memory), rates = on_average(program, folder, once)
+        told = counts(program, paths[1], ["--study", paths[0], *options]) | rates
         size = re.match(r".*: (\d+) rows? on (\d+)", subprocess.run(
             [program, "estimate", paths[1], "--study", paths[0]], capture_output=True, text=True, check=True).stdout)
         speed = speeds(told)

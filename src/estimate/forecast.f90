@@ -91,7 +91,7 @@ contains
          work(beginning) = 1.0_wp
          work(reading) = timer%cpu_seconds(phase_read)
          work(ordering) = timer%cpu_seconds(phase_assemble)
-         forecast%disk = volume_bytes(work)
+         forecast%disk = volume_bytes(work, max(1, size(model%increments)))
       end associate
       associate (equations => structure%equations)
          forecast%n_workers = equations%n_workers

@@ -20,9 +20,9 @@ module axijoint_estimate_volume
    !> the summary
    real(wp), parameter :: real_bytes = 8.0_wp, line_bytes = 95.0_wp, least_arrays = 4.0e5_wp, &
       summary_bytes = 6.0e3_wp
-   !> Numbers of a point of swept bodies: displacement, stress; bytes of one, with its share of
-   !> points and cells
-   real(wp), parameter :: numbers_a_point = 9.0_wp, swept_bytes = 24.0_wp
+   !> Numbers of a point of swept bodies: displacement, stress; bytes of one, which comes once more
+   !> with its component, and principal stresses; its share of points and cells, which come once
+   real(wp), parameter :: numbers_a_point = 9.0_wp, swept_bytes = 19.0_wp, mesh_bytes = 17.0_wp
 
 contains
 
@@ -48,12 +48,14 @@ contains
    end function volume_work
 
    !> Bytes on the disk
-   pure real(wp) function volume_bytes(work) result(bytes)
+   pure real(wp) function volume_bytes(work, n_increments) result(bytes)
       !> Counts of all terms
       real(wp), intent(in) :: work(n_terms)
+      !> Increments of a run
+      integer, intent(in) :: n_increments
 
-      bytes = line_bytes*work(lines) + work(array_bytes) + swept_bytes*work(swept_values) &
-         + summary_bytes*work(files)
+      bytes = line_bytes*work(lines) + work(array_bytes) + summary_bytes*work(files) &
+         + (swept_bytes + mesh_bytes/n_increments)*work(swept_values)
    end function volume_bytes
 
    !> Planes or angles at which joints are shown

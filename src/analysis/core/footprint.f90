@@ -21,7 +21,7 @@ module axijoint_analysis_core_footprint
    !> Bytes of a real
    integer(i8), parameter :: real_bytes = storage_size(1.0_wp)/8
    !> Numbers of a joint point on a plane: jumps, stresses, states, slip, slopes, and copies
-   integer(i8), parameter :: plane_numbers = 60
+   integer(i8), parameter :: plane_numbers = 80
    !> Planes on which the estimates of errors find joints again, times so many
    integer(i8), parameter :: more_planes = 4
 
