@@ -164,7 +164,7 @@ contains
       type(loading_type) :: loading
       type(scene_type) :: scene
       type(joint_field_type) :: field
-      real(wp), allocatable :: jump(:, :, :), total(:, :, :), excess(:, :, :), residual(:, :, :), force(:, :)
+      real(wp), allocatable :: jump(:, :, :), excess(:, :, :), residual(:, :, :), force(:, :)
       real(wp) :: start, norm
       integer :: s, i, k
 
@@ -193,8 +193,8 @@ contains
                end do
             end do
             !$omp end parallel do
-            total = synthesize(scene%planes, jump)
-            call admit_jump(scene%laws, reshape([(points(k)%base, k=1, size(points))], [3, size(points)]), total, &
+            field%jump = synthesize(scene%planes, jump)
+            call admit_jump(scene%laws, reshape([(points(k)%base, k=1, size(points))], [3, size(points)]), &
                             views(structure%condensed, scene, field), field, excess)
             residual = analyse(scene%planes, excess) - field%excess
             if (ratio(residual_norm(structure%condensed%measure, residual), norm) <= model%increments(1)%tolerance) exit
