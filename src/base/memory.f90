@@ -5,7 +5,7 @@ module axijoint_base_memory
    use axijoint_base_text, only : to_text
    implicit none
    private
-   public :: require_memory, available_memory, free_memory, no_limit
+   public :: require_memory, available_memory, free_memory, resident_bytes, no_limit
 
    !> The user gave no limit
    integer(i8), parameter :: no_limit = huge(1_i8)
@@ -72,13 +72,18 @@ contains
       !> Bytes
       integer(i8) :: bytes
 
-      integer(i8) :: used
-
       bytes = limit
-      if (limit == no_limit) return
-      used = scaled(number_after('/proc/self/status', 'VmRSS:'), 1024_i8)
-      if (used /= unknown) bytes = max(limit - used, 0_i8)
+      if (limit /= no_limit) bytes = max(limit - resident_bytes(), 0_i8)
    end function left_of
+
+   !> Bytes that this process has in memory
+   function resident_bytes() result(bytes)
+      !> Bytes; zero if nothing is known
+      integer(i8) :: bytes
+
+      bytes = scaled(number_after('/proc/self/status', 'VmRSS:'), 1024_i8)
+      if (bytes == unknown) bytes = 0
+   end function resident_bytes
 
    !> Bytes that this process may still take: the least of what the machine has
    !> free, what its control group leaves and what its address space leaves

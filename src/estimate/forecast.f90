@@ -98,7 +98,7 @@ contains
          forecast%n_factors = equations%n_kept + &
             min(equations%n_workers, size(equations%systems) - equations%n_kept)
       end associate
-      forecast%memory = peak_bytes(model, structure)
+      forecast%memory = peak_bytes(model, structure, machine%program_bytes)
       if (.not. model%error_goal%wanted) return
       forecast%n_rounds = min(usual_rounds, model%error_goal%most_rounds)
       forecast%rounds = sum([(longer_round**k, k=0, forecast%n_rounds - 1)])

@@ -1,6 +1,7 @@
 !> How fast the machine is on which an estimate is made, measured in some hundredths of a second
 module axijoint_estimate_machine
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_memory, only : resident_bytes
    use axijoint_linalg_lapack, only : product_rate
    implicit none
    private
@@ -12,10 +13,12 @@ module axijoint_estimate_machine
       real(wp) :: product_rate = 0.0_wp
       !> Numbers written as text, which stands for all common work [numbers/second]
       real(wp) :: text_rate = 0.0_wp
+      !> What the program and its libraries take when they start [byte]
+      integer(i8) :: program_bytes = 0
    end type machine_type
 
    !> The machine that the seconds of `axijoint_estimate_terms` were fitted on
-   type(machine_type), parameter :: reference = machine_type(45.0e9_wp, 4.5e5_wp)
+   type(machine_type), parameter :: reference = machine_type(45.0e9_wp, 4.5e5_wp, 7000000_i8)
 
 contains
 
@@ -24,6 +27,8 @@ contains
       !> Its rates
       type(machine_type) :: machine
 
+      machine%program_bytes = resident_bytes()
+      if (machine%program_bytes == 0) machine%program_bytes = reference%program_bytes
       machine%product_rate = product_rate()
       machine%text_rate = text_rate()
    end function this_machine

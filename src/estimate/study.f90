@@ -114,7 +114,7 @@ contains
          iterations = iterations + n_iterations(model, each)
          numbers = size(quantity_names(model))*real(size(model%increments), wp)
          forecast%disk = max(forecast%disk, extent%n_rows*(3.0_wp*real_bytes*numbers + row_bytes))
-         forecast%memory = max(forecast%memory, peak_bytes(model, structure) &
+         forecast%memory = max(forecast%memory, peak_bytes(model, structure, machine%program_bytes) &
                                + nint(2.0_wp*real_bytes*numbers*extent%n_rows, i8))
          forecast%n_workers = structure%equations%n_workers
       end subroutine sample
