@@ -29,6 +29,8 @@ module axijoint_joints_newton
    integer, parameter :: worth_threads = 5000
    !> Shortest part of a step, and how fast the radius of steps grows
    real(wp), parameter :: shortest = 1.0_wp/8.0_wp, widening = 4.0_wp
+   !> Part of a linear solution that is not on its way to a state: next to nothing resists it
+   real(wp), parameter :: astray = 1.0e-8_wp
    !> How many times as much may be missing after a step on the way
    real(wp), parameter :: bold = 2.0_wp
    !> Residual ratio below which an iterate is near to equilibrium, and the springs that damp a step
@@ -62,6 +64,8 @@ module axijoint_joints_newton
       real(wp) :: radius = huge(1.0_wp)
       !> Springs that damp a step, as a share of the joints' stiffness; they weaken while that helps
       real(wp) :: damping = 0.0_wp
+      !> Steps in a row that were next to nothing of their linear solutions
+      integer :: n_astray = 0
    end type step_bounds_type
 
 contains
@@ -329,6 +333,7 @@ contains
          length = bounds%radius/maxval(abs(jump))
          bounds%radius = widening*bounds%radius
       end if
+      bounds%n_astray = merge(bounds%n_astray + 1, 0, length < astray)
       least = shortest*length
       do
          field%excess = start + length*change

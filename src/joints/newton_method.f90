@@ -54,6 +54,8 @@ module axijoint_joints_newton_method
    !> Change of the jumps by the first steps, in displacements with elastic joints: of several
    !> states the near one is found. It grows as steps want more
    real(wp), parameter :: first_radius = 3.0_wp
+   !> Steps along a motion that nothing resists until weak springs are tried
+   integer, parameter :: enough_astray = 2
 
    !> What to try where the iterations ran away or stalled: nothing more, weaker springs than those
    !> that were taken away too early, the whole stiffness at once, steps as long as they want, weak
@@ -375,6 +377,7 @@ contains
       course%watch%best = huge(1.0_wp)
       course%n_steps = 0
       course%bounds%damping = 0.0_wp
+      course%bounds%n_astray = 0
       field%leak = leak
       call look_again(condensed, scene, 1.0_wp, field, course)
    end subroutine begin_again
@@ -518,7 +521,8 @@ contains
          call approach(condensed, scene, .false., course%begun, field, course%residual, made)
          if (made) call linearize(condensed, scene, ratio, field, course%newton)
       end if
-      course%ran = .not. made
+      course%ran = .not. made .or. &
+         course%bounds%n_astray >= enough_astray .and. may_hold_weakly(condensed, course, .true.)
    end subroutine take_step
 
    !> What an iterate leaves without equilibrium, and the laws about it
