@@ -48,10 +48,11 @@ module axijoint_command_line
       logical :: resume = .false.
       !> Whether nothing but errors and warnings is to be told; whether a log is to say what is done
       logical :: quiet = .false., verbose = .false.
-      !> Of a study: whether errors are estimated; the part to solve; processes that solve it
+      !> Of a study: whether errors are estimated; the part to solve; processes that solve it, 0 for
+      !> as many as pay
       logical :: estimates = .false.
       type(part_type) :: part
-      integer :: n_processes = 1
+      integer :: n_processes = 0
       !> Of an estimate: iterations of an increment, 0 for what is usual; whether lines of a job
       !> script are wanted, or all counts; the table of a study
       integer :: iterations = 0

@@ -173,7 +173,7 @@ contains
           threads, memory, &
           option_type('--estimates', '', 'estimates of errors of each row, too: slower'), &
           option_type('--processes', 'N', 'rows by N processes of this machine, which share '// &
-                      'threads and memory'), &
+                      'threads and memory (default: as many as threads, where rows are worth it)'), &
           option_type('--part', 'K/N', 'only part K of N; `--part 0/N` gathers the parts, '// &
           'solves '// &
                       'what they lack and writes the files'), &

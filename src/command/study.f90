@@ -12,7 +12,8 @@ module axijoint_command_study
    use axijoint_base_version, only : program_version
    use axijoint_command_line, only : command_type
    use axijoint_command_run, only : print_error, speaks
-   use axijoint_command_study_processes, only : solve_in_processes
+   use axijoint_command_study_processes, only : solve_in_processes, &
+      worth_processes
    use axijoint_deck_text_field, only : kind_word
    use axijoint_job_job, only : job_name
    use axijoint_model_model, only : model_type
@@ -220,9 +221,8 @@ contains
 
       type(journal_type) :: journal
       integer, allocatable :: order(:)
-      logical, allocatable :: before(:)
       integer(i8) :: start, now, rate
-      integer :: i, n_before, last, n_shown
+      integer :: n_before, n_processes
 
       call system_clock(start, rate)
       order = row_order(study%table, study%rows%keeps_structure)
@@ -231,33 +231,8 @@ contains
       call agree(command, error)
       if (allocated(error)) return
       if (allocated(command%options%team)) call share_done(command%options%team, done)
-      last = last_row(command%part, size(order))
-      n_shown = 0
-      if (command%n_processes > 1 .and. any(done%number == 0)) then
-         before = done%number > 0
-         call solve_in_processes(command, study%undertaking, study%key, size(study%names), &
-            order, done, study%rows%progress, error)
-         if (allocated(error)) return
-         if (.not. command%quiet) then
-            do i = 1, last
-               if (done(order(i))%number > 0 .and. .not. before(order(i))) &
-                  call tell_row(study, done(order(i)), n_shown)
-            end do
-         end if
-      end if
-      do i = first_row(command%part, size(order)), last
-         if (done(order(i))%number > 0) cycle
-         call show_progress(study%rows%progress, 'row '//to_text(i)//' of '//to_text(last))
-         call check_stop(error)
-         if (.not. allocated(error)) &
-            call solve_row(study%table, order(i), study%rows, done(order(i)), error)
-         if (.not. allocated(error) .and. speaks(command)) &
-            call append_row(journal, done(order(i)), error)
-         call agree(command, error)
-         if (allocated(error)) return
-         if (.not. command%quiet .and. speaks(command)) &
-            call tell_row(study, done(order(i)), n_shown)
-      end do
+      call solve_left(command, study, order, journal, done, n_processes, error)
+      if (allocated(error)) return
       call system_clock(now)
       if (command%part%number == 0) then
          call write_study(study%undertaking, study%table, study%names, done, &
@@ -269,8 +244,93 @@ contains
       end if
       call clear_progress(study%rows%progress)
       if (.not. command%quiet .and. speaks(command)) &
-         call tell_end(command, study, done, n_before, real(now - start, wp)/rate)
+         call tell_end(command, n_processes, study, done, n_before, real(now - start, wp)/rate)
    end subroutine solve_rows
+
+   !> Solve the rows that are not done: by several processes if that is wished, or if nothing is said
+   !> of it and the first rows show that it pays
+   subroutine solve_left(command, study, order, journal, done, n_processes, error)
+      !> Options
+      type(command_type), intent(in) :: command
+      !> The study
+      type(study_type), intent(inout) :: study
+      !> Numbers of the rows in their order
+      integer, intent(in) :: order(:)
+      !> The journal
+      type(journal_type), intent(inout) :: journal
+      !> Rows by number; takes those that are done
+      type(row_type), intent(inout) :: done(:)
+      !> Processes that solved most of the rows
+      integer, intent(out) :: n_processes
+      !> A file cannot be written, or the program is to end
+      type(error_type), allocatable, intent(inout) :: error
+
+      real(wp), allocatable :: seconds(:)
+      logical :: undecided, shared
+      integer :: i, last, n_shown
+
+      last = last_row(command%part, size(order))
+      n_shown = 0
+      n_processes = max(1, command%n_processes)
+      undecided = command%n_processes == 0 .and. command%part%n == 0 &
+         .and. .not. allocated(command%options%team)
+      shared = .false.
+      allocate (seconds(0))
+      do i = first_row(command%part, size(order)), last
+         if (done(order(i))%number > 0) cycle
+         if (undecided) n_processes = worth_processes(seconds, count(done%number == 0), &
+            command%options%memory_limit)
+         if (n_processes > 1 .and. .not. shared) then
+            shared = .true.
+            undecided = .false.
+            call share_rows(command, n_processes, study, order, done, n_shown, error)
+            if (allocated(error)) return
+            if (done(order(i))%number > 0) cycle
+         end if
+         call show_progress(study%rows%progress, 'row '//to_text(i)//' of '//to_text(last))
+         call check_stop(error)
+         if (.not. allocated(error)) &
+            call solve_row(study%table, order(i), study%rows, done(order(i)), error)
+         if (.not. allocated(error) .and. speaks(command)) &
+            call append_row(journal, done(order(i)), error)
+         call agree(command, error)
+         if (allocated(error)) return
+         seconds = [seconds, done(order(i))%seconds]
+         if (.not. command%quiet .and. speaks(command)) &
+            call tell_row(study, done(order(i)), n_shown)
+      end do
+   end subroutine solve_left
+
+   !> Let processes solve the rows that are not done, and tell what there is to say of them
+   subroutine share_rows(command, n_processes, study, order, done, n_shown, error)
+      !> Options
+      type(command_type), intent(in) :: command
+      !> Number of processes
+      integer, intent(in) :: n_processes
+      !> The study; forgets its structure, so that the processes have its memory
+      type(study_type), intent(inout) :: study
+      !> Numbers of the rows in their order
+      integer, intent(in) :: order(:)
+      !> Rows by number; takes those that are done
+      type(row_type), intent(inout) :: done(:)
+      !> Rows of which something was told
+      integer, intent(inout) :: n_shown
+      !> The program is to end
+      type(error_type), allocatable, intent(out) :: error
+
+      logical :: before(size(done))
+      integer :: i
+
+      if (allocated(study%rows%structure)) deallocate (study%rows%structure, study%rows%built_for)
+      before = done%number > 0
+      call solve_in_processes(command, n_processes, study%undertaking, study%key, &
+         size(study%names), order, done, study%rows%progress, error)
+      if (allocated(error) .or. command%quiet) return
+      do i = 1, size(order)
+         if (done(order(i))%number > 0 .and. .not. before(order(i))) &
+            call tell_row(study, done(order(i)), n_shown)
+      end do
+   end subroutine share_rows
 
    !> Let all ranks know which rows are done
    subroutine share_done(team, done)
@@ -373,9 +433,11 @@ contains
    end function varied
 
    !> Tell what was done
-   subroutine tell_end(command, study, done, n_before, seconds)
+   subroutine tell_end(command, n_processes, study, done, n_before, seconds)
       !> Options
       type(command_type), intent(in) :: command
+      !> Processes that solved most of the rows
+      integer, intent(in) :: n_processes
       !> The study
       type(study_type), intent(in) :: study
       !> The rows
@@ -389,8 +451,8 @@ contains
       integer :: n
 
       n = count(done%number > 0)
-      if (command%n_processes > 1) then
-         means = to_text(command%n_processes)//' processes'
+      if (n_processes > 1) then
+         means = to_text(n_processes)//' processes'
       else
          means = count_of(study%rows%n_structures, 'structure')
          if (command%part%number == 0 .and. command%part%n > 0) &

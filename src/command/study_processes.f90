@@ -5,8 +5,8 @@ module axijoint_command_study_processes
    use axijoint_base_children, only : child_type, start_child, look_at_child, ask_to_end, &
       pause_a_moment
    use axijoint_base_error, only : error_type, exit_in_use, exit_stopped
-   use axijoint_base_kinds, only : i8
-   use axijoint_base_memory, only : free_memory
+   use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_memory, only : free_memory, resident_bytes
    use axijoint_base_progress, only : progress_type, show_progress
    use axijoint_base_stop, only : stop_wished, check_stop
    use axijoint_base_text, only : to_text
@@ -18,7 +18,11 @@ module axijoint_command_study_processes
    use omp_lib, only : omp_get_max_threads
    implicit none
    private
-   public :: solve_in_processes
+   public :: solve_in_processes, worth_processes
+
+   !> A process that is started takes so long [second], and threads make a structure at most so many
+   !> times as fast
+   real(wp), parameter :: start_seconds = 0.1_wp, most_by_threads = 4.0_wp
 
    !> Looks at the processes between two looks at what they have done
    integer, parameter :: looks = 20
@@ -27,12 +31,44 @@ module axijoint_command_study_processes
 
 contains
 
+   !> Processes that rows are worth when some are solved: a process for each thread, if what rows
+   !> would spare is more than the structures that each process forms for itself, and as many as
+   !> memory has room for. Threads make little of a row, and much of a structure
+   integer function worth_processes(seconds, n_left, memory_limit) result(n)
+      !> Time of each row that was solved, structures and all [second]
+      real(wp), intent(in) :: seconds(:)
+      !> Rows that are not done
+      integer, intent(in) :: n_left
+      !> Bytes that the user lets the process take in all
+      integer(i8), intent(in) :: memory_limit
+
+      real(wp) :: row, structure
+
+      n = min(omp_get_max_threads(), n_left)
+      if (n < 2 .or. size(seconds) < 2) then
+         n = 1
+         return
+      end if
+      structure = maxval(seconds)
+      row = (sum(seconds) - structure)/(size(seconds) - 1)
+      if (n_left*row*(1.0_wp - 1.0_wp/n) <= start_seconds + min(real(n, wp), most_by_threads) &
+          *structure) then
+         n = 1
+         return
+      end if
+      associate (own => max(1_i8, resident_bytes()))
+         n = max(1, int(min(int(n, i8), (free_memory(memory_limit) + own)/own)))
+      end associate
+   end function worth_processes
+
    !> Let processes solve the rows that are not done, and wait for them. What a process leaves, as it
    !> was killed or found no memory, is not done
-   subroutine solve_in_processes(command, undertaking, key, n_quantities, order, done, progress, &
-      error)
-      !> Words and options; `n_processes` is the number of processes
+   subroutine solve_in_processes(command, n_processes, undertaking, key, n_quantities, order, done, &
+      progress, error)
+      !> Words and options
       type(command_type), intent(in) :: command
+      !> Number of processes
+      integer, intent(in) :: n_processes
       !> The study's files
       type(undertaking_type), intent(in) :: undertaking
       !> What tells the study from others
@@ -48,14 +84,14 @@ contains
       !> The program is to end
       type(error_type), allocatable, intent(out) :: error
 
-      type(child_type) :: children(command%n_processes)
+      type(child_type) :: children(n_processes)
       type(part_type) :: part
-      integer :: attempts(command%n_processes)
+      integer :: attempts(n_processes)
       integer :: k, look
       logical :: asked
 
       do k = 1, size(children)
-         children(k) = start_child(words_of_part(command, k))
+         children(k) = start_child(words_of_part(command, part_type(k, n_processes)))
       end do
       attempts = 1
       asked = .false.
@@ -65,7 +101,7 @@ contains
             call look_at_child(children(k))
             if (children(k)%code /= exit_in_use .or. asked .or. attempts(k) == most_attempts) cycle
             attempts(k) = attempts(k) + 1
-            children(k) = start_child(words_of_part(command, k))
+            children(k) = start_child(words_of_part(command, part_type(k, n_processes)))
          end do
          if (all(children%code >= 0)) exit
          if (stop_wished() .and. .not. asked) then
@@ -116,11 +152,11 @@ contains
    end subroutine forget_locks
 
    !> Words of the process of a part: those of this process, but for what divides threads and memory
-   function words_of_part(command, number) result(words)
+   function words_of_part(command, part) result(words)
       !> Words and options
       type(command_type), intent(in) :: command
-      !> Number of the part
-      integer, intent(in) :: number
+      !> The part
+      type(part_type), intent(in) :: part
       !> The words, each ended by a zero byte
       character(len=:), allocatable :: words
 
@@ -128,13 +164,13 @@ contains
       integer :: k
       logical :: only_names
 
-      mebibytes = max(1_i8, free_memory(command%options%memory_limit)/command%n_processes/2_i8**20)
+      mebibytes = max(1_i8, free_memory(command%options%memory_limit)/part%n/2_i8**20)
       words = ''
       call add('study')
       call add('--part')
-      call add(to_text(number)//'/'//to_text(command%n_processes))
+      call add(to_text(part%number)//'/'//to_text(part%n))
       call add('--threads')
-      call add(to_text(max(1, omp_get_max_threads()/command%n_processes)))
+      call add(to_text(max(1, omp_get_max_threads()/part%n)))
       call add('--memory')
       call add(to_text(mebibytes))
       call add('--quiet')

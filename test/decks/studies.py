@@ -1,5 +1,6 @@
 """Studies: rows against runs of decks with the same values, tables with faults, studies that are killed, parts"""
 import csv
+import glob
 import json
 import math
 import os
@@ -199,14 +200,28 @@ def processes(program, folder):
     return faults + expected('journals that are left', [], left)
 
 
-def killed(program, folder, rounds, lines='0:38/20, 0:0.4/5, 0.2;0.4'):
+def shared(program, folder):
+    """Many rows go to as many processes as there are threads, with the digits of one"""
+    deck, table = os.path.join(INPUTS, 'case3_balanced.dat'), CASE3.format(lines='0:38/60, 0;0.2, 0.2;0.4')
+    whole, faults = study(program, folder, table, deck, '--processes', '1', name='whole')
+    for threads, means in (('1', '1 structure'), ('2', '2 processes')):
+        name = f'by{threads}'
+        ran = program.run('study', write(folder, f'{name}.csv', table), deck, '-o', folder, '--threads', threads, folder=folder,
+                          time_limit=300)
+        faults += ran.ended_with(0) + same_rows(whole, rows_of(os.path.join(folder, f'{name}.study.csv')))
+        if f'240 solved now with {means}' not in ran.out:
+            faults.append(f'with {threads} threads not solved with {means}: {ran.out}')
+    return faults
+
+
+def killed(program, folder, rounds, n_processes, lines='0:38/20, 0:0.4/5, 0.2;0.4'):
     """Kill a study at random moments: what was done stays, and the end is the same to the last digit"""
     deck = os.path.join(INPUTS, 'case3_balanced.dat')
     table = CASE3.format(lines=lines)
     whole, faults = study(program, folder, table, deck, name='whole')
     path = write(folder, 'killed.csv', table)
-    journal = os.path.join(folder, 'killed.study.rows')
-    command = [program.path, 'study', path, deck, '-o', folder, '--quiet']
+    table_of_results = os.path.join(folder, 'killed.study.csv')
+    command = [program.path, 'study', path, deck, '--processes', n_processes, '-o', folder, '--quiet']
     start = time.time()
     subprocess.run([*command[:-3], '-o', os.path.join(folder, 'timed'), '--quiet'], env=program.environment, check=True)
     length, chance = time.time() - start, random.Random(1)
@@ -219,19 +234,27 @@ def killed(program, folder, rounds, lines='0:38/20, 0:0.4/5, 0.2;0.4'):
             process.send_signal(signal.SIGKILL)
             process.wait()
         kills += 1
-        if process.returncode == 0:
-            faults += same_rows(whole, rows_of(os.path.join(folder, 'killed.study.csv')))
-            os.remove(os.path.join(folder, 'killed.study.csv'))
+        now = rows_in_journals(folder, 'killed.study')
+        if process.returncode == 0 or os.path.exists(table_of_results) and now == 0:
+            faults += same_rows(whole, rows_of(table_of_results))
+            os.remove(table_of_results)
             done = 0
             continue
-        now = read_text(journal).count('\n') - 1 if os.path.exists(journal) else done
         if now < done:
             faults.append(f'{done} rows were done, {now} are left')
-        done = max(done, now)
+        done = now
     faults += program.run(*command[1:], folder=folder, time_limit=300).ended_with(0)
     faults += same_rows(whole, rows_of(os.path.join(folder, 'killed.study.csv')))
     left = [name for name in os.listdir(folder) if name.startswith('killed') and name.endswith('.rows')]
     return faults + expected('journals that are left', [], left)
+
+
+def rows_in_journals(folder, name):
+    """Number of rows that stand in the journals of a study and its parts"""
+    rows = set()
+    for path in glob.glob(os.path.join(folder, f'{name}*.rows')):
+        rows.update(line.split(',')[1] for line in read_text(path).split('\n')[1:-1])
+    return len(rows)
 
 
 def same_rows(wanted, found):
@@ -385,5 +408,8 @@ def tests(program):
         Test('studies/samples', lambda folder: samples(program, folder)),
         Test('studies/arrays', lambda folder: arrays(program, folder)),
         Test('studies/envelope of a block', lambda folder: capacities(program, folder)),
-        Test('studies/killed', lambda folder: killed(program, folder, 8, '0:38/5, 0;0.2, 0.2;0.4')),
-        Test('studies/killed 250 times', lambda folder: killed(program, folder, 250), long=True)]
+        Test('studies/shared', lambda folder: shared(program, folder)),
+        Test('studies/killed', lambda folder: killed(program, folder, 8, '1', '0:38/5, 0;0.2, 0.2;0.4')),
+        Test('studies/killed, two processes', lambda folder: killed(program, folder, 8, '2', '0:38/5, 0;0.2, 0.2;0.4')),
+        Test('studies/killed 250 times', lambda folder: killed(program, folder, 250, '1'), long=True),
+        Test('studies/killed 250 times, two processes', lambda folder: killed(program, folder, 250, '2'), long=True)]
