@@ -36,6 +36,20 @@ def run(words, path, folder):
     """Wall-clock and processor time of each phase of rank 0 [s], its peak memory and exchanged bytes [MB]"""
     borrow_memory()
     subprocess.run([*words, "run", path, "-o", folder, "--quiet"], check=True)
+    return found_in(folder)
+
+
+def side_by_side(words, path, folders):
+    """As `run`, of the first of runs that go at once and know nothing of each other"""
+    borrow_memory()
+    started = [subprocess.Popen([*words, "run", path, "-o", folder, "--quiet"]) for folder in folders]
+    if any(process.wait() for process in started):
+        raise RuntimeError("a run failed")
+    return found_in(folders[0])
+
+
+def found_in(folder):
+    """What the listing says of times, memory and exchanged bytes"""
     with open(os.path.join(folder, "tube.lis"), encoding="utf-8") as file:
         text = file.read()
     text = text[text.index("\nTIMES"):]
@@ -75,14 +89,19 @@ def main():
         path = os.path.join(folder, "tube.dat")
         with open(path, "w", encoding="utf-8") as file:
             file.write(deck(n, harmonics))
-        pairs = [(run([args.axijoint], path, folder), run(mpirun, path, folder)) for _ in range(rounds)]
-    one, two = (least([pair[k] for pair in pairs]) for k in (0, 1))
+        apart = [os.path.join(folder, name) for name in ("first", "second")]
+        found = [(run([args.axijoint], path, folder), run(mpirun, path, folder), side_by_side([args.axijoint], path, apart))
+                 for _ in range(rounds)]
+    one, two, beside = (least([runs[k] for runs in found]) for k in range(3))
     print(f"{3*(2*n + 1)*2*n:,} unknowns x {harmonics} harmonics; least of {rounds} rounds; load at the end: "
-          f"{os.getloadavg()[0]:.1f}\n\nphase     seconds of 1, 2 ranks  ratio   processor s of rank 0  ratio")
+          f"{os.getloadavg()[0]:.1f}\n\nphase     seconds of 1, 2 ranks  ratio   processor s of rank 0  ratio   "
+          "two runs side by side  limit")
     for name in PHASES + ("solution",):
-        (a, c), (b, d) = ([sum(r[p][k] for p in ("factor", "joints")) for k in (0, 1)] if name == "solution" else r[name]
-                          for r in (one, two))
-        print(f"{name:9} {a:9.2f} {b:9.2f} {a/b:9.2f} {c:13.2f} {d:9.2f} {c/d:6.2f}")
+        (a, c), (b, d), (e, _) = ([sum(r[p][k] for p in ("factor", "joints")) for k in (0, 1)] if name == "solution" else r[name]
+                                  for r in (one, two, beside))
+        print(f"{name:9} {a:9.2f} {b:9.2f} {a/b:9.2f} {c:13.2f} {d:9.2f} {c/d:6.2f} {e:17.2f} {2*a/e:12.2f}")
+    print("limit: twice one run over two that go at once and know nothing of each other: as fast as this machine makes two "
+          "processes, whatever they share")
     print(f"memory of a rank {one['peak memory']:.0f}, {two['peak memory']:.0f} MB; exchanged {two['exchanged']:.0f} MB")
     said = sum(model(one, harmonics, harmonics, 2, two["exchanged"]))
     print(f"model of two ranks {said:.1f} s, processor time of rank 0 {two['total'][1]:.1f} s, "
