@@ -5,7 +5,13 @@ module axijoint_base_memory
    use axijoint_base_text, only : to_text
    implicit none
    private
-   public :: require_memory, available_memory, free_memory, resident_bytes, no_limit
+   public :: require_memory, available_memory, free_memory, resident_bytes, give_back_memory, no_limit
+
+   interface
+      !> Give memory that was freed back to the system, for other processes; system_shim.c
+      subroutine give_back_memory() bind(c, name='axijoint_give_back_memory')
+      end subroutine give_back_memory
+   end interface
 
    !> The user gave no limit
    integer(i8), parameter :: no_limit = huge(1_i8)

@@ -171,6 +171,14 @@ void axijoint_zero_large_pages(double *array, int64_t count)
    memset(from, 0, (size_t)(to - from));
 }
 
+/* Give memory that was freed back to the system, where the library keeps it */
+void axijoint_give_back_memory(void)
+{
+#ifdef __GLIBC__
+   malloc_trim(0);
+#endif
+}
+
 /* Append bytes to a file, which is made if it is not there, and bring them to the disk if they
    are to be durable. */
 int axijoint_append(const char *path, const char *bytes, size_t size, int durable)

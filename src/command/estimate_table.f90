@@ -5,7 +5,8 @@ module axijoint_command_estimate_table
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text, count_of
    use axijoint_estimate_body_work, only : n_body_points
-   use axijoint_estimate_forecast, only : forecast_type, term_seconds, phase_seconds
+   use axijoint_estimate_forecast, only : forecast_type, term_seconds, phase_seconds, &
+      whole_seconds
    use axijoint_estimate_machine, only : machine_type, reference
    use axijoint_estimate_study, only : study_size_type
    use axijoint_estimate_terms, only : terms, n_terms, n_phases, phase_names
@@ -37,7 +38,8 @@ contains
       real(wp) :: seconds(n_terms), phases(n_phases)
       integer :: p
 
-      seconds = term_seconds(forecast, machine, forecast%n_workers)
+      seconds = term_seconds(forecast, machine, merge(1, forecast%n_workers, &
+         forecast%n_processes > 1))
       phases = phase_seconds(seconds)
       write (output_unit, '(a)') '  phase          seconds  most of it'
       do p = 1, n_phases
@@ -45,7 +47,7 @@ contains
          write (output_unit, format_seconds) phase_names(p), phases(p), &
             trim(terms(maxloc(seconds, 1, mask=terms%phase == p))%what)
       end do
-      write (output_unit, format_seconds) 'total', forecast%rounds*sum(phases), &
+      write (output_unit, format_seconds) 'total', whole_seconds(forecast, machine), &
          total_text(forecast, machine)
       write (output_unit, '(a, f10.1, a)') '  memory      ', forecast%memory/megabyte, ' MB'
       write (output_unit, '(a, f10.1, a)') '  files       ', forecast%disk/megabyte, ' MB'
@@ -116,6 +118,9 @@ contains
       text = 'one thread'
       if (forecast%n_workers > 1) text = to_text(forecast%n_workers)//' threads; '// &
          to_text(forecast%rounds*sum(term_seconds(forecast, machine, 1)))//' s of one processor'
+      if (forecast%n_processes > 1) text = 'rows by '//to_text(forecast%n_processes)// &
+         ' processes, '//to_text(forecast%apart)//' s for structures of their own; '// &
+         to_text(sum(term_seconds(forecast, machine, 1)))//' s by one thread'
       if (forecast%n_rounds > 1) text = text//', '//to_text(forecast%n_rounds)//' rounds assumed'
    end function total_text
 

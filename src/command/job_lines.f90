@@ -4,7 +4,7 @@ module axijoint_command_job_lines
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_text, only : to_text
    use axijoint_command_line, only : command_type
-   use axijoint_estimate_forecast, only : forecast_type, term_seconds
+   use axijoint_estimate_forecast, only : forecast_type, whole_seconds
    use axijoint_estimate_machine, only : machine_type
    use axijoint_job_job, only : job_name
    implicit none
@@ -46,10 +46,9 @@ contains
       needs%n = needs%n + 1
       needs%name = 'axijoint'
       if (needs%n == 1) needs%name = job_name(deck)
-      needs%seconds = max(needs%seconds, forecast%rounds &
-                          *sum(term_seconds(forecast, machine, forecast%n_workers)))
+      needs%seconds = max(needs%seconds, whole_seconds(forecast, machine))
       needs%memory = max(needs%memory, forecast%memory)
-      needs%threads = max(needs%threads, forecast%n_workers)
+      needs%threads = max(needs%threads, forecast%n_workers, forecast%n_processes)
    end subroutine add_needs
 
    !> Print the lines

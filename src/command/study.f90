@@ -4,6 +4,7 @@ module axijoint_command_study
    use axijoint_base_error, only : error_type, exit_ok, exit_singular, exit_not_converged, &
       exit_stopped
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_memory, only : give_back_memory
    use axijoint_base_progress, only : show_progress, clear_progress
    use axijoint_base_stop, only : check_stop
    use axijoint_base_system, only : error_output_is_terminal
@@ -322,6 +323,7 @@ contains
       integer :: i
 
       if (allocated(study%rows%structure)) deallocate (study%rows%structure, study%rows%built_for)
+      call give_back_memory()
       before = done%number > 0
       call solve_in_processes(command, n_processes, study%undertaking, study%key, &
          size(study%names), order, done, study%rows%progress, error)

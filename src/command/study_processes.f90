@@ -12,17 +12,14 @@ module axijoint_command_study_processes
    use axijoint_base_text, only : to_text
    use axijoint_command_line, only : command_type
    use axijoint_output_claim, only : claim_type, claim_names, release_output
-   use axijoint_study_parts, only : part_type, part_name, first_row, last_row, gather_parts
+   use axijoint_study_parts, only : part_type, part_name, first_row, last_row, gather_parts, &
+      processes_that_pay
    use axijoint_study_rows, only : row_type
    use axijoint_study_undertaking, only : undertaking_type
    use omp_lib, only : omp_get_max_threads
    implicit none
    private
    public :: solve_in_processes, worth_processes
-
-   !> A process that is started takes so long [second], and threads make a structure at most so many
-   !> times as fast
-   real(wp), parameter :: start_seconds = 0.1_wp, most_by_threads = 4.0_wp
 
    !> Looks at the processes between two looks at what they have done
    integer, parameter :: looks = 20
@@ -31,9 +28,7 @@ module axijoint_command_study_processes
 
 contains
 
-   !> Processes that rows are worth when some are solved: a process for each thread, if what rows
-   !> would spare is more than the structures that each process forms for itself, and as many as
-   !> memory has room for. Threads make little of a row, and much of a structure
+   !> Processes that rows are worth when some are solved, as far as memory has room for them
    integer function worth_processes(seconds, n_left, memory_limit) result(n)
       !> Time of each row that was solved, structures and all [second]
       real(wp), intent(in) :: seconds(:)
@@ -42,20 +37,13 @@ contains
       !> Bytes that the user lets the process take in all
       integer(i8), intent(in) :: memory_limit
 
-      real(wp) :: row, structure
-
-      n = min(omp_get_max_threads(), n_left)
-      if (n < 2 .or. size(seconds) < 2) then
-         n = 1
-         return
-      end if
-      structure = maxval(seconds)
-      row = (sum(seconds) - structure)/(size(seconds) - 1)
-      if (n_left*row*(1.0_wp - 1.0_wp/n) <= start_seconds + min(real(n, wp), most_by_threads) &
-          *structure) then
-         n = 1
-         return
-      end if
+      n = 1
+      if (size(seconds) < 2) return
+      associate (first => maxval(seconds))
+         n = processes_that_pay((sum(seconds) - first)/(size(seconds) - 1), first, n_left, &
+            omp_get_max_threads())
+      end associate
+      if (n == 1) return
       associate (own => max(1_i8, resident_bytes()))
          n = max(1, int(min(int(n, i8), (free_memory(memory_limit) + own)/own)))
       end associate

@@ -16,7 +16,7 @@ module axijoint_estimate_forecast
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: forecast_type, plan_run, forecast_run, term_seconds, phase_seconds
+   public :: forecast_type, plan_run, forecast_run, term_seconds, phase_seconds, whole_seconds
 
    !> A forecast
    type :: forecast_type
@@ -27,6 +27,9 @@ module axijoint_estimate_forecast
       !> Rounds that an error target is expected to take, and what they take beside the first
       integer :: n_rounds = 1
       real(wp) :: rounds = 1.0_wp
+      !> Processes that share the rows of a study, and what each does beside its rows [second]
+      integer :: n_processes = 1
+      real(wp) :: apart = 0.0_wp
       !> Iterations of all increments and combinations
       real(wp) :: iterations = 0.0_wp
       !> Bytes at the peak, and on the disk
@@ -126,6 +129,20 @@ contains
          if (terms(k)%shared) seconds(k) = seconds(k)/n_workers
       end do
    end function term_seconds
+
+   !> Seconds from begin to end, by threads or processes
+   pure real(wp) function whole_seconds(forecast, machine) result(seconds)
+      !> The forecast
+      type(forecast_type), intent(in) :: forecast
+      !> The machine
+      type(machine_type), intent(in) :: machine
+
+      if (forecast%n_processes > 1) then
+         seconds = forecast%apart + sum(term_seconds(forecast, machine, 1))/forecast%n_processes
+      else
+         seconds = forecast%rounds*sum(term_seconds(forecast, machine, forecast%n_workers))
+      end if
+   end function whole_seconds
 
    !> Seconds of each phase
    pure function phase_seconds(seconds) result(total)

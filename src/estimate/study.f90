@@ -3,18 +3,20 @@ module axijoint_estimate_study
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_base_error, only : error_type, fatal_error, exit_deck
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_memory, only : free_memory
    use axijoint_base_timer, only : timer_type, phase_assemble
-   use axijoint_estimate_forecast, only : forecast_type, plan_run
+   use axijoint_estimate_forecast, only : forecast_type, plan_run, term_seconds
    use axijoint_estimate_iterations, only : n_iterations
    use axijoint_estimate_machine, only : machine_type
    use axijoint_estimate_peak, only : peak_bytes
    use axijoint_estimate_terms, only : n_terms, beginning, reading, ordering, files, rows
    use axijoint_estimate_work, only : structure_work, state_work, row_work
    use axijoint_model_model, only : model_type
-   use axijoint_study_parts, only : part_type, first_row, last_row
+   use axijoint_study_parts, only : part_type, first_row, last_row, processes_that_pay
    use axijoint_study_quantities, only : quantity_names
    use axijoint_study_rows, only : rows_type, row_type, make_row, row_order
    use axijoint_study_table, only : study_table_type
+   use omp_lib, only : omp_get_max_threads
    implicit none
    private
    public :: study_size_type, forecast_study
@@ -80,8 +82,32 @@ contains
       forecast%work = extent%n_structures*work(:, 1) + extent%n_rows*work(:, 2)
       forecast%work(beginning) = 1.0_wp
       forecast%work(files) = 1.0_wp
+      if (part%n == 0) call share(shared%options%memory_limit)
 
    contains
+
+      !> Share the rows among processes where a study would
+      subroutine share(memory_limit)
+         !> Bytes that the user lets the process take in all
+         integer(i8), intent(in) :: memory_limit
+
+         type(forecast_type) :: one
+         real(wp) :: structure, row
+
+         one%work = work(:, 1)
+         structure = sum(term_seconds(one, machine, 1))
+         one%work = work(:, 2)
+         row = sum(term_seconds(one, machine, 1))
+         associate (n_others => max(1, extent%n_rows - 1), n => forecast%n_processes)
+            n = processes_that_pay(row + structure*(extent%n_structures - 1)/n_others, &
+               row + structure, extent%n_rows - 2, omp_get_max_threads())
+            n = max(1, int(min(int(n, i8), free_memory(memory_limit)/forecast%memory)))
+            if (n == 1) return
+            forecast%apart = structure*(1.0_wp + max(0.0_wp, 1.0_wp - real(extent%n_structures, wp)/n))
+            forecast%n_workers = 1
+            forecast%memory = n*forecast%memory + machine%program_bytes
+         end associate
+      end subroutine share
 
       !> Take a row into account, and the structure that it begins
       subroutine sample(number)

@@ -1,6 +1,6 @@
 !> Parts of a study, which processes solve each by itself, and their journals
 module axijoint_study_parts
-   use axijoint_base_kinds, only : i8
+   use axijoint_base_kinds, only : wp, i8
    use axijoint_base_system, only : path_kind, path_absent, unlink_path
    use axijoint_base_text, only : to_text
    use axijoint_base_whole_file, only : names_in
@@ -11,7 +11,11 @@ module axijoint_study_parts
    implicit none
    private
    public :: part_type, whole, part_name, journal_path, first_row, last_row, gather_parts, &
-      remove_parts
+      remove_parts, processes_that_pay
+
+   !> A process that is started takes so long [second], and threads make a structure at most so many
+   !> times as fast
+   real(wp), parameter :: start_seconds = 0.1_wp, most_by_threads = 4.0_wp
 
    !> A part: its number and how many there are
    type :: part_type
@@ -26,6 +30,20 @@ module axijoint_study_parts
    character(len=*), parameter :: rows_ending = '.rows'
 
 contains
+
+   !> Processes that rows are worth: one for each thread, if what rows would spare is more than the
+   !> structures that each process forms for itself; else 1. Threads make little of a row, and much
+   !> of a structure
+   pure integer function processes_that_pay(row, structure, n_rows, n_threads) result(n)
+      !> Time of a row, and of the first row with its structure [second]
+      real(wp), intent(in) :: row, structure
+      !> Rows that are not done, threads
+      integer, intent(in) :: n_rows, n_threads
+
+      n = max(1, min(n_threads, n_rows))
+      if (n_rows*row*(1.0_wp - 1.0_wp/n) <= start_seconds + min(real(n, wp), most_by_threads) &
+          *structure) n = 1
+   end function processes_that_pay
 
    !> Name of the files of a part, without ending
    pure function part_name(name, part) result(text)

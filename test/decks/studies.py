@@ -211,6 +211,9 @@ def shared(program, folder):
         faults += ran.ended_with(0) + same_rows(whole, rows_of(os.path.join(folder, f'{name}.study.csv')))
         if f'240 solved now with {means}' not in ran.out:
             faults.append(f'with {threads} threads not solved with {means}: {ran.out}')
+        told = program.run('estimate', deck, '--study', os.path.join(folder, f'{name}.csv'), '--threads', threads, folder=folder)
+        if ('rows by 2 processes' in told.out) != (threads == '2'):
+            faults.append(f'what {threads} threads make of it is not foretold: {told.out}')
     return faults
 
 

@@ -671,7 +671,7 @@ def estimated(folder, program):
         summary = json.load(file)
     ratio = assumed['memory']/summary['peak_memory_mb']
     faults += ran.ended_with(0) + ([] if 0.7 < ratio < 1.4 else [f'memory: {ratio} of that of the run'])
-    ran = program.run('run', deck, '-o', folder, '--threads', '1', '--memory', str(round(0.8*summary['peak_memory_mb'])),
+    ran = program.run('run', deck, '-o', folder, '--threads', '1', '--memory', str(round(0.7*summary['peak_memory_mb'])),
                       folder=folder)
     with open(os.path.join(folder, 'estimated.json'), encoding='utf-8') as file:
         errors = json.load(file)['yielding']['errors']
