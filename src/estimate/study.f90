@@ -82,32 +82,9 @@ contains
       forecast%work = extent%n_structures*work(:, 1) + extent%n_rows*work(:, 2)
       forecast%work(beginning) = 1.0_wp
       forecast%work(files) = 1.0_wp
-      if (part%n == 0) call share(shared%options%memory_limit)
+      if (part%n == 0) call share_rows(work, extent, machine, shared%options%memory_limit, forecast)
 
    contains
-
-      !> Share the rows among processes where a study would
-      subroutine share(memory_limit)
-         !> Bytes that the user lets the process take in all
-         integer(i8), intent(in) :: memory_limit
-
-         type(forecast_type) :: one
-         real(wp) :: structure, row
-
-         one%work = work(:, 1)
-         structure = sum(term_seconds(one, machine, 1))
-         one%work = work(:, 2)
-         row = sum(term_seconds(one, machine, 1))
-         associate (n_others => max(1, extent%n_rows - 1), n => forecast%n_processes)
-            n = processes_that_pay(row + structure*(extent%n_structures - 1)/n_others, &
-               row + structure, extent%n_rows - 2, omp_get_max_threads())
-            n = max(1, int(min(int(n, i8), free_memory(memory_limit)/forecast%memory)))
-            if (n == 1) return
-            forecast%apart = structure*(1.0_wp + max(0.0_wp, 1.0_wp - real(extent%n_structures, wp)/n))
-            forecast%n_workers = 1
-            forecast%memory = n*forecast%memory + machine%program_bytes
-         end associate
-      end subroutine share
 
       !> Take a row into account, and the structure that it begins
       subroutine sample(number)
@@ -146,6 +123,37 @@ contains
       end subroutine sample
 
    end subroutine forecast_study
+
+   !> Share the rows among processes where a study would
+   subroutine share_rows(work, extent, machine, memory_limit, forecast)
+      !> Counts of a structure and of a row, shape (terms, 2)
+      real(wp), intent(in) :: work(:, :)
+      !> How large the study is
+      type(study_size_type), intent(in) :: extent
+      !> The machine
+      type(machine_type), intent(in) :: machine
+      !> Bytes that the user lets the process take in all
+      integer(i8), intent(in) :: memory_limit
+      !> Forecast of one process; then of all
+      type(forecast_type), intent(inout) :: forecast
+
+      type(forecast_type) :: one
+      real(wp) :: structure, row
+
+      one%work = work(:, 1)
+      structure = sum(term_seconds(one, machine, 1))
+      one%work = work(:, 2)
+      row = sum(term_seconds(one, machine, 1))
+      associate (n_others => max(1, extent%n_rows - 1), n => forecast%n_processes)
+         n = processes_that_pay(row + structure*(extent%n_structures - 1)/n_others, &
+            row + structure, extent%n_rows - 2, omp_get_max_threads())
+         n = max(1, int(min(int(n, i8), free_memory(memory_limit)/forecast%memory)))
+         if (n == 1) return
+         forecast%apart = structure*(1.0_wp + max(0.0_wp, 1.0_wp - real(extent%n_structures, wp)/n))
+         forecast%n_workers = 1
+         forecast%memory = n*forecast%memory + machine%program_bytes
+      end associate
+   end subroutine share_rows
 
    !> Which rows need another structure than the one before, as far as their columns tell
    pure function begins_structure(table, keeps_structure, order) result(begins)
