@@ -9,7 +9,7 @@ module axijoint_assembly_factors
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_stop, only : stop_wished, check_stop
    use axijoint_base_large_pages, only : use_large_pages
-   use axijoint_base_memory, only : require_memory, free_memory
+   use axijoint_base_memory, only : require_memory, free_memory, give_back_memory
    use axijoint_base_text, only : to_text
    use axijoint_linalg_lapack, only : use_one_blas_thread
    use axijoint_linalg_symmetric_matrix, only : infinity_norm
@@ -61,6 +61,10 @@ contains
          equations%n_kept = merge(n, 0, keep)
       end associate
       found = free_memory(limit, equations%team%sharers)
+      if (coming_bytes(equations) + other_bytes > found) then
+         call give_back_memory()  ! what jobs before this one freed
+         found = free_memory(limit, equations%team%sharers)
+      end if
       room = found - other_bytes
       do while (coming_bytes(equations) > room)
          if (equations%n_kept > 0) then

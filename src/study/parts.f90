@@ -1,5 +1,6 @@
 !> Parts of a study, which processes solve each by itself, and their journals
 module axijoint_study_parts
+   use axijoint_base_error, only : exit_memory
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_system, only : path_kind, path_absent, unlink_path
    use axijoint_base_text, only : to_text
@@ -92,7 +93,8 @@ contains
       if (part%number > 0) last_row = int(int(n_rows, i8)*part%number/part%n)
    end function last_row
 
-   !> Take the rows that parts have done, however many there are
+   !> Take the rows that parts have done, however many there are. Those that a part found no memory
+   !> for are not done: who gathers them may have more, as he shares it with none by then
    subroutine gather_parts(directory, name, key, n_quantities, rows)
       !> Directory and name of the study's files, and what tells it from others
       character(len=*), intent(in) :: directory, name, key
@@ -102,15 +104,19 @@ contains
       type(row_type), intent(inout) :: rows(:)
 
       character(len=:), allocatable :: names
-      logical :: there, ours, torn
-      integer :: first, last
+      logical :: there, ours, torn, before(size(rows))
+      integer :: first, last, k
 
       names = names_in(directory, name//'.', rows_ending)
+      before = rows%number > 0
       first = 1
       do while (first < len(names))
          last = first + index(names(first:), new_line('a')) - 2
          call read_journal(join_path(directory, names(first:last)), key, n_quantities, rows, there, &
             ours, torn)
+         do k = 1, size(rows)
+            if (rows(k)%code == exit_memory .and. .not. before(k)) rows(k) = row_type()
+         end do
          first = last + 2
       end do
    end subroutine gather_parts

@@ -9,6 +9,7 @@ import signal
 import subprocess
 import time
 
+from solvers import RING
 from support import HERE, INPUTS, Test, expected, input_deck, python_with, read_text, write
 
 # Decks whose fields are varied one by one, and what of the summary a row must agree with
@@ -217,6 +218,19 @@ def shared(program, folder):
     return faults
 
 
+def little_memory(program, folder):
+    """Rows that processes find no memory for, as they share it, are solved by the first, which has all of it by then"""
+    deck = write(folder, 'ring.dat', RING.replace('1, 1, 8, 20, 20', '1, 1, 8, 60, 60'))
+    table = 'MATERIALS 1 E\n1; 2; 3; 4\n'
+    whole, faults = study(program, folder, table, deck, name='whole')
+    told = program.run('estimate', deck, '--study', os.path.join(folder, 'whole.csv'), '--counts', '--threads', '1', folder=folder)
+    needed = float(dict(line.split()[:2] for line in told.out.splitlines())['memory'])
+    short = program.run('study', write(folder, 'short.csv', table), deck, '-o', folder, '--processes', '2', '--threads', '2', '--memory',
+                        str(round(1.25*needed)), folder=folder, time_limit=300)
+    faults += short.ended_with(0) + same_rows(whole, rows_of(os.path.join(folder, 'short.study.csv')))
+    return faults + expected('parts that had too little memory', 2, short.err.count('ended with exit code 6; what it left is solved here'))
+
+
 def killed(program, folder, rounds, n_processes, lines='0:38/20, 0:0.4/5, 0.2;0.4'):
     """Kill a study at random moments: what was done stays, and the end is the same to the last digit"""
     deck = os.path.join(INPUTS, 'case3_balanced.dat')
@@ -412,6 +426,7 @@ def tests(program):
         Test('studies/arrays', lambda folder: arrays(program, folder)),
         Test('studies/envelope of a block', lambda folder: capacities(program, folder)),
         Test('studies/shared', lambda folder: shared(program, folder)),
+        Test('studies/little memory', lambda folder: little_memory(program, folder)),
         Test('studies/killed', lambda folder: killed(program, folder, 8, '1', '0:38/5, 0;0.2, 0.2;0.4')),
         Test('studies/killed, two processes', lambda folder: killed(program, folder, 8, '2', '0:38/5, 0;0.2, 0.2;0.4')),
         Test('studies/killed 250 times', lambda folder: killed(program, folder, 250, '1'), long=True),
