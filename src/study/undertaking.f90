@@ -18,6 +18,8 @@ module axijoint_study_undertaking
       character(len=:), allocatable :: directory, name, stem
       !> The name is taken
       type(claim_type) :: claim
+      !> The file that ends it: of a part its own, else one part would take it away from the others
+      character(len=:), allocatable :: stop_file
    end type undertaking_type
 
    !> Ending of the file that ends it
@@ -31,7 +33,8 @@ contains
       character(len=*), intent(in) :: directory
       !> Name of the files without ending
       character(len=*), intent(in) :: name
-      !> Names that are taken: that name, of a part of a study another, to gather parts all of them
+      !> Names that are taken: that name, of a part of a study another, to gather parts all of them;
+      !> the first with the ending STOP is the file
       character(len=*), intent(in) :: claimed(:)
       !> What it is, a line that others are told
       character(len=*), intent(in) :: purpose
@@ -50,6 +53,7 @@ contains
       undertaking%directory = directory
       undertaking%name = name
       undertaking%stem = join_path(directory, name)
+      undertaking%stop_file = join_path(directory, trim(claimed(1)))//stop_ending
       if (heeds) call heed_signals()
       call make_directories(directory, errno)
       if (errno /= 0) then
@@ -58,8 +62,8 @@ contains
       end if
       call claim_names(directory, claimed, purpose, undertaking%claim, notes, error)
       if (allocated(error)) return
-      call unlink_path(undertaking%stem//stop_ending, errno)  ! of an earlier one
-      if (heeds) call heed_file(undertaking%stem//stop_ending)
+      call unlink_path(undertaking%stop_file, errno)  ! of an earlier one
+      if (heeds) call heed_file(undertaking%stop_file)
    end subroutine begin_undertaking
 
    !> Give the name back; an end before its time says how to go on
@@ -75,7 +79,7 @@ contains
       call heed_file('')
       if (.not. allocated(error)) return
       if (error%code /= exit_stopped) return
-      call unlink_path(undertaking%stem//stop_ending, errno)
+      call unlink_path(undertaking%stop_file, errno)
       error%message = error%message//new_line('a')//'what is done stands in '// &
          undertaking%stem//'*.rows; the same command goes on from there'
    end subroutine end_undertaking

@@ -231,6 +231,29 @@ def little_memory(program, folder):
     return faults + expected('parts that had too little memory', 2, short.err.count('ended with exit code 6; what it left is solved here'))
 
 
+def stop_file(program, folder):
+    """A STOP file ends a study, by however many processes its rows are solved"""
+    faults = []
+    table = CASE3.format(lines='0:38/500, 0;0.2, 0.2;0.4')
+    for n_processes in ('1', '2'):
+        name = f'by{n_processes}'
+        command = [program.path, 'study', write(folder, f'{name}.csv', table), os.path.join(INPUTS, 'case3_balanced.dat'), '-o', folder,
+                   '--processes', n_processes, '--quiet']
+        process = subprocess.Popen(command, env=program.environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        while process.poll() is None and rows_in_journals(folder, f'{name}.study') < 10:
+            time.sleep(0.01)
+        write(folder, f'{name}.study.STOP', '')
+        _, said = process.communicate()
+        faults += expected(f'exit code by {n_processes}', 75, process.returncode)
+        if said.count('stopped by a STOP file') != 1:
+            faults.append(f'the STOP file is not told of once: {said}')
+        if not rows_in_journals(folder, f'{name}.study'):
+            faults.append('what was done is gone')
+        left = [file for file in os.listdir(folder) if file.startswith(name) and file.endswith(('.STOP', '.lock', '.study.csv'))]
+        faults += expected('files that are left', [], left)
+    return faults
+
+
 def killed(program, folder, rounds, n_processes, lines='0:38/20, 0:0.4/5, 0.2;0.4'):
     """Kill a study at random moments: what was done stays, and the end is the same to the last digit"""
     deck = os.path.join(INPUTS, 'case3_balanced.dat')
@@ -426,6 +449,7 @@ def tests(program):
         Test('studies/arrays', lambda folder: arrays(program, folder)),
         Test('studies/envelope of a block', lambda folder: capacities(program, folder)),
         Test('studies/shared', lambda folder: shared(program, folder)),
+        Test('studies/STOP file', lambda folder: stop_file(program, folder)),
         Test('studies/little memory', lambda folder: little_memory(program, folder)),
         Test('studies/killed', lambda folder: killed(program, folder, 8, '1', '0:38/5, 0;0.2, 0.2;0.4')),
         Test('studies/killed, two processes', lambda folder: killed(program, folder, 8, '2', '0:38/5, 0;0.2, 0.2;0.4')),
