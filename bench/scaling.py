@@ -36,7 +36,7 @@ def run(words, path, folder):
     """Wall-clock and processor time of each phase of rank 0 [s], its peak memory and exchanged bytes [MB]"""
     borrow_memory()
     subprocess.run([*words, "run", path, "-o", folder, "--quiet"], check=True)
-    return found_in(folder)
+    return found_in(folder, os.path.basename(path)[:-len(".dat")])
 
 
 def side_by_side(words, path, folders):
@@ -45,12 +45,12 @@ def side_by_side(words, path, folders):
     started = [subprocess.Popen([*words, "run", path, "-o", folder, "--quiet"]) for folder in folders]
     if any(process.wait() for process in started):
         raise RuntimeError("a run failed")
-    return found_in(folders[0])
+    return found_in(folders[0], os.path.basename(path)[:-len(".dat")])
 
 
-def found_in(folder):
+def found_in(folder, job):
     """What the listing says of times, memory and exchanged bytes"""
-    with open(os.path.join(folder, "tube.lis"), encoding="utf-8") as file:
+    with open(os.path.join(folder, job + ".lis"), encoding="utf-8") as file:
         text = file.read()
     text = text[text.index("\nTIMES"):]
     found = {name: tuple(map(float, re.search(rf"^  {name} +(\S+) +(\S+)", text, re.MULTILINE).groups()))
@@ -76,6 +76,20 @@ def model(one, measured_harmonics, harmonics, ranks, exchanged):
             0.0 if ranks == 1 else exchanged/measured_harmonics*harmonics*2**20/BYTES_PER_SECOND)
 
 
+def shares(runs):
+    """Seconds of factors and solution of harmonic 0 and of another, by runs of one harmonic and of two"""
+    first, both = (sum(r[p][0] for p in ("factor", "joints")) for r in runs)
+    return first, both - first
+
+
+def limit(one, harmonics, zero):
+    """How many times as fast two ranks are at most, if one of them has half of all harmonics, among which is none that
+    takes `zero` of another"""
+    own = sum(one[name][0] for name in ("factor", "joints")) + (1 - REDUNDANT_RECOVER)*one["recover"][0]
+    share = (harmonics/2)/(harmonics - 1 + zero)
+    return one["total"][0]/(one["total"][0] - own*(1 - share))
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--axijoint", required=True)
@@ -89,9 +103,14 @@ def main():
         path = os.path.join(folder, "tube.dat")
         with open(path, "w", encoding="utf-8") as file:
             file.write(deck(n, harmonics))
+        for count in (1, 2):
+            with open(os.path.join(folder, f"{count}.dat"), "w", encoding="utf-8") as file:
+                file.write(deck(n, count))
         apart = [os.path.join(folder, name) for name in ("first", "second")]
         found = [(run([args.axijoint], path, folder), run(mpirun, path, folder), side_by_side([args.axijoint], path, apart))
                  for _ in range(rounds)]
+        few = [tuple(run([args.axijoint], os.path.join(folder, f"{count}.dat"), folder) for count in (1, 2))
+               for _ in range(rounds)]
     one, two, beside = (least([runs[k] for runs in found]) for k in range(3))
     print(f"{3*(2*n + 1)*2*n:,} unknowns x {harmonics} harmonics; least of {rounds} rounds; load at the end: "
           f"{os.getloadavg()[0]:.1f}\n\nphase     seconds of 1, 2 ranks  ratio   processor s of rank 0  ratio   "
@@ -102,6 +121,9 @@ def main():
         print(f"{name:9} {a:9.2f} {b:9.2f} {a/b:9.2f} {c:13.2f} {d:9.2f} {c/d:6.2f} {e:17.2f} {2*a/e:12.2f}")
     print("limit: twice one run over two that go at once and know nothing of each other: as fast as this machine makes two "
           "processes, whatever they share")
+    zero, other = shares([least([runs[k] for runs in few]) for k in (0, 1)])
+    print(f"harmonic 0 takes {zero:.2f} s of factors and solution, harmonic 1 {other:.2f} s: with harmonics shared whole and no loss "
+          f"{limit(one, harmonics, zero/other):.2f} times")
     print(f"memory of a rank {one['peak memory']:.0f}, {two['peak memory']:.0f} MB; exchanged {two['exchanged']:.0f} MB")
     said = sum(model(one, harmonics, harmonics, 2, two["exchanged"]))
     print(f"model of two ranks {said:.1f} s, processor time of rank 0 {two['total'][1]:.1f} s, "
