@@ -39,19 +39,19 @@ contains
    !> Decide how many factors are kept and how many harmonics are worked on at once: as many as
    !> are wanted and fit. The harmonics whose factors are not kept are factored anew whenever they
    !> are solved; results do not depend on it.
-   subroutine plan_factors(equations, keep, other_bytes, limit, error)
+   subroutine plan_factors(equations, keep, other_bytes, thread_bytes, later_bytes, limit, error)
       !> The equations, planned
       type(equations_type), intent(inout) :: equations
       !> Whether factors are needed more than once, so that keeping them saves time
       logical, intent(in) :: keep
-      !> Bytes that the job takes besides
-      integer(i8), intent(in) :: other_bytes
+      !> Bytes that the job takes besides: always, each thread that solves, and once all is solved
+      integer(i8), intent(in) :: other_bytes, thread_bytes, later_bytes
       !> Bytes that the process may take in all
       integer(i8), intent(in) :: limit
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      integer(i8) :: found, room
+      integer(i8) :: found
 
       associate (n => equations%last - equations%first + 1)
          equations%n_workers = 1
@@ -61,12 +61,11 @@ contains
          equations%n_kept = merge(n, 0, keep)
       end associate
       found = free_memory(limit, equations%team%sharers)
-      if (coming_bytes(equations) + other_bytes > found) then
+      if (wanted() > found) then
          call give_back_memory()  ! what jobs before this one freed
          found = free_memory(limit, equations%team%sharers)
       end if
-      room = found - other_bytes
-      do while (coming_bytes(equations) > room)
+      do while (wanted() > found)
          if (equations%n_kept > 0) then
             equations%n_kept = equations%n_kept - 1
          else if (equations%n_workers > 1) then
@@ -75,18 +74,19 @@ contains
             exit
          end if
       end do
-      call require_memory(coming_bytes(equations) + other_bytes, &
-                          'the factor of one harmonic and the results', limit, error, &
+      call require_memory(wanted(), 'the factor of one harmonic and the results', limit, error, &
                           equations%team%sharers, found)
+
+   contains
+
+      !> Bytes as planned so far
+      integer(i8) function wanted()
+
+         wanted = parts_bytes(equations) + kept_bytes(equations) + other_bytes &
+            + max(passing_bytes(equations) + thread_bytes*equations%n_workers, later_bytes)
+      end function wanted
+
    end subroutine plan_factors
-
-   !> Bytes that assembling and factoring will take
-   pure integer(i8) function coming_bytes(equations) result(bytes)
-      !> The equations, planned
-      type(equations_type), intent(in) :: equations
-
-      bytes = parts_bytes(equations) + kept_bytes(equations) + passing_bytes(equations)
-   end function coming_bytes
 
    !> Bytes of patterns and plans, which stand once the equations are planned
    pure integer(i8) function standing_bytes(equations) result(bytes)

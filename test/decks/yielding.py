@@ -658,7 +658,8 @@ def counts(program, folder, deck, *options):
 
 def estimated(folder, program):
     """`axijoint estimate` counts iterations of bodies, in proportion to them, the estimates of errors besides, and the
-    memory that a run takes; with less of it the run says which errors it left out, and why"""
+    memory that a run takes; where what libraries may take besides does not fit the run says which errors it left out,
+    and why, and keeps the limit"""
     deck = write(folder, 'estimated.dat', disc(24, 7))
     assumed, once, twice, thrice = counts(program, folder, deck), *(
         counts(program, folder, deck, '--iterations', number) for number in ('20', '40', '60'))
@@ -671,7 +672,7 @@ def estimated(folder, program):
         summary = json.load(file)
     ratio = assumed['memory']/summary['peak_memory_mb']
     faults += ran.ended_with(0) + ([] if 0.7 < ratio < 1.4 else [f'memory: {ratio} of that of the run'])
-    ran = program.run('run', deck, '-o', folder, '--threads', '1', '--memory', str(round(0.7*summary['peak_memory_mb'])),
+    ran = program.run('run', deck, '-o', folder, '--threads', '1', '--memory', str(round(summary['peak_memory_mb']) + 1),
                       folder=folder)
     with open(os.path.join(folder, 'estimated.json'), encoding='utf-8') as file:
         errors = json.load(file)['yielding']['errors']

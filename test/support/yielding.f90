@@ -61,7 +61,7 @@ contains
       if (allocated(error)) error stop 'no orders'
       call plan_equations(yielding%equations, model, modes, orders, error)
       if (allocated(error)) error stop 'no plan'
-      call plan_factors(yielding%equations, .true., 0_i8, model%memory_limit, error)
+      call plan_factors(yielding%equations, .true., 0_i8, 0_i8, 0_i8, model%memory_limit, error)
       if (allocated(error)) error stop 'no memory'
       call assemble_equations(yielding%equations, model, new_joint_points(model), &
                               new_support_points(model))

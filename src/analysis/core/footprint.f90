@@ -16,8 +16,11 @@ module axijoint_analysis_core_footprint
    use axijoint_plastic_field, only : body_planes
    implicit none
    private
-   public :: footprint_type, data_footprint, fine_nodes, blocks_of
+   public :: footprint_type, data_footprint, fine_nodes, blocks_of, program_bytes, output_bytes
 
+   !> What program and libraries without any data take beyond their start while they solve, and what
+   !> the libraries of the output add once they are used [byte]; measured
+   integer(i8), parameter :: program_bytes = 4900000_i8, output_bytes = 5500000_i8
    !> Bytes of a real
    integer(i8), parameter :: real_bytes = storage_size(1.0_wp)/8
    !> Numbers of a joint point on a plane: jumps, stresses, states, slip, slopes, and copies
@@ -59,8 +62,9 @@ module axijoint_analysis_core_footprint
       !> one
       integer(i8) :: fine = 0, fine_work = 0
    contains
-      !> All that comes after planning
-      procedure :: coming
+      !> What comes after planning and stays, what a thread takes while the equations are solved, and what
+      !> comes once they are
+      procedure :: staying, of_a_thread, later
    end type footprint_type
 
 contains
@@ -211,13 +215,28 @@ contains
       blocks_of = number(n_nodes)
    end function blocks_of
 
-   !> Most that is there at once after planning: stresses come when the flexibilities are formed
-   elemental integer(i8) function coming(self)
+   !> What comes after planning and stays
+   elemental integer(i8) function staying(self)
       !> The bytes
       class(footprint_type), intent(in) :: self
 
-      coming = self%loads + self%joints + self%bodies + self%fine + &
-         max(self%stresses, self%joint_work, self%body_work, self%fine_work)
-   end function coming
+      staying = program_bytes + self%loads + self%joints + self%bodies + self%fine
+   end function staying
+
+   !> What a thread takes while the equations are solved, besides factors
+   elemental integer(i8) function of_a_thread(self)
+      !> The bytes
+      class(footprint_type), intent(in) :: self
+
+      of_a_thread = max(self%joint_work, self%fine_work)
+   end function of_a_thread
+
+   !> What comes once the equations are solved
+   elemental integer(i8) function later(self)
+      !> The bytes
+      class(footprint_type), intent(in) :: self
+
+      later = max(self%stresses + output_bytes, self%body_work)
+   end function later
 
 end module axijoint_analysis_core_footprint

@@ -233,8 +233,8 @@ contains
       if (allocated(error)) return
       others = data_footprint(model, size(structure%modes), &
          structure%equations%last - structure%equations%first + 1, structure%joint_points)
-      call plan_factors(structure%equations, reuses_factors(model), others%coming(), &
-                        model%memory_limit, error)
+      call plan_factors(structure%equations, reuses_factors(model), others%staying(), &
+                        others%of_a_thread(), others%later(), model%memory_limit, error)
    end subroutine plan_structure
 
    !> Whether the factors are needed more than once: by several load combinations, by bodies that
