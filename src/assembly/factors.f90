@@ -181,17 +181,22 @@ contains
    end function own
 
    !> Form and factor the matrices of the harmonics whose factors are kept, one harmonic a thread
-   subroutine factorize_equations(equations, model, error)
+   subroutine factorize_equations(equations, model, error, meet)
       !> The equations
       type(equations_type), intent(inout) :: equations
       !> The job, for the words of an error
       type(model_type), intent(in) :: model
       !> Out of memory; a pivot that is not positive, as node and direction
       type(error_type), allocatable, intent(out) :: error
+      !> Whether ranks tell each other of failures; true if absent, false where no rank keeps factors
+      logical, intent(in), optional :: meet
 
       type(workspace_type), allocatable :: spaces(:)
       integer :: s
+      logical :: together
 
+      together = .true.
+      if (present(meet)) together = meet
       call use_one_blas_thread()
       call new_workspaces(equations, spaces)
       !$omp parallel do schedule(dynamic) num_threads(size(spaces))
@@ -200,8 +205,10 @@ contains
          call hold_factor(equations, s, spaces(own()))
       end do
       !$omp end parallel do
-      call report_failure(equations, model, error)
-      call check_stop(error)
+      if (together) then
+         call report_failure(equations, model, error)
+         call check_stop(error)
+      end if
    end subroutine factorize_equations
 
    !> Make sure that the factor of a system is there. If it cannot be, the system has failed;

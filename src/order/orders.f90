@@ -7,7 +7,7 @@ module axijoint_order_orders
    use axijoint_order_sloan, only : sloan
    implicit none
    private
-   public :: orders_type, new_orders, least_bandwidth, least_profile, least_fill
+   public :: orders_type, new_orders, order_by_profile, dissect, least_bandwidth, least_profile, least_fill
 
    !> The nodes in different orders: order(k) is the k-th node
    type :: orders_type
@@ -25,11 +25,23 @@ contains
       type(orders_type), intent(out) :: orders
       !> Graph of the nodes
       type(graph_type), intent(in) :: graph
-      !> Nodes whose flexibility is wanted: nested dissection orders them behind
-      !> all others, so that the factor holds their Schur complement
+      !> Nodes that nested dissection orders behind all others
       logical, intent(in), optional :: last(:)
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
+      !> Whether Sloan's order is wanted; true if absent
+      logical, intent(in), optional :: by_sloan
+
+      call order_by_profile(orders, graph, by_sloan)
+      call dissect(orders, last, error)
+   end subroutine new_orders
+
+   !> Order the nodes for a band and a skyline
+   subroutine order_by_profile(orders, graph, by_sloan)
+      !> The orders, without nested dissection
+      type(orders_type), intent(out) :: orders
+      !> Graph of the nodes
+      type(graph_type), intent(in) :: graph
       !> Whether Sloan's order is wanted; true if absent
       logical, intent(in), optional :: by_sloan
 
@@ -40,14 +52,26 @@ contains
       orders%graph = graph
       call reverse_cuthill_mckee(graph, orders%cuthill_mckee)
       if (wanted) call sloan(graph, orders%sloan)
+   end subroutine order_by_profile
+
+   !> Order the nodes by nested dissection, which takes longest
+   subroutine dissect(orders, last, error)
+      !> The orders, those by profile there
+      type(orders_type), intent(inout) :: orders
+      !> Nodes whose flexibility is wanted: they are ordered behind all others, so that the factor
+      !> holds their Schur complement
+      logical, intent(in), optional :: last(:)
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
       if (present(last)) then
          associate (k => orders%cuthill_mckee)
-            call nested_dissection(graph, orders%dissection, pack(k, last(k)), error)
+            call nested_dissection(orders%graph, orders%dissection, pack(k, last(k)), error)
          end associate
       else
-         call nested_dissection(graph, orders%dissection, error=error)
+         call nested_dissection(orders%graph, orders%dissection, error=error)
       end if
-   end subroutine new_orders
+   end subroutine dissect
 
    !> The order for factors in a band: reverse Cuthill-McKee
    pure function least_bandwidth(orders) result(order)

@@ -3,8 +3,8 @@ module axijoint_analysis_core_solution
    use omp_lib, only : omp_get_wtime
    use axijoint_analysis_core_results, only : mode_solve_type
    use axijoint_analysis_core_structure, only : structure_type
-   use axijoint_analysis_fine_difference, only : difference_type, find_difference, &
-                                                share_difference
+   use axijoint_analysis_fine_difference, only : difference_type, room_type, &
+      find_difference, share_difference
    use axijoint_analysis_fine_level, only : fine_load_type, new_fine_load
    use axijoint_assembly_equations, only : equations_type, own_modes, solve_mode, refine_mode, &
                                            find_unbalanced, find_condition
@@ -45,6 +45,7 @@ contains
 
       type(fine_load_type) :: load
       type(workspace_type), allocatable :: spaces(:)
+      type(room_type), allocatable :: rooms(:)
       real(wp), allocatable :: acting(:, :, :)
       real(wp), allocatable :: force(:, :)  ! threads have small stacks
       real(wp) :: times(4, size(structure%equations%systems))
@@ -58,6 +59,7 @@ contains
       if (present(excess)) acting = excess
       if (present(difference)) load = new_fine_load(structure%fine, structure%modes, loading)
       call new_workspaces(structure%equations, spaces)
+      allocate (rooms(size(spaces)))
       times = 0.0_wp
       associate (equations => structure%equations, points => structure%condensed%points(:n))
          !$omp parallel do schedule(dynamic) private(i, k, force, before_errors) &
@@ -86,7 +88,7 @@ contains
                   before_errors = omp_get_wtime()
                   if (present(difference)) then
                      call find_difference(structure%fine, equations, s, load, displacement, &
-                        points, acting, difference)
+                        points, acting, rooms(own()), difference)
                   end if
                   times(3, s) = omp_get_wtime() - before_errors
                end associate

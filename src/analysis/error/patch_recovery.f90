@@ -13,7 +13,7 @@ module axijoint_analysis_error_patch_recovery
    implicit none
    private
    public :: sampling_type, new_sampling, patches_type, new_patches, patch_work_type
-   public :: find_patch, fit_patch, frame_type, new_frame, in_frame, weight_of
+   public :: find_patch, fit_patch, add_rings, frame_type, new_frame, in_frame, weight_of
 
    !> Most samples of an element
    integer, parameter :: max_samples = 4
@@ -218,6 +218,33 @@ contains
          end do
       end do
    end subroutine find_patch
+
+   !> Add to a set of elements all that may lie in their patches
+   pure subroutine add_rings(mesh, patches, chosen)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> Elements of the nodes
+      type(patches_type), intent(in) :: patches
+      !> The set
+      logical, intent(inout) :: chosen(:)
+
+      logical, allocatable :: touched(:)
+      integer :: ring, element, node
+
+      allocate (touched(size(patches%first) - 1))
+      do ring = 1, max_rings
+         if (all(chosen)) return
+         touched = .false.
+         do element = 1, size(chosen)
+            if (chosen(element)) &
+               touched(mesh%element_nodes(:mesh%element_size(element), element)) = .true.
+         end do
+         do node = 1, size(touched)
+            if (touched(node)) &
+               chosen(patches%element(patches%first(node):patches%first(node + 1) - 1)) = .true.
+         end do
+      end do
+   end subroutine add_rings
 
    !> Room for samples
    pure subroutine reserve(n, work)

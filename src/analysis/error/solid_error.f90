@@ -1,7 +1,7 @@
 !> Error of the stresses of solids: recovered stresses against those of the elements
 module axijoint_analysis_error_solid_error
    use axijoint_analysis_error_patch_recovery, only : sampling_type, new_sampling, patches_type, &
-                                                new_patches, patch_work_type, find_patch, fit_patch
+                                                new_patches, patch_work_type, find_patch, fit_patch, add_rings
    use axijoint_assembly_equations, only : equations_type, own_modes
    use axijoint_assembly_solid_force, only : initial_state_type, solid_force
    use axijoint_base_kinds, only : wp, i8
@@ -60,12 +60,13 @@ contains
       integer :: element, rank
       integer, allocatable :: last(:)
 
-      call new_fields(model, equations, initial, displacement, stress, fields)
       associate (n_modes => size(equations%modes), n => n_elements(model%mesh))
          allocate (error(n_modes, n), energy(n_modes, n))
          last = [(range_end(n, rank, equations%team%size), rank=0, equations%team%size)]
       end associate
       rank = equations%team%rank
+      call new_fields(model, equations, initial, displacement, stress, &
+         [last(rank + 1) + 1, last(rank + 2)], fields)
       !$omp parallel private(work)
       allocate (work)
       !$omp do schedule(dynamic, 16)
@@ -87,7 +88,7 @@ contains
    end subroutine solid_errors
 
    !> Stresses at the integration points and at the samples
-   subroutine new_fields(model, equations, initial, displacement, stress, fields)
+   subroutine new_fields(model, equations, initial, displacement, stress, own, fields)
       !> The job
       type(model_type), intent(in) :: model
       !> Its equations, for modes and ranks
@@ -98,9 +99,12 @@ contains
       real(wp), intent(in) :: displacement(:, :, :)
       !> Stress amplitudes at the integration points, shape (6, points, modes)
       real(wp), intent(in) :: stress(:, :, :)
+      !> First and last element that is looked at: the samples of all in their patches are taken
+      integer, intent(in) :: own(2)
       !> Takes them
       type(fields_type), intent(out) :: fields
 
+      logical, allocatable :: in_patches(:)
       integer :: element, k, n_points
 
       if (any(is_reduced(model%mesh%kinds))) then
@@ -117,8 +121,12 @@ contains
          n_points = n_points + fields%references(model%mesh%element_kind(element))%n_points
       end do
       allocate (fields%sampled(6, size(equations%modes), size(fields%patches%position, 2)))
+      allocate (in_patches(n_elements(model%mesh)), source=.false.)
+      in_patches(own(1):own(2)) = .true.
+      call add_rings(model%mesh, fields%patches, in_patches)
       !$omp parallel do
       do element = 1, n_elements(model%mesh)
+         if (.not. in_patches(element)) cycle
          if (allocated(fields%stress)) then
             call take_samples(model, fields, fields%stress, element)
          else

@@ -8,7 +8,7 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_analysis_error_excess_effect, only : add_excess_effect
    use axijoint_analysis_error_largest_values, only : largest_vector, largest_elastic_stress
    use axijoint_analysis_fine_difference, only : difference_type, new_difference, &
-      find_difference, share_difference
+      room_type, find_difference, share_difference
    use axijoint_analysis_fine_joints, only : fine_excess
    use axijoint_analysis_fine_level, only : fine_level_type, fine_load_type, new_fine_load
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type, new_mesh_error
@@ -347,6 +347,7 @@ contains
       type(mesh_error_type), intent(out) :: error
 
       type(workspace_type), allocatable :: spaces(:)
+      type(room_type), allocatable :: rooms(:)
       type(difference_type) :: difference
       type(fine_load_type) :: load
       logical :: weak(size(structure%modes))
@@ -358,13 +359,14 @@ contains
       weak = is_weak(history, excess)
       associate (equations => structure%equations)
          call new_workspaces(equations, spaces)
+         allocate (rooms(size(spaces)))
          !$omp parallel do schedule(dynamic) num_threads(size(spaces))
          do s = equations%first, equations%last
             if (all(weak(equations%systems(s)%modes))) cycle
             call hold_factor(equations, s, spaces(own()))
             if (.not. equations%systems(s)%failed) then
                call find_difference(structure%fine, equations, s, load, displacement, points, &
-                  excess, difference)
+                  excess, rooms(own()), difference)
             end if
             call release_factor(equations, s, spaces(own()))
          end do

@@ -16,7 +16,7 @@ module axijoint_analysis_fine_difference
    use axijoint_model_mesh, only : n_nodes
    implicit none
    private
-   public :: difference_type, new_difference, find_difference, share_difference
+   public :: difference_type, room_type, new_difference, find_difference, share_difference
 
    !> Steps: of 38 meshes of elements of all kinds, uniform, graded, distorted and slender, the
    !> second came to 0.80 to 1.03 of the largest difference of a node, the first to 0.6 to 0.95.
@@ -35,6 +35,18 @@ module axijoint_analysis_fine_difference
       !> factorizations
       real(wp) :: seconds = 0.0_wp, factor_share = 0.0_wp
    end type difference_type
+
+   !> Memory that finding the differences of one system after the other takes: fresh memory is cleared
+   !> when it is first touched, which took a tenth of a run where each system had its own
+   type :: room_type
+      private
+      !> Factors of the blocks
+      real(wp), allocatable :: factor(:)
+      !> Forces that are left, loads and displacements, shape (3, fine nodes)
+      real(wp), allocatable :: force(:, :), external(:, :), u(:, :)
+      !> Ways down and the forces that they take, shape (3, fine nodes, steps)
+      real(wp), allocatable :: way(:, :, :), pull(:, :, :)
+   end type room_type
 
 contains
 
@@ -63,7 +75,7 @@ contains
    end subroutine share_difference
 
    !> Find the difference of the modes of one system
-   subroutine find_difference(level, equations, s, load, displacement, points, excess, difference)
+   subroutine find_difference(level, equations, s, load, displacement, points, excess, room, difference)
       !> The fine level
       type(fine_level_type), intent(in) :: level
       !> Equations of the coarse mesh; the factor of the system is there
@@ -77,29 +89,42 @@ contains
       !> Fine joint points with excess stress, and its amplitudes, shape (3, points, modes)
       type(model_joint_point_type), intent(in) :: points(:)
       real(wp), intent(in) :: excess(:, :, :)
+      !> Memory of this thread for this level
+      type(room_type), intent(inout) :: room
       !> Takes the difference
       type(difference_type), intent(inout) :: difference
 
-      real(wp), allocatable :: force(:, :), factor(:)
       logical :: failed
       integer :: i, k
 
+      call make_room(n_nodes(level%model%mesh), room)
       associate (system => equations%systems(s))
          call factor_blocks(level%smoother, level%stiffness, system%harmonic, &
-            level%conditions(system%class), factor, &
-                            failed)
+            level%conditions(system%class), room%factor, failed)
          if (failed) return
          do i = 1, size(system%modes)
             k = system%modes(i)
             call left_force(level, equations, k, load, displacement(:, :, k), points, &
-               excess(:, :, k), force)
-            call descend(level, equations, k, factor, force, difference)
+               excess(:, :, k), room)
+            call descend(level, equations, k, room, difference)
          end do
       end associate
    end subroutine find_difference
 
+   !> Allocate what a thread needs, once
+   subroutine make_room(n, room)
+      !> Nodes of the fine mesh
+      integer, intent(in) :: n
+      !> The memory
+      type(room_type), intent(inout) :: room
+
+      if (allocated(room%force)) return
+      allocate (room%force(3, n), room%external(3, n), room%u(3, n))
+      allocate (room%way(3, n, most_steps), room%pull(3, n, most_steps))
+   end subroutine make_room
+
    !> Forces that a coarse solution leaves on the fine mesh
-   subroutine left_force(level, equations, k, load, displacement, points, excess, force)
+   subroutine left_force(level, equations, k, load, displacement, points, excess, room)
       !> The fine level
       type(fine_level_type), intent(in) :: level
       !> The equations, for the modes
@@ -113,55 +138,57 @@ contains
       !> Fine joint points with excess stress, and its amplitudes, shape (3, points)
       type(model_joint_point_type), intent(in) :: points(:)
       real(wp), intent(in) :: excess(:, :)
-      !> The forces, shape (3, fine nodes)
-      real(wp), allocatable, intent(out) :: force(:, :)
+      !> Takes the forces
+      type(room_type), intent(inout) :: room
 
-      real(wp), allocatable :: external(:, :), u(:, :), internal(:, :)
+      integer :: node
 
-      allocate (external(3, n_nodes(level%model%mesh)), u(3, n_nodes(level%model%mesh)))
-      external = joint_force(points, equations%modes(k)%harmonic, excess, size(external, 2))
-      call add_external(level%model, equations%modes(k), load%case_factor, external)
-      if (load%initial%present) then
-         u = 0.0_wp
-         external = external - still_force(level%model, level%joint_points, level%support_points, &
-            load%initial, k, &
-                                           equations%modes(k), u, load%case_factor)
-      end if
-      allocate (force, internal, mold=u)
-      call prolong(level%parents, displacement, u)
-      call block_product(level%stiffness, equations%modes(k)%harmonic, u, internal)
-      force(:, level%stiffness%place) = external
-      force = force - internal
-      call take_reactions(level%conditions(equations%systems(equations%system(k))%class), force)
+      associate (force => room%force, external => room%external, u => room%u)
+         external = 0.0_wp
+         if (size(points) > 0) external = joint_force(points, equations%modes(k)%harmonic, excess, &
+            size(external, 2))
+         call add_external(level%model, equations%modes(k), load%case_factor, external)
+         if (load%initial%present) then
+            u = 0.0_wp
+            external = external - still_force(level%model, level%joint_points, level%support_points, &
+               load%initial, k, equations%modes(k), u, load%case_factor)
+         end if
+         call prolong(level%parents, displacement, u)
+         call block_product(level%stiffness, equations%modes(k)%harmonic, u, force)
+         do node = 1, size(external, 2)
+            associate (f => force(:, level%stiffness%place(node)))
+               f = external(:, node) - f
+            end associate
+         end do
+         call take_reactions(level%conditions(equations%systems(equations%system(k))%class), force)
+      end associate
    end subroutine left_force
 
    !> Displacements under forces, in a few steps
-   subroutine descend(level, equations, k, factor, force, difference)
+   subroutine descend(level, equations, k, room, difference)
       !> The fine level
       type(fine_level_type), intent(in) :: level
       !> Equations of the coarse mesh, factored
       type(equations_type), intent(in) :: equations
       !> Place of the mode
       integer, intent(in) :: k
-      !> Factors of the blocks
-      real(wp), intent(in) :: factor(:)
-      !> Forces, then what is left of them, shape (3, fine nodes)
-      real(wp), intent(inout) :: force(:, :)
+      !> Factors of the blocks; forces, then what is left of them
+      type(room_type), intent(inout) :: room
       !> Takes the difference
       type(difference_type), intent(inout) :: difference
 
-      real(wp), allocatable :: way(:, :, :), pull(:, :, :), change(:, :), jump(:, :)
+      real(wp), allocatable :: jump(:, :)
       real(wp) :: length
       integer :: step, i
 
-      allocate (way(3, size(force, 2), most_steps), pull(3, size(force, 2), most_steps))
-      associate (harmonic => equations%modes(k)%harmonic, place => level%stiffness%place, &
+      associate (harmonic => equations%modes(k)%harmonic, force => room%force, way => room%way, &
+                 pull => room%pull, change => room%external, place => level%stiffness%place, &
                  conditions => level%conditions(equations%systems(equations%system(k))%class), &
                  displacement => difference%displacement(:, :, k), &
                  jumps => difference%jump(:, :, k))
          do step = 1, most_steps
             associate (d => way(:, :, step), kd => pull(:, :, step))
-               call look_down(level, equations, k, factor, force, d)
+               call look_down(level, equations, k, room%factor, force, room%u, d)
                do i = 1, step - 1
                   d = d - sum(pull(:, :, i)*d)*way(:, :, i)
                end do
@@ -171,7 +198,7 @@ contains
                d = d/sqrt(length)
                kd = kd/sqrt(length)
                length = sum(d*force)
-               change = length*d(:, place)
+               change(:, :) = length*d(:, place)
                jump = joint_jump(level%coarse_points, change)
                displacement = displacement + change(:, :size(displacement, 2))
                jumps = jumps + jump
@@ -194,7 +221,7 @@ contains
    end function is_small
 
    !> A way down: what the blocks make of forces, and what the coarse mesh does then
-   subroutine look_down(level, equations, k, factor, force, d)
+   subroutine look_down(level, equations, k, factor, force, rest, d)
       !> The fine level
       type(fine_level_type), intent(in) :: level
       !> Equations of the coarse mesh, factored
@@ -205,16 +232,17 @@ contains
       real(wp), intent(in) :: factor(:)
       !> Forces, shape (3, fine nodes)
       real(wp), intent(in) :: force(:, :)
+      !> Room for forces and displacements, same shape
+      real(wp), intent(inout), contiguous :: rest(:, :)
       !> Displacements, same shape
       real(wp), intent(out), contiguous :: d(:, :)
 
-      real(wp), allocatable :: rest(:, :), coarse(:, :), displacement(:, :)
+      real(wp), allocatable :: coarse(:, :), displacement(:, :)
 
       associate (conditions => level%conditions(equations%systems(equations%system(k))%class))
          d = force
          call solve_blocks(level%smoother, factor, d)
          call hold(conditions, d)
-         allocate (rest, mold=force)
          call block_product(level%stiffness, equations%modes(k)%harmonic, d, rest)
          rest = force - rest
          call take_reactions(conditions, rest)

@@ -21,7 +21,7 @@ module axijoint_analysis_fine_level
    use axijoint_order_graph, only : graph_type
    implicit none
    private
-   public :: fine_level_type, fine_load_type, new_fine_level, take_fine_model, new_fine_load
+   public :: fine_level_type, fine_load_type, new_fine_level, take_conditions, take_fine_model, new_fine_load
 
    !> The fine level
    type :: fine_level_type
@@ -58,18 +58,15 @@ module axijoint_analysis_fine_level
 contains
 
    !> Cut the mesh of a job and integrate its stiffness
-   subroutine new_fine_level(model, equations, level)
+   subroutine new_fine_level(model, level)
       !> The job
       type(model_type), intent(in) :: model
-      !> Its equations, for the classes of modes
-      type(equations_type), intent(in) :: equations
-      !> The fine level
+      !> The fine level; what is free in the classes of modes is for `take_conditions`
       type(fine_level_type), intent(out) :: level
 
       type(graph_type) :: graph
       integer, allocatable :: block(:), order(:)
       real(wp) :: start
-      integer :: k
 
       start = omp_get_wtime()
       call new_fine_mesh(model%mesh, level%mesh)
@@ -82,6 +79,20 @@ contains
       call order_by_blocks(model%mesh, level%mesh, graph, block, order)
       call new_node_blocks(level%stiffness, graph, order)
       level%parents = ordered(level%mesh%parents, order)
+      call new_smoother(level%smoother, level%stiffness, block, order)
+      call assemble_blocks(level%stiffness, level%model, level%joint_points, level%support_points)
+      level%seconds = omp_get_wtime() - start
+   end subroutine new_fine_level
+
+   !> Find what is free in each class of modes
+   subroutine take_conditions(equations, level)
+      !> The equations, for the classes of modes
+      type(equations_type), intent(in) :: equations
+      !> The fine level
+      type(fine_level_type), intent(inout) :: level
+
+      integer :: k
+
       allocate (level%conditions(size(equations%classes)))
       do k = 1, size(level%conditions)
          associate (first => equations%systems(findloc(equations%systems%class, k, 1))%modes(1))
@@ -90,10 +101,7 @@ contains
                                 level%conditions(k))
          end associate
       end do
-      call new_smoother(level%smoother, level%stiffness, block, order)
-      call assemble_blocks(level%stiffness, level%model, level%joint_points, level%support_points)
-      level%seconds = omp_get_wtime() - start
-   end subroutine new_fine_level
+   end subroutine take_conditions
 
    !> Take loads and laws of another job with the same mesh
    subroutine take_fine_model(model, level)

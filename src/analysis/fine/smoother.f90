@@ -5,6 +5,7 @@ module axijoint_analysis_fine_smoother
    use axijoint_analysis_fine_mesh, only : fine_mesh_type, find_edge
    use axijoint_assembly_node_blocks, only : node_blocks_type, harmonic_block
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_large_pages, only : use_large_pages
    use axijoint_fe_shape, only : n_corners
    use axijoint_fe_subdivision, only : n_children
    use axijoint_linalg_band_cholesky, only : factor_band, solve_band
@@ -262,7 +263,10 @@ contains
       integer :: b, info
 
       associate (n => smoother%start(size(smoother%start)) - 1)
-         if (.not. allocated(factor)) allocate (factor(n))
+         if (.not. allocated(factor)) then
+            allocate (factor(n))
+            call use_large_pages(factor)
+         end if
       end associate
       failed = .false.
       do b = 1, size(smoother%width)
