@@ -36,8 +36,9 @@ module axijoint_analysis_fine_difference
       real(wp) :: seconds = 0.0_wp, factor_share = 0.0_wp
    end type difference_type
 
-   !> Memory that finding the differences of one system after the other takes: fresh memory is cleared
-   !> when it is first touched, which took a tenth of a run where each system had its own
+   !> Memory that finding the differences of one system after the other takes. Fresh memory is cleared when
+   !> it is first touched: where each system had its own, two thirds of the page faults of a linear job
+   !> of sixteen were of it
    type :: room_type
       private
       !> Factors of the blocks
