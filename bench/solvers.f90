@@ -326,7 +326,7 @@ contains
       record%n_harmonics = config%n_harmonics
       record%operations = record%operations*config%n_harmonics
       record%expected = record%expected*config%n_harmonics
-      call plan_factors(equations, .false., 0_i8, no_limit, error)
+      call plan_factors(equations, .false., 0_i8, 0_i8, 0_i8, no_limit, error)
       call stop_on(error)
       record%bytes = real(standing_bytes(equations) + parts_bytes(equations) &
                           + kept_bytes(equations) + passing_bytes(equations), wp)
