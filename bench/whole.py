@@ -88,10 +88,11 @@ class Run:
 
 
 def processor():
-    """The make of the processor"""
+    """The make of the processor, and that it has no AVX-512: some hosts call very different makes by one name"""
     with open("/proc/cpuinfo", encoding="utf-8") as file:
-        names = [line.split(":")[1].strip() for line in file if line.startswith("model name")]
-    return names[0] if names else "unknown"
+        text = file.read()
+    names = re.findall(r"^model name\s*:\s*(.*)", text, re.MULTILINE)
+    return (names[0].strip() if names else "unknown") + ("" if re.search(r"\bavx512f\b", text) else " without AVX-512")
 
 
 def commit():
