@@ -3,9 +3,10 @@ module axijoint_assembly_pattern
    use axijoint_assembly_dofs, only : dofs_type, first_equation
    use axijoint_base_kinds, only : i8
    use axijoint_base_sort, only : sort_short
+   use axijoint_fe_shape, only : n_corners
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    use axijoint_model_mesh, only : mesh_type, n_nodes
-   use axijoint_order_graph, only : graph_type, new_graph
+   use axijoint_order_graph, only : graph_type, new_graph, max_ends
    implicit none
    private
    public :: node_graph, new_pattern
@@ -25,7 +26,62 @@ contains
       call list_nodes(mesh%joint_size, mesh%joint_nodes, joint_start, joint_member)
       call new_graph(graph, n_nodes(mesh), [start, joint_start(2:) + size(member)], &
                      [member, joint_member])
+      graph%between = nodes_between(mesh)
    end function node_graph
+
+   !> Nodes that each node lies between: middles of sides and centres of elements, if they are that and no more to all
+   !> elements and joints that they belong to
+   function nodes_between(mesh) result(between)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> Shape (max_ends, nodes), zeros behind the last
+      integer, allocatable :: between(:, :)
+
+      logical :: is_end(n_nodes(mesh))
+      integer :: k, i, n
+
+      allocate (between(max_ends, n_nodes(mesh)), source=0)
+      is_end = .false.
+      do k = 1, size(mesh%element_size)
+         n = n_corners(mesh%element_size(k))
+         associate (nodes => mesh%element_nodes(:mesh%element_size(k), k))
+            is_end(nodes(:n)) = .true.
+            do i = 1, min(n, size(nodes) - n)
+               call place_between(nodes(n + i), [nodes(i), nodes(mod(i, n) + 1), 0, 0])
+            end do
+            if (size(nodes) > 2*n) call place_between(nodes(2*n + 1), nodes(:n))
+         end associate
+      end do
+      do k = 1, size(mesh%joint_size)
+         associate (nodes => mesh%joint_nodes(:mesh%joint_size(k), k))
+            is_end(nodes(:4)) = .true.
+            if (size(nodes) == 4) cycle
+            call place_between(nodes(5), [nodes(1), nodes(2), 0, 0])
+            call place_between(nodes(6), [nodes(4), nodes(3), 0, 0])
+         end associate
+      end do
+      do k = 1, size(is_end)
+         if (is_end(k)) between(:, k) = 0
+      end do
+
+   contains
+
+      !> Place a node between others
+      subroutine place_between(node, ends)
+         !> The node
+         integer, intent(in) :: node
+         !> The others
+         integer, intent(in) :: ends(max_ends)
+
+         integer :: j
+
+         if (between(1, node) == 0) between(:, node) = ends
+         do j = 1, max_ends
+            is_end(node) = is_end(node) .or. .not. any(between(:, node) == ends(j))
+         end do
+      end subroutine place_between
+
+   end function nodes_between
 
    !> Node lists of different lengths one behind the other
    pure subroutine list_nodes(sizes, nodes, start, member)

@@ -4,7 +4,10 @@ module axijoint_order_graph
    use axijoint_base_sort, only : sort_short
    implicit none
    private
-   public :: graph_type, new_graph, subgraph, degree, bandwidth, profile, fill
+   public :: graph_type, new_graph, subgraph, degree, bandwidth, profile, fill, max_ends
+
+   !> Nodes that a node lies between at most: the corners of a quadrilateral, of its centre
+   integer, parameter :: max_ends = 4
 
    !> Neighbours of each node, the node itself left out
    type :: graph_type
@@ -14,6 +17,9 @@ module axijoint_order_graph
       integer, allocatable :: start(:)
       !> The neighbours, ascending for each node
       integer, allocatable :: neighbour(:)
+      !> Nodes that each node lies between, as the middle of a side between its ends: every clique that
+      !> holds the node holds them, too. Shape (max_ends, n), zeros behind the last; not allocated if unknown
+      integer, allocatable :: between(:, :)
    end type graph_type
 
 contains

@@ -2,6 +2,7 @@
 module axijoint_order_metis
    use, intrinsic :: iso_c_binding, only : c_int, c_int32_t, c_ptr, c_null_ptr
    use axijoint_base_error, only : error_type, fatal_error, exit_internal, memory_error
+   use axijoint_order_followers, only : followers, with_followers
    use axijoint_order_graph, only : graph_type, subgraph
    implicit none
    private
@@ -53,19 +54,21 @@ contains
       !> Out of memory, or an error inside METIS
       type(error_type), allocatable, intent(out) :: error
 
-      integer, allocatable :: rest(:)
+      integer, allocatable :: leaders(:)
       logical :: free(graph%n)
       integer :: k
 
-      if (.not. present(last)) then
+      free = .true.
+      if (present(last)) free(last) = .false.
+      leaders = pack([(k, k=1, graph%n)], free .and. .not. followers(graph, free))
+      if (size(leaders) == graph%n) then
          call dissect(graph, order, error)
       else
-         free = .true.
-         free(last) = .false.
-         rest = pack([(k, k=1, graph%n)], free)
-         call dissect(subgraph(graph, rest), order, error)
-         if (.not. allocated(error)) order = [rest(order), last]
+         call dissect(subgraph(graph, leaders), order, error)
       end if
+      if (allocated(error)) return
+      order = with_followers(graph, free, leaders(order))
+      if (present(last)) order = [order, last]
    end subroutine nested_dissection
 
    !> Order all nodes
