@@ -23,6 +23,7 @@ int axijoint_may_fail(void);
 int axijoint_is_ending(void);
 void axijoint_signal_stack(void);
 void axijoint_note_lost(int cause);
+void axijoint_ask_large_pages(const void *block, size_t bytes); /* large_pages.c */
 
 extern void *__libc_malloc(size_t), *__libc_calloc(size_t, size_t);
 extern void *__libc_realloc(void *, size_t), *__libc_memalign(size_t, size_t);
@@ -61,6 +62,7 @@ void *malloc(size_t bytes)
    NEXT(malloc, __libc_malloc)
    void *block = call(bytes);
    if (!block) fail(bytes);
+   axijoint_ask_large_pages(block, bytes);
    return block;
 }
 
@@ -69,6 +71,7 @@ void *calloc(size_t count, size_t bytes)
    NEXT(calloc, __libc_calloc)
    void *block = call(count, bytes);
    if (!block && count > 0 && bytes > 0) fail(count > SIZE_MAX / bytes ? SIZE_MAX : count * bytes);
+   axijoint_ask_large_pages(block, count * bytes);
    return block;
 }
 
@@ -77,6 +80,7 @@ void *realloc(void *old, size_t bytes)
    NEXT(realloc, __libc_realloc)
    void *block = call(old, bytes);
    if (!block && (bytes > 0 || !old)) fail(bytes);
+   axijoint_ask_large_pages(block, bytes);
    return block;
 }
 
@@ -85,6 +89,7 @@ int posix_memalign(void **block, size_t boundary, size_t bytes)
    NEXT(posix_memalign, aligned)
    const int cause = call(block, boundary, bytes);
    if (cause == ENOMEM) fail(bytes);
+   if (cause == 0) axijoint_ask_large_pages(*block, bytes);
    return cause;
 }
 
@@ -93,6 +98,7 @@ void *aligned_alloc(size_t boundary, size_t bytes)
    NEXT(aligned_alloc, __libc_memalign)
    void *block = call(boundary, bytes);
    if (!block) fail(bytes);
+   axijoint_ask_large_pages(block, bytes);
    return block;
 }
 

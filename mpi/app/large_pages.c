@@ -1,0 +1,1 @@
+../../app/large_pages.c
