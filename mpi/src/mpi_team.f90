@@ -10,8 +10,8 @@ module axijoint_mpi_team
    private
    public :: mpi_team_type, begin_mpi, end_mpi
 
-   !> Bytes of a real and of an integer
-   integer(i8), parameter :: real_bytes = storage_size(1.0_wp)/8, integer_bytes = storage_size(1)/8
+   !> Bytes of a real
+   integer(i8), parameter :: real_bytes = storage_size(1.0_wp)/8
    !> Longest message; counts of MPI are integers of four bytes
    integer(i8), parameter :: longest = 2_i8**30
    !> Length of the name of a processor's kernels
@@ -22,16 +22,12 @@ module axijoint_mpi_team
       private
       !> Its communicator
       type(MPI_Comm) :: communicator
-      !> Bytes that this rank has sent and received, and the telling that has begun; copies of a team
-      !> share them
+      !> Bytes that this rank has sent and received; copies of a team share them
       integer(i8), pointer :: bytes => null()
-      type(MPI_Request), pointer :: telling => null()
    contains
       procedure :: gather
       procedure :: broadcast
       procedure :: tell
-      procedure :: begin_telling
-      procedure :: end_telling
       procedure :: agree
       procedure :: all_of
       procedure :: exchanged
@@ -57,7 +53,6 @@ contains
       call MPI_Init_thread(MPI_THREAD_FUNNELED, provided)
       call new_team(MPI_COMM_WORLD, team)
       allocate (team%bytes, source=0_i8)
-      allocate (team%telling)
       call demand_same_kernels(team)
       if (team%rank > 0) then
          open (unit=output_unit, file='/dev/null', action='write')
@@ -209,29 +204,6 @@ contains
       call count_bytes(self, int(length, i8)*merge(self%size - 1, 1, rank == self%rank))
    end subroutine tell_from
 
-   !> Begin to give every rank the integers of rank 0, which goes on meanwhile
-   subroutine begin_telling(self, values)
-      !> The team
-      class(mpi_team_type), intent(in) :: self
-      !> The integers; not to be touched until the telling has ended
-      integer, intent(inout), contiguous, asynchronous :: values(:)
-
-      call MPI_Ibcast(values, size(values), MPI_INTEGER, 0, self%communicator, self%telling)
-      call count_bytes(self, integer_bytes*size(values)*merge(self%size - 1, 1, self%rank == 0))
-   end subroutine begin_telling
-
-   !> Wait until the integers are there, on rank 0 until they may be touched
-   subroutine end_telling(self, values)
-      !> The team
-      class(mpi_team_type), intent(in) :: self
-      !> The integers
-      integer, intent(inout), contiguous, asynchronous :: values(:)
-
-      call MPI_Wait(self%telling, MPI_STATUS_IGNORE)
-      associate (unused => values)
-      end associate
-   end subroutine end_telling
-
    !> Agree on an error: that of the first rank that has one
    subroutine agree(self, error)
       !> The team
@@ -291,7 +263,6 @@ contains
       call MPI_Comm_split(self%communicator, group, self%rank, communicator)
       call new_team(communicator, found)
       found%bytes => self%bytes
-      found%telling => self%telling
       found%sharers = self%sharers
       allocate (part, source=found)
    end subroutine split

@@ -3,7 +3,7 @@ module axijoint_assembly_equations
    use axijoint_assembly_dofs, only : gather, expand, collect
    use axijoint_assembly_harmonic, only : harmonic_product
    use axijoint_assembly_mode_classes, only : mode_classes
-   use axijoint_assembly_stiffness, only : stiffness_type, new_stiffness, assemble_parts
+   use axijoint_assembly_stiffness, only : stiffness_type, number_unknowns, find_sparsity, assemble_parts
    use axijoint_assembly_support, only : support_point_type
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
@@ -31,8 +31,9 @@ module axijoint_assembly_equations
    !> Time of an operation of condensing to joints [second]; solutions for unit loads run at a lower
    !> rate than the inverse of a triangle: one of them counts as so many
    real(wp), parameter :: seconds_of_operation = 2.3e-11_wp, for_unit_loads = 1.75_wp
-   !> Time of all that a mode takes besides, solutions, estimates and stresses, an equation [second]
-   real(wp), parameter :: seconds_of_equation = 8.0e-6_wp
+   !> All that a system takes grows like this power of its equations. Factorization and solutions with all that
+   !> follows them take about the same
+   real(wp), parameter :: growth = 1.25_wp
 
    !> K_m of one harmonic: both families of it share the matrix unless restraints tell them apart;
    !> m = 0 has one for the symmetric family and one for torsion
@@ -108,13 +109,13 @@ contains
 
       set = 3*count(yielding_nodes(model))
       if (allocated(model%solver)) then
-         call plan_solver(equations, model, modes, orders, model%solver, error)
-         return
+         solvers = [model%solver]
+      else
+         solvers = known_solvers()
+         solvers = pack(solvers, [(may_be_fastest(solvers(k), orders), k=1, size(solvers))])
       end if
-      solvers = known_solvers()
       do k = 1, size(solvers)
-         if (.not. may_be_fastest(solvers(k), orders)) cycle
-         call plan_solver(others, model, modes, orders, solvers(k), error)
+         call plan_solver(others, model, modes, orders, solvers(k), error, all_classes=size(solvers) > 1)
          if (allocated(error)) return
          if (allocated(equations)) then
             if (seconds_in_all(equations, set) <= seconds_in_all(others, set)) cycle
@@ -167,8 +168,8 @@ contains
          may_be_fastest = bandwidth(orders%graph, solver%order(orders)) <= solver%widest_band
    end function may_be_fastest
 
-   !> Number the unknowns and analyse the patterns of all classes for a solver
-   subroutine plan_solver(equations, model, modes, orders, solver, error)
+   !> Number the unknowns of all classes, and analyse the patterns of those that this rank solves for a solver
+   subroutine plan_solver(equations, model, modes, orders, solver, error, all_classes)
       !> The equations, planned
       type(equations_type), allocatable, intent(out) :: equations
       !> The job
@@ -181,7 +182,11 @@ contains
       type(solver_entry_type), intent(in) :: solver
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
+      !> Whether the patterns of all classes are analysed, as all ranks are to choose a solver by them;
+      !> false if absent
+      logical, intent(in), optional :: all_classes
 
+      logical, allocatable :: analysed(:)
       integer, allocatable :: order(:)
       integer :: k, n_classes
 
@@ -194,19 +199,25 @@ contains
       allocate (equations%classes(n_classes), equations%plans(n_classes))
       do k = 1, n_classes
          associate (first => equations%systems(findloc(equations%systems%class, k, 1))%modes(1))
-            call new_stiffness(equations%classes(k), model, modes(first), orders%graph, order)
+            call number_unknowns(equations%classes(k), model, modes(first), order)
          end associate
+      end do
+      call take_team(model%team, equations%team)
+      call share_systems(equations)
+      analysed = [(any(equations%systems(equations%first:equations%last)%class == k), k=1, n_classes)]
+      if (present(all_classes)) analysed = analysed .or. all_classes
+      do k = 1, n_classes
+         if (.not. analysed(k)) cycle
+         call find_sparsity(equations%classes(k), orders%graph, order)
          call solver%new_plan(equations%plans(k)%solver)
          call equations%plans(k)%solver%analyse(equations%classes(k)%pattern, error)
          if (allocated(error)) return
       end do
-      call take_team(model%team, equations%team)
-      call share_systems(equations)
    end subroutine plan_solver
 
    !> Give each rank a range of systems, of costs as equal as may be
    subroutine share_systems(equations)
-      !> The equations, planned
+      !> The equations, unknowns numbered
       type(equations_type), intent(inout) :: equations
 
       real(wp) :: cost(size(equations%systems))
@@ -214,9 +225,8 @@ contains
 
       do s = 1, size(cost)
          associate (system => equations%systems(s))
-            cost(s) = system_seconds(equations, s, .true., nominal_rate) &
-               + seconds_of_equation*size(system%modes) &
-               *equations%classes(system%class)%dofs%n_equations
+            cost(s) = real(equations%classes(system%class)%dofs%n_equations, wp)**growth &
+               *(1 + size(system%modes))
          end associate
       end do
       associate (team => equations%team)

@@ -4,7 +4,7 @@ module axijoint_assembly_factors
    use axijoint_assembly_dofs, only : component_name
    use axijoint_assembly_equations, only : equations_type, system_type, worth_threads
    use axijoint_assembly_harmonic, only : harmonic_values
-   use axijoint_assembly_stiffness, only : stiffness_type, n_parts
+   use axijoint_assembly_stiffness, only : stiffness_type, n_parts, has_sparsity
    use axijoint_base_error, only : error_type, fatal_error, exit_singular
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_stop, only : stop_wished, check_stop
@@ -98,6 +98,7 @@ contains
 
       bytes = 0
       do k = 1, size(equations%classes)
+         if (.not. has_sparsity(equations%classes(k))) cycle
          bytes = bytes + column_bytes*size(equations%classes(k)%pattern%column, kind=i8) &
             + equations%plans(k)%solver%plan_bytes
       end do
@@ -112,6 +113,7 @@ contains
 
       bytes = 0
       do k = 1, size(equations%classes)
+         if (.not. has_sparsity(equations%classes(k))) cycle
          bytes = bytes + value_bytes*n_parts(equations%classes(k)) &
             *size(equations%classes(k)%pattern%column, kind=i8)
       end do
@@ -181,22 +183,17 @@ contains
    end function own
 
    !> Form and factor the matrices of the harmonics whose factors are kept, one harmonic a thread
-   subroutine factorize_equations(equations, model, error, meet)
+   subroutine factorize_equations(equations, model, error)
       !> The equations
       type(equations_type), intent(inout) :: equations
       !> The job, for the words of an error
       type(model_type), intent(in) :: model
       !> Out of memory; a pivot that is not positive, as node and direction
       type(error_type), allocatable, intent(out) :: error
-      !> Whether ranks tell each other of failures; true if absent, false where no rank keeps factors
-      logical, intent(in), optional :: meet
 
       type(workspace_type), allocatable :: spaces(:)
       integer :: s
-      logical :: together
 
-      together = .true.
-      if (present(meet)) together = meet
       call use_one_blas_thread()
       call new_workspaces(equations, spaces)
       !$omp parallel do schedule(dynamic) num_threads(size(spaces))
@@ -205,10 +202,8 @@ contains
          call hold_factor(equations, s, spaces(own()))
       end do
       !$omp end parallel do
-      if (together) then
-         call report_failure(equations, model, error)
-         call check_stop(error)
-      end if
+      call report_failure(equations, model, error)
+      call check_stop(error)
    end subroutine factorize_equations
 
    !> Make sure that the factor of a system is there. If it cannot be, the system has failed;

@@ -14,6 +14,7 @@ module axijoint_assembly_node_blocks
    use axijoint_base_large_pages, only : zero_large_pages
    use axijoint_base_ranges, only : range_end
    use axijoint_base_sort, only : sort_short
+   use axijoint_base_team, only : team_type
    use axijoint_element_blocks, only : pack_blocks
    use axijoint_element_joint, only : joint_stiffness
    use axijoint_fe_fourier, only : circle_integral
@@ -75,8 +76,8 @@ contains
    end subroutine new_node_blocks
 
    !> Integrate all elements, joints and springs. Every thread adds to rows of its own, element by
-   !> element, so that sums do not depend on the number of threads
-   subroutine assemble_blocks(blocks, model, joint_points, support_points)
+   !> element, so that sums do not depend on the number of threads. Ranks of one machine share the rows, too
+   subroutine assemble_blocks(blocks, model, joint_points, support_points, team)
       !> The blocks
       type(node_blocks_type), intent(inout) :: blocks
       !> The job
@@ -84,20 +85,36 @@ contains
       !> Points of all joints, and of all springs
       type(model_joint_point_type), intent(in) :: joint_points(:)
       type(support_point_type), intent(in) :: support_points(:)
+      !> Processes that work on the job
+      class(team_type), intent(in) :: team
 
-      integer :: k, n_ranges
+      integer :: last_row(0:team%size), own(2)
+      integer :: k, rank, n_ranges
 
       allocate (blocks%parts(block_size, blocks%row_start(size(blocks%row_start)) - 1))
       call zero_large_pages(blocks%parts)
+      last_row = [(range_end(size(blocks%place), rank, team%size), rank=0, team%size)]
+      own = [1, size(blocks%place)]
+      if (shares_rows(team)) own = last_row(team%rank:team%rank + 1) + [1, 0]
       n_ranges = merge(omp_get_max_threads(), 1, n_elements(model%mesh) > least_elements)
       !$omp parallel do schedule(static, 1) if (n_ranges > 1)
       do k = 1, n_ranges
          call assemble_rows(blocks, model, joint_points, support_points, &
-                            1 + range_end(size(blocks%place), k - 1, n_ranges), &
-                            range_end(size(blocks%place), k, n_ranges))
+                            own(1) + range_end(own(2) - own(1) + 1, k - 1, n_ranges), &
+                            own(1) - 1 + range_end(own(2) - own(1) + 1, k, n_ranges))
       end do
       !$omp end parallel do
+      if (shares_rows(team)) &
+         call team%gather(blocks%parts, size(blocks%parts, kind=i8), int(blocks%row_start(1 + last_row)) - 1)
    end subroutine assemble_blocks
+
+   !> Whether rows are shared by ranks: telling them takes less than forming them where memory is shared
+   pure logical function shares_rows(team)
+      !> The ranks
+      class(team_type), intent(in) :: team
+
+      shares_rows = team%size > 1 .and. team%sharers == team%size
+   end function shares_rows
 
    !> Add to a range of rows
    subroutine assemble_rows(blocks, model, joint_points, support_points, from, to)

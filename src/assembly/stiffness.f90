@@ -21,7 +21,8 @@ module axijoint_assembly_stiffness
    use axijoint_order_graph, only : graph_type
    implicit none
    private
-   public :: stiffness_type, new_stiffness, assemble_parts, any_harmonic, n_parts, least_elements
+   public :: stiffness_type, new_stiffness, number_unknowns, find_sparsity, has_sparsity
+   public :: assemble_parts, any_harmonic, n_parts, least_elements
 
    !> Fewer elements are not worth waking the threads for
    integer, parameter :: least_elements = 1000
@@ -72,12 +73,26 @@ contains
       !> order(k) is the k-th node to be numbered
       integer, intent(in) :: order(:)
 
+      call number_unknowns(stiffness, model, mode, order)
+      call find_sparsity(stiffness, graph, order)
+   end subroutine new_stiffness
+
+   !> Unknowns of the class that a mode belongs to: all that is known of a class that others solve
+   subroutine number_unknowns(stiffness, model, mode, order)
+      !> The stiffness, without sparsity
+      type(stiffness_type), intent(out) :: stiffness
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Any mode of the class
+      type(mode_type), intent(in) :: mode
+      !> order(k) is the k-th node to be numbered
+      integer, intent(in) :: order(:)
+
       logical :: at_axis(size(order))
       integer :: k
 
       at_axis = on_axis(model%mesh)
       call new_dofs(stiffness%dofs, mode, at_axis, held_components(model, mode), order)
-      call new_pattern(stiffness%pattern, graph, stiffness%dofs, order)
       ! with nodes on the axis harmonic 1 has equations of its own
       if (mode%harmonic == 0 .or. (mode%harmonic == 1 .and. any(at_axis))) then
          stiffness%harmonic = mode%harmonic
@@ -88,8 +103,28 @@ contains
       associate (w => stiffness%dofs%equation(3, :))
          stiffness%is_w(pack(w, w > 0)) = 1
       end associate
+   end subroutine number_unknowns
+
+   !> Sparsity of a class whose unknowns are numbered
+   subroutine find_sparsity(stiffness, graph, order)
+      !> The stiffness
+      type(stiffness_type), intent(inout) :: stiffness
+      !> Graph of the nodes
+      type(graph_type), intent(in) :: graph
+      !> order(k) is the k-th node to be numbered
+      integer, intent(in) :: order(:)
+
+      call new_pattern(stiffness%pattern, graph, stiffness%dofs, order)
       stiffness%regular = regular_rows(stiffness%dofs, stiffness%pattern)
-   end subroutine new_stiffness
+   end subroutine find_sparsity
+
+   !> Whether a class has its sparsity; others are solved by other ranks
+   elemental logical function has_sparsity(stiffness)
+      !> The class
+      type(stiffness_type), intent(in) :: stiffness
+
+      has_sparsity = allocated(stiffness%pattern%column)
+   end function has_sparsity
 
    !> Whether the columns of each row are u, v, w of one node after the other
    pure function regular_rows(dofs, pattern) result(regular)
@@ -133,7 +168,7 @@ contains
       n_parts = merge(2, 1, stiffness%harmonic == any_harmonic)
    end function n_parts
 
-   !> Integrate every element and joint once, for all classes. Every thread adds
+   !> Integrate every element and joint once, for all classes that have a sparsity. Every thread adds
    !> to rows of its own, always element by element in the order of the nodes, so
    !> that sums do not depend on the number of threads; few elements have rows of
    !> two threads.
@@ -155,6 +190,7 @@ contains
       call order_elements(model%mesh, classes(1)%place, order)
       do k = 1, size(classes)
          associate (class => classes(k))
+            if (.not. has_sparsity(class)) cycle
             allocate (class%parts(n_parts(class), size(class%pattern%column)))
             call zero_large_pages(class%parts)
          end associate
@@ -296,6 +332,7 @@ contains
       logical :: whole(size(nodes)), mine(size(nodes))
       integer :: first(size(nodes)), i, j, p
 
+      if (.not. has_sparsity(stiffness)) return
       do i = 1, size(nodes)
          associate (equation => stiffness%dofs%equation(:, nodes(i)))
             first(i) = first_equation(equation)

@@ -25,9 +25,6 @@ module axijoint_base_team
       procedure :: broadcast
       !> Give every rank the text of rank 0
       procedure :: tell
-      !> Begin to give every rank the integers of rank 0, and wait until they are there
-      procedure :: begin_telling
-      procedure :: end_telling
       !> Agree on an error that ranks may have met by themselves
       procedure :: agree
       !> Whether something is so on all ranks
@@ -120,28 +117,6 @@ contains
       associate (unused => self, also => text)
       end associate
    end subroutine tell
-
-   !> Begin to give every rank the integers of rank 0, which goes on meanwhile. One telling at a time
-   subroutine begin_telling(self, values)
-      !> The team
-      class(team_type), intent(in) :: self
-      !> The integers; not to be touched until the telling has ended
-      integer, intent(inout), contiguous, asynchronous :: values(:)
-
-      associate (unused => self, also => values)
-      end associate
-   end subroutine begin_telling
-
-   !> Wait until the integers are there, on rank 0 until they may be touched
-   subroutine end_telling(self, values)
-      !> The team
-      class(team_type), intent(in) :: self
-      !> The integers
-      integer, intent(inout), contiguous, asynchronous :: values(:)
-
-      associate (unused => self, also => values)
-      end associate
-   end subroutine end_telling
 
    !> Agree on an error: that of the first rank that has one
    subroutine agree(self, error)

@@ -27,7 +27,7 @@ contains
       if (allocated(error)) return
       if (.not. allocated(job%structure)) then
          allocate (job%structure)
-         call build_structure(job%model, job%structure, job%timer, job%progress, error, meet=.false.)
+         call build_structure(job%model, job%structure, job%timer, job%progress, error)
          if (allocated(error)) then
             deallocate (job%structure)
             return

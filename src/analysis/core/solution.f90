@@ -117,22 +117,23 @@ contains
       !> The reports; those of the modes of this rank are there
       type(mode_solve_type), intent(inout) :: solves(:)
 
-      real(wp) :: found(4, size(solves))
+      real(wp) :: found(5, size(solves))
       integer :: k, own(2)
 
       found = 0.0_wp
       own = own_modes(equations)
       do k = own(1), own(2)
-         found(:, k) = [solves(k)%smallest_pivot, solves(k)%backward_error, &
-                        solves(k)%correction, solves(k)%condition]
+         associate (class => equations%systems(equations%system(k))%class)
+            found(:, k) = [solves(k)%smallest_pivot, solves(k)%backward_error, solves(k)%correction, &
+                           solves(k)%condition, real(equations%plans(class)%solver%factor_entries, wp)]
+         end associate
       end do
       call equations%team%gather(found, size(found, kind=i8), equations%last_mode)
       do k = 1, size(solves)
          associate (class => equations%systems(equations%system(k))%class)
             solves(k) = mode_solve_type(equations%modes(k), &
-               equations%classes(class)%dofs%n_equations, &
-               equations%plans(class)%solver%factor_entries, found(1, k), found(2, k), &
-               found(3, k), found(4, k))
+               equations%classes(class)%dofs%n_equations, nint(found(5, k), i8), found(1, k), &
+               found(2, k), found(3, k), found(4, k))
          end associate
       end do
    end subroutine share_solves

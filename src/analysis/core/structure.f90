@@ -14,9 +14,8 @@ module axijoint_analysis_core_structure
    use axijoint_assembly_support, only : support_point_type, new_support_points
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_base_memory, only : require_memory, free_memory
+   use axijoint_base_memory, only : require_memory
    use axijoint_base_progress, only : progress_type, show_progress
-   use axijoint_base_team, only : team_type, take_team
    use axijoint_base_text, only : to_text
    use axijoint_base_stop, only : check_stop
    use axijoint_base_timer, only : timer_type, phase_assemble, phase_factor, phase_joints
@@ -37,9 +36,6 @@ module axijoint_analysis_core_structure
    implicit none
    private
    public :: structure_type, build_structure, build_equations, plan_structure, take_loads_of, reuses_factors
-
-   !> Stands in an order that could not be found
-   integer, parameter :: no_node = 0
 
    !> A structure ready to be loaded
    type :: structure_type
@@ -77,7 +73,7 @@ module axijoint_analysis_core_structure
 contains
 
    !> Assemble and factor the equations of all modes
-   subroutine build_structure(model, structure, timer, progress, error, meet)
+   subroutine build_structure(model, structure, timer, progress, error)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure
@@ -88,33 +84,24 @@ contains
       type(progress_type), intent(inout) :: progress
       !> Singular stiffness, or out of memory
       type(error_type), allocatable, intent(out) :: error
-      !> Whether ranks wait here for what all the others say; true if absent. If false, who calls goes
-      !> straight on to `analyse_combination`, where ranks agree before they share anything: only a
-      !> rank with an error waits here until the others have come that far
-      logical, intent(in), optional :: meet
 
       integer :: k
-      logical :: together
 
-      together = .true.
-      if (present(meet)) together = meet .or. reuses_factors(model)
       call timer%push(phase_assemble)
-      call assemble(model, structure, progress, error, fine=.true.)
+      call assemble(model, structure, progress, error)
       call timer%pop()
-      if (allocated(model%team)) then
-         if (together .or. allocated(error)) call model%team%agree(error)
-      end if
+      if (allocated(model%team)) call model%team%agree(error)
       if (allocated(error)) return
       call timer%push(phase_factor)
       if (structure%equations%n_kept > 0) then
          call show_progress(progress, 'factoring '//to_text(structure%equations%n_kept)// &
             ' harmonics')
       end if
-      call factorize_equations(structure%equations, model, error, together)
+      call factorize_equations(structure%equations, model, error)
       call timer%pop()
       if (allocated(error)) return
       call timer%push(phase_assemble)
-      if (.not. allocated(structure%fine%joint_points)) call new_fine_level(model, structure%fine)
+      call new_fine_level(model, structure%equations%team, structure%fine)
       call take_conditions(structure%equations, structure%fine)
       structure%sections = cut_sections(model%mesh, model%cuts)
       structure%singular = find_singular_places(model, structure%fine%mesh)
@@ -189,7 +176,7 @@ contains
    end subroutine take_loads_of
 
    !> Assemble the equations of all modes
-   subroutine assemble(model, structure, progress, error, fine)
+   subroutine assemble(model, structure, progress, error)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure
@@ -198,10 +185,8 @@ contains
       type(progress_type), intent(inout) :: progress
       !> A mechanism, or out of memory
       type(error_type), allocatable, intent(out) :: error
-      !> Whether the fine level will be wanted; false if absent
-      logical, intent(in), optional :: fine
 
-      call plan_structure(model, structure, progress, error, fine)
+      call plan_structure(model, structure, progress, error)
       if (allocated(error)) return
       call assemble_equations(structure%equations, model, structure%joint_points, &
                               structure%support_points)
@@ -209,7 +194,7 @@ contains
 
    !> Find modes, joint points, unknowns, orders and patterns of the equations, and how many factors
    !> are there at once; nothing is assembled yet
-   subroutine plan_structure(model, structure, progress, error, fine)
+   subroutine plan_structure(model, structure, progress, error)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure
@@ -218,12 +203,9 @@ contains
       type(progress_type), intent(inout) :: progress
       !> A mechanism, or out of memory: the factors are planned then all the same
       type(error_type), allocatable, intent(out) :: error
-      !> Whether the fine level will be wanted, which ranks may make while they wait; false if absent
-      logical, intent(in), optional :: fine
 
       type(orders_type) :: orders
       type(footprint_type) :: others
-      class(team_type), allocatable :: team
       logical :: compared
 
       structure%joint_points = new_joint_points(model)
@@ -233,16 +215,13 @@ contains
       call require_memory(0_i8, 'the solvers', model%memory_limit, error)
       if (.not. allocated(error)) call check_mechanism(model, structure%joint_points, &
          structure%support_points, structure%modes, error)
-      call take_team(model%team, team)
-      call team%agree(error)  ! the order is found together
       if (allocated(error)) return
       call show_progress(progress, 'assembling '//to_text(size(structure%modes))//' modes')
       compared = rows_expected(model%print, print_orders, real(n_nodes(model%mesh), wp)) > 0.0_wp
       call order_by_profile(orders, node_graph(model%mesh), compared .or. needs_sloan(model))
-      call order_together(model, team, structure, orders, error, fine)
+      call dissect(orders, yielding_nodes(model), error)
       if (allocated(error)) return
       call plan_equations(structure%equations, model, structure%modes, orders, error)
-      if (team%rank == 0) call team%end_telling(orders%dissection)
       if (allocated(error)) return
       if (compared) then
          structure%orderings = compare_orders(orders)
@@ -255,48 +234,9 @@ contains
       if (allocated(error)) return
       others = data_footprint(model, size(structure%modes), &
          structure%equations%last - structure%equations%first + 1, structure%joint_points)
-      if (allocated(structure%fine%joint_points)) others%fine = 0  ! it is there
       call plan_factors(structure%equations, reuses_factors(model), others%staying(), &
                         others%of_a_thread(), others%later(), model%memory_limit, error)
    end subroutine plan_structure
-
-   !> Order the nodes by nested dissection. All ranks need the same order and the same fine level, and either
-   !> takes long: rank 0 orders while the others make their fine level
-   subroutine order_together(model, team, structure, orders, error, fine)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The ranks. Rank 0 still has to end the telling
-      class(team_type), intent(in) :: team
-      !> The structure, with joint points and modes; may take its fine level
-      type(structure_type), intent(inout) :: structure
-      !> The orders, those by profile there
-      type(orders_type), intent(inout) :: orders
-      !> Out of memory
-      type(error_type), allocatable, intent(out) :: error
-      !> Whether the fine level will be wanted; false if absent
-      logical, intent(in), optional :: fine
-
-      type(footprint_type) :: footprint
-      logical :: wanted
-
-      wanted = .false.
-      if (present(fine)) wanted = fine
-      if (team%rank == 0) then
-         call dissect(orders, yielding_nodes(model), error)
-         if (allocated(error)) orders%dissection = spread(no_node, 1, orders%graph%n)
-         call team%begin_telling(orders%dissection)
-      else
-         footprint = data_footprint(model, size(structure%modes), size(structure%modes), structure%joint_points)
-         if (footprint%fine > free_memory(model%memory_limit, team%sharers)) wanted = .false.
-         if (wanted) call new_fine_level(model, structure%fine)
-         allocate (orders%dissection(orders%graph%n))
-         call team%begin_telling(orders%dissection)
-         call team%end_telling(orders%dissection)
-      end if
-      if (all(orders%dissection /= no_node)) return
-      call team%end_telling(orders%dissection)
-      call team%agree(error)
-   end subroutine order_together
 
    !> Whether the factors are needed more than once: by several load combinations, by bodies that
    !> yield, or by joints, which take flexibilities, then displacements, or to show earlier increments

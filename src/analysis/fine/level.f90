@@ -13,6 +13,7 @@ module axijoint_analysis_fine_level
    use axijoint_assembly_solid_force, only : initial_state_type
    use axijoint_assembly_support, only : support_point_type, new_support_points
    use axijoint_base_kinds, only : wp
+   use axijoint_base_team, only : team_type
    use axijoint_element_joint, only : new_joint_point, lower_node
    use axijoint_fe_mode, only : mode_type
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points, joint_rule
@@ -58,9 +59,11 @@ module axijoint_analysis_fine_level
 contains
 
    !> Cut the mesh of a job and integrate its stiffness
-   subroutine new_fine_level(model, level)
+   subroutine new_fine_level(model, team, level)
       !> The job
       type(model_type), intent(in) :: model
+      !> Processes that work on it
+      class(team_type), intent(in) :: team
       !> The fine level; what is free in the classes of modes is for `take_conditions`
       type(fine_level_type), intent(out) :: level
 
@@ -80,7 +83,7 @@ contains
       call new_node_blocks(level%stiffness, graph, order)
       level%parents = ordered(level%mesh%parents, order)
       call new_smoother(level%smoother, level%stiffness, block, order)
-      call assemble_blocks(level%stiffness, level%model, level%joint_points, level%support_points)
+      call assemble_blocks(level%stiffness, level%model, level%joint_points, level%support_points, team)
       level%seconds = omp_get_wtime() - start
    end subroutine new_fine_level
 
