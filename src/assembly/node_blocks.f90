@@ -23,7 +23,7 @@ module axijoint_assembly_node_blocks
    use axijoint_order_graph, only : graph_type
    implicit none
    private
-   public :: node_blocks_type, new_node_blocks, assemble_blocks, block_product, harmonic_block, block_size
+   public :: node_blocks_type, new_node_blocks, assemble_blocks, block_product, harmonic_factors, evaluate, block_size
 
    !> Numbers of a block, and those of them that are of A or S
    integer, parameter :: block_size = 14, first_part = 9
@@ -203,20 +203,6 @@ contains
          block_at = block_at - 1
       end do
    end function block_at
-
-   !> A block of K_m
-   pure function harmonic_block(blocks, k, harmonic) result(block)
-      !> The blocks
-      type(node_blocks_type), intent(in) :: blocks
-      !> Place of the block
-      integer(i8), intent(in) :: k
-      !> Harmonic m
-      integer, intent(in) :: harmonic
-      !> Its values, shape (component of the column, component of the row)
-      real(wp) :: block(3, 3)
-
-      call evaluate(harmonic_factors(harmonic), blocks%parts(:, k), block)
-   end function harmonic_block
 
    !> Factors of A, S and C in K_m
    pure function harmonic_factors(harmonic) result(factors)
