@@ -6,8 +6,8 @@ module axijoint_analysis_core_solution
    use axijoint_analysis_fine_difference, only : difference_type, room_type, &
       find_difference, share_difference
    use axijoint_analysis_fine_level, only : fine_load_type, new_fine_load
-   use axijoint_assembly_equations, only : equations_type, own_modes, solve_mode, refine_mode, &
-                                           find_unbalanced, find_condition
+   use axijoint_assembly_equations, only : equations_type, own_modes, solve_system, refine_mode, &
+                                           find_unbalanced
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
                                          release_factor, report_failure
    use axijoint_assembly_force, only : joint_force
@@ -47,7 +47,7 @@ contains
       type(workspace_type), allocatable :: spaces(:)
       type(room_type), allocatable :: rooms(:)
       real(wp), allocatable :: acting(:, :, :)
-      real(wp), allocatable :: force(:, :)  ! threads have small stacks
+      real(wp), allocatable :: force(:, :, :), found(:, :, :)  ! threads have small stacks
       real(wp) :: times(4, size(structure%equations%systems))
       real(wp) :: before_errors
       integer :: s, i, k, n
@@ -62,7 +62,7 @@ contains
       allocate (rooms(size(spaces)))
       times = 0.0_wp
       associate (equations => structure%equations, points => structure%condensed%points(:n))
-         !$omp parallel do schedule(dynamic) private(i, k, force, before_errors) &
+         !$omp parallel do schedule(dynamic) private(i, k, force, found, before_errors) &
          !$omp num_threads(size(spaces))
          do s = equations%first, equations%last
             times(1, s) = omp_get_wtime()
@@ -70,21 +70,25 @@ contains
             times(2, s) = omp_get_wtime()
             if (.not. equations%systems(s)%failed) then
                associate (modes => equations%systems(s)%modes)
-                  call find_condition(equations, s)
+                  allocate (force(3, size(displacement, 2), size(modes)))
+                  allocate (found, mold=force)
+                  do i = 1, size(modes)
+                     k = modes(i)
+                     force(:, :, i) = loading%right(:, :, k) + &
+                        joint_force(points, equations%modes(k)%harmonic, acting(:, :, k), size(force, 2))
+                  end do
+                  call solve_system(equations, s, force, found)
                   solves(modes)%condition = equations%systems(s)%condition
                   do i = 1, size(modes)
                      k = modes(i)
-                     force = loading%right(:, :, k) + &
-                        joint_force(points, equations%modes(k)%harmonic, &
-                                                                  acting(:, :, k), &
-                                                                  size(displacement, 2))
-                     call solve_mode(equations, k, force, displacement(:, :, k))
-                     call refine_solve(equations, k, force, structure%negligible, &
+                     displacement(:, :, k) = found(:, :, i)
+                     call refine_solve(equations, k, force(:, :, i), structure%negligible, &
                         displacement(:, :, k), solves(k))
                      if (allocated(loading%held)) then
                         displacement(:, :, k) = displacement(:, :, k) + loading%held(:, :, k)
                      end if
                   end do
+                  deallocate (force, found)
                   before_errors = omp_get_wtime()
                   if (present(difference)) then
                      call find_difference(structure%fine, equations, s, load, displacement, &
