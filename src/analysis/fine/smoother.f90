@@ -6,6 +6,7 @@ module axijoint_analysis_fine_smoother
    use axijoint_assembly_node_blocks, only : node_blocks_type, harmonic_factors, evaluate
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_large_pages, only : use_large_pages
+   use axijoint_base_ranges, only : range_end
    use axijoint_base_sort, only : refine_order
    use axijoint_fe_shape, only : n_corners
    use axijoint_fe_subdivision, only : n_children
@@ -21,6 +22,9 @@ module axijoint_analysis_fine_smoother
    !> An element longer than this times its width is strongly coupled to its neighbours across its
    !> long sides
    real(wp), parameter :: slender = 2.0_wp
+
+   !> Most shares that threads take, and groups of a share at least
+   integer, parameter :: most_shares = 16, least_share = 64
 
    !> Blocks of nodes that follow each other. Blocks of one shape are factored and solved some at once
    type :: smoother_type
@@ -327,9 +331,8 @@ contains
       logical, intent(out) :: failed
 
       logical, allocatable :: plain(:)
-      real(wp) :: factors(3)
-      logical :: singular
-      integer :: g, k, info
+      logical :: singular(most_shares)
+      integer :: k, n
 
       associate (n => smoother%start(size(smoother%start)) - 1)
          if (.not. allocated(factor)) then
@@ -338,32 +341,70 @@ contains
          end if
       end associate
       plain = all(conditions%free, 1) .and. .not. conditions%tied
-      factors = harmonic_factors(harmonic)
-      failed = .false.
-      do g = 1, size(smoother%groups, 2)
+      n = n_shares(smoother)
+      singular = .false.
+      do k = 1, n
+         !$omp task default(shared) firstprivate(k) if (n > 1)
+         call factor_share(smoother, stiffness, harmonic_factors(harmonic), conditions, plain, k, n, factor, singular(k))
+         !$omp end task
+      end do
+      !$omp taskwait
+      failed = any(singular)
+   end subroutine factor_blocks
+
+   !> Shares of the blocks that threads take which have nothing else to do
+   pure integer function n_shares(smoother)
+      !> The blocks
+      type(smoother_type), intent(in) :: smoother
+
+      n_shares = max(1, min(most_shares, (size(smoother%groups, 2) + size(smoother%left))/least_share))
+   end function n_shares
+
+   !> Factor one share of groups and of blocks that are left
+   subroutine factor_share(smoother, stiffness, factors, conditions, plain, share, n, factor, failed)
+      !> The blocks
+      type(smoother_type), intent(in) :: smoother
+      !> The stiffness
+      type(node_blocks_type), intent(in) :: stiffness
+      !> Factors of its parts in the harmonic
+      real(wp), intent(in) :: factors(3)
+      !> Components that are free, and whether nodes are free in all
+      type(conditions_type), intent(in) :: conditions
+      logical, intent(in) :: plain(:)
+      !> The share, and how many there are
+      integer, intent(in) :: share, n
+      !> The factors
+      real(wp), intent(inout) :: factor(*)
+      !> Whether one of them is singular
+      logical, intent(inout) :: failed
+
+      logical :: singular
+      integer :: g, k, info
+
+      do g = 1 + range_end(size(smoother%groups, 2), share - 1, n), range_end(size(smoother%groups, 2), share, n)
          associate (start => smoother%start(g), one => smoother%groups(1, g))
-            associate (n => n_nodes_of(smoother, one), width => 3*smoother%width(one) + 2)
+            associate (nodes => n_nodes_of(smoother, one), width => 3*smoother%width(one) + 2)
                factor(start:smoother%start(g + 1) - 1) = 0.0_wp
                do k = 1, n_lanes
-                  call fill_block(stiffness, factors, conditions, plain, smoother%first(smoother%groups(k, g)), n, &
+                  call fill_block(stiffness, factors, conditions, plain, smoother%first(smoother%groups(k, g)), nodes, &
                      width, n_lanes, k, factor(start))
                end do
-               call factor_bands(3*n, width, factor(start), singular)
+               call factor_bands(3*nodes, width, factor(start), singular)
             end associate
          end associate
          failed = failed .or. singular
       end do
-      do k = 1, size(smoother%left)
+      do k = 1 + range_end(size(smoother%left), share - 1, n), range_end(size(smoother%left), share, n)
          associate (start => smoother%start(size(smoother%groups, 2) + k), b => smoother%left(k))
-            associate (n => n_nodes_of(smoother, b), width => 3*smoother%width(b) + 2)
+            associate (nodes => n_nodes_of(smoother, b), width => 3*smoother%width(b) + 2)
                factor(start:start + factor_size(smoother, b) - 1) = 0.0_wp
-               call fill_block(stiffness, factors, conditions, plain, smoother%first(b), n, width, 1, 1, factor(start))
-               call factor_band(3*n, width, factor(start), info)
+               call fill_block(stiffness, factors, conditions, plain, smoother%first(b), nodes, width, 1, 1, factor(start))
+               call factor_band(3*nodes, width, factor(start), info)
             end associate
          end associate
          failed = failed .or. info > 0
       end do
-   end subroutine factor_blocks
+   end subroutine factor_share
 
    !> Copy a block into a band matrix of zeros; what is held has an equation of its own
    pure subroutine fill_block(stiffness, factors, conditions, plain, first, n, width, lanes, lane, a)
@@ -422,30 +463,52 @@ contains
       !> Forces, then displacements, shape (3, nodes)
       real(wp), intent(inout) :: x(3, *)
 
+      integer :: k, n
+
+      n = n_shares(smoother)
+      do k = 1, n
+         !$omp task default(shared) firstprivate(k) if (n > 1)
+         call solve_share(smoother, factor, k, n, x)
+         !$omp end task
+      end do
+      !$omp taskwait
+   end subroutine solve_blocks
+
+   !> Solve for one share of groups and of blocks that are left
+   subroutine solve_share(smoother, factor, share, n, x)
+      !> The blocks
+      type(smoother_type), intent(in) :: smoother
+      !> Their factors
+      real(wp), intent(in) :: factor(*)
+      !> The share, and how many there are
+      integer, intent(in) :: share, n
+      !> Forces, then displacements, shape (3, nodes)
+      real(wp), intent(inout) :: x(3, *)
+
       real(wp), allocatable :: side(:, :)
       integer :: g, k
 
       allocate (side(n_lanes, 3*longest_group(smoother)))
-      do g = 1, size(smoother%groups, 2)
+      do g = 1 + range_end(size(smoother%groups, 2), share - 1, n), range_end(size(smoother%groups, 2), share, n)
          associate (blocks => smoother%groups(:, g))
-            associate (n => n_nodes_of(smoother, blocks(1)))
+            associate (nodes => n_nodes_of(smoother, blocks(1)))
                do k = 1, n_lanes
-                  call take_lane(n, x(1, smoother%first(blocks(k))), k, side)
+                  call take_lane(nodes, x(1, smoother%first(blocks(k))), k, side)
                end do
-               call solve_bands(3*n, 3*smoother%width(blocks(1)) + 2, factor(smoother%start(g)), side)
+               call solve_bands(3*nodes, 3*smoother%width(blocks(1)) + 2, factor(smoother%start(g)), side)
                do k = 1, n_lanes
-                  call give_lane(n, side, k, x(1, smoother%first(blocks(k))))
+                  call give_lane(nodes, side, k, x(1, smoother%first(blocks(k))))
                end do
             end associate
          end associate
       end do
-      do k = 1, size(smoother%left)
+      do k = 1 + range_end(size(smoother%left), share - 1, n), range_end(size(smoother%left), share, n)
          associate (b => smoother%left(k))
             call solve_band(3*n_nodes_of(smoother, b), 3*smoother%width(b) + 2, &
                factor(smoother%start(size(smoother%groups, 2) + k)), x(1, smoother%first(b)))
          end associate
       end do
-   end subroutine solve_blocks
+   end subroutine solve_share
 
    !> Nodes of the longest blocks that are in a group
    pure integer function longest_group(smoother)
