@@ -14,13 +14,13 @@ module axijoint_assembly_equations
    use axijoint_order_graph, only : bandwidth
    use axijoint_order_orders, only : orders_type
    use axijoint_solver_entry, only : solver_entry_type
-   use axijoint_solver_inverse_norm, only : inverse_norm
+   use axijoint_solver_inverse_norm, only : find_inverse_norm
    use axijoint_solver_registry, only : known_solvers
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type
    implicit none
    private
    public :: equations_type, system_type, plan_equations, assemble_equations
-   public :: solve_mode, find_unbalanced, on_equations
+   public :: solve_mode, solve_system, find_unbalanced, on_equations
    public :: own_modes, plan_solver, worth_threads, planned_seconds, condensing_operations, &
       refine_mode, find_condition
 
@@ -384,15 +384,52 @@ contains
       end associate
    end subroutine refine_mode
 
-   !> Estimate of the condition number of one system in the 1-norm, found when it is first asked for
+   !> Displacements of all modes of one system under nodal forces, found together, and an estimate of its
+   !> condition number in the 1-norm if it is not known yet
+   subroutine solve_system(equations, s, force, displacement)
+      !> The equations, factored
+      type(equations_type), intent(inout) :: equations
+      !> Place of the system; its condition is zero without equations
+      integer, intent(in) :: s
+      !> Forces on components, shape (3, nodes, modes of the system)
+      real(wp), intent(in) :: force(:, :, :)
+      !> Displacement amplitudes, same shape
+      real(wp), intent(out) :: displacement(:, :, :)
+
+      real(wp), allocatable :: b(:, :)
+      real(wp) :: norm
+      integer :: i
+
+      associate (system => equations%systems(s), dofs => equations%classes(equations%systems(s)%class)%dofs)
+         allocate (b(dofs%n_equations, size(force, 3)))
+         do i = 1, size(b, 2)
+            b(:, i) = gather(dofs, force(:, :, i))
+         end do
+         if (system%condition < 0.0_wp) then
+            call find_inverse_norm(system%factor, norm, b)
+            system%condition = norm*system%norm
+         else
+            call system%factor%solve(b)
+         end if
+         do i = 1, size(b, 2)
+            displacement(:, :, i) = expand(dofs, b(:, i))
+         end do
+      end associate
+   end subroutine solve_system
+
+   !> Estimate of the condition number of one system alone, found when it is first asked for
    subroutine find_condition(equations, k)
       !> The equations, factored
       type(equations_type), intent(inout) :: equations
       !> Place of the system; its condition is zero without equations
       integer, intent(in) :: k
 
+      real(wp) :: norm
+
       associate (system => equations%systems(k))
-         if (system%condition < 0.0_wp) system%condition = inverse_norm(system%factor)*system%norm
+         if (system%condition >= 0.0_wp) return
+         call find_inverse_norm(system%factor, norm)
+         system%condition = norm*system%norm
       end associate
    end subroutine find_condition
 

@@ -24,10 +24,15 @@ module axijoint_assembly_node_blocks
    use axijoint_order_graph, only : graph_type
    implicit none
    private
-   public :: node_blocks_type, new_node_blocks, assemble_blocks, block_product, harmonic_block, block_size
+   public :: node_blocks_type, new_node_blocks, assemble_blocks, block_product, harmonic_factors, evaluate, block_size
 
-   !> Numbers of a block, and those of them that are of A or S
-   integer, parameter :: block_size = 14, first_part = 9
+   !> Numbers of a block
+   integer, parameter :: block_size = 14
+
+   !> Most ranges of rows, rows of a range at least, and the part of the blocks that may couple different ranges,
+   !> which one thread sees to alone
+   integer, parameter :: most_ranges = 16, least_rows = 2048
+   real(wp), parameter :: most_coupling = 0.02_wp
 
    !> Lower triangle by rows of blocks
    type :: node_blocks_type
@@ -40,6 +45,8 @@ module axijoint_assembly_node_blocks
       !> The blocks, shape (block_size, blocks): A or S, component of the column by component of the
       !> row, nine numbers, then C of the pairs (u, u), (v, u), (u, v), (v, v), (w, w)
       real(wp), allocatable :: parts(:, :)
+      !> Ranges of rows that products are shared by among threads that have nothing else to do
+      integer :: n_ranges = 1
    end type node_blocks_type
 
 contains
@@ -73,7 +80,41 @@ contains
          blocks%column(n) = k
       end do
       blocks%row_start(graph%n + 1) = n + 1
+      call find_ranges(blocks)
    end subroutine new_node_blocks
+
+   !> See whether ranges of rows couple so little that products can be shared by them
+   pure subroutine find_ranges(blocks)
+      !> The blocks, with their pattern
+      type(node_blocks_type), intent(inout) :: blocks
+
+      integer(i8) :: coupling
+      integer :: k, n
+
+      n = size(blocks%place)
+      blocks%n_ranges = max(1, min(most_ranges, n/least_rows))
+      coupling = 0
+      do k = 1, blocks%n_ranges
+         coupling = coupling + coupling_before(blocks, first_row(blocks, k), first_row(blocks, k + 1) - 1)
+      end do
+      if (coupling > most_coupling*size(blocks%column)) blocks%n_ranges = 1
+   end subroutine find_ranges
+
+   !> Blocks that couple a range of rows with rows before it
+   pure integer(i8) function coupling_before(blocks, from, to)
+      !> The blocks
+      type(node_blocks_type), intent(in) :: blocks
+      !> First and last row
+      integer, intent(in) :: from, to
+
+      integer :: i
+
+      coupling_before = 0
+      do i = from, to
+         coupling_before = coupling_before &
+            + count(blocks%column(blocks%row_start(i):blocks%row_start(i + 1) - 1) < from)
+      end do
+   end function coupling_before
 
    !> Integrate all elements, joints and springs. Every thread adds to rows of its own, element by
    !> element, so that sums do not depend on the number of threads. Ranks of one machine share the rows, too
@@ -195,17 +236,28 @@ contains
       !> The numbers that are added to
       real(wp), intent(inout) :: parts(block_size)
 
-      real(wp) :: first(3, 3), second(3, 3)
+      integer :: i, j
 
-      first = block(1, :, :)
-      second = block(2, :, :)
       if (turned) then
-         first = transpose(first)
-         second = transpose(second)
+         do j = 1, 3
+            do i = 1, 3
+               parts(3*(i - 1) + j) = parts(3*(i - 1) + j) + block(1, i, j)
+            end do
+         end do
+         parts(11) = parts(11) + block(2, 1, 2)
+         parts(12) = parts(12) + block(2, 2, 1)
+      else
+         do j = 1, 3
+            do i = 1, 3
+               parts(3*(j - 1) + i) = parts(3*(j - 1) + i) + block(1, i, j)
+            end do
+         end do
+         parts(11) = parts(11) + block(2, 2, 1)
+         parts(12) = parts(12) + block(2, 1, 2)
       end if
-      parts(:first_part) = parts(:first_part) + reshape(first, [first_part])
-      parts(first_part + 1:) = parts(first_part + 1:) &
-         + [second(1, 1), second(2, 1), second(1, 2), second(2, 2), second(3, 3)]
+      parts(10) = parts(10) + block(2, 1, 1)
+      parts(13) = parts(13) + block(2, 2, 2)
+      parts(14) = parts(14) + block(2, 3, 3)
    end subroutine add_block
 
    !> Place of a block
@@ -220,20 +272,6 @@ contains
          block_at = block_at - 1
       end do
    end function block_at
-
-   !> A block of K_m
-   pure function harmonic_block(blocks, k, harmonic) result(block)
-      !> The blocks
-      type(node_blocks_type), intent(in) :: blocks
-      !> Place of the block
-      integer(i8), intent(in) :: k
-      !> Harmonic m
-      integer, intent(in) :: harmonic
-      !> Its values, shape (component of the column, component of the row)
-      real(wp) :: block(3, 3)
-
-      call evaluate(harmonic_factors(harmonic), blocks%parts(:, k), block)
-   end function harmonic_block
 
    !> Factors of A, S and C in K_m
    pure function harmonic_factors(harmonic) result(factors)
@@ -265,8 +303,10 @@ contains
       block(3, 3) = factors(1)*parts(9) + factors(3)*parts(14)
    end subroutine evaluate
 
-   !> y = K_m x, in the order of the rows
-   pure subroutine block_product(blocks, harmonic, x, y)
+   !> y = K_m x, in the order of the rows. Ranges of rows are shared among threads that have nothing else to do;
+   !> what a range adds to the rows of another is added afterwards, which is where it belongs in the order of
+   !> the rows: the sums are the same whoever makes them
+   subroutine block_product(blocks, harmonic, x, y)
       !> The blocks
       type(node_blocks_type), intent(in) :: blocks
       !> Harmonic m
@@ -276,13 +316,69 @@ contains
       !> y, same shape
       real(wp), intent(out), contiguous :: y(:, :)
 
-      real(wp) :: factors(3), b(3, 3), own(3), total(3)
+      integer :: k
+
+      do k = 1, blocks%n_ranges
+         !$omp task default(shared) firstprivate(k) if (blocks%n_ranges > 1)
+         call product_of_range(blocks, harmonic, k, x, y)
+         !$omp end task
+      end do
+      !$omp taskwait
+      do k = 2, blocks%n_ranges
+         call add_coupling(blocks, harmonic_factors(harmonic), first_row(blocks, k), first_row(blocks, k + 1) - 1, x, y)
+      end do
+   end subroutine block_product
+
+   !> First row of a range
+   pure integer function first_row(blocks, range)
+      !> The blocks
+      type(node_blocks_type), intent(in) :: blocks
+      !> The range
+      integer, intent(in) :: range
+
+      first_row = 1 + range_end(size(blocks%place), range - 1, blocks%n_ranges)
+   end function first_row
+
+   !> The rows of a range, without what it adds to rows before it
+   pure subroutine product_of_range(blocks, harmonic, range, x, y)
+      !> The blocks
+      type(node_blocks_type), intent(in) :: blocks
+      !> Harmonic m
+      integer, intent(in) :: harmonic
+      !> The range
+      integer, intent(in) :: range
+      !> x, shape (3, nodes)
+      real(wp), intent(in), contiguous :: x(:, :)
+      !> y, same shape; takes its rows
+      real(wp), intent(inout), contiguous :: y(:, :)
+
+      if (harmonic == 0) then
+         call uncoupled_rows(blocks, first_row(blocks, range), first_row(blocks, range + 1) - 1, x, y)
+      else
+         call coupled_rows(blocks, harmonic_factors(harmonic), first_row(blocks, range), &
+            first_row(blocks, range + 1) - 1, x, y)
+      end if
+   end subroutine product_of_range
+
+   !> The same for m > 0
+   pure subroutine coupled_rows(blocks, factors, from, to, x, y)
+      !> The blocks
+      type(node_blocks_type), intent(in) :: blocks
+      !> Factors of A, S and C in K_m
+      real(wp), intent(in) :: factors(3)
+      !> First and last row
+      integer, intent(in) :: from, to
+      !> x, shape (3, nodes)
+      real(wp), intent(in), contiguous :: x(:, :)
+      !> y, same shape; takes its rows
+      real(wp), intent(inout), contiguous :: y(:, :)
+
+      real(wp) :: b(3, 3), own(3), total(3)
       integer(i8) :: k
       integer :: i, j
 
-      factors = harmonic_factors(harmonic)
-      y = 0.0_wp
-      do i = 1, size(x, 2)
+      y(:, from:to) = 0.0_wp
+      do i = from, to
          own = x(:, i)
          total = 0.0_wp
          do k = blocks%row_start(i), blocks%row_start(i + 1) - 2
@@ -291,12 +387,80 @@ contains
             total(1) = total(1) + b(1, 1)*x(1, j) + b(2, 1)*x(2, j) + b(3, 1)*x(3, j)
             total(2) = total(2) + b(1, 2)*x(1, j) + b(2, 2)*x(2, j) + b(3, 2)*x(3, j)
             total(3) = total(3) + b(1, 3)*x(1, j) + b(2, 3)*x(2, j) + b(3, 3)*x(3, j)
-            y(:, j) = y(:, j) + b(:, 1)*own(1) + b(:, 2)*own(2) + b(:, 3)*own(3)
+            if (j >= from) y(:, j) = y(:, j) + b(:, 1)*own(1) + b(:, 2)*own(2) + b(:, 3)*own(3)
          end do
          k = blocks%row_start(i + 1) - 1
          call evaluate(factors, blocks%parts(:, k), b)
          y(:, i) = y(:, i) + total + b(:, 1)*own(1) + b(:, 2)*own(2) + b(:, 3)*own(3)
       end do
-   end subroutine block_product
+   end subroutine coupled_rows
+
+   !> The same for m = 0, where w does not meet u and v, and S and C have no part
+   pure subroutine uncoupled_rows(blocks, from, to, x, y)
+      !> The blocks
+      type(node_blocks_type), intent(in) :: blocks
+      !> First and last row
+      integer, intent(in) :: from, to
+      !> x, shape (3, nodes)
+      real(wp), intent(in), contiguous :: x(:, :)
+      !> y, same shape; takes its rows
+      real(wp), intent(inout), contiguous :: y(:, :)
+
+      real(wp) :: factors(3), b(5), own(3), total(3)
+      integer(i8) :: k
+      integer :: i, j
+
+      factors = harmonic_factors(0)
+      y(:, from:to) = 0.0_wp
+      do i = from, to
+         own = x(:, i)
+         total = 0.0_wp
+         do k = blocks%row_start(i), blocks%row_start(i + 1) - 2
+            j = blocks%column(k)
+            b = factors(1)*[blocks%parts(1, k), blocks%parts(2, k), blocks%parts(4, k), blocks%parts(5, k), &
+                            blocks%parts(9, k)]
+            total(1) = total(1) + b(1)*x(1, j) + b(2)*x(2, j)
+            total(2) = total(2) + b(3)*x(1, j) + b(4)*x(2, j)
+            total(3) = total(3) + b(5)*x(3, j)
+            if (j < from) cycle
+            y(1, j) = y(1, j) + b(1)*own(1) + b(3)*own(2)
+            y(2, j) = y(2, j) + b(2)*own(1) + b(4)*own(2)
+            y(3, j) = y(3, j) + b(5)*own(3)
+         end do
+         k = blocks%row_start(i + 1) - 1
+         b = factors(1)*[blocks%parts(1, k), blocks%parts(2, k), blocks%parts(4, k), blocks%parts(5, k), &
+                         blocks%parts(9, k)]
+         y(1, i) = y(1, i) + total(1) + b(1)*own(1) + b(3)*own(2)
+         y(2, i) = y(2, i) + total(2) + b(2)*own(1) + b(4)*own(2)
+         y(3, i) = y(3, i) + total(3) + b(5)*own(3)
+      end do
+   end subroutine uncoupled_rows
+
+   !> Add what a range of rows adds to rows before it
+   pure subroutine add_coupling(blocks, factors, from, to, x, y)
+      !> The blocks
+      type(node_blocks_type), intent(in) :: blocks
+      !> Factors of A, S and C in K_m
+      real(wp), intent(in) :: factors(3)
+      !> First and last row
+      integer, intent(in) :: from, to
+      !> x, shape (3, nodes)
+      real(wp), intent(in), contiguous :: x(:, :)
+      !> y, same shape
+      real(wp), intent(inout), contiguous :: y(:, :)
+
+      real(wp) :: b(3, 3)
+      integer(i8) :: k
+      integer :: i, j
+
+      do i = from, to
+         do k = blocks%row_start(i), blocks%row_start(i + 1) - 2
+            j = blocks%column(k)
+            if (j >= from) exit  ! columns ascend
+            call evaluate(factors, blocks%parts(:, k), b)
+            y(:, j) = y(:, j) + b(:, 1)*x(1, i) + b(:, 2)*x(2, i) + b(:, 3)*x(3, i)
+         end do
+      end do
+   end subroutine add_coupling
 
 end module axijoint_assembly_node_blocks

@@ -189,7 +189,7 @@ static handle_type *new_plan(int64_t n, const int64_t *start, const int32_t *col
    *bytes = (int64_t)sizeof(double) * (int64_t)plan->factor->xsize
             + (int64_t)sizeof(int64_t) * ((int64_t)plan->factor->ssize + 3 * n)
             + (int64_t)sizeof(double) * (n + (int64_t)most_rows(plan->factor));
-   *work_bytes = (int64_t)sizeof(int32_t) * (3 * n + 3 * (int64_t)plan->factor->nsuper);
+   *work_bytes = (int64_t)sizeof(int32_t) * (3 * n + 5 * (int64_t)plan->factor->nsuper);
    return plan;
 }
 
@@ -227,7 +227,7 @@ static handle_type *new_factor(const handle_type *plan, int large) {
    return NULL;
 }
 
-/* supernodal.f90 */
+/* supernodal.f90, supernodal_factorize.f90 */
 typedef struct {
    int64_t n, n_supernodes;
    const void *column, *first_row, *first_number, *row, *matrix_start, *matrix_row, *from;
@@ -236,7 +236,8 @@ void axijoint_supernodal_factorize(const structure_type *structure, const double
                                    int64_t *failed, int32_t *code);
 
 /* supernodal_solve.f90 */
-void axijoint_supernodal_solve(const structure_type *structure, const double *l, double *x, double *work);
+void axijoint_supernodal_solve(const structure_type *structure, const double *l, int64_t n_sides, double *x,
+                               double *work);
 
 /* Structure of a factor; the pattern of the matrix is known to a plan alone */
 static structure_type structure_of(const handle_type *plan, const cholmod_factor *l) {
@@ -312,36 +313,58 @@ static int has_room(const handle_type *handle, int64_t n_rhs) {
    return room != NULL;
 }
 
-/* Solve for one right-hand side in place: its unknowns in the order of the factor, and the rows of a supernode, take
-   the room given */
-static void solve_one(const handle_type *handle, double *b, double *permuted, double *rows) {
+/* Solve for a few right-hand sides in place: their unknowns in the order of the factor, and the rows of a supernode,
+   take the room given */
+static void solve_few(const handle_type *handle, int64_t n_rhs, double *b, double *permuted, double *rows) {
    const cholmod_factor *l = handle->factor;
-   const int64_t *order = l->Perm;
+   const int64_t *order = l->Perm, n = handle->n;
    structure_type structure = structure_of(handle, l);
-   int64_t k;
-   for (k = 0; k < handle->n; k++) permuted[k] = b[order[k]];
-   axijoint_supernodal_solve(&structure, l->x, permuted, rows);
-   for (k = 0; k < handle->n; k++) b[order[k]] = permuted[k];
+   int64_t i, k;
+   for (i = 0; i < n_rhs; i++)
+      for (k = 0; k < n; k++) permuted[k + i * n] = b[order[k] + i * n];
+   axijoint_supernodal_solve(&structure, l->x, n_rhs, permuted, rows);
+   for (i = 0; i < n_rhs; i++)
+      for (k = 0; k < n; k++) b[order[k] + i * n] = permuted[k + i * n];
 }
 
-/* Solve for a block of right-hand sides in place: all at once, or if there is no memory for that,
-   one after the other in the room reserved, one thread at a time */
-void axijoint_cholmod_solve(void *pointer, int64_t n_rhs, double *b) {
-   handle_type *handle = pointer;
+/* Solve for up to this many right-hand sides by loops of our own, which give each of them the same bits as if it were
+   alone; more pay for CHOLMOD's matrix products */
+static const int64_t few = 4;
+
+/* Solve for a few right-hand sides in room of their own; 1 if there is no memory */
+static int solve_together(const handle_type *handle, int64_t n_rhs, double *b) {
+   axijoint_let_fail(1);
+   double *permuted = malloc(sizeof(double) * (size_t)(handle->n * n_rhs));
+   double *rows = malloc(sizeof(double) * (most_rows(handle->factor) + 1));
+   axijoint_let_fail(-1);
+   int code = !permuted || !rows;
+   if (!code) solve_few(handle, n_rhs, b, permuted, rows);
+   free(permuted);
+   free(rows);
+   return code;
+}
+
+/* Solve for a block of right-hand sides by CHOLMOD; 1 if there is no memory */
+static int solve_block(handle_type *handle, int64_t n_rhs, double *b) {
    cholmod_dense right = columns(handle->n, n_rhs, b), *x = NULL;
    int levels = forbid_threads();
-   if (n_rhs > 1 && has_room(handle, n_rhs))
-      x = cholmod_l_solve(CHOLMOD_A, handle->factor, &right, &handle->common);
-   if (x) {
-      memcpy(b, x->x, sizeof(double) * right.nzmax);
-      cholmod_l_free_dense(&x, &handle->common);
-   } else {
-      omp_set_lock(&handle->reserved);
-      for (int64_t k = 0; k < n_rhs; k++)
-         solve_one(handle, b + k * handle->n, handle->permuted, handle->rows);
-      omp_unset_lock(&handle->reserved);
-   }
+   if (has_room(handle, n_rhs)) x = cholmod_l_solve(CHOLMOD_A, handle->factor, &right, &handle->common);
    omp_set_max_active_levels(levels);
+   if (!x) return 1;
+   memcpy(b, x->x, sizeof(double) * right.nzmax);
+   cholmod_l_free_dense(&x, &handle->common);
+   return 0;
+}
+
+/* Solve for right-hand sides in place: all at once, or if there is no memory for that, one after the other in the room
+   reserved, one thread at a time */
+void axijoint_cholmod_solve(void *pointer, int64_t n_rhs, double *b) {
+   handle_type *handle = pointer;
+   if (n_rhs > few && !solve_block(handle, n_rhs, b)) return;
+   if (n_rhs > 1 && n_rhs <= few && !solve_together(handle, n_rhs, b)) return;
+   omp_set_lock(&handle->reserved);
+   for (int64_t k = 0; k < n_rhs; k++) solve_few(handle, 1, b + k * handle->n, handle->permuted, handle->rows);
+   omp_unset_lock(&handle->reserved);
 }
 
 /* The columns of the factor at a set of equations, counted from one, as a dense lower triangle:

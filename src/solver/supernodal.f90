@@ -1,4 +1,5 @@
-!> Numbers of a supernodal Cholesky factor, whose structure CHOLMOD has found
+!> Numbers of a supernodal Cholesky factor, whose structure CHOLMOD has found: what the panels of some
+!> columns take from those before them
 !>
 !> Left-looking: each supernode gathers the matrix and what the supernodes before it leave, which
 !> wait in the list of the supernode that holds their next row (Ng and Peyton, SIAM J. Sci. Comput.
@@ -6,18 +7,22 @@
 !> works on a harmonic of its own the calls that this takes are time lost. All that counts starts
 !> from zero, as there.
 module axijoint_solver_supernodal
-   use, intrinsic :: iso_c_binding, only : c_ptr, c_f_pointer, c_double, c_int32_t, c_int64_t
+   use, intrinsic :: iso_c_binding, only : c_ptr, c_f_pointer, c_int32_t, c_int64_t
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_last_words, only : let_fail
    use axijoint_linalg_lapack, only : dgemm, dpotrf, dsyrk, dtrsm
    implicit none
    private
-   public :: supernodal_structure_type, supernodal_factorize
+   public :: supernodal_structure_type, progress_type, room_type, waiting_type, nobody
+   public :: start_progress, make_room, factor_run, load_panel, subtract_update, next_owner, enlist, columns_in, &
+      find_places
 
    !> Updates of so few columns are formed as a whole, not only their triangle
    integer, parameter :: few_columns = 32
    !> Larger updates are formed in parts, which stay in the cache
    integer, parameter :: largest_update = 131072
+   !> Ends a list
+   integer, parameter :: nobody = -1
 
    !> A supernode is a set of neighbouring columns with the same rows, kept as one dense panel
    type, bind(c) :: supernodal_structure_type
@@ -39,62 +44,30 @@ module axijoint_solver_supernodal
       integer(c_int64_t), pointer, contiguous :: column(:), first_row(:), first_number(:), row(:)
       integer(c_int64_t), pointer, contiguous :: matrix_start(:), matrix_row(:)
       integer(c_int32_t), pointer, contiguous :: from(:)
+      !> Order, supernodes, and rows of the highest of them
+      integer :: n = 0, n_supernodes = 0, most_rows = 0
       !> Supernode of each column
       integer, allocatable :: supernode(:)
-      !> Place in the supernode at hand of each of its rows
-      integer, allocatable :: place(:)
       !> First supernode of each list, the one after each, and the rows of each that are done
       integer, allocatable :: head(:), next(:), done(:)
+   end type progress_type
+
+   !> Memory of a thread
+   type :: room_type
+      !> Place in the supernode at hand of each row
+      integer, allocatable :: place(:)
       !> Places of the rows of an update, and the update
       integer, allocatable :: target(:)
       real(wp), allocatable :: update(:)
-   end type progress_type
+   end type room_type
+
+   !> Supernodes of a run that leave something to supernodes behind it, in the order in which they came: a list
+   !> by `next`
+   type :: waiting_type
+      integer :: first = nobody, last = nobody
+   end type waiting_type
 
 contains
-
-   !> Factor a matrix
-   subroutine supernodal_factorize(structure, value, l, failed, code) &
-      bind(c, name='axijoint_supernodal_factorize')
-      !> Structure of the factor
-      type(supernodal_structure_type), intent(in) :: structure
-      !> Values of the matrix
-      real(c_double), intent(in) :: value(0:*)
-      !> The factor, panel by panel
-      real(c_double), intent(inout) :: l(0:*)
-      !> Column whose pivot is not positive; -1 if there is none
-      integer(c_int64_t), intent(out) :: failed
-      !> 0; 1 if there is no memory
-      integer(c_int32_t), intent(out) :: code
-
-      type(progress_type) :: at
-      integer :: s, d, following, height, width, info
-
-      failed = -1
-      call start_progress(structure, at, code)
-      if (code /= 0) return
-      do s = 0, int(structure%n_supernodes) - 1
-         associate (panel => l(at%first_number(s):at%first_number(s + 1) - 1))
-            width = int(at%column(s + 1) - at%column(s))
-            height = int(at%first_row(s + 1) - at%first_row(s))
-            call load_panel(at, s, value, height, panel)
-            d = at%head(s)
-            do while (d >= 0)
-               following = at%next(d)
-               call subtract_update(at, s, d, l(at%first_number(d)), height, panel)
-               d = following
-            end do
-            call dpotrf('L', width, panel, height, info)
-            if (info /= 0) then
-               failed = at%column(s) + info - 1
-               return
-            end if
-            if (height == width) cycle
-            call dtrsm('R', 'L', 'T', 'N', height - width, width, 1.0_wp, panel, height, &
-                       l(at%first_number(s) + width), height)
-            call enlist(at, s, width)
-         end associate
-      end do
-   end subroutine supernodal_factorize
 
    !> Nothing is done yet
    subroutine start_progress(structure, at, code)
@@ -109,6 +82,8 @@ contains
 
       n = int(structure%n)
       m = int(structure%n_supernodes)
+      at%n = n
+      at%n_supernodes = m
       call view(structure%column, m + 1_i8, at%column)
       call view(structure%first_row, m + 1_i8, at%first_row)
       call view(structure%first_number, m + 1_i8, at%first_number)
@@ -117,22 +92,16 @@ contains
       call view(structure%matrix_row, at%matrix_start(n), at%matrix_row)
       call c_f_pointer(structure%from, at%from, [at%matrix_start(n)])
       at%from(0:) => at%from
+      at%most_rows = int(maxval([0_i8, at%first_row(1:) - at%first_row(:m - 1)]))
       call let_fail(.true.)
-      allocate (at%supernode(0:n), at%place(0:n), at%head(0:m), at%next(0:m), at%done(0:m), &
-                at%target(0:n), stat=stat)
+      allocate (at%supernode(0:n), at%head(0:m), at%next(0:m), at%done(0:m), stat=stat)
       call let_fail(.false.)
-      if (stat == 0) then
-         m = int(maxval([0_i8, at%first_row(1:) - at%first_row(:m - 1)]))
-         call let_fail(.true.)
-         allocate (at%update(0:max(largest_update, few_columns*m) - 1), stat=stat)
-         call let_fail(.false.)
-      end if
       code = merge(0_c_int32_t, 1_c_int32_t, stat == 0)
       if (code /= 0) return
-      do s = 0, int(structure%n_supernodes) - 1
+      do s = 0, m - 1
          at%supernode(at%column(s):at%column(s + 1) - 1) = s
       end do
-      at%head = -1
+      at%head = nobody
 
    contains
 
@@ -150,119 +119,263 @@ contains
 
    end subroutine start_progress
 
-   !> Put the columns of the matrix into the panel of a supernode
-   subroutine load_panel(at, s, value, height, panel)
-      !> Where the factorization stands; takes the places of the rows
+   !> Allocate the memory of a thread, once
+   subroutine make_room(at, room, code)
+      !> Where the factorization stands
+      type(progress_type), intent(in) :: at
+      !> The memory
+      type(room_type), intent(inout) :: room
+      !> 0; 1 if there is no memory
+      integer(c_int32_t), intent(out) :: code
+
+      integer :: stat
+
+      code = 0
+      if (allocated(room%update)) return
+      call let_fail(.true.)
+      allocate (room%place(0:at%n), room%target(0:at%most_rows), &
+         room%update(0:max(largest_update, few_columns*at%most_rows) - 1), stat=stat)
+      call let_fail(.false.)
+      code = merge(0_c_int32_t, 1_c_int32_t, stat == 0)
+   end subroutine make_room
+
+   !> Factor the panels of a run of supernodes, which take nothing from supernodes outside it
+   subroutine factor_run(at, first, last, value, l, room, waiting, failed)
+      !> Where the factorization stands
       type(progress_type), intent(inout) :: at
+      !> First and last supernode
+      integer, intent(in) :: first, last
+      !> Values of the matrix
+      real(wp), intent(in) :: value(0:*)
+      !> The factor, panel by panel
+      real(wp), intent(inout) :: l(0:*)
+      !> Memory of the thread
+      type(room_type), intent(inout) :: room
+      !> What the run leaves to supernodes behind it
+      type(waiting_type), intent(inout) :: waiting
+      !> Column whose pivot is not positive; not changed if there is none
+      integer(c_int64_t), intent(inout) :: failed
+
+      integer :: s, d, following, columns, height, width, info
+
+      do s = first, last
+         width = int(at%column(s + 1) - at%column(s))
+         height = int(at%first_row(s + 1) - at%first_row(s))
+         associate (panel => l(at%first_number(s):at%first_number(s + 1) - 1))
+            call find_places(at, s, room%place)
+            call load_panel(at, s, value, room%place, 0, height, height, panel)
+            d = at%head(s)
+            do while (d >= 0)
+               following = at%next(d)
+               columns = columns_in(at, s, d)
+               call subtract_update(at, d, columns, room%place, room, 0, height, l(at%first_number(d)), height, panel)
+               call pass_on(d, at%done(d) + columns)
+               d = following
+            end do
+            call dpotrf('L', width, panel, height, info)
+            if (info /= 0) then
+               failed = at%column(s) + info - 1
+               return
+            end if
+            if (height > width) call dtrsm('R', 'L', 'T', 'N', height - width, width, 1.0_wp, panel, height, &
+               l(at%first_number(s) + width), height)
+            call pass_on(s, width)
+         end associate
+      end do
+
+   contains
+
+      !> Hand a supernode on to the one that holds its next row
+      subroutine pass_on(d, done)
+         !> The supernode, and the rows of it that are done
+         integer, intent(in) :: d, done
+
+         at%done(d) = done
+         if (next_owner(at, d) == nobody) return
+         if (next_owner(at, d) <= last) then
+            call enlist(at, d)
+         else
+            at%next(d) = nobody
+            if (waiting%last >= 0) at%next(waiting%last) = d
+            if (waiting%first < 0) waiting%first = d
+            waiting%last = d
+         end if
+      end subroutine pass_on
+
+   end subroutine factor_run
+
+   !> Place in a panel of each of its rows
+   subroutine find_places(at, s, place)
+      !> Where the factorization stands
+      type(progress_type), intent(in) :: at
+      !> The supernode
+      integer, intent(in) :: s
+      !> Takes the places, shape (0:n)
+      integer, intent(inout) :: place(0:)
+
+      integer :: i
+
+      do i = 0, int(at%first_row(s + 1) - at%first_row(s)) - 1
+         place(at%row(at%first_row(s) + i)) = i
+      end do
+   end subroutine find_places
+
+   !> Put some rows of the matrix into the panel of a supernode
+   subroutine load_panel(at, s, value, place, from, to, height, panel)
+      !> Where the factorization stands
+      type(progress_type), intent(in) :: at
       !> The supernode
       integer, intent(in) :: s
       !> Values of the matrix
       real(wp), intent(in) :: value(0:*)
-      !> Rows of the panel
-      integer, intent(in) :: height
+      !> Place in the panel of each of its rows
+      integer, intent(in) :: place(0:)
+      !> First row of the panel, and up to which, and all of them
+      integer, intent(in) :: from, to, height
       !> The panel
       real(wp), intent(inout) :: panel(0:height - 1, 0:*)
 
-      integer :: i, j
+      integer :: j
       integer(i8) :: k
 
-      do i = 0, height - 1
-         at%place(at%row(at%first_row(s) + i)) = i
-      end do
       do j = 0, int(at%column(s + 1) - at%column(s)) - 1
-         panel(:, j) = 0.0_wp
+         panel(from:to - 1, j) = 0.0_wp
          do k = at%matrix_start(at%column(s) + j), at%matrix_start(at%column(s) + j + 1) - 1
-            panel(at%place(at%matrix_row(k)), j) = value(at%from(k))
+            associate (i => place(at%matrix_row(k)))
+               if (i >= from .and. i < to) panel(i, j) = value(at%from(k))
+            end associate
          end do
       end do
    end subroutine load_panel
 
-   !> Subtract what a supernode before it leaves to a panel, and hand that supernode on
-   subroutine subtract_update(at, s, d, before, height, panel)
+   !> Subtract what a supernode leaves to some rows of a panel
+   subroutine subtract_update(at, d, columns, place, room, from, to, before, height, panel)
       !> Where the factorization stands
-      type(progress_type), intent(inout) :: at
-      !> The supernode, and one in its list
-      integer, intent(in) :: s, d
-      !> Panel of the latter
+      type(progress_type), intent(in) :: at
+      !> The supernode that leaves it, and its columns in the panel
+      integer, intent(in) :: d, columns
+      !> Place in the panel of each of its rows
+      integer, intent(in) :: place(0:)
+      !> Memory of the thread
+      type(room_type), intent(inout) :: room
+      !> First row of the panel, and up to which
+      integer, intent(in) :: from, to
+      !> Panel of the supernode that leaves it
       real(wp), intent(in) :: before(0:*)
       !> Rows of the panel
       integer, intent(in) :: height
       !> The panel
       real(wp), intent(inout) :: panel(0:height - 1, 0:*)
 
-      integer :: depth, rows, columns, skip, rank, first, last, i, j
+      integer :: depth, rows, skip, rank, low, high, most, first, last, top, i, j
 
       depth = int(at%first_row(d + 1) - at%first_row(d))
       rank = int(at%column(d + 1) - at%column(d))
       skip = at%done(d)
       rows = depth - skip
-      associate (row => at%row(at%first_row(d) + skip:), target => at%target)
-         columns = 0
+      associate (row => at%row(at%first_row(d) + skip:), target => room%target)
+         if (place(row(1)) >= to .or. place(row(rows)) < from) return
          do i = 0, rows - 1
-            if (row(1 + i) < at%column(s + 1)) columns = i + 1
-            target(i) = at%place(row(1 + i))
+            target(i) = place(row(1 + i))
          end do
-         if (target(rows - 1) - target(0) == rows - 1) then  ! neighbouring rows need no gathering
-            call add_product(0, columns, -1.0_wp, 1.0_wp, height, panel(target(0), target(0)))
-         else
-            last = 0
-            do while (last < columns)
-               first = last
-               last = min(columns, first + max(few_columns, largest_update/(rows - first)))
-               call add_product(first, last, 1.0_wp, 0.0_wp, rows - first, at%update)
-               do j = first, last - 1
-                  do i = j, rows - 1
-                     panel(target(i), target(j)) = panel(target(i), target(j)) &
-                        - at%update(i - first + (j - first)*(rows - first))
-                  end do
+         low = 0
+         high = rows
+         if (from > 0) low = count(target(:rows - 1) < from)
+         if (to < height) high = count(target(:rows - 1) < to)
+         most = min(columns, high)
+         if (low == high) return
+         if (target(high - 1) - target(0) == high - 1) then  ! neighbouring rows need no gathering
+            call add_product(low, 0, most, -1.0_wp, 1.0_wp, height, panel(target(low), target(0)))
+            return
+         end if
+         last = 0
+         do while (last < most)
+            first = last
+            top = max(first, low)
+            last = min(most, first + max(few_columns, largest_update/(high - top)))
+            call add_product(top, first, last, 1.0_wp, 0.0_wp, high - top, room%update)
+            do j = first, last - 1
+               do i = max(j, top), high - 1
+                  panel(target(i), target(j)) = panel(target(i), target(j)) &
+                     - room%update(i - top + (j - first)*(high - top))
                end do
             end do
-         end if
+         end do
       end associate
-      if (columns < rows) call enlist(at, d, skip + columns)
 
    contains
 
-      !> c = alpha b b^T + beta c for some columns, the lower triangle of them and all below
-      subroutine add_product(first, last, alpha, beta, stride, c)
-         !> Columns before them, and up to them
-         integer, intent(in) :: first, last
+      !> c = alpha b b^T + beta c for rows up to `high` and some columns, as far as they lie in the lower triangle
+      subroutine add_product(top, first, last, alpha, beta, stride, c)
+         !> First row, first column and up to which column
+         integer, intent(in) :: top, first, last
          !> Factors
          real(wp), intent(in) :: alpha, beta
          !> Rows between columns of c
          integer, intent(in) :: stride
-         !> The sum
+         !> The sum; begins with the first row and column
          real(wp), intent(inout) :: c(0:*)
 
          integer :: n
 
-         n = last - first
-         if (n <= few_columns .and. .not. beta > 0.0_wp) then
-            call dgemm('N', 'T', rows - first, n, rank, alpha, before(skip + first), depth, &
-                       before(skip + first), depth, beta, c, stride)
+         if (top >= last .or. (last - first <= few_columns .and. .not. beta > 0.0_wp)) then
+            call dgemm('N', 'T', high - top, last - first, rank, alpha, before(skip + top), depth, &
+               before(skip + first), depth, beta, c, stride)
             return
          end if
-         call dsyrk('L', 'N', n, rank, alpha, before(skip + first), depth, beta, c, stride)
-         if (rows == last) return
-         call dgemm('N', 'T', rows - last, n, rank, alpha, before(skip + last), depth, &
-                    before(skip + first), depth, beta, c(n), stride)
+         ! columns before the first row, a triangle, and what is below it
+         n = last - top
+         if (top > first) call dgemm('N', 'T', high - top, top - first, rank, alpha, before(skip + top), depth, &
+            before(skip + first), depth, beta, c, stride)
+         associate (shift => int(top - first, i8)*stride)
+            call dsyrk('L', 'N', n, rank, alpha, before(skip + top), depth, beta, c(shift), stride)
+            if (high > last) call dgemm('N', 'T', high - last, n, rank, alpha, before(skip + last), depth, &
+               before(skip + top), depth, beta, c(shift + n), stride)
+         end associate
       end subroutine add_product
 
    end subroutine subtract_update
 
+   !> Columns of a supernode's update in the panel of another
+   pure integer function columns_in(at, s, d)
+      !> Where the factorization stands
+      type(progress_type), intent(in) :: at
+      !> The supernode with the panel, and the one before it
+      integer, intent(in) :: s, d
+
+      integer :: rows
+
+      rows = int(at%first_row(d + 1) - at%first_row(d)) - at%done(d)
+      columns_in = 0
+      do while (columns_in < rows)
+         if (at%row(at%first_row(d) + at%done(d) + columns_in) >= at%column(s + 1)) exit
+         columns_in = columns_in + 1
+      end do
+   end function columns_in
+
+   !> The supernode that holds the next row of one; nobody if all are done
+   pure integer function next_owner(at, d)
+      !> Where the factorization stands
+      type(progress_type), intent(in) :: at
+      !> The supernode
+      integer, intent(in) :: d
+
+      next_owner = nobody
+      if (at%first_row(d) + at%done(d) < at%first_row(d + 1)) &
+         next_owner = at%supernode(at%row(at%first_row(d) + at%done(d)))
+   end function next_owner
+
    !> Put a supernode into the list of the one that holds its next row
-   subroutine enlist(at, d, done)
+   subroutine enlist(at, d)
       !> Where the factorization stands
       type(progress_type), intent(inout) :: at
-      !> The supernode, and the rows of it that are done
-      integer, intent(in) :: d, done
+      !> The supernode
+      integer, intent(in) :: d
 
-      integer :: s
-
-      s = at%supernode(at%row(at%first_row(d) + done))
-      at%done(d) = done
-      at%next(d) = at%head(s)
-      at%head(s) = d
+      associate (head => at%head(next_owner(at, d)))
+         at%next(d) = head
+         head = d
+      end associate
    end subroutine enlist
 
 end module axijoint_solver_supernodal

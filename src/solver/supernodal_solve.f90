@@ -1,8 +1,9 @@
-!> Solution of one system with a supernodal Cholesky factor
+!> Solution of a system with a supernodal Cholesky factor, for one or a few right-hand sides
 !>
 !> Most supernodes of a plane mesh are small, and calls of the BLAS for them cost more than what they
 !> compute: columns are taken a few at a time in loops of our own, and only what is left of large
-!> panels is a product of the BLAS.
+!> panels is a product of the BLAS. A panel serves all right-hand sides while it is in the cache, and
+!> each of them takes the same operations as if it were alone: not a bit of it depends on the others.
 module axijoint_solver_supernodal_solve
    use, intrinsic :: iso_c_binding, only : c_ptr, c_f_pointer, c_double, c_int64_t
    use axijoint_base_kinds, only : wp, i8
@@ -20,18 +21,20 @@ module axijoint_solver_supernodal_solve
 contains
 
    !> Solve L L^T x = b in the order of the factor
-   subroutine supernodal_solve(structure, l, x, work) bind(c, name='axijoint_supernodal_solve')
+   subroutine supernodal_solve(structure, l, n_sides, x, work) bind(c, name='axijoint_supernodal_solve')
       !> Structure of the factor
       type(supernodal_structure_type), intent(in) :: structure
       !> The factor, panel by panel
       real(c_double), intent(in) :: l(0:*)
-      !> Right-hand side, then solution, shape (n)
-      real(c_double), intent(inout) :: x(0:*)
+      !> Right-hand sides
+      integer(c_int64_t), value :: n_sides
+      !> Right-hand sides, then solutions
+      real(c_double), intent(inout) :: x(0:structure%n - 1, n_sides)
       !> As many numbers as the longest panel has rows
       real(c_double), intent(inout) :: work(0:*)
 
       integer(c_int64_t), pointer, contiguous :: column(:), first_row(:), first_number(:), row(:)
-      integer(i8) :: n, s
+      integer(i8) :: n, s, k
 
       n = structure%n_supernodes
       call c_f_pointer(structure%column, column, [n + 1])
@@ -39,14 +42,18 @@ contains
       call c_f_pointer(structure%first_number, first_number, [n + 1])
       call c_f_pointer(structure%row, row, [first_row(n + 1)])
       do s = 1, n
-         ! Loads on few nodes, as those of joints, touch few panels up to the root; NaN is not skipped
-         if (all(abs(x(column(s):column(s + 1) - 1)) <= 0.0_wp)) cycle
-         call forward(int(first_row(s + 1) - first_row(s)), int(column(s + 1) - column(s)), &
-            l(first_number(s)), row(first_row(s) + 1:first_row(s + 1)), x, work)
+         do k = 1, n_sides
+            ! Loads on few nodes, as those of joints, touch few panels up to the root; NaN is not skipped
+            if (all(abs(x(column(s):column(s + 1) - 1, k)) <= 0.0_wp)) cycle
+            call forward(int(first_row(s + 1) - first_row(s)), int(column(s + 1) - column(s)), &
+               l(first_number(s)), row(first_row(s) + 1:first_row(s + 1)), x(:, k), work)
+         end do
       end do
       do s = n, 1, -1
-         call backward(int(first_row(s + 1) - first_row(s)), int(column(s + 1) - column(s)), &
-            l(first_number(s)), row(first_row(s) + 1:first_row(s + 1)), x, work)
+         do k = 1, n_sides
+            call backward(int(first_row(s + 1) - first_row(s)), int(column(s + 1) - column(s)), &
+               l(first_number(s)), row(first_row(s) + 1:first_row(s + 1)), x(:, k), work)
+         end do
       end do
    end subroutine supernodal_solve
 

@@ -1,13 +1,13 @@
 !> Displacements of the whole body, harmonic by harmonic
 module axijoint_analysis_core_solution
-   use omp_lib, only : omp_get_wtime
+   use omp_lib, only : omp_get_max_threads, omp_get_wtime
    use axijoint_analysis_core_results, only : mode_solve_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_fine_difference, only : difference_type, room_type, &
       find_difference, share_difference
    use axijoint_analysis_fine_level, only : fine_load_type, new_fine_load
-   use axijoint_assembly_equations, only : equations_type, own_modes, solve_mode, refine_mode, &
-                                           find_unbalanced, find_condition
+   use axijoint_assembly_equations, only : equations_type, own_modes, solve_system, refine_mode, &
+                                           find_unbalanced, worth_threads
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
                                          release_factor, report_failure
    use axijoint_assembly_force, only : joint_force
@@ -47,10 +47,8 @@ contains
       type(workspace_type), allocatable :: spaces(:)
       type(room_type), allocatable :: rooms(:)
       real(wp), allocatable :: acting(:, :, :)
-      real(wp), allocatable :: force(:, :)  ! threads have small stacks
       real(wp) :: times(4, size(structure%equations%systems))
-      real(wp) :: before_errors
-      integer :: s, i, k, n
+      integer :: s, n, n_threads
 
       allocate (solves(size(structure%modes)))
       n = 0
@@ -61,42 +59,24 @@ contains
       call new_workspaces(structure%equations, spaces)
       allocate (rooms(size(spaces)))
       times = 0.0_wp
-      associate (equations => structure%equations, points => structure%condensed%points(:n))
-         !$omp parallel do schedule(dynamic) private(i, k, force, before_errors) &
-         !$omp num_threads(size(spaces))
-         do s = equations%first, equations%last
-            times(1, s) = omp_get_wtime()
-            call hold_factor(equations, s, spaces(own()))
-            times(2, s) = omp_get_wtime()
-            if (.not. equations%systems(s)%failed) then
-               associate (modes => equations%systems(s)%modes)
-                  call find_condition(equations, s)
-                  solves(modes)%condition = equations%systems(s)%condition
-                  do i = 1, size(modes)
-                     k = modes(i)
-                     force = loading%right(:, :, k) + &
-                        joint_force(points, equations%modes(k)%harmonic, &
-                                                                  acting(:, :, k), &
-                                                                  size(displacement, 2))
-                     call solve_mode(equations, k, force, displacement(:, :, k))
-                     call refine_solve(equations, k, force, structure%negligible, &
-                        displacement(:, :, k), solves(k))
-                     if (allocated(loading%held)) then
-                        displacement(:, :, k) = displacement(:, :, k) + loading%held(:, :, k)
-                     end if
-                  end do
-                  before_errors = omp_get_wtime()
-                  if (present(difference)) then
-                     call find_difference(structure%fine, equations, s, load, displacement, &
-                        points, acting, rooms(own()), difference)
-                  end if
-                  times(3, s) = omp_get_wtime() - before_errors
-               end associate
-               call release_factor(equations, s, spaces(own()))
-            end if
-            times(4, s) = omp_get_wtime()
-         end do
-         !$omp end parallel do
+      associate (equations => structure%equations)
+         if (size(spaces) == 1) then
+            ! one system at a time: other threads take the tasks that it leaves
+            n_threads = merge(omp_get_max_threads(), 1, worth_threads(equations))
+            !$omp parallel num_threads(n_threads)
+            !$omp master
+            do s = equations%first, equations%last
+               call solve_one(s)
+            end do
+            !$omp end master
+            !$omp end parallel
+         else
+            !$omp parallel do schedule(dynamic) num_threads(size(spaces))
+            do s = equations%first, equations%last
+               call solve_one(s)
+            end do
+            !$omp end parallel do
+         end if
          if (present(difference)) then
             difference%seconds = sum(times(3, :))/size(spaces)
             difference%factor_share = sum(times(2, :) - times(1, :))/max(tiny(1.0_wp), &
@@ -108,6 +88,52 @@ contains
          call share_solves(equations, solves)
          if (present(difference)) call share_difference(equations, difference)
       end associate
+
+   contains
+
+      !> Solve one system
+      subroutine solve_one(s)
+         !> Its place
+         integer, intent(in) :: s
+
+         real(wp), allocatable :: force(:, :, :), found(:, :, :)  ! threads have small stacks
+         real(wp) :: before_errors
+         integer :: i, k
+
+         times(1, s) = omp_get_wtime()
+         call hold_factor(structure%equations, s, spaces(own()))
+         times(2, s) = omp_get_wtime()
+         associate (equations => structure%equations, points => structure%condensed%points(:n), &
+                    modes => structure%equations%systems(s)%modes)
+            if (.not. equations%systems(s)%failed) then
+               allocate (force(3, size(displacement, 2), size(modes)))
+               allocate (found, mold=force)
+               do i = 1, size(modes)
+                  k = modes(i)
+                  force(:, :, i) = loading%right(:, :, k) + &
+                     joint_force(points, equations%modes(k)%harmonic, acting(:, :, k), size(force, 2))
+               end do
+               call solve_system(equations, s, force, found)
+               solves(modes)%condition = equations%systems(s)%condition
+               do i = 1, size(modes)
+                  k = modes(i)
+                  displacement(:, :, k) = found(:, :, i)
+                  call refine_solve(equations, k, force(:, :, i), structure%negligible, displacement(:, :, k), solves(k))
+                  if (allocated(loading%held)) displacement(:, :, k) = displacement(:, :, k) + loading%held(:, :, k)
+               end do
+               deallocate (force, found)
+               before_errors = omp_get_wtime()
+               if (present(difference)) then
+                  call find_difference(structure%fine, equations, s, load, displacement, points, acting, rooms(own()), &
+                     difference)
+               end if
+               times(3, s) = omp_get_wtime() - before_errors
+               call release_factor(equations, s, spaces(own()))
+            end if
+         end associate
+         times(4, s) = omp_get_wtime()
+      end subroutine solve_one
+
    end subroutine solve_displacements
 
    !> Let all ranks know how well all modes were solved

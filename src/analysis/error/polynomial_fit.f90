@@ -35,10 +35,16 @@ contains
       !> The values
       real(wp) :: values(n)
 
+      real(wp) :: power(2, 0:4)
       integer :: j
 
+      power(:, 0) = 1.0_wp
+      power(:, 1) = x
+      power(:, 2) = x*x
+      power(:, 3) = x*power(:, 2)
+      power(:, 4) = power(:, 2)*power(:, 2)
       do j = 1, n
-         values(j) = x(1)**powers(1, j)*x(2)**powers(2, j)
+         values(j) = power(1, powers(1, j))*power(2, powers(2, j))
       end do
    end function polynomials
 
@@ -70,36 +76,41 @@ contains
       !> Coefficients from the values at the points, shape (functions, points)
       real(wp), intent(out) :: coefficient(:, :)
 
-      real(wp) :: basis(size(x, 2), size(coefficient, 1))
+      !> Functions at the points, shape (functions, points)
+      real(wp) :: basis(size(coefficient, 1), size(x, 2))
       !> Functions that are orthonormal, in terms of the others, by columns
       real(wp) :: combination(size(coefficient, 1), size(coefficient, 1))
-      real(wp) :: before, rest, projection
-      integer :: i, j
+      real(wp) :: before(size(coefficient, 1)), projection(size(coefficient, 1)), root(size(weight)), rest
+      integer :: i, j, s, n
 
-      do i = 1, size(x, 2)
-         basis(i, :) = sqrt(weight(i))*polynomials(size(basis, 2), x(:, i))
+      n = size(basis, 1)
+      root = sqrt(weight)
+      before = 0.0_wp
+      do s = 1, size(x, 2)
+         basis(:, s) = root(s)*polynomials(n, x(:, s))
+         before = before + basis(:, s)**2
       end do
       combination = 0.0_wp
-      coefficient = 0.0_wp
-      do j = 1, size(basis, 2)
+      do j = 1, n
          combination(j, j) = 1.0_wp
-         before = sum(basis(:, j)**2)
-         do i = 1, j - 1
-            projection = dot_product(basis(:, i), basis(:, j))
-            basis(:, j) = basis(:, j) - projection*basis(:, i)
-            combination(:j, j) = combination(:j, j) - projection*combination(:j, i)
+      end do
+      coefficient = 0.0_wp
+      do i = 1, n
+         rest = sum(basis(i, :)**2)
+         if (rest <= least_share**2*before(i)) cycle
+         basis(i, :) = basis(i, :)/sqrt(rest)
+         combination(:i, i) = combination(:i, i)/sqrt(rest)
+         ! taken from all functions behind it at once: sums side by side, none of which waits for another
+         projection = 0.0_wp
+         do s = 1, size(x, 2)
+            projection(i + 1:) = projection(i + 1:) + basis(i, s)*basis(i + 1:, s)
          end do
-         rest = sum(basis(:, j)**2)
-         if (rest <= least_share**2*before) then
-            basis(:, j) = 0.0_wp
-            combination(:, j) = 0.0_wp
-            cycle
-         end if
-         basis(:, j) = basis(:, j)/sqrt(rest)
-         combination(:, j) = combination(:, j)/sqrt(rest)
-         do i = 1, size(x, 2)
-            coefficient(:j, i) = coefficient(:j, i) + &
-               combination(:j, j)*(basis(i, j)*sqrt(weight(i)))
+         do s = 1, size(x, 2)
+            basis(i + 1:, s) = basis(i + 1:, s) - projection(i + 1:)*basis(i, s)
+            coefficient(:i, s) = coefficient(:i, s) + combination(:i, i)*(basis(i, s)*root(s))
+         end do
+         do j = i + 1, n
+            combination(:i, j) = combination(:i, j) - projection(j)*combination(:i, i)
          end do
       end do
    end subroutine fit_polynomial

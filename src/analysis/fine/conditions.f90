@@ -14,6 +14,8 @@ module axijoint_analysis_fine_conditions
       logical, allocatable :: free(:, :)
       !> Whether w follows u: w = -u, on the axis in harmonic 1, shape (nodes)
       logical, allocatable :: tied(:)
+      !> Nodes that are not free in all components
+      integer, allocatable :: held(:)
    end type conditions_type
 
 contains
@@ -60,6 +62,7 @@ contains
             end do
          end associate
       end do
+      conditions%held = pack([(k, k=1, size(place))], conditions%tied .or. .not. all(conditions%free, 1))
    end subroutine new_conditions
 
    !> Put displacements where the conditions hold them
@@ -69,8 +72,14 @@ contains
       !> Components, shape (3, nodes)
       real(wp), intent(inout) :: displacement(:, :)
 
-      where (.not. conditions%free) displacement = 0.0_wp
-      where (conditions%tied) displacement(3, :) = -displacement(1, :)
+      integer :: i
+
+      do i = 1, size(conditions%held)
+         associate (node => conditions%held(i))
+            where (.not. conditions%free(:, node)) displacement(:, node) = 0.0_wp
+            if (conditions%tied(node)) displacement(3, node) = -displacement(1, node)
+         end associate
+      end do
    end subroutine hold
 
    !> Take from forces what holds the components; where w follows u, all of the work is put on u
@@ -80,8 +89,14 @@ contains
       !> Components, shape (3, nodes)
       real(wp), intent(inout) :: force(:, :)
 
-      where (conditions%tied) force(1, :) = force(1, :) - force(3, :)
-      where (.not. conditions%free) force = 0.0_wp
+      integer :: i
+
+      do i = 1, size(conditions%held)
+         associate (node => conditions%held(i))
+            if (conditions%tied(node)) force(1, node) = force(1, node) - force(3, node)
+            where (.not. conditions%free(:, node)) force(:, node) = 0.0_wp
+         end associate
+      end do
    end subroutine take_reactions
 
 end module axijoint_analysis_fine_conditions

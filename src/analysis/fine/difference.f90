@@ -180,13 +180,15 @@ contains
 
       real(wp), allocatable :: jump(:, :)
       real(wp) :: length
-      integer :: step, i
+      integer :: step, i, n
 
       associate (harmonic => equations%modes(k)%harmonic, force => room%force, way => room%way, &
                  pull => room%pull, change => room%external, place => level%stiffness%place, &
                  conditions => level%conditions(equations%systems(equations%system(k))%class), &
                  displacement => difference%displacement(:, :, k), &
                  jumps => difference%jump(:, :, k))
+         n = size(displacement, 2)
+         if (size(level%coarse_points) > 0) n = size(change, 2)  ! jumps are of fine nodes, too
          do step = 1, most_steps
             associate (d => way(:, :, step), kd => pull(:, :, step))
                call look_down(level, equations, k, room%factor, force, room%u, d)
@@ -199,7 +201,7 @@ contains
                d = d/sqrt(length)
                kd = kd/sqrt(length)
                length = sum(d*force)
-               change(:, :) = length*d(:, place)
+               change(:, :n) = length*d(:, place(:n))
                jump = joint_jump(level%coarse_points, change)
                displacement = displacement + change(:, :size(displacement, 2))
                jumps = jumps + jump
