@@ -100,12 +100,42 @@ void axijoint_cholmod_free(void *pointer) {
    free(handle);
 }
 
-/* Symbolic factor of the pattern */
+/* Whether a column of the lower triangle tells nothing that the column before it does not tell: the two equations are
+   coupled, and whoever is coupled to the second below it is coupled to the first. Eliminating the first then fills the
+   second with all that it holds. So it is with the second and third component of a node. Null if there is no memory */
+static char *find_followers(int64_t n, const int64_t *start, const int32_t *column) {
+   int32_t *alone = calloc((size_t)n + 1, sizeof *alone); /* rows that hold a column and not the one before it */
+   char *follows = malloc((size_t)n + 1);
+   int64_t i, k;
+   if (alone && follows) {
+      for (i = 0; i < n; i++)
+         for (k = start[i] - 1; k < start[i + 1] - 2; k++) /* the diagonal is last */
+            if (k == start[i] - 1 || column[k - 1] != column[k] - 1) alone[column[k] - 1]++;
+      for (i = 0; i < n; i++) {
+         k = start[i + 1] - 2;
+         follows[i] = alone[i] == 0 && k > start[i] - 1 && column[k - 1] == column[k] - 1;
+      }
+   } else {
+      free(follows);
+      follows = NULL;
+   }
+   free(alone);
+   return follows;
+}
+
+/* Symbolic factor of the pattern: that of the columns that follow none, a third of the entries, is the same */
 static void analyse(handle_type *plan, const int64_t *start, const int32_t *column) {
-   int64_t k, n = plan->n, entries = start[n] - 1;
+   int64_t i, k, n = plan->n, kept = 0;
+   char *follows = find_followers(n, start, column);
    cholmod_sparse a;
-   for (k = 0; k <= n; k++) plan->start[k] = start[k] - 1;
-   for (k = 0; k < entries; k++) plan->row[k] = (int64_t)column[k] - 1;
+   if (!follows) return;
+   for (i = 0; i < n; i++) {
+      plan->start[i] = kept;
+      for (k = start[i] - 1; k < start[i + 1] - 1; k++)
+         if (!follows[column[k] - 1] || column[k] - 1 >= i - 1) plan->row[kept++] = (int64_t)column[k] - 1;
+   }
+   plan->start[n] = kept;
+   free(follows);
    a = view(n, plan->start, plan->row, NULL, 1); /* the lower triangle by rows is upper by columns */
    plan->factor = cholmod_l_analyze(&a, &plan->common);
 }
@@ -118,7 +148,7 @@ static int arrange(handle_type *plan, const int64_t *start, const int32_t *colum
    int64_t n = plan->n, entries = start[n] - 1, i, k;
    int64_t *place = malloc(sizeof *place * (size_t)(n + 1)), *end = malloc(sizeof *end * (size_t)(n + 2));
    int64_t *upper_start = malloc(sizeof *upper_start * (size_t)(n + 1));
-   int64_t *upper = malloc(sizeof *upper * (size_t)(entries + 1));
+   int32_t *upper = malloc(sizeof *upper * (size_t)(entries + 1));
    int32_t *upper_from = malloc(sizeof *upper_from * (size_t)(entries + 1));
    int ok = place && end && upper_start && upper && upper_from;
    if (ok) {
@@ -135,7 +165,7 @@ static int arrange(handle_type *plan, const int64_t *start, const int32_t *colum
       for (i = 0; i < n; i++)
          for (k = start[i] - 1; k < start[i + 1] - 1; k++) {
             int64_t a = place[i], b = place[column[k] - 1], to = end[a > b ? a : b]++;
-            upper[to] = a > b ? b : a;
+            upper[to] = (int32_t)(a > b ? b : a);
             upper_from[to] = (int32_t)k;
          }
       /* transposed, its rows ascend */
