@@ -5,7 +5,7 @@ module axijoint_output_file_hdf5
    use, intrinsic :: iso_fortran_env, only : int8
    use axijoint_base_error, only : error_type, fatal_error, exit_io
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_base_system, only : ignore_file_size_signal, set_last_error, sync_path
+   use axijoint_base_system, only : ignore_file_size_signal, set_last_error, start_sync
    use axijoint_output_file_hdf5_data, only : write_array, write_string, write_attribute, &
       write_string_attribute
    use axijoint_output_file_hdf5_series, only : hdf5_series_type, open_series, append_piece, &
@@ -59,7 +59,7 @@ module axijoint_output_file_hdf5
       generic :: append => append_reals, append_longs, append_bytes
       procedure, private :: append_reals, append_longs, append_bytes
       procedure :: end
-      !> Bring all to the disk, close, open again as a check
+      !> Hand all to the system, close, open again as a check; it goes to the disk meanwhile
       procedure :: finish
       !> Bytes of the finished file
       procedure :: size => size_of_file
@@ -364,15 +364,16 @@ contains
       extent = max(shape, 0_hsize_t)
    end function extent_of
 
-   !> Bring all to the disk and close; then open once more, so that what gets
-   !> the final name is known to be an HDF5 file
+   !> Hand all to the system and close; then open once more, so that what gets
+   !> the final name is known to be an HDF5 file. Who gives it its name waits until
+   !> it is on the disk (`publish`, `commit_set`)
    subroutine finish(self, error)
       !> The file
       class(hdf5_file_type), intent(inout) :: self
-      !> Something is not on the disk
+      !> Something could not be written
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: status, errno
+      integer :: status
 
       call set_last_error(0)
       if (.not. self%failure%failed) then
@@ -381,10 +382,9 @@ contains
       end if
       call close_file(self)
       if (.not. self%failure%failed) then
-         call sync_path(temporary_path(self%path), errno)
-         call self%failure%check(-errno, "bringing the file to the disk", errno)
+         call start_sync(temporary_path(self%path))
+         call open_again(self)
       end if
-      if (.not. self%failure%failed) call open_again(self)
       call close_library(self)
       if (.not. self%failure%failed) return
       call io_error(error, "write", self%path, self%failure%errno)

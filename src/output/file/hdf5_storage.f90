@@ -61,21 +61,18 @@ module axijoint_output_file_hdf5_storage
 contains
 
    !> Keep the first failure, with the system's error if there is one
-   subroutine check(self, status, what, errno)
+   subroutine check(self, status, what)
       !> What failed first
       class(hdf5_failure_type), intent(inout) :: self
       !> Status that a call returned; negative for a failure
       integer, intent(in) :: status
       !> What was written or done
       character(len=*), intent(in) :: what
-      !> The system's error, where it is not the last one
-      integer, intent(in), optional :: errno
 
       if (status >= 0 .or. self%failed) return
       self%failed = .true.
       self%what = what
       self%errno = last_error()
-      if (present(errno)) self%errno = errno
    end subroutine check
 
    !> Make the properties. Times of objects are not kept: the file says once when it was written
