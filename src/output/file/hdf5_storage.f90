@@ -1,8 +1,9 @@
-!> How an HDF5 file is laid out, so that every byte of it is under a checksum and small arrays cost little:
+!> How an HDF5 file is laid out, so that its bytes are under checksums and small arrays cost little:
 !>
 !> - the format of HDF5 1.10, whose headers of groups and datasets carry checksums over attributes and links as well;
 !> - an array of few bytes stands in the header of its dataset, under that checksum;
-!> - any other is cut into chunks with checksums, found by an index with checksums.
+!> - any other is cut into chunks with checksums, found by an index with checksums; a text of more than 64 KiB cannot
+!>   be cut, and has none.
 !>
 !> A file of this format that is not closed cannot be opened: it must get its name when it is complete.
 module axijoint_output_file_hdf5_storage
@@ -19,8 +20,8 @@ module axijoint_output_file_hdf5_storage
    integer(hid_t), parameter :: no_handle = -1_hid_t
    !> Values of a chunk at most; about a megabyte of reals
    integer(hsize_t), parameter :: chunk_values = 131072_hsize_t
-   !> Bytes of an array in a header at most; the format allows 64 KiB
-   integer(hsize_t), parameter :: small_bytes = 16384_hsize_t
+   !> Bytes of an array in a header at most, and of a text, which cannot be cut into chunks; the format allows 64 KiB
+   integer(hsize_t), parameter :: small_array = 16384_hsize_t, small_text = 65000_hsize_t
    !> Links and attributes of one object that stand in its header; more of them get an index
    integer, parameter :: most_in_header = 1000
    !> Links of a group that its header is made for, and bytes of their names: more of them continue elsewhere
@@ -201,14 +202,14 @@ contains
       if (failure%failed) return
       call h5tget_size_f(type, bytes, status)
       call failure%check(status, name)
-      if (product(extent)*int(bytes, hsize_t) <= small_bytes) then
+      if (product(extent)*int(bytes, hsize_t) <= merge(small_text, small_array, size(extent) == 0)) then
          properties = self%small
          return
       end if
       call make(h5p_dataset_create_f, properties, failure)
       if (failure%failed) return
       call gather_attributes(properties, failure)
-      if (size(extent) == 0) return  ! one text that is long: there is nothing to cut
+      if (size(extent) == 0) return  ! a long text: there is nothing to cut
       call h5pset_chunk_f(properties, size(extent), chunk_extent(extent), status)
       call failure%check(status, name)
       call h5pset_fletcher32_f(properties, status)
