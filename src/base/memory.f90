@@ -3,6 +3,7 @@ module axijoint_base_memory
    use axijoint_base_error, only : error_type, fatal_error, exit_memory
    use axijoint_base_kinds, only : i8
    use axijoint_base_text, only : to_text
+   use axijoint_base_whole_file, only : first_bytes
    implicit none
    private
    public :: require_memory, available_memory, free_memory, resident_bytes, give_back_memory, no_limit
@@ -17,11 +18,16 @@ module axijoint_base_memory
    integer(i8), parameter :: no_limit = huge(1_i8)
    !> No limit is known
    integer(i8), parameter :: unknown = huge(1_i8)
+   !> From here on a limit of the system is none: its first version of groups gives a number for that, too
+   integer(i8), parameter :: no_bound = 2_i8**60
    !> Bytes that must stay free for what libraries and threads take besides; the buffers of the BLAS
    !> are taken before (linalg/blas_buffers.f90)
    integer(i8), parameter :: head_room = 64*2_i8**20
    !> What numbers are made of
    character(len=*), parameter :: digits = '0123456789'
+   !> Bytes of the system's files that are looked at: what is asked for stands in the first two thousand or so
+   integer, parameter :: enough = 16384
+   character(len=1), parameter :: nl = new_line('a')
 
 contains
 
@@ -129,11 +135,12 @@ contains
       group = text_after('/proc/self/cgroup', label)
       do
          limit = number_after(root//group//'/'//limit_file, '')
-         used = number_after(root//group//'/'//used_file, '')
-         files = number_after(root//group//'/memory.stat', unused//' ')
-         if (files == unknown) files = 0
-         if (limit /= unknown .and. used /= unknown) &
-            bytes = min(bytes, max(limit - max(used - files, 0_i8), 0_i8))
+         if (limit < no_bound) then  ! what is used is told slowly
+            used = number_after(root//group//'/'//used_file, '')
+            files = number_after(root//group//'/memory.stat', unused//' ')
+            if (files == unknown) files = 0
+            if (used /= unknown) bytes = min(bytes, max(limit - max(used - files, 0_i8), 0_i8))
+         end if
          if (len(group) == 0) exit
          group = group(:index(group, '/', back=.true.) - 1)
       end do
@@ -148,25 +155,14 @@ contains
       !> The rest of the line; empty if there is none
       character(len=:), allocatable :: text
 
-      character(len=4096) :: line
-      integer :: unit, stat, place
+      integer :: place
 
-      text = ''
-      open (newunit=unit, file=path, status='old', action='read', iostat=stat)
-      if (stat /= 0) return
-      do
-         read (unit, '(a)', iostat=stat) line
-         if (stat /= 0) exit
-         place = index(line, label)
-         if (place == 0) cycle
-         text = trim(line(place + len(label):))
-         exit
-      end do
-      close (unit)
-      do while (len(text) > 0)
-         if (text(len(text):) /= '/') exit
-         text = text(:len(text) - 1)
-      end do
+      text = first_bytes(path, enough)
+      place = index(text, label)
+      if (place == 0) text = ''
+      if (place == 0) return
+      text = first_line(text(place + len(label):))
+      text = text(:verify(text, '/', back=.true.))
    end function text_after
 
    !> First number after a label at the beginning of a line of a file
@@ -178,25 +174,30 @@ contains
       !> The number; `unknown` if the file, the label or a number is not there
       integer(i8) :: number
 
-      character(len=256) :: line
-      integer :: unit, stat, first, last
+      character(len=:), allocatable :: text
+      integer :: place, first, last, stat
 
       number = unknown
-      open (newunit=unit, file=path, status='old', action='read', iostat=stat)
-      if (stat /= 0) return
-      do
-         read (unit, '(a)', iostat=stat) line
-         if (stat /= 0) exit
-         if (index(line, label) /= 1) cycle
-         if (scan(line(len(label) + 1:), digits) == 0) exit  ! a word: no limit
-         first = scan(line(len(label) + 1:), digits) + len(label)
-         last = first + verify(line(first:), digits) - 2
-         read (line(first:last), *, iostat=stat) number
-         if (stat /= 0) number = unknown
-         exit
-      end do
-      close (unit)
+      text = nl//first_bytes(path, enough)
+      place = index(text, nl//label)
+      if (place == 0) return
+      text = first_line(text(place + len(nl//label):))
+      first = scan(text, digits)
+      if (first == 0) return  ! a word: no limit
+      last = first + verify(text(first:)//nl, digits) - 2
+      read (text(first:last), *, iostat=stat) number
+      if (stat /= 0) number = unknown
    end function number_after
+
+   !> A text up to the end of its first line, blanks at the end cut
+   pure function first_line(text) result(line)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> The line
+      character(len=:), allocatable :: line
+
+      line = trim(text(:index(text//nl, nl) - 1))
+   end function first_line
 
    !> Product; unknown stays unknown
    pure integer(i8) function scaled(number, factor)

@@ -75,8 +75,10 @@ contains
       integer :: i
 
       is_prime = .true.
-      do i = 2, number - 1
-         if (mod(number, i) == 0) is_prime = .false.
+      i = 2
+      do while (is_prime .and. i*i <= number)
+         is_prime = mod(number, i) /= 0
+         i = i + 1
       end do
    end function is_prime
 

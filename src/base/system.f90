@@ -4,7 +4,7 @@ module axijoint_base_system
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: path_kind, target_kind, is_directory, same_file, rename_path, unlink_path, sync_path
+   public :: path_kind, target_kind, is_directory, same_file, rename_path, unlink_path, sync_path, start_sync
    public :: peak_memory_mb, process_id, error_output_is_terminal
    public :: return_freed_memory, keep_freed_memory, ignore_file_size_signal, last_error, set_last_error, error_text
    public :: make_directories, read_standard_input, append_to_file
@@ -54,6 +54,12 @@ module axijoint_base_system
          character(kind=c_char), intent(in) :: path(*)
          integer(c_int) :: c_sync_path
       end function c_sync_path
+
+      !> Let a file go to the disk without waiting; system_shim.c
+      subroutine c_start_sync(path) bind(c, name="axijoint_start_sync")
+         import :: c_char
+         character(kind=c_char), intent(in) :: path(*)
+      end subroutine c_start_sync
 
       !> POSIX rename
       function c_rename(from, to) bind(c, name="rename")
@@ -282,6 +288,14 @@ contains
 
       errno = int(c_sync_path(path//c_null_char))
    end subroutine sync_path
+
+   !> Let a file's bytes go to the disk without waiting for them, so that `sync_path` waits less
+   subroutine start_sync(path)
+      !> The file
+      character(len=*), intent(in) :: path
+
+      call c_start_sync(path//c_null_char)
+   end subroutine start_sync
 
    !> Largest memory that the process held so far [megabyte of 2**20 bytes];
    !> negative if the system does not tell

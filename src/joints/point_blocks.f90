@@ -10,6 +10,9 @@ module axijoint_joints_point_blocks
    private
    public :: point_blocks_type, new_point_blocks, precondition
 
+   !> Operations from which on the threads are woken
+   real(wp), parameter :: worth_threads = 1.0e6_wp
+
    !> Inverse of the system of one point
    type :: block_type
       !> xi, eta, theta of the first mode, of the second ..., shape (3 modes, 3 modes); not
@@ -41,10 +44,12 @@ contains
       !> The inverses
       type(point_blocks_type), intent(out) :: point_blocks
 
+      real(wp) :: operations
       integer :: k, info
 
+      operations = size(points)*real(3*size(scene%planes%meridional, 1), wp)**3
       allocate (point_blocks%blocks(size(points)))
-      !$omp parallel do schedule(dynamic) private(info)
+      !$omp parallel do schedule(dynamic) private(info) if (operations > worth_threads)
       do k = 1, size(points)
          if (.not. stiff(points(k))) cycle
          point_blocks%blocks(k)%inverse = block(condensed, scene, &

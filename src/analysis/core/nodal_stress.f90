@@ -1,7 +1,7 @@
 !> Stresses of the integration points smoothed to the nodes
 module axijoint_analysis_core_nodal_stress
    use axijoint_analysis_core_results, only : results_type, nodal_stress_type
-   use axijoint_assembly_equations, only : equations_type, own_modes
+   use axijoint_assembly_equations, only : equations_type, own_modes, worth_threads
    use axijoint_base_kinds, only : wp, i8
    use axijoint_fe_extrapolation, only : extrapolation_matrix
    use axijoint_fe_quadrature, only : max_element_points
@@ -44,7 +44,7 @@ contains
          end do
          allocate (nodal%amplitude(6, size(nodal%node), size(results%modes)))
          own = own_modes(equations)
-         !$omp parallel do schedule(dynamic)
+         !$omp parallel do schedule(dynamic) if (worth_threads(equations))
          do k = own(1), own(2)
             call smooth_mode(model, results, k, weight, weight_sum, nodal%amplitude(:, :, k))
          end do

@@ -2,7 +2,7 @@
 module axijoint_analysis_error_solid_error
    use axijoint_analysis_error_patch_recovery, only : sampling_type, new_sampling, patches_type, &
                                                 new_patches, patch_work_type, find_patch, fit_patch, add_rings
-   use axijoint_assembly_equations, only : equations_type, own_modes
+   use axijoint_assembly_equations, only : equations_type, own_modes, worth_threads
    use axijoint_assembly_solid_force, only : initial_state_type, solid_force
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_ranges, only : range_end
@@ -67,7 +67,7 @@ contains
       rank = equations%team%rank
       call new_fields(model, equations, initial, displacement, stress, &
          [last(rank + 1) + 1, last(rank + 2)], fields)
-      !$omp parallel private(work)
+      !$omp parallel private(work) if (worth_threads(equations))
       allocate (work)
       !$omp do schedule(dynamic, 16)
       do element = last(rank + 1) + 1, last(rank + 2)
@@ -124,7 +124,7 @@ contains
       allocate (in_patches(n_elements(model%mesh)), source=.false.)
       in_patches(own(1):own(2)) = .true.
       call add_rings(model%mesh, fields%patches, in_patches)
-      !$omp parallel do
+      !$omp parallel do if (worth_threads(equations))
       do element = 1, n_elements(model%mesh)
          if (.not. in_patches(element)) cycle
          if (allocated(fields%stress)) then
@@ -164,7 +164,7 @@ contains
       n = sum(fields%references(model%mesh%element_kind)%n_points)
       allocate (fields%stress(6, n, size(equations%modes)))
       own = own_modes(equations)
-      !$omp parallel do schedule(dynamic) private(force)
+      !$omp parallel do schedule(dynamic) private(force) if (worth_threads(equations))
       do k = own(1), own(2)
          allocate (force, mold=displacement(:, :, k))
          call solid_force(full, initial, k, equations%modes(k), displacement(:, :, k), force, &

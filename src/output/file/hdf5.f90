@@ -5,11 +5,12 @@ module axijoint_output_file_hdf5
    use, intrinsic :: iso_fortran_env, only : int8
    use axijoint_base_error, only : error_type, fatal_error, exit_io
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_base_system, only : ignore_file_size_signal, set_last_error, sync_path
-   use axijoint_output_file_hdf5_data, only : hdf5_failure_type, no_handle, write_array, &
-      write_string, write_attribute, write_string_attribute
+   use axijoint_base_system, only : ignore_file_size_signal, set_last_error, start_sync
+   use axijoint_output_file_hdf5_data, only : write_array, write_string, write_attribute, &
+      write_string_attribute
    use axijoint_output_file_hdf5_series, only : hdf5_series_type, open_series, append_piece, &
       piece_length, close_series
+   use axijoint_output_file_hdf5_storage, only : hdf5_failure_type, hdf5_storage_type, no_handle
    use axijoint_output_file_pending, only : temporary_path, discard, io_error
    use hdf5, only : hid_t, hsize_t, h5f_obj_all_f, h5f_obj_file_f, h5open_f, h5close_f, &
       h5eset_auto_f, h5fcreate_f, &
@@ -30,6 +31,8 @@ module axijoint_output_file_hdf5
       private
       !> Handle of the file
       integer(hid_t) :: file = no_handle
+      !> How it is laid out
+      type(hdf5_storage_type) :: storage
       !> Whether the library was started
       logical :: started = .false.
       !> Final path
@@ -56,7 +59,7 @@ module axijoint_output_file_hdf5
       generic :: append => append_reals, append_longs, append_bytes
       procedure, private :: append_reals, append_longs, append_bytes
       procedure :: end
-      !> Bring all to the disk, close, open again as a check
+      !> Hand all to the system, close, open again as a check; it goes to the disk meanwhile
       procedure :: finish
       !> Bytes of the finished file
       procedure :: size => size_of_file
@@ -83,8 +86,7 @@ module axijoint_output_file_hdf5
 
 contains
 
-   !> Create a file under its temporary name, in the library's earliest
-   !> format, which a flush leaves readable
+   !> Create a file under its temporary name
    subroutine create(self, path, error)
       !> The file
       class(hdf5_file_type), intent(inout) :: self
@@ -111,7 +113,10 @@ contains
       end if
       call h5eset_auto_f(0, status)
       call set_last_error(0)
-      call h5fcreate_f(temporary_path(path), h5f_acc_excl_f, self%file, status)
+      call self%storage%open(self%failure)
+      status = -1
+      if (.not. self%failure%failed) call h5fcreate_f(temporary_path(path), h5f_acc_excl_f, &
+         self%file, status, self%storage%creation, self%storage%access)
       call self%failure%check(status, "creating the file")
       self%present = status >= 0
       if (self%present) return
@@ -133,7 +138,7 @@ contains
       if (self%failure%failed) return
       handle = no_handle
       call set_last_error(0)
-      call h5gcreate_f(self%file, name, handle, status)
+      call h5gcreate_f(self%file, name, handle, status, gcpl_id=self%storage%group)
       call self%failure%check(status, name)
       if (handle >= 0) call h5gclose_f(handle, status)
       call self%failure%check(status, name)
@@ -150,7 +155,7 @@ contains
       !> Meaning, order of indices in Fortran, unit
       character(len=*), intent(in) :: description
 
-      call write_array(self%file, name, h5t_ieee_f64le, h5t_native_double, &
+      call write_array(self%file, self%storage, name, h5t_ieee_f64le, h5t_native_double, &
          extent_of(shape(values, kind=hsize_t)), c_loc(values), description, &
          self%failure)
    end subroutine write_reals
@@ -166,7 +171,7 @@ contains
       !> Meaning, order of indices in Fortran
       character(len=*), intent(in) :: description
 
-      call write_array(self%file, name, h5t_std_i32le, h5t_native_integer, &
+      call write_array(self%file, self%storage, name, h5t_std_i32le, h5t_native_integer, &
          extent_of(shape(values, kind=hsize_t)), c_loc(values), description, &
          self%failure)
    end subroutine write_integers
@@ -182,7 +187,7 @@ contains
       !> Meaning, order of indices in Fortran
       character(len=*), intent(in) :: description
 
-      call write_array(self%file, name, h5t_std_i64le, h5kind_to_type(i8, h5_integer_kind), &
+      call write_array(self%file, self%storage, name, h5t_std_i64le, h5kind_to_type(i8, h5_integer_kind), &
          extent_of(shape(values, kind=hsize_t)), c_loc(values), description, &
          self%failure)
    end subroutine write_longs
@@ -207,8 +212,8 @@ contains
       types(kind_real) = h5t_ieee_f64le
       types(kind_long) = h5t_std_i64le
       types(kind_byte) = h5t_std_u8le
-      call open_series(series, self%file, name, types(kind), int(extent, hsize_t), description, &
-         self%failure)
+      call open_series(series, self%file, self%storage, name, types(kind), int(extent, hsize_t), &
+         description, self%failure)
    end subroutine begin
 
    !> Write the next piece of reals: values of whole leading indices, of one last index if they
@@ -272,7 +277,7 @@ contains
       !> Meaning
       character(len=*), intent(in) :: description
 
-      call write_string(self%file, name, text, description, self%failure)
+      call write_string(self%file, self%storage, name, text, description, self%failure)
    end subroutine write_text
 
    !> Attach a text to a group or dataset
@@ -359,15 +364,16 @@ contains
       extent = max(shape, 0_hsize_t)
    end function extent_of
 
-   !> Bring all to the disk and close; then open once more, so that what gets
-   !> the final name is known to be an HDF5 file
+   !> Hand all to the system and close; then open once more, so that what gets
+   !> the final name is known to be an HDF5 file. Who gives it its name waits until
+   !> it is on the disk (`publish`, `commit_set`)
    subroutine finish(self, error)
       !> The file
       class(hdf5_file_type), intent(inout) :: self
-      !> Something is not on the disk
+      !> Something could not be written
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: status, errno
+      integer :: status
 
       call set_last_error(0)
       if (.not. self%failure%failed) then
@@ -376,10 +382,9 @@ contains
       end if
       call close_file(self)
       if (.not. self%failure%failed) then
-         call sync_path(temporary_path(self%path), errno)
-         call self%failure%check(-errno, "bringing the file to the disk", errno)
+         call start_sync(temporary_path(self%path))
+         call open_again(self)
       end if
-      if (.not. self%failure%failed) call open_again(self)
       call close_library(self)
       if (.not. self%failure%failed) return
       call io_error(error, "write", self%path, self%failure%errno)
@@ -444,6 +449,7 @@ contains
 
       if (.not. self%started) return
       self%started = .false.
+      call self%storage%close(self%failure)
       if (c_open_objects(int(h5f_obj_all_f, c_int64_t), int(h5f_obj_file_f, c_int)) > 0) return
       call h5close_f(status)
       call self%failure%check(status, "ending the library")

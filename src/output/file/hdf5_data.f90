@@ -2,61 +2,25 @@
 !> is checked, every handle is closed on every path
 module axijoint_output_file_hdf5_data
    use, intrinsic :: iso_c_binding, only : c_ptr, c_loc, c_char
-   use axijoint_base_system, only : last_error, set_last_error
+   use axijoint_base_system, only : set_last_error
+   use axijoint_output_file_hdf5_storage, only : hdf5_failure_type, hdf5_storage_type, no_handle
    use hdf5, only : hid_t, hsize_t, size_t, h5screate_simple_f, h5screate_f, &
-      h5sclose_f, h5s_scalar_f, h5pcreate_f, &
-      h5pset_chunk_f, h5pset_fletcher32_f, h5pclose_f, &
-      h5p_dataset_create_f, h5dcreate_f, h5dwrite_f, h5dclose_f, h5acreate_f, h5awrite_f, &
+      h5sclose_f, h5s_scalar_f, h5dcreate_f, h5dwrite_f, h5dclose_f, h5acreate_f, h5awrite_f, &
       h5aclose_f, h5oopen_f, h5oclose_f, h5tcopy_f, h5tset_size_f, h5tset_cset_f, &
       h5tset_strpad_f, h5tclose_f, h5t_cset_utf8_f, h5t_cset_ascii_f, h5t_str_nullpad_f, h5t_c_s1
    implicit none
    private
-   public :: hdf5_failure_type, no_handle
    public :: write_array, write_string, write_attribute, write_string_attribute
-   public :: make_space, make_properties, describe, close_handles
-
-   !> A handle that is not open
-   integer(hid_t), parameter :: no_handle = -1_hid_t
-   !> Values of a chunk at most; about a megabyte of reals
-   integer(hsize_t), parameter :: chunk_values = 131072_hsize_t
-
-   !> The first failure of a file; nothing is done after it
-   type :: hdf5_failure_type
-      !> Whether something failed
-      logical :: failed = .false.
-      !> What was written or done
-      character(len=:), allocatable :: what
-      !> The system's error, zero if there was none
-      integer :: errno = 0
-   contains
-      !> Look at a status
-      procedure :: check
-   end type hdf5_failure_type
+   public :: make_space, describe, close_handles
 
 contains
 
-   !> Keep the first failure, with the system's error if there is one
-   subroutine check(self, status, what, errno)
-      !> What failed first
-      class(hdf5_failure_type), intent(inout) :: self
-      !> Status that a call returned; negative for a failure
-      integer, intent(in) :: status
-      !> What was written or done
-      character(len=*), intent(in) :: what
-      !> The system's error, where it is not the last one
-      integer, intent(in), optional :: errno
-
-      if (status >= 0 .or. self%failed) return
-      self%failed = .true.
-      self%what = what
-      self%errno = last_error()
-      if (present(errno)) self%errno = errno
-   end subroutine check
-
    !> Write an array with checksums, and what it is
-   subroutine write_array(file, name, file_type, memory_type, extent, values, description, failure)
+   subroutine write_array(file, storage, name, file_type, memory_type, extent, values, description, failure)
       !> Handle of the file
       integer(hid_t), intent(in) :: file
+      !> How it is laid out
+      type(hdf5_storage_type), intent(in) :: storage
       !> Absolute path in the file
       character(len=*), intent(in) :: name
       !> Type of the values in the file and in memory
@@ -77,7 +41,7 @@ contains
       space = no_handle; properties = no_handle; dataset = no_handle
       call set_last_error(0)
       call make_space(name, extent, space, failure)
-      call make_properties(name, extent, properties, failure)
+      call storage%properties(name, file_type, extent, properties, failure)
       if (.not. failure%failed) then
          call h5dcreate_f(file, name, file_type, space, dataset, status, properties)
          call failure%check(status, name)
@@ -87,13 +51,16 @@ contains
          call failure%check(status, name)
       end if
       call describe(dataset, name, description, failure)
-      call close_handles(name, failure, dataset, properties, space)
+      call close_handles(name, failure, dataset=dataset, space=space)
+      call storage%release(properties, failure)
    end subroutine write_array
 
    !> Write a text as a scalar dataset of fixed length, UTF-8, and what it is
-   subroutine write_string(file, name, text, description, failure)
+   subroutine write_string(file, storage, name, text, description, failure)
       !> Handle of the file
       integer(hid_t), intent(in) :: file
+      !> How it is laid out
+      type(hdf5_storage_type), intent(in) :: storage
       !> Absolute path in the file
       character(len=*), intent(in) :: name
       !> The text, and its meaning
@@ -102,18 +69,19 @@ contains
       type(hdf5_failure_type), intent(inout) :: failure
 
       character(len=:, kind=c_char), allocatable, target :: copy
-      integer(hid_t) :: space, type, dataset
+      integer(hid_t) :: space, type, properties, dataset
       integer :: status
 
       if (failure%failed) return
-      space = no_handle; type = no_handle; dataset = no_handle
+      space = no_handle; properties = no_handle; dataset = no_handle
       copy = not_empty(text)
       call set_last_error(0)
       call h5screate_f(h5s_scalar_f, space, status)
       call failure%check(status, name)
       call make_text_type(len(copy), .false., type, name, failure)
+      call storage%properties(name, type, [integer(hsize_t) ::], properties, failure)
       if (.not. failure%failed) then
-         call h5dcreate_f(file, name, type, space, dataset, status)
+         call h5dcreate_f(file, name, type, space, dataset, status, properties)
          call failure%check(status, name)
       end if
       if (.not. failure%failed) then
@@ -122,6 +90,7 @@ contains
       end if
       call describe(dataset, name, description, failure)
       call close_handles(name, failure, dataset=dataset, type=type, space=space)
+      call storage%release(properties, failure)
    end subroutine write_string
 
    !> Say what a dataset is that is open
@@ -198,49 +167,6 @@ contains
       call h5screate_simple_f(size(extent), extent, space, status)
       call failure%check(status, name)
    end subroutine make_space
-
-   !> Storage of an array: chunks with checksums. An empty array cannot be cut into chunks. Nothing is
-   !> compressed: of numbers with all their digits a quarter to a half goes, at a rate below that of
-   !> the disk, so that most of the seconds of writing would go there
-   subroutine make_properties(name, extent, properties, failure)
-      !> Dataset, for the message
-      character(len=*), intent(in) :: name
-      !> Extents of what is written at once
-      integer(hsize_t), intent(in) :: extent(:)
-      !> The properties
-      integer(hid_t), intent(out) :: properties
-      !> What failed first; nothing is done after a failure
-      type(hdf5_failure_type), intent(inout) :: failure
-
-      integer :: status
-
-      properties = no_handle
-      if (failure%failed) return
-      call h5pcreate_f(h5p_dataset_create_f, properties, status)
-      call failure%check(status, name)
-      if (failure%failed .or. product(extent) == 0_hsize_t) return
-      call h5pset_chunk_f(properties, size(extent), chunk_extent(extent), status)
-      call failure%check(status, name)
-      call h5pset_fletcher32_f(properties, status)
-      call failure%check(status, name)
-   end subroutine make_properties
-
-   !> Extents of a chunk: whole leading indices up to `chunk_values` values
-   pure function chunk_extent(extent) result(chunk)
-      !> Extents of the array, all positive
-      integer(hsize_t), intent(in) :: extent(:)
-      !> Extents of a chunk
-      integer(hsize_t) :: chunk(size(extent))
-
-      integer(hsize_t) :: room
-      integer :: i
-
-      room = chunk_values
-      do i = 1, size(extent)
-         chunk(i) = max(1_hsize_t, min(extent(i), room))
-         room = room/chunk(i)
-      end do
-   end function chunk_extent
 
    !> Make the type of a text of fixed length
    subroutine make_text_type(length, ascii, type, name, failure)
@@ -371,20 +297,18 @@ contains
    end subroutine close_object
 
    !> Close the handles that are open
-   subroutine close_handles(name, failure, dataset, properties, space, type)
+   subroutine close_handles(name, failure, dataset, space, type)
       !> Object, for the message
       character(len=*), intent(in) :: name
       !> What failed first; handles are closed after a failure too
       type(hdf5_failure_type), intent(inout) :: failure
       !> Handles, `no_handle` if not open
-      integer(hid_t), intent(in), optional :: dataset, properties, space, type
+      integer(hid_t), intent(in), optional :: dataset, space, type
 
       integer :: status
 
       status = 0
       if (is_open(dataset)) call h5dclose_f(dataset, status)
-      call failure%check(status, name)
-      if (is_open(properties)) call h5pclose_f(properties, status)
       call failure%check(status, name)
       if (is_open(space)) call h5sclose_f(space, status)
       call failure%check(status, name)

@@ -3,9 +3,8 @@
 module axijoint_output_file_hdf5_series
    use, intrinsic :: iso_c_binding, only : c_ptr
    use axijoint_base_system, only : set_last_error
-   use axijoint_output_file_hdf5_data, only : hdf5_failure_type, no_handle, make_space, &
-      make_properties, &
-      describe, close_handles
+   use axijoint_output_file_hdf5_data, only : make_space, describe, close_handles
+   use axijoint_output_file_hdf5_storage, only : hdf5_failure_type, hdf5_storage_type, no_handle
    use hdf5, only : hid_t, hsize_t, h5dcreate_f, h5dwrite_f, h5dget_space_f, h5s_select_set_f, &
       h5sselect_hyperslab_f
    implicit none
@@ -28,11 +27,13 @@ module axijoint_output_file_hdf5_series
 contains
 
    !> Make the dataset, without values
-   subroutine open_series(series, file, name, file_type, extent, description, failure)
+   subroutine open_series(series, file, storage, name, file_type, extent, description, failure)
       !> The dataset
       type(hdf5_series_type), intent(out) :: series
       !> Handle of the file
       integer(hid_t), intent(in) :: file
+      !> How it is laid out
+      type(hdf5_storage_type), intent(in) :: storage
       !> Absolute path in the file
       character(len=*), intent(in) :: name
       !> Type of the values in the file
@@ -52,13 +53,14 @@ contains
       if (failure%failed) return
       call set_last_error(0)
       call make_space(name, extent, space, failure)
-      call make_properties(name, extent, properties, failure)
+      call storage%properties(name, file_type, extent, properties, failure)
       if (.not. failure%failed) then
          call h5dcreate_f(file, name, file_type, space, series%dataset, status, properties)
          call failure%check(status, name)
       end if
       call describe(series%dataset, name, description, failure)
-      call close_handles(name, failure, properties=properties, space=space)
+      call close_handles(name, failure, space=space)
+      call storage%release(properties, failure)
    end subroutine open_series
 
    !> Write the next piece

@@ -7,7 +7,7 @@ module axijoint_output_file_pending
    use axijoint_base_text, only : to_text
    implicit none
    private
-   public :: temporary_path, backup_path, publish, discard, sync_names, join_path, io_error
+   public :: temporary_path, backup_path, publish, discard, sync_file, sync_names, join_path, io_error
 
 contains
 
@@ -32,15 +32,30 @@ contains
       backup = path//".earlier."//host_name()//"."//to_text(process_id())//".tmp"
    end function backup_path
 
-   !> Give the complete file its final name, replacing an earlier file
-   subroutine publish(path, error)
+   !> Wait until a complete file is on the disk, under its temporary name
+   subroutine sync_file(path, error)
       !> Final path
       character(len=*), intent(in) :: path
-      !> The rename failed; the earlier file stands
+      !> Some of it is not on the disk
       type(error_type), allocatable, intent(out) :: error
 
       integer :: errno
 
+      call sync_path(temporary_path(path), errno)
+      if (errno /= 0) call io_error(error, "write", path, errno)
+   end subroutine sync_file
+
+   !> Give the complete file its final name when it is on the disk, replacing an earlier file
+   subroutine publish(path, error)
+      !> Final path
+      character(len=*), intent(in) :: path
+      !> It is not on the disk, or the rename failed; the earlier file stands
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: errno
+
+      call sync_file(path, error)
+      if (allocated(error)) return
       call rename_path(temporary_path(path), path, errno)
       if (errno /= 0) call io_error(error, "give its final name to", path, errno)
    end subroutine publish

@@ -7,7 +7,7 @@ module axijoint_output_file_set
    use axijoint_base_whole_file, only : link_path, knows_no_links, is_not_there, &
       read_whole_file, write_new_file
    use axijoint_output_file_pending, only : temporary_path, backup_path, io_error, join_path, &
-      sync_names
+      sync_file, sync_names
    implicit none
    private
    public :: commit_set, finish_set
@@ -24,18 +24,22 @@ contains
       character(len=*), intent(in) :: directory
       !> Name of the journal
       character(len=*), intent(in) :: journal
-      !> Final names of the files, each complete on the disk under its temporary name
+      !> Final names of the files, each complete under its temporary name
       character(len=*), intent(in) :: names(:)
       !> Whether neither all could be given nor the earlier ones be brought back: the files are
       !> needed as they are, for the next run
       logical, intent(out) :: halfway
-      !> A name could not be given
+      !> A file is not on the disk, or a name could not be given
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: path
       integer :: errno, k, n
 
       halfway = .false.
+      do k = 1, size(names)
+         call sync_file(join_path(directory, trim(names(k))), error)
+         if (allocated(error)) return
+      end do
       call write_journal(directory, journal, names, error)
       if (allocated(error)) return
       call sync_names(directory)

@@ -1,6 +1,6 @@
 !> Text file that notices when it cannot be written. Fortran's own WRITE,
 !> FLUSH and CLOSE report success on a full disk, so lines go through the C
-!> library, and nothing counts as written before it is on the disk.
+!> library, and no file gets its name before it is on the disk.
 module axijoint_output_file_text
    use, intrinsic :: iso_c_binding, only : c_ptr, c_null_ptr, c_null_char, c_char, c_int, &
       c_size_t, c_associated
@@ -34,7 +34,7 @@ module axijoint_output_file_text
       procedure :: open => open_text_file
       !> Write a line
       procedure :: put
-      !> Bring all lines to the disk and close
+      !> Hand all lines to the system and close; they go to the disk meanwhile
       procedure :: finish
       !> Give the file its final name
       procedure :: commit
@@ -66,12 +66,12 @@ module axijoint_output_file_text
          integer(c_int) :: c_fclose
       end function c_fclose
 
-      !> Flush a stream and bring its file to the disk; system_shim.c
-      function c_sync_stream(stream) bind(c, name="axijoint_sync_stream")
+      !> Flush a stream and let its file go to the disk; system_shim.c
+      function c_flush_stream(stream) bind(c, name="axijoint_flush_stream")
          import :: c_ptr, c_int
          type(c_ptr), value :: stream
-         integer(c_int) :: c_sync_stream
-      end function c_sync_stream
+         integer(c_int) :: c_flush_stream
+      end function c_flush_stream
    end interface
 
 contains
@@ -119,18 +119,19 @@ contains
       self%used = self%used + length + 1
    end subroutine put
 
-   !> Bring all lines to the disk and close the file
+   !> Hand all lines to the system and close the file. Who gives it its name waits until they are
+   !> on the disk (`publish`, `commit_set`): what is done before need not wait for that
    subroutine finish(self, error)
       !> The file
       class(text_file_type), intent(inout) :: self
-      !> Some line is not on the disk
+      !> Some line could not be written
       type(error_type), allocatable, intent(out) :: error
 
       integer :: errno
 
       call hand_on(self)
       if (c_associated(self%stream)) then
-         errno = int(c_sync_stream(self%stream))
+         errno = int(c_flush_stream(self%stream))
          if (self%errno == 0) self%errno = errno
          call close_stream(self)
       end if
@@ -141,7 +142,7 @@ contains
    subroutine commit(self, error)
       !> The file, finished without error
       class(text_file_type), intent(inout) :: self
-      !> The rename failed; the earlier file stands
+      !> A line is not on the disk, or the rename failed; the earlier file stands
       type(error_type), allocatable, intent(out) :: error
 
       if (self%errno /= 0 .or. .not. self%present) return
