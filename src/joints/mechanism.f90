@@ -19,6 +19,8 @@ module axijoint_joints_mechanism
    !> A force on a motion is rounding below this share of the loads that add to it, and this share
    !> of what joint stresses, of all harmonics together, may leave in it
    real(wp), parameter :: rounding = 1.0e-13_wp, leftover = 1.0e-15_wp
+   !> Values on the planes from which on threads are worth their start
+   integer, parameter :: worth_threads = 5000
 
    !> Motions that nothing resists, in multiples of the floating motions of a scene
    type :: mechanism_type
@@ -185,6 +187,7 @@ contains
       real(wp), dimension(3, size(field%jump, 3), size(condensed%floating)) :: made, share
       real(wp) :: view(size(condensed%points)), base(3)
       real(wp) :: tangent(3, 3, size(field%jump, 3)), stress(3, size(field%jump, 3))
+      real(wp), allocatable :: of_point(:, :, :)
       integer :: j, k, y, z
 
       view = views(condensed, scene, field)
@@ -196,6 +199,9 @@ contains
             share(:, :, z) = circle_integral(scene%modes(motions(z)%mode)%harmonic) &
                *mode_from_planes(scene%planes, motions(z)%mode)
          end do
+         allocate (of_point(size(motions), size(motions), size(points)))
+         !$omp parallel do private(tangent, stress, base, j, y, z) if &
+         !$omp (size(field%jump) >= worth_threads)
          do k = 1, size(points)  ! what cancels round the circle does so point by point
             do j = 1, size(tangent, 3)
                tangent(:, :, j) = tangent_of(k, j)
@@ -206,10 +212,14 @@ contains
                   stress(:, j) = matmul(tangent(:, :, j), base*made(:, j, z))
                end do
                do y = 1, size(motions)
-                  resistance(y, z) = resistance(y, z) + dot_product(points(k)%weight &
-                     *motions(y)%jump(:, k), sum(share(:, :, y)*stress, 2))
+                  of_point(y, z, k) = dot_product(points(k)%weight*motions(y)%jump(:, k), &
+                     sum(share(:, :, y)*stress, 2))
                end do
             end do
+         end do
+         !$omp end parallel do
+         do k = 1, size(points)
+            resistance = resistance + of_point(:, :, k)
          end do
          do z = 1, size(motions)
             do y = 1, size(motions)
