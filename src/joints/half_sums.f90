@@ -95,16 +95,17 @@ contains
       !> Sums on planes 0 to pi, shape (points, planes)
       real(wp), intent(out), contiguous :: total(:, 0:)
 
-      real(wp), allocatable :: odd(:, :)
+      real(wp), allocatable :: odd(:, :), chosen(:, :)
       integer :: j, l, n
 
       n = size(sums%parts)
-      call multiply(amplitude(:, sums%parts(n)%modes), sums%parts(n)%forth, &
-         total(:, 0:sums%parts(n)%last))
+      chosen = amplitude(:, sums%parts(n)%modes)
+      call multiply(chosen, sums%parts(n)%forth, total(:, 0:sums%parts(n)%last))
       allocate (odd(size(total, 1), 0:sums%intervals/2))
       do l = n - 1, 1, -1
          associate (half => sums%parts(l)%last)
-            call multiply(amplitude(:, sums%parts(l)%modes), sums%parts(l)%forth, odd(:, 0:half))
+            chosen = amplitude(:, sums%parts(l)%modes)
+            call multiply(chosen, sums%parts(l)%forth, odd(:, 0:half))
             do j = 0, half
                if (j < half) total(:, 2*half - j) = sums%mirrored*(total(:, j) - odd(:, j))
                total(:, j) = total(:, j) + odd(:, j)
