@@ -135,7 +135,8 @@ contains
          if (moves(k)) change(:, k, :) = 0.0_wp
          if (all(abs(change(:, k, :)) <= linear%rounding)) change(:, k, :) = 0.0_wp
       end do
-      jump = jumps(condensed, scene, change, free=.false.)
+      jump = change
+      if (any(abs(change) > 0.0_wp)) jump = jumps(condensed, scene, change, free=.false.)
       if (size(points) == 0) return
       call new_derivative(condensed, scene, linear, points, derivative)
       right = by_component(linear%residual, points)
