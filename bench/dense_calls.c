@@ -71,7 +71,7 @@ WRAP(dtrsm_, least(*m, *n), (p s, p u, p t, p d, pi m, pi n, p al, p a, p la, p 
 WRAP(dpotrf_, *n, (p u, pi n, p a, p la, p info, l x), (u, n, a, la, info, x))
 WRAP(dpotri_, *n, (p u, pi n, p a, p la, p info, l x), (u, n, a, la, info, x))
 WRAP(dgemv_, least(*m, *n), (p t, pi m, pi n, p al, p a, p la, p x, p ix, p be, p y, p iy, l z), (t, m, n, al, a, la, x, ix, be, y, iy, z))
-WRAP(sgemv_, least(*m, *n), (p t, pi m, pi n, p al, p a, p la, p x, p ix, p be, p y, p iy, l z), (t, m, n, al, a, la, x, ix, be, y, iy, z))
+WRAP(ssymv_, *n, (p u, pi n, p al, p a, p la, p x, p ix, p be, p y, p iy, l z), (u, n, al, a, la, x, ix, be, y, iy, z))
 WRAP(dgetrf_, least(*m, *n), (pi m, pi n, p a, p la, p v, p info), (m, n, a, la, v, info))
 WRAP(dgetri_, *n, (pi n, p a, p la, p v, p w, p lw, p info), (n, a, la, v, w, lw, info))
 WRAP(dsyevd_, *n, (p j, p u, pi n, p a, p la, p v, p w, p lw, p i, p li, p info, l x, l y), (j, u, n, a, la, v, w, lw, i, li, info, x, y))

@@ -19,6 +19,12 @@ module axijoint_joints_mechanism
    !> A force on a motion is rounding below this share of the loads that add to it, and this share
    !> of what joint stresses, of all harmonics together, may leave in it
    real(wp), parameter :: rounding = 1.0e-13_wp, leftover = 1.0e-15_wp
+   !> Values on the planes from which on threads are worth their start
+   integer, parameter :: worth_threads = 5000
+   !> Of so many points one is looked at first where all that touch stick: if these resist so many
+   !> times as much as nothing, all do, as each adds to it
+   integer, parameter :: one_of = 8
+   real(wp), parameter :: surely = 1.0e3_wp
 
    !> Motions that nothing resists, in multiples of the floating motions of a scene
    type :: mechanism_type
@@ -56,7 +62,12 @@ contains
       allocate (mechanism%motion(n), mechanism%idle(n, 0))
       mechanism%motion = 0.0_wp
       if (n == 0) return
-      call unit_resistance(condensed, scene, field, sticking, resistance, to_unit, value, rows)
+      if (sticking .and. each_adds(scene, field)) then
+         call unit_resistance(condensed, scene, field, sticking, one_of, resistance, to_unit, &
+            value, rows)
+         if (value(n) > surely*no_resistance) return
+      end if
+      call unit_resistance(condensed, scene, field, sticking, 1, resistance, to_unit, value, rows)
       call act(condensed, scene, field, force, least)
       ! rounding mixes motions that are resisted little into those that are not
       mixed = rounding*norm2(matmul(force, to_unit))/max(no_resistance, &
@@ -76,6 +87,18 @@ contains
       end do
    end subroutine find_mechanism
 
+   !> Whether points that stick where they touch resist or do nothing, so that one more never takes
+   !> resistance away: not where dilation couples pressure to slip, nor where cohesion fades
+   pure logical function each_adds(scene, field)
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> The state
+      type(joint_field_type), intent(in) :: field
+
+      each_adds = all(scene%laws%friction > 0.0_wp .or. scene%laws%cohesion > 0.0_wp) .and. &
+         .not. any(scene%laws%dilation > 0.0_wp) .and. .not. field%fading > 0.0_wp
+   end function each_adds
+
    !> Move the parts until the joints, as they stick, slip and stand open, balance the loads on
    !> them: what takes the loops many sweeps where little resists a motion
    subroutine balance_motions(condensed, scene, field)
@@ -92,7 +115,7 @@ contains
       integer :: k
 
       if (size(condensed%floating) == 0) return
-      call unit_resistance(condensed, scene, field, .false., resistance, to_unit, value, rows)
+      call unit_resistance(condensed, scene, field, .false., 1, resistance, to_unit, value, rows)
       call act(condensed, scene, field, force, least)
       force = matmul(force, to_unit)
       do k = 1, size(value)
@@ -135,7 +158,8 @@ contains
    end subroutine settle
 
    !> What joints resist of motions that sticking joints all resist by one
-   subroutine unit_resistance(condensed, scene, field, sticking, resistance, to_unit, value, rows)
+   subroutine unit_resistance(condensed, scene, field, sticking, step, resistance, to_unit, value, &
+      rows)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads
@@ -144,6 +168,8 @@ contains
       type(joint_field_type), intent(in) :: field
       !> Whether points with any friction or cohesion count as sticking where they touch
       logical, intent(in) :: sticking
+      !> Of so many points one resists
+      integer, intent(in) :: step
       !> The resistance; one column a motion in multiples of the floating motions
       real(wp), intent(out), contiguous :: resistance(:, :), to_unit(:, :)
       !> Singular values of the resistance, descending, and its right singular vectors, one row each
@@ -153,7 +179,7 @@ contains
          lost(size(value), size(value)), held(size(value))
       integer :: info, k
 
-      call resist(condensed, scene, field, sticking, resistance, elastic)
+      call resist(condensed, scene, field, sticking, step, resistance, elastic)
       call symmetric_eigen(elastic, eigenvalue, info)
       do k = 1, size(value)
          to_unit(:, k) = elastic(:, k)/sqrt(eigenvalue(k))
@@ -170,7 +196,7 @@ contains
 
    !> Work of the joints on each motion when another grows, by the derivatives of their laws and if
    !> they all stick; stiffnesses are those of the structure
-   subroutine resist(condensed, scene, field, sticking, resistance, elastic)
+   subroutine resist(condensed, scene, field, sticking, step, resistance, elastic)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads
@@ -179,12 +205,15 @@ contains
       type(joint_field_type), intent(in) :: field
       !> Whether points that touch count as sticking
       logical, intent(in) :: sticking
+      !> Of so many points one is looked at; if they stick, all count
+      integer, intent(in) :: step
       !> The works, shape (motions, motions)
       real(wp), intent(out) :: resistance(:, :), elastic(:, :)
 
       real(wp), dimension(3, size(field%jump, 3), size(condensed%floating)) :: made, share
       real(wp) :: view(size(condensed%points)), base(3)
       real(wp) :: tangent(3, 3, size(field%jump, 3)), stress(3, size(field%jump, 3))
+      real(wp), allocatable :: of_point(:, :, :)
       integer :: j, k, y, z
 
       view = views(condensed, scene, field)
@@ -196,7 +225,10 @@ contains
             share(:, :, z) = circle_integral(scene%modes(motions(z)%mode)%harmonic) &
                *mode_from_planes(scene%planes, motions(z)%mode)
          end do
-         do k = 1, size(points)  ! what cancels round the circle does so point by point
+         allocate (of_point(size(motions), size(motions), size(points)))
+         !$omp parallel do private(tangent, stress, base, j, y, z) if &
+         !$omp (size(field%jump) >= step*worth_threads)
+         do k = 1, size(points), step  ! what cancels round the circle does so point by point
             do j = 1, size(tangent, 3)
                tangent(:, :, j) = tangent_of(k, j)
             end do
@@ -206,10 +238,14 @@ contains
                   stress(:, j) = matmul(tangent(:, :, j), base*made(:, j, z))
                end do
                do y = 1, size(motions)
-                  resistance(y, z) = resistance(y, z) + dot_product(points(k)%weight &
-                     *motions(y)%jump(:, k), sum(share(:, :, y)*stress, 2))
+                  of_point(y, z, k) = dot_product(points(k)%weight*motions(y)%jump(:, k), &
+                     sum(share(:, :, y)*stress, 2))
                end do
             end do
+         end do
+         !$omp end parallel do
+         do k = 1, size(points), step
+            resistance = resistance + of_point(:, :, k)
          end do
          do z = 1, size(motions)
             do y = 1, size(motions)

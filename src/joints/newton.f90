@@ -14,7 +14,7 @@ module axijoint_joints_newton
    use axijoint_element_joint_law, only : admit
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, seen_by_law
-   use axijoint_joints_newton_system, only : linear_type, solve
+   use axijoint_joints_newton_system, only : linear_type, gathering_type, solve
    use axijoint_joints_planes, only : synthesize, analyse
    use axijoint_joints_scene, only : scene_type, views
    implicit none
@@ -48,6 +48,8 @@ module axijoint_joints_newton
       real(wp), allocatable :: rest(:, :, :)
       !> Size of what is missing to the solution, in P and in e
       real(wp) :: merit = huge(1.0_wp)
+      !> What linear solutions gather of the flexibilities
+      type(gathering_type) :: gathering
    end type newton_type
 
    !> What bounds a step
@@ -321,7 +323,8 @@ contains
       real(wp) :: length, before, least
 
       newton%kept = newton%kept*(1.0_wp - bounds%damping)
-      call solve(condensed, scene, newton%linear_type, bounds%tolerance, change, amplitude)
+      call solve(condensed, scene, newton%linear_type, bounds%tolerance, change, amplitude, &
+         newton%gathering)
       jump = synthesize(scene%planes, amplitude)
       change_carried = newton%rest + at_points(newton%by_jump, jump)
       start = field%excess

@@ -7,7 +7,9 @@
 !> solves. Its arrays lie component by component, so that all products are those of matrices. It
 !> reads flexibilities most of the time, and few digits of them are enough: where they are more than
 !> the processor keeps at hand they are gathered in single precision, and what a solution leaves is
-!> found with all digits, and solved for again
+!> found with all digits, and solved for again. They are symmetric but for the weights of the points,
+!> so that half of them is enough, too. From one solution to the next much the same points move: what
+!> was gathered is kept while it serves
 module axijoint_joints_newton_system
    use axijoint_base_kinds, only : wp, sp
    use axijoint_joints_condensed, only : condensed_type, flexibility_type
@@ -15,10 +17,10 @@ module axijoint_joints_newton_system
    use axijoint_joints_point_blocks, only : point_blocks_type, new_point_blocks, precondition
    use axijoint_joints_scene, only : scene_type, jumps, tell_jumps
    use axijoint_linalg_gmres, only : operator_type, gmres
-   use axijoint_linalg_lapack, only : matrix_vector, single_matrix_vector
+   use axijoint_linalg_lapack, only : matrix_vector, single_symmetric_vector
    implicit none
    private
-   public :: linear_type, solve
+   public :: linear_type, gathering_type, solve
 
    !> Most products of a solution, and the loosest tolerance
    integer, parameter :: most_products = 400
@@ -31,8 +33,10 @@ module axijoint_joints_newton_system
    integer, parameter :: most_solutions = 6
    !> Numbers of flexibilities that a processor keeps at hand
    real(wp), parameter :: at_hand = 1.0e5_wp
-   !> Points times values, or numbers to gather, from which on threads are worth their start
+   !> Numbers of flexibilities from which on threads are worth their start
    real(wp), parameter :: worth_threads = 1.0e6_wp
+   !> What is gathered serves fewer points if it is of so many times as many at most
+   real(wp), parameter :: still_serves = 1.25_wp
 
    !> What is solved
    type :: linear_type
@@ -50,20 +54,34 @@ module axijoint_joints_newton_system
 
    !> Flexibility of the points that move
    type :: gathered_type
-      !> As that of all points, in one of two precisions; neither on ranks that do not have it
-      real(sp), allocatable :: single(:, :)
+      !> As that of all points, or the upper triangle of it over the weights of its columns, which is
+      !> symmetric, in single precision; neither on ranks that do not have it
       real(wp), allocatable :: double(:, :)
+      real(sp), allocatable :: single(:, :)
       !> What single precision counts in
       real(wp) :: unit = 0.0_wp
    end type gathered_type
+
+   !> Flexibilities of some points, which serve while no others move
+   type :: gathering_type
+      private
+      !> The points; not allocated if nothing is gathered yet
+      integer, allocatable :: points(:)
+      !> Whether all digits are
+      logical :: double = .false.
+      !> One a system
+      type(gathered_type), allocatable :: flexibilities(:)
+      !> Weights over the largest, of all points of component 1, 2, 3
+      real(wp), allocatable :: weight(:)
+   end type gathering_type
 
    !> I - A E' S F of the points that move
    type, extends(operator_type) :: derivative_type
       !> The structure, modes and planes
       type(condensed_type), pointer :: condensed => null()
       type(scene_type), pointer :: scene => null()
-      !> Flexibilities of these points, one a system
-      type(gathered_type), allocatable :: flexibilities(:)
+      !> Their flexibilities
+      type(gathering_type), pointer :: gathering => null()
       !> Their slopes times the share that acts, shape (points, 3, 3, planes)
       real(wp), allocatable :: slope(:, :, :, :)
       !> What a solution may leave at best
@@ -81,7 +99,7 @@ module axijoint_joints_newton_system
 contains
 
    !> Solve for the change of the excess stress
-   subroutine solve(condensed, scene, linear, tolerance, change, jump)
+   subroutine solve(condensed, scene, linear, tolerance, change, jump, kept)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads
@@ -92,8 +110,11 @@ contains
       real(wp), intent(in) :: tolerance
       !> The change, and amplitudes of the jumps that it makes, shape (3, points, modes)
       real(wp), allocatable, intent(out) :: change(:, :, :), jump(:, :, :)
+      !> Flexibilities that were gathered for the last solution, then for this one
+      type(gathering_type), intent(inout), optional, target :: kept
 
       type(derivative_type) :: derivative
+      type(gathering_type), target :: gathering
       real(wp), allocatable :: right(:, :, :), left(:, :, :), x(:)
       integer, allocatable :: points(:)
       logical :: moves(size(linear%slope, 3))
@@ -101,13 +122,21 @@ contains
       integer :: k, n, n_products
 
       moves = moving(condensed, linear%slope)
+      if (present(kept)) then
+         call gather_moving(condensed, linear, moves, kept)
+         derivative%gathering => kept
+      else
+         call gather_moving(condensed, linear, moves, gathering)
+         derivative%gathering => gathering
+      end if
       points = pack([(k, k=1, size(moves))], moves)
       change = linear%residual
       do k = 1, size(moves)  ! what is left of points that hold is often nothing
          if (moves(k)) change(:, k, :) = 0.0_wp
          if (all(abs(change(:, k, :)) <= linear%rounding)) change(:, k, :) = 0.0_wp
       end do
-      jump = jumps(condensed, scene, change, free=.false.)
+      jump = change
+      if (any(abs(change) > 0.0_wp)) jump = jumps(condensed, scene, change, free=.false.)
       if (size(points) == 0) return
       call new_derivative(condensed, scene, linear, points, derivative)
       right = by_component(linear%residual, points)
@@ -148,7 +177,125 @@ contains
       end do
    end function moving
 
-   !> Gather what some points do to each other
+   !> Gather the flexibilities of the points that move, if what is gathered does not serve. If it is
+   !> of more points, these count as moving: they take what they are asked for and change nothing
+   subroutine gather_moving(condensed, linear, moves, gathering)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Which points are stiff
+      type(linear_type), intent(in) :: linear
+      !> Points that move; then those that are gathered
+      logical, intent(inout) :: moves(:)
+      !> What is gathered
+      type(gathering_type), intent(inout) :: gathering
+
+      logical :: double
+      integer :: k, s
+
+      if (.not. any(moves)) return
+      double = any(linear%stiff .and. moves) .or. n_numbers(condensed, count(moves)) <= at_hand
+      if (serves(gathering, moves, double)) then
+         moves = .false.
+         moves(gathering%points) = .true.
+         return
+      end if
+      gathering%double = double
+      gathering%points = pack([(k, k=1, size(moves))], moves)
+      associate (points => gathering%points, weight => condensed%points%weight)
+         gathering%weight = [weight(points), weight(points), weight(points)]
+         gathering%weight = gathering%weight/max(tiny(1.0_wp), maxval(weight(points)))
+      end associate
+      if (allocated(gathering%flexibilities)) deallocate (gathering%flexibilities)
+      allocate (gathering%flexibilities(size(condensed%flexibilities)))
+      !$omp parallel do schedule(static, 1) if (n_numbers(condensed, count(moves)) > worth_threads)
+      do s = 1, size(condensed%flexibilities)
+         if (.not. allocated(condensed%flexibilities(s)%matrix)) cycle
+         associate (whole => condensed%flexibilities(s)%matrix, points => gathering%points, &
+                    n => size(condensed%points))
+            if (double) then
+               gathering%flexibilities(s)%double = whole([points, n + points, 2*n + points], &
+                  [points, n + points, 2*n + points])
+            else
+               call gather_single(whole, [points, n + points, 2*n + points], gathering%weight, &
+                  gathering%flexibilities(s))
+            end if
+         end associate
+      end do
+      !$omp end parallel do
+   end subroutine gather_moving
+
+   !> Whether what is gathered serves
+   pure logical function serves(gathering, moves, double)
+      !> What is gathered
+      type(gathering_type), intent(in) :: gathering
+      !> Points that move
+      logical, intent(in) :: moves(:)
+      !> Whether all digits are wanted
+      logical, intent(in) :: double
+
+      serves = .false.
+      if (.not. allocated(gathering%points)) return
+      serves = (gathering%double .eqv. double) .and. &
+         count(moves(gathering%points)) == count(moves) .and. &
+         size(gathering%points) <= still_serves*count(moves)
+   end function serves
+
+   !> Numbers of the flexibilities of some points
+   pure real(wp) function n_numbers(condensed, n)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> How many points
+      integer, intent(in) :: n
+
+      n_numbers = 9.0_wp*real(n, wp)**2*size(condensed%flexibilities)
+   end function n_numbers
+
+   !> Gather the flexibility of some points in single precision
+   subroutine gather_single(whole, place, weight, gathered)
+      !> Flexibility of all points
+      real(wp), intent(in), contiguous :: whole(:, :)
+      !> Places of these in it, and their weights
+      integer, intent(in) :: place(:)
+      real(wp), intent(in) :: weight(:)
+      !> Their flexibility
+      type(gathered_type), intent(inout) :: gathered
+
+      real(wp) :: scale
+      logical :: starts(size(place))
+      integer, allocatable :: first(:), last(:), shift(:)
+      integer :: i, j, k
+
+      gathered%unit = tiny(1.0_wp)
+      do j = 1, size(place)
+         if (weight(j) > 0.0_wp) gathered%unit = max(gathered%unit, &
+            abs(whole(place(j), place(j)))/weight(j))
+      end do
+      gathered%unit = 2.0_wp**exponent(gathered%unit)  ! in a range that single precision has
+      starts = .true.
+      starts(2:) = place(2:) /= place(:size(place) - 1) + 1
+      first = pack([(i, i=1, size(place))], starts)
+      last = [first(2:) - 1, size(place)]
+      shift = place(first) - first
+      allocate (gathered%single(size(place), size(place)))
+      do j = 1, size(place)
+         if (.not. weight(j) > 0.0_wp) then  ! a point on the axis: its row is known by the others
+            do i = 1, j
+               gathered%single(i, j) = 0.0_sp
+               if (weight(i) > 0.0_wp) gathered%single(i, j) = &
+                  real(whole(place(j), place(i))/(weight(i)*gathered%unit), sp)
+            end do
+            cycle
+         end if
+         scale = 1.0_wp/(weight(j)*gathered%unit)
+         do k = 1, size(first)  ! neighbours are copied together
+            do i = first(k), min(last(k), j)
+               gathered%single(i, j) = real(scale*whole(i + shift(k), place(j)), sp)
+            end do
+         end do
+      end do
+   end subroutine gather_single
+
+   !> What the points that move do to each other
    subroutine new_derivative(condensed, scene, linear, points, derivative)
       !> The condensed structure
       type(condensed_type), intent(in), target :: condensed
@@ -158,11 +305,10 @@ contains
       type(linear_type), intent(in) :: linear
       !> The points
       integer, intent(in) :: points(:)
-      !> The derivative
-      type(derivative_type), intent(out) :: derivative
+      !> The derivative; flexibilities are gathered already
+      type(derivative_type), intent(inout) :: derivative
 
-      integer :: j, k, s
-      logical :: stiff, double
+      integer :: j, k
 
       derivative%condensed => condensed
       derivative%scene => scene
@@ -176,76 +322,13 @@ contains
             derivative%slope(k, :, :, j) = linear%kept*linear%slope(:, :, points(k), j)
          end do
       end do
-      stiff = any(linear%stiff(points))
-      if (stiff) then
+      if (any(linear%stiff(points))) then
          allocate (derivative%blocks)
          call new_point_blocks(condensed, scene, linear%slope, linear%kept, points, linear%stiff, &
             derivative%blocks)
       end if
-      double = stiff .or. n_numbers(size(points)) <= at_hand
-      derivative%least_left = merge(0.0_wp, single_tolerance, double)
-      allocate (derivative%flexibilities(size(condensed%flexibilities)))
-      !$omp parallel do schedule(static, 1) if (n_numbers(size(points)) > worth_threads)
-      do s = 1, size(condensed%flexibilities)
-         if (.not. allocated(condensed%flexibilities(s)%matrix)) cycle
-         call gather(condensed%flexibilities(s)%matrix, size(condensed%points), points, double, &
-            derivative%flexibilities(s))
-      end do
-      !$omp end parallel do
-
-   contains
-
-      !> Numbers of the flexibilities of some points
-      pure real(wp) function n_numbers(n)
-         !> How many points
-         integer, intent(in) :: n
-
-         n_numbers = 9.0_wp*real(n, wp)**2*size(condensed%flexibilities)
-      end function n_numbers
-
+      derivative%least_left = merge(0.0_wp, single_tolerance, derivative%gathering%double)
    end subroutine new_derivative
-
-   !> Gather the flexibility of some points
-   subroutine gather(whole, n, points, double, gathered)
-      !> Flexibility of all points, and their number
-      real(wp), intent(in), contiguous :: whole(:, :)
-      integer, intent(in) :: n
-      !> These points
-      integer, intent(in) :: points(:)
-      !> Whether all digits are gathered
-      logical, intent(in) :: double
-      !> Their flexibility
-      type(gathered_type), intent(out) :: gathered
-
-      real(wp) :: scale
-      logical :: starts(3*size(points))
-      integer, allocatable :: first(:), last(:), shift(:)
-      integer :: place(3*size(points)), i, j, k
-
-      place = [points, n + points, 2*n + points]
-      if (double) then
-         gathered%double = whole(place, place)
-         return
-      end if
-      do j = 1, size(place)
-         gathered%unit = max(gathered%unit, tiny(1.0_wp), abs(whole(place(j), place(j))))
-      end do
-      gathered%unit = 2.0_wp**exponent(gathered%unit)  ! in a range that single precision has
-      scale = 1.0_wp/gathered%unit
-      starts = .true.
-      starts(2:) = place(2:) /= place(:size(place) - 1) + 1
-      first = pack([(i, i=1, size(place))], starts)
-      last = [first(2:) - 1, size(place)]
-      shift = place(first) - first
-      allocate (gathered%single(size(place), size(place)))
-      do j = 1, size(place)
-         do k = 1, size(first)  ! neighbours are copied together
-            do i = first(k), last(k)
-               gathered%single(i, j) = real(scale*whole(i + shift(k), place(j)), sp)
-            end do
-         end do
-      end do
-   end subroutine gather
 
    !> What a change leaves of the right side of the points that move
    function remainder(derivative, linear, points, change, jump) result(left)
@@ -343,13 +426,13 @@ contains
 
       n = size(self%slope, 1)
       allocate (jump(n, 3, size(self%scene%system)), excess(n, 3, size(self%scene%system)))
-      !$omp parallel do schedule(static, 1) if (real(n, wp)*size(x) > worth_threads)
+      !$omp parallel do schedule(static, 1) if (n_numbers(self%condensed, n) > worth_threads)
       do k = 1, size(jump, 3)
-         associate (flexibility => self%flexibilities(self%scene%system(k)), &
+         associate (flexibility => self%gathering%flexibilities(self%scene%system(k)), &
                     scale => self%scene%scale(k))
             if (allocated(flexibility%single)) then
-               call single_product(flexibility, 3*n, scale, x(3*n*(k - 1) + 1:3*n*k), &
-                  jump(:, :, k))
+               call single_product(flexibility, 3*n, scale, self%gathering%weight, &
+                  x(3*n*(k - 1) + 1:3*n*k), jump(:, :, k))
             else if (allocated(flexibility%double)) then
                call matrix_vector(flexibility%double, x(3*n*(k - 1) + 1:3*n*k), jump(:, :, k))
                jump(:, :, k) = scale*jump(:, :, k)
@@ -367,21 +450,23 @@ contains
    end subroutine apply
 
    !> Product of a flexibility in single precision
-   subroutine single_product(flexibility, n, scale, excess, jump)
+   subroutine single_product(flexibility, n, scale, weight, excess, jump)
       !> The flexibility
       type(gathered_type), intent(in) :: flexibility
       !> Its size
       integer, intent(in) :: n
       !> Factor of the product
       real(wp), intent(in) :: scale
+      !> Weights of the points
+      real(wp), intent(in) :: weight(n)
       !> Amplitudes of excess stress and jumps
       real(wp), intent(in) :: excess(n)
       real(wp), intent(inout) :: jump(n)
 
       real(sp) :: x(n), y(n)
 
-      x = real(excess, sp)
-      call single_matrix_vector(flexibility%single, x, y)
+      x = real(weight*excess, sp)
+      call single_symmetric_vector(flexibility%single, x, y)
       jump = scale*flexibility%unit*y
    end subroutine single_product
 

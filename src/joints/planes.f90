@@ -3,6 +3,8 @@ module axijoint_joints_planes
    use axijoint_base_kinds, only : wp, pi
    use axijoint_fe_fourier, only : cosine_of_fraction, sine_of_fraction
    use axijoint_fe_mode, only : mode_type, family_symmetric, meridional, circumferential
+   use axijoint_joints_half_sums, only : half_sums_type, new_half_sums, sum_halves, find_halves, &
+      worth_halves
    use axijoint_linalg_lapack, only : dgemm
    use axijoint_model_modes, only : greatest_divisor
    implicit none
@@ -30,10 +32,17 @@ module axijoint_joints_planes
       !> Whether a component is odd in theta in a symmetric mode, shape (components): those of
       !> joints are xi, eta, theta
       logical, allocatable :: odd(:)
+      !> Sums by halves where there are enough modes and planes: of components that are even or odd
+      !> in a symmetric mode, in symmetric modes (cosines, sines) and in antisymmetric ones (sines,
+      !> cosines), shape (2, 2); otherwise not allocated
+      type(half_sums_type), allocatable, private :: halves(:, :)
    end type planes_type
 
    !> Components of joints
    logical, parameter :: joint_components(3) = [.false., .false., .true.]
+   !> Points that are summed at a time by halves, and numbers of sums from which on threads are worth
+   !> their start
+   integer, parameter :: points_at_a_time = 64, worth_threads = 100000
 
 contains
 
@@ -94,7 +103,35 @@ contains
          end do
       end do
       call place_all(n, half, intervals, planes)
+      if (worth_halves(size(modes), count)) call plan_halves((modes%family == family_symmetric), m, &
+         intervals, planes)
    end function new_planes
+
+   !> Plan sums by halves
+   pure subroutine plan_halves(symmetric, m, intervals, planes)
+      !> Whether each mode is symmetric, and its harmonic in a part of the circle
+      logical, intent(in) :: symmetric(:)
+      integer, intent(in) :: m(:)
+      !> Intervals from 0 to pi of a part
+      integer, intent(in) :: intervals
+      !> The planes
+      type(planes_type), intent(inout) :: planes
+
+      real(wp) :: ends
+      integer :: family, k
+
+      ends = merge(0.5_wp, 1.0_wp, all(symmetric))
+      allocate (planes%halves(2, 2))
+      do family = 1, 2
+         associate (modes => pack([(k, k=1, size(m))], symmetric .eqv. family == 1), &
+                    last => intervals + 1)
+            planes%halves(1, family) = new_half_sums(modes, m, family == 2, ends, &
+               planes%meridional(:, :last), planes%meridional_back(:last, :))
+            planes%halves(2, family) = new_half_sums(modes, m, family == 1, ends, &
+               planes%circumferential(:, :last), planes%circumferential_back(:last, :))
+         end associate
+      end do
+   end subroutine plan_halves
 
    !> Fold the circle where all repeats: harmonics and intervals of one part
    pure subroutine fold(harmonics, intervals, m, folds)
@@ -300,7 +337,11 @@ contains
       !> Sums, shape (points, components, planes)
       real(wp), intent(inout) :: total(n, size(planes%odd), *)
 
-      call multiply(planes%odd, n, amplitude, planes%meridional, planes%circumferential, total)
+      if (allocated(planes%halves)) then
+         call sum_by_halves(planes, n, size(planes%meridional, 1), amplitude, total)
+      else
+         call multiply(planes%odd, n, amplitude, planes%meridional, planes%circumferential, total)
+      end if
    end subroutine sum_modes
 
    !> Amplitudes of values that are known on the planes and lie together component by component
@@ -314,9 +355,100 @@ contains
       !> Amplitudes, shape (points, components, modes)
       real(wp), intent(inout) :: amplitude(n, size(planes%odd), *)
 
-      call multiply(planes%odd, n, total, planes%meridional_back, planes%circumferential_back, &
-         amplitude)
+      if (allocated(planes%halves)) then
+         call find_by_halves(planes, n, size(planes%meridional, 1), total, amplitude)
+      else
+         call multiply(planes%odd, n, total, planes%meridional_back, planes%circumferential_back, &
+            amplitude)
+      end if
    end subroutine find_modes
+
+   !> Sums on every plane by halves. So many points at a time, whatever the number of threads: results
+   !> do not depend on that
+   subroutine sum_by_halves(planes, n, n_modes, amplitude, total)
+      !> The planes
+      type(planes_type), intent(in) :: planes
+      !> Numbers of points and modes
+      integer, intent(in) :: n, n_modes
+      !> Amplitudes, shape (points, components, modes)
+      real(wp), intent(in) :: amplitude(n, size(planes%odd), n_modes)
+      !> Sums, shape (points, components, planes)
+      real(wp), intent(inout) :: total(n, size(planes%odd), size(planes%angle))
+
+      real(wp), allocatable :: part(:, :), even(:, :), odd(:, :)
+      integer :: first, last, i, j, turn, half
+
+      half = size(planes%angle)
+      if (size(planes%place) > planes%n) half = size(planes%angle)/2 + 1
+      !$omp parallel do collapse(2) schedule(static, 1) private(part, even, odd, last, j, turn) if &
+      !$omp (size(total) >= worth_threads)
+      do first = 1, n, points_at_a_time
+         do i = 1, size(planes%odd)
+            last = min(n, first + points_at_a_time - 1)
+            turn = merge(2, 1, planes%odd(i))
+            part = amplitude(first:last, i, :)
+            allocate (even(last - first + 1, half), odd(last - first + 1, half))
+            call sum_halves(planes%halves(turn, 1), part, even)
+            if (half == size(planes%angle)) then
+               total(first:last, i, :) = even
+            else
+               call sum_halves(planes%halves(turn, 2), part, odd)
+               total(first:last, i, :half) = even + odd
+               do j = 2, half - 1  ! sines and cosines beyond pi
+                  total(first:last, i, size(planes%angle) + 2 - j) = &
+                     merge(-1.0_wp, 1.0_wp, planes%odd(i))*(even(:, j) - odd(:, j))
+               end do
+            end if
+            deallocate (even, odd)
+         end do
+      end do
+      !$omp end parallel do
+   end subroutine sum_by_halves
+
+   !> Amplitudes by halves
+   subroutine find_by_halves(planes, n, n_modes, total, amplitude)
+      !> The planes, made by `new_planes`
+      type(planes_type), intent(in) :: planes
+      !> Numbers of points and modes
+      integer, intent(in) :: n, n_modes
+      !> Values, shape (points, components, planes)
+      real(wp), intent(in) :: total(n, size(planes%odd), size(planes%angle))
+      !> Amplitudes, shape (points, components, modes)
+      real(wp), intent(inout) :: amplitude(n, size(planes%odd), n_modes)
+
+      real(wp), allocatable :: part(:, :), even(:, :), odd(:, :)
+      integer :: first, last, i, j, turn, half
+
+      half = size(planes%angle)
+      if (size(planes%place) > planes%n) half = size(planes%angle)/2 + 1
+      !$omp parallel do collapse(2) schedule(static, 1) private(part, even, odd, last, j, turn) if &
+      !$omp (size(total) >= worth_threads)
+      do first = 1, n, points_at_a_time
+         do i = 1, size(planes%odd)
+            last = min(n, first + points_at_a_time - 1)
+            turn = merge(2, 1, planes%odd(i))
+            allocate (part(last - first + 1, n_modes))
+            even = total(first:last, i, :half)
+            if (half == size(planes%angle)) then
+               call find_halves(planes%halves(turn, 1), even, part)
+            else
+               odd = even
+               do j = 2, half - 1
+                  associate (beyond => total(first:last, i, size(planes%angle) + 2 - j), &
+                             sign => merge(-1.0_wp, 1.0_wp, planes%odd(i)))
+                     even(:, j) = even(:, j) + sign*beyond
+                     odd(:, j) = odd(:, j) - sign*beyond
+                  end associate
+               end do
+               call find_halves(planes%halves(turn, 1), even, part)
+               call find_halves(planes%halves(turn, 2), odd, part)
+            end if
+            amplitude(first:last, i, :) = part
+            deallocate (part)
+         end do
+      end do
+      !$omp end parallel do
+   end subroutine find_by_halves
 
    !> Products of each component with the matrix of those that are even or odd
    subroutine multiply(is_odd, n, values, even, odd, product)

@@ -25,10 +25,10 @@ module axijoint_joints_residual
 
    !> How stress at the joint points acts on the unknowns of a class
    type :: rows_type
-      !> Unknown (counted among those of joints; zero for none) and factor of each jump, shape (18,
-      !> 3, points)
-      integer, allocatable :: place(:, :, :)
-      real(wp), allocatable :: coefficient(:, :, :)
+      !> First entry of each jump of points 1, 2 ..., and one beyond; unknown (counted among those of
+      !> joints) and factor of each
+      integer, allocatable :: first(:), unknown(:)
+      real(wp), allocatable :: factor(:)
       !> Part of each unknown, counted among those with joints
       integer, allocatable :: part(:)
    end type rows_type
@@ -87,7 +87,8 @@ contains
       !> The measure
       type(measure_type), intent(out) :: measure
 
-      integer, allocatable :: part(:), unknowns(:), number(:), owner(:)
+      integer, allocatable :: part(:), unknowns(:), number(:), owner(:), place(:, :, :)
+      real(wp), allocatable :: coefficient(:, :, :)
       integer :: c, i, node, k
 
       measure%weight = points%weight
@@ -106,7 +107,8 @@ contains
       end do
       do c = 1, size(equations%classes)
          associate (dofs => equations%classes(c)%dofs, rows => measure%rows(c))
-            call jump_rows(dofs, points, unknowns, rows%place, rows%coefficient)
+            call jump_rows(dofs, points, unknowns, place, coefficient)
+            call leave_out_zeros(place, coefficient, rows)
             allocate (owner(dofs%n_equations), source=0)
             do node = 1, size(part)
                do i = 1, 3
@@ -118,6 +120,29 @@ contains
          end associate
       end do
    end subroutine new_measure
+
+   !> Rows without their zeros
+   pure subroutine leave_out_zeros(place, coefficient, rows)
+      !> Unknown (zero for none) and factor of each jump, shape (18, 3, points)
+      integer, intent(in) :: place(:, :, :)
+      real(wp), intent(in) :: coefficient(:, :, :)
+      !> Takes what is left
+      type(rows_type), intent(inout) :: rows
+
+      logical :: acts(size(place, 1), size(place, 2), size(place, 3))
+      integer :: i, p
+
+      acts = place > 0 .and. abs(coefficient) > 0.0_wp
+      rows%unknown = pack(place, acts)
+      rows%factor = pack(coefficient, acts)
+      allocate (rows%first(3*size(place, 3) + 1))
+      rows%first(1) = 1
+      do p = 1, size(place, 3)
+         do i = 1, 3
+            rows%first(3*(p - 1) + i + 1) = rows%first(3*(p - 1) + i) + count(acts(:, i, p))
+         end do
+      end do
+   end subroutine leave_out_zeros
 
    !> Set what the residuals of an increment are held against: the forces that its joints would
    !> carry of its load if they held, part by part in the harmonics that this load has, and of all
@@ -226,10 +251,9 @@ contains
             allocate (force(size(rows%part)), source=0.0_wp)
             do p = 1, size(stress, 2)
                do i = 1, 3
-                  do l = 1, size(rows%place, 1)
-                     if (rows%place(l, i, p) == 0) cycle
-                     force(rows%place(l, i, p)) = force(rows%place(l, i, p)) &
-                        + measure%weight(p)*rows%coefficient(l, i, p)*stress(i, p, k)
+                  do l = rows%first(3*(p - 1) + i), rows%first(3*(p - 1) + i + 1) - 1
+                     force(rows%unknown(l)) = force(rows%unknown(l)) &
+                        + measure%weight(p)*rows%factor(l)*stress(i, p, k)
                   end do
                end do
             end do

@@ -8,7 +8,7 @@ module axijoint_linalg_lapack
    public :: cholesky, inverse_from_cholesky, product_with_transpose, symmetric_eigen, &
       use_one_blas_thread
    public :: product_rate
-   public :: matrix_vector, single_matrix_vector, transposed_vector, matrix_sparse_vector
+   public :: matrix_vector, single_symmetric_vector, transposed_vector, matrix_sparse_vector
    public :: least_squares, invert, singular_values
 
    interface
@@ -86,14 +86,14 @@ module axijoint_linalg_lapack
          real(wp), intent(in) :: alpha, beta, a(lda, *), x(*)
          real(wp), intent(inout) :: y(*)
       end subroutine dgemv
-      !> The same in single precision
-      subroutine sgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
+      !> y = alpha a x + beta y with a symmetric matrix in single precision
+      subroutine ssymv(uplo, n, alpha, a, lda, x, incx, beta, y, incy)
          import :: sp
-         character, intent(in) :: trans
-         integer, intent(in) :: m, n, lda, incx, incy
+         character, intent(in) :: uplo
+         integer, intent(in) :: n, lda, incx, incy
          real(sp), intent(in) :: alpha, beta, a(lda, *), x(*)
          real(sp), intent(inout) :: y(*)
-      end subroutine sgemv
+      end subroutine ssymv
       !> Least squares with a rank-revealing factorization
       subroutine dgelsy(m, n, nrhs, a, lda, b, ldb, jpvt, rcond, rank, work, lwork, info)
          import :: wp
@@ -223,17 +223,18 @@ contains
       call dgemv('N', size(a, 1), size(a, 2), 1.0_wp, a, max(1, size(a, 1)), x, 1, 0.0_wp, y, 1)
    end subroutine matrix_vector
 
-   !> Product of a matrix and a vector in single precision
-   subroutine single_matrix_vector(a, x, y)
-      !> The matrix, shape (m, n)
+   !> Product of a symmetric matrix and a vector in single precision
+   subroutine single_symmetric_vector(a, x, y)
+      !> The matrix, shape (n, n); below its diagonal nothing is read
       real(sp), intent(in), contiguous :: a(:, :)
       !> The vector, n values
       real(sp), intent(in) :: x(*)
-      !> The product, m values
-      real(sp), intent(inout) :: y(*)
+      !> The product, n values
+      real(sp), intent(out) :: y(*)
 
-      call sgemv('N', size(a, 1), size(a, 2), 1.0_sp, a, max(1, size(a, 1)), x, 1, 0.0_sp, y, 1)
-   end subroutine single_matrix_vector
+      y(:size(a, 1)) = 0.0_sp
+      call ssymv('U', size(a, 1), 1.0_sp, a, max(1, size(a, 1)), x, 1, 1.0_sp, y, 1)
+   end subroutine single_symmetric_vector
 
    !> Product of the transpose of a matrix and a vector
    subroutine transposed_vector(a, x, y)

@@ -1,6 +1,8 @@
 !> Results of all increments, one after the other, for every file that shows them
 module axijoint_output_increments
-   use axijoint_analysis_core_increment_fields, only : solve_increment
+   use omp_lib, only : omp_get_max_threads
+   use axijoint_analysis_core_increment_fields, only : solve_increment, solve_state, recover_state, &
+      solved_state_type
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_series, only : series_type, new_series, append_increment
    use axijoint_base_error, only : error_type
@@ -9,6 +11,7 @@ module axijoint_output_increments
    use axijoint_base_timer, only : phase_recover
    use axijoint_job_job, only : job_type
    use axijoint_joints_states, only : increment_state_type
+   use axijoint_model_mesh, only : n_nodes
    use axijoint_model_model, only : model_type
    use axijoint_model_request, only : is_kept, keep_series
    use axijoint_output_file_hdf5, only : hdf5_file_type
@@ -21,10 +24,14 @@ module axijoint_output_increments
    private
    public :: write_increments, help_with_increments
 
+   !> Nodes up to which a thread finds the fields of an increment by itself: its stack is small. Of
+   !> larger meshes the harmonics are shared
+   integer, parameter :: most_nodes = 20000
+
 contains
 
    !> Find the fields of each increment, the last of which are the results, and hand them to all
-   !> files
+   !> files: while one thread writes, another finds the next
    subroutine write_increments(job, results, arrays, bodies, surfaces, &
       old_listing, series, error)
       !> The job; its factors are used again
@@ -43,9 +50,10 @@ contains
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      type(results_type) :: earlier
       type(history_fields_type) :: fields
-      integer :: i, last
+      type(solved_state_type), allocatable :: solved(:)
+      integer, allocatable :: shown(:)
+      integer :: first, i, k, last, n
 
       last = size(results%states)
       associate (model => job%model, structure => job%structure, states => results%states)
@@ -54,15 +62,25 @@ contains
             count([(is_kept(model%keep(keep_series), states(i)%increment, &
                             states(last)%increment), i=1, last)]))
          call job%timer%push(phase_recover)
-         do i = 1, last - 1
-            if (.not. is_shown(model, states(i), states(last))) cycle
-            call show_progress(job%progress, 'fields of increment '//to_text(i)//' of '// &
-               to_text(last))
-            call solve_increment(model, structure, states(i), results, earlier, error)
+         shown = pack([(i, i=1, last - 1)], [(is_shown(model, states(i), states(last)), i=1, last - 1)])
+         allocate (solved(at_once()))
+         do first = 1, size(shown), size(solved)
+            n = min(size(solved), size(shown) - first + 1)
+            do k = 1, n
+               call show_progress(job%progress, 'fields of increment '// &
+                  to_text(shown(first + k - 1))//' of '//to_text(last))
+               call solve_state(model, structure, states(shown(first + k - 1)), results, solved(k), &
+                  error)
+               if (allocated(error)) exit
+            end do
             if (allocated(error)) exit
-            call put(earlier)
+            !$omp parallel do ordered schedule(static, 1) if (n > 1)
+            do k = 1, n
+               call find(shown(first + k - 1), solved(k))
+            end do
+            !$omp end parallel do
          end do
-         if (.not. allocated(error)) call put(results)
+         if (.not. allocated(error)) call put(last, results)
          call job%timer%pop()
          call end_history(arrays, fields)
          call write_series(arrays, model, series)
@@ -70,8 +88,32 @@ contains
 
    contains
 
-      !> Hand the fields of increment i to the files
-      subroutine put(now)
+      !> How many increments are looked at at once. Processes meet increment by increment
+      integer function at_once()
+         at_once = 1
+         if (job%structure%equations%team%size == 1 .and. n_nodes(job%model%mesh) <= most_nodes) &
+            at_once = max(1, min(omp_get_max_threads(), size(shown)))
+      end function at_once
+
+      !> Find the fields of an increment, and hand them to the files when its turn comes
+      subroutine find(i, solved)
+         !> Its place
+         integer, intent(in) :: i
+         !> Its displacements
+         type(solved_state_type), intent(inout) :: solved
+
+         type(results_type) :: earlier
+
+         call recover_state(job%model, job%structure, results%states(i), results, solved, earlier)
+         !$omp ordered
+         call put(i, earlier)
+         !$omp end ordered
+      end subroutine find
+
+      !> Hand the fields of an increment to the files
+      subroutine put(i, now)
+         !> Its place
+         integer, intent(in) :: i
          !> The fields
          type(results_type), intent(in) :: now
 

@@ -27,8 +27,18 @@ module axijoint_analysis_core_increment_fields
    use axijoint_plastic_record, only : on_all_points
    implicit none
    private
-   public :: elastic_field, field_of_state, recover_fields, move_bodies, solve_increment
+   public :: elastic_field, field_of_state, recover_fields, move_bodies
+   public :: solved_state_type, solve_state, recover_state, solve_increment
    public :: load_plastic_strain, stress_plastic_strain
+
+   !> A state whose displacements are found
+   type :: solved_state_type
+      private
+      !> Its loads
+      type(loading_type) :: loading
+      !> Amplitudes, shape (3, nodes, modes)
+      real(wp), allocatable :: displacement(:, :, :)
+   end type solved_state_type
 
 contains
 
@@ -155,7 +165,7 @@ contains
       end do
    end subroutine move_bodies
 
-   !> Find the fields of an increment again: one solution a mode
+   !> Find the fields of an increment again
    subroutine solve_increment(model, structure, state, final, results, error)
       !> The job
       type(model_type), intent(in) :: model
@@ -170,32 +180,71 @@ contains
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      type(loading_type) :: loading, loads
+      type(solved_state_type) :: solved
+
+      call solve_state(model, structure, state, final, solved, error)
+      if (.not. allocated(error)) call recover_state(model, structure, state, final, solved, results)
+   end subroutine solve_increment
+
+   !> Find the displacements of an increment again: one solution a mode
+   subroutine solve_state(model, structure, state, final, solved, error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure; its factors are made again where they are not kept
+      type(structure_type), intent(inout) :: structure
+      !> What was kept of the increment
+      type(increment_state_type), intent(in) :: state
+      !> Results at the end of the run, for their extents
+      type(results_type), intent(in) :: final
+      !> The displacements
+      type(solved_state_type), intent(out) :: solved
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
       type(mode_solve_type), allocatable :: solves(:)
+
+      allocate (solved%displacement, mold=final%displacement)
+      call load_plastic_strain(model, structure, state, solved%loading)
+      ! where no joint yields there is no excess stress
+      call solve_displacements(structure, model, solved%loading, solved%displacement, solves, &
+         error, state%excess)
+   end subroutine solve_state
+
+   !> Find the fields of an increment from its displacements
+   subroutine recover_state(model, structure, state, final, solved, results)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> What was kept of the increment
+      type(increment_state_type), intent(in) :: state
+      !> Results at the end of the run
+      type(results_type), intent(in) :: final
+      !> The displacements; taken into the results
+      type(solved_state_type), intent(inout) :: solved
+      !> The fields of the increment; nothing that is about the run
+      type(results_type), intent(out) :: results
+
+      type(loading_type) :: loads
       type(joint_field_type) :: field
 
       results%modes = final%modes
       results%plane_angles = final%plane_angles
       results%converged = .true.
-      allocate (results%displacement, mold=final%displacement)
-      call load_plastic_strain(model, structure, state, loading)
-      ! where no joint yields there is no excess stress
-      call solve_displacements(structure, model, loading, results%displacement, solves, error, &
-         state%excess)
-      if (allocated(error)) return
+      call move_alloc(solved%displacement, results%displacement)
       call field_of_state(model, structure, state, results%plane_angles, results%displacement, &
          field)
       if (allocated(state%bodies%place)) then
-         call stress_plastic_strain(model, state, loading)
+         call stress_plastic_strain(model, state, solved%loading)
          call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
                           combination_type(0, state%case_factor), loads)  ! what errors are held against
+         call recover_fields(model, structure, solved%loading, loads, field, results)
       else
-         loads = loading
+         call recover_fields(model, structure, solved%loading, solved%loading, field, results)
       end if
-      call recover_fields(model, structure, loading, loads, field, results)
       results%plastic = plastic_fields(model, results%modes, results%stress, state%bodies)
       call move_bodies(model, structure, state, results)
-   end subroutine solve_increment
+   end subroutine recover_state
 
    !> Loads of a state, with the stress of the plastic strain that its displacements follow from
    subroutine load_plastic_strain(model, structure, state, loading)

@@ -50,24 +50,32 @@ contains
 
       type(course_type) :: course
       real(wp), allocatable :: missed(:, :, :)
-      integer :: first, j
+      integer :: starts(size(points)), first, i, j, n
 
       allocate (missed, mold=field%stress)
       missed = 0.0_wp
       first = 1
+      n = 0
       do while (first <= size(points))
+         n = n + 1
+         starts(n) = first
          call place_course(model, points, first, course)
-         if (course%n == points(first)%n_pairs) then
-            do j = 1, size(missed, 3)
-               call take_stresses(model, points, field, j, course)
-               if (.not. is_smooth(model, points, field, j, course)) then
-                  missed(:, first:first + course%n - 1, j) = &
-                     missed_by_rule(model, points, field, j, course)
-               end if
-            end do
-         end if
          first = first + course%n
       end do
+      !$omp parallel do schedule(dynamic, 4) private(course, first, j)
+      do i = 1, n
+         first = starts(i)
+         call place_course(model, points, first, course)
+         if (course%n /= points(first)%n_pairs) cycle
+         do j = 1, size(missed, 3)
+            call take_stresses(model, points, field, j, course)
+            if (.not. is_smooth(model, points, field, j, course)) then
+               missed(:, first:first + course%n - 1, j) = &
+                  missed_by_rule(model, points, field, j, course)
+            end if
+         end do
+      end do
+      !$omp end parallel do
       amplitude = analyse(planes, missed)
    end function missed_stress
 

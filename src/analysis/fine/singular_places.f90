@@ -76,35 +76,55 @@ contains
 
       type(corners_type) :: corners
       type(joint_places_type) :: joints
-      type(sector_type), allocatable :: sectors(:)
-      real(wp) :: exponent
+      real(wp) :: exponent(n_nodes(model%mesh)), distance
       integer :: node
 
       allocate (places(0))
       call look_at_joints(model, joints)
       corners = corners_of(model, fine, joints)
+      !$omp parallel do schedule(dynamic, 64)
       do node = 1, n_nodes(model%mesh)
-         if (.not. model%mesh%coordinates(1, node) > 0.0_wp) cycle
-         associate (bonded => hold_together(joints, node), &
-                    distance => reach*joints%length(node))
-            if (.not. bonded) then
-               exponent = exponent_of(model, fine, &
-                  corners%sectors(corners%start(node):corners%start(node + 1) - 1), &
-                                      open=.true.)
-               if (exponent < slow) places = [places, singular_place_type(node, exponent)]
-            ! others are told with the first node of the place
-            else if (joints%together(node) == node) then
-               sectors = sectors_at(corners, joints%together, node)
-               exponent = exponent_of(model, fine, sectors, open=.false.)
-               ! where other joints hold, they have an edge where one opens
-               if (any(joints%holds .and. joints%together == node)) then
-                  exponent = min(exponent, exponent_of(model, fine, sectors, open=.true.))
-               end if
-               if (exponent < slow) places = [places, singular_place_type(node, exponent, distance)]
-            end if
-         end associate
+         exponent(node) = exponent_at(model, fine, corners, joints, node)
+      end do
+      !$omp end parallel do
+      do node = 1, n_nodes(model%mesh)
+         if (.not. exponent(node) < slow) cycle
+         distance = merge(reach*joints%length(node), 0.0_wp, hold_together(joints, node))
+         places = [places, singular_place_type(node, exponent(node), distance)]
       end do
    end function find_singular_places
+
+   !> The least exponent at a node
+   function exponent_at(model, fine, corners, joints, node) result(exponent)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Edges of its mesh
+      type(fine_mesh_type), intent(in) :: fine
+      !> Sectors of all corners
+      type(corners_type), intent(in) :: corners
+      !> Joints at the nodes
+      type(joint_places_type), intent(in) :: joints
+      !> The node
+      integer, intent(in) :: node
+      !> Zero if stresses are finite, on the axis, or if another node tells of the place
+      real(wp) :: exponent
+
+      type(sector_type), allocatable :: sectors(:)
+
+      exponent = 0.0_wp
+      if (.not. model%mesh%coordinates(1, node) > 0.0_wp) return
+      if (.not. hold_together(joints, node)) then
+         exponent = exponent_of(model, fine, &
+            corners%sectors(corners%start(node):corners%start(node + 1) - 1), open=.true.)
+      ! others are told with the first node of the place
+      else if (joints%together(node) == node) then
+         sectors = sectors_at(corners, joints%together, node)
+         exponent = exponent_of(model, fine, sectors, open=.false.)
+         ! where other joints hold, they have an edge where one opens
+         if (any(joints%holds .and. joints%together == node)) &
+            exponent = min(exponent, exponent_of(model, fine, sectors, open=.true.))
+      end if
+   end function exponent_at
 
    !> Whether joints hold the bodies together at a node, as seen from a little farther away
    elemental logical function hold_together(joints, node)
