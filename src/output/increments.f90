@@ -91,8 +91,9 @@ contains
       !> How many increments are looked at at once. Processes meet increment by increment
       integer function at_once()
          at_once = 1
+         if (size(shown) < 2) return  ! no structure may be there
          if (job%structure%equations%team%size == 1 .and. n_nodes(job%model%mesh) <= most_nodes) &
-            at_once = max(1, min(omp_get_max_threads(), size(shown)))
+            at_once = min(omp_get_max_threads(), size(shown))
       end function at_once
 
       !> Find the fields of an increment, and hand them to the files when its turn comes

@@ -38,11 +38,12 @@ contains
       real(wp) :: power(2, 0:4)
       integer :: j
 
+      ! those that are not asked for might overflow, where a patch is a point
       power(:, 0) = 1.0_wp
-      power(:, 1) = x
-      power(:, 2) = x*x
-      power(:, 3) = x*power(:, 2)
-      power(:, 4) = power(:, 2)*power(:, 2)
+      if (n > n_complete(0)) power(:, 1) = x
+      if (n > n_complete(1)) power(:, 2) = x*x
+      if (n > n_complete(2)) power(:, 3) = x*power(:, 2)
+      if (n > n_complete(3)) power(:, 4) = power(:, 2)*power(:, 2)
       do j = 1, n
          values(j) = power(1, powers(1, j))*power(2, powers(2, j))
       end do
