@@ -11,8 +11,8 @@
 
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
 
-/* Least block that is worth the call: that of two large pages, as one of them lies in it whole */
-#define WORTH_ASKING ((size_t)4 << 20)
+/* Least block that is worth the call */
+#define WORTH_ASKING ((size_t)1 << 20)
 #define PAGE ((uintptr_t)4096)
 
 static void ask(uintptr_t from, uintptr_t to)
@@ -24,17 +24,21 @@ static void ask(uintptr_t from, uintptr_t to)
    errno = cause;
 }
 
-/* A block has been allocated: ask for it if it is large, and for what the heap has grown by, which small blocks
-   share. Who asks twice at once does no harm. */
+/* A block has been allocated: ask for it if it is large. Where it lies in the heap, or the heap has grown, ask for all of
+   the heap, which small blocks share: the part that it was given back by and has grown by again has forgotten. */
 void axijoint_ask_large_pages(const void *block, size_t bytes)
 {
-   static uintptr_t told;
-   const uintptr_t end = (uintptr_t)sbrk(0), before = __atomic_load_n(&told, __ATOMIC_RELAXED);
+   static uintptr_t heap, seen;
+   const uintptr_t from = (uintptr_t)block, end = (uintptr_t)sbrk(0);
+   uintptr_t begin = __atomic_load_n(&heap, __ATOMIC_RELAXED);
+   const int grown = __atomic_exchange_n(&seen, end, __ATOMIC_RELAXED) != end;
 
-   if (bytes >= WORTH_ASKING && block) ask((uintptr_t)block, (uintptr_t)block + bytes);
-   if (end == before) return;
-   if (before && end > before) ask(before, end);
-   __atomic_store_n(&told, end, __ATOMIC_RELAXED);
+   if (!begin) {
+      begin = from && from < end ? from : end;
+      __atomic_store_n(&heap, begin, __ATOMIC_RELAXED);
+   }
+   if (grown || (bytes >= WORTH_ASKING && from >= begin && from < end)) ask(begin, end);
+   if (bytes >= WORTH_ASKING && from > end) ask(from, from + bytes);
 }
 
 #else

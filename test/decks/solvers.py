@@ -3,6 +3,7 @@ import json
 import os
 import re
 import resource
+import subprocess
 
 from hard_scenes import example
 from support import INPUTS, Test, read_text, write
@@ -147,6 +148,23 @@ def stacks_stay_small(program, folder):
     return [] if ran.code == 0 else [f'expected exit code 0, found {ran.code}', ran.err]
 
 
+def pages_are_large(program, folder):
+    """Where the system gives large pages to who asks, a quarter of the small ones at most is touched by itself"""
+    try:
+        if '[never]' in read_text('/sys/kernel/mm/transparent_hugepage/enabled'):
+            return []
+    except FileNotFoundError:
+        return []
+    deck = write(folder, 'fine.dat', RING.replace('1, 1, 8, 20, 20', '1, 1, 8, 100, 100'))
+    process = subprocess.Popen([program.path, 'run', deck, '-o', folder, '--quiet', '--threads', '1'],
+                               env=program.environment)
+    _, status, used = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    small = used.ru_maxrss*1024/resource.getpagesize()
+    return ([] if status == 0 else [f'ended with {process.returncode}']) + (
+        [] if used.ru_minflt < 0.25*small else [f'{used.ru_minflt} page faults for {small:.0f} pages'])
+
+
 def estimate_tells_costs(program, folder):
     """`estimate` has seconds by phase, a total, memory and files, and solves nothing; its sum is right, and solvers differ"""
     deck = write(folder, 'ring.dat', RING)
@@ -240,6 +258,7 @@ def tests(program):
                                 ('memory', memory_changes_nothing),
                                 ('too little memory', memory_too_small),
                                 ('stacks', stacks_stay_small),
+                                ('large pages', pages_are_large),
                                 ('estimate', estimate_tells_costs),
                                 ('estimate counts', estimate_counts),
                                 ('estimate of memory', estimated_memory),
