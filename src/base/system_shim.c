@@ -134,13 +134,12 @@ void axijoint_return_freed_memory(void)
 
 /* What is freed stays, but for the largest arrays, as long as no more than so much of it lies at the end: the
    next harmonic, or the next row of a study, has the same arrays again, and fetching their pages is a tenth
-   of the time of a run, and a quarter of that of a row. What is new comes by two large pages. */
+   of the time of a run, and a quarter of that of a row. */
 void axijoint_keep_freed_memory(int mebibytes)
 {
 #ifdef M_MMAP_THRESHOLD
    mallopt(M_MMAP_THRESHOLD, 32 << 20);
    mallopt(M_TRIM_THRESHOLD, mebibytes << 20);
-   mallopt(M_TOP_PAD, 4 << 20);
 #else
    (void)mebibytes;
 #endif

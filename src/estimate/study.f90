@@ -24,7 +24,7 @@ module axijoint_estimate_study
    !> Structures that are planned; others are taken to be like these on average
    integer, parameter :: most_samples = 5
    !> Bytes that rows without estimates of errors take less than a run with its files, as measured
-   integer(i8), parameter :: spared_bytes = 3500000_i8
+   integer(i8), parameter :: spared_bytes = 1000000_i8
    !> Bytes of a real, and of a row in the table of results and in the journal beside its numbers
    real(wp), parameter :: real_bytes = 8.0_wp, row_bytes = 1000.0_wp
 

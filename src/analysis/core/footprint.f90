@@ -20,11 +20,11 @@ module axijoint_analysis_core_footprint
 
    !> What program and libraries without any data take beyond their start while they solve, and what
    !> the libraries of the output add once they are used [byte]; measured
-   integer(i8), parameter :: program_bytes = 4900000_i8, output_bytes = 5500000_i8
+   integer(i8), parameter :: program_bytes = 6900000_i8, output_bytes = 500000_i8
    !> Bytes of a real
    integer(i8), parameter :: real_bytes = storage_size(1.0_wp)/8
    !> Numbers of a joint point on a plane: jumps, stresses, states, slip, slopes, and copies
-   integer(i8), parameter :: plane_numbers = 80
+   integer(i8), parameter :: plane_numbers = 90
    !> Planes on which the estimates of errors find joints again, times so many
    integer(i8), parameter :: more_planes = 4
 
