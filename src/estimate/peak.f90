@@ -1,7 +1,6 @@
 !> Memory that a run takes at its peak
 module axijoint_estimate_peak
-   use axijoint_analysis_core_footprint, only : footprint_type, data_footprint, program_bytes, &
-      output_bytes
+   use axijoint_analysis_core_footprint, only : footprint_type, data_footprint, program_bytes
    use axijoint_analysis_core_structure, only : structure_type, plan_structure
    use axijoint_analysis_error_plastic_errors, only : turns_back
    use axijoint_analysis_error_plastic_variants, only : take_more_harmonics, take_fewer_harmonics, &
@@ -47,7 +46,7 @@ contains
             standing_bytes(equations) + parts_bytes(equations) &
             + kept_bytes(equations) + others%joints + others%bodies + others%fine &
             + max(solving_bytes(structure, others), others%loads + others%stresses &
-                  + max(output_bytes + sweep_bytes(model, structure), judging_bytes(model)))
+                  + max(sweep_bytes(model, structure), judging_bytes(model)))
       end associate
       if (can_yield(model)) bytes = bytes + yielding_bytes
    end function peak_bytes

@@ -16,15 +16,14 @@ module axijoint_analysis_core_footprint
    use axijoint_plastic_field, only : body_planes
    implicit none
    private
-   public :: footprint_type, data_footprint, fine_nodes, blocks_of, program_bytes, output_bytes
+   public :: footprint_type, data_footprint, fine_nodes, blocks_of, program_bytes
 
-   !> What program and libraries without any data take beyond their start while they solve, and what
-   !> the libraries of the output add once they are used [byte]; measured
-   integer(i8), parameter :: program_bytes = 6900000_i8, output_bytes = 500000_i8
+   !> What program and libraries without any data take beyond their start once they are used [byte]; measured
+   integer(i8), parameter :: program_bytes = 6900000_i8
    !> Bytes of a real
    integer(i8), parameter :: real_bytes = storage_size(1.0_wp)/8
    !> Numbers of a joint point on a plane: jumps, stresses, states, slip, slopes, and copies
-   integer(i8), parameter :: plane_numbers = 90
+   integer(i8), parameter :: plane_numbers = 100
    !> Planes on which the estimates of errors find joints again, times so many
    integer(i8), parameter :: more_planes = 4
 
@@ -236,7 +235,7 @@ contains
       !> The bytes
       class(footprint_type), intent(in) :: self
 
-      later = max(self%stresses + output_bytes, self%body_work)
+      later = max(self%stresses, self%body_work)
    end function later
 
 end module axijoint_analysis_core_footprint
