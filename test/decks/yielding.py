@@ -672,12 +672,18 @@ def estimated(folder, program):
         summary = json.load(file)
     ratio = assumed['memory']/summary['peak_memory_mb']
     faults += ran.ended_with(0) + ([] if 0.7 < ratio < 1.4 else [f'memory: {ratio} of that of the run'])
-    ran = program.run('run', deck, '-o', folder, '--threads', '1', '--memory', str(round(summary['peak_memory_mb']) + 1),
-                      folder=folder)
-    with open(os.path.join(folder, 'estimated.json'), encoding='utf-8') as file:
-        errors = json.load(file)['yielding']['errors']
+    # the least limit with which the run ends: what is estimated after the states has to do without the finer mesh
+    first = math.ceil(summary['peak_memory_mb']) + 4
+    least, errors = None, summary['yielding']['errors']
+    for limit in range(first, 0, -1):
+        ran = program.run('run', deck, '-o', folder, '--threads', '1', '--memory', str(limit), folder=folder)
+        if ran.code != 0:
+            break
+        with open(os.path.join(folder, 'estimated.json'), encoding='utf-8') as file:
+            least, errors = limit, json.load(file)['yielding']['errors']
     missing = 'discretization left out: it needs more memory than there is'
-    return faults + ran.ended_with(0) + expected(missing, (True, None), (missing in errors['in_words'], errors['discretization']['load']))
+    return faults + ran.ended_with(6) + expected('a least limit', True, least is not None) + expected(
+        missing, (True, None), (missing in errors['in_words'], errors['discretization']['load']))
 
 
 def study(folder, program):
