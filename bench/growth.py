@@ -209,13 +209,16 @@ def share(args, folder, title, row, text, options, verdicts):
         subprocess.run(["gcc", "-O2", "-shared", "-fPIC", "-o", shim, os.path.join(HERE, "dense_calls.c"), "-ldl"], check=True)
     with open(deck, "w", encoding="utf-8") as file:
         file.write(text)
-    seconds, _, code, said = spent(["env", f"LD_PRELOAD={shim}", f"DENSE_CALLS={told}", args.axijoint, "run", deck, "-o", folder,
+    seconds, _, code, said = spent(["env", f"LD_PRELOAD={shim}", f"DENSE_CALLS={told}", args.shared, "run", deck, "-o", folder,
                                     "--quiet", *options], folder)
     if code:
         verdicts.note(f"joint points, {title}: share of dense steps not known, exit code {code}: {said}", False)
         return
     with open(told, encoding="utf-8") as file:
         calls = [(name, int(order), int(count), float(time)) for name, order, count, time in map(str.split, file)]
+    if not calls:
+        verdicts.note(f"joint points, {title}: share of dense steps not known, no calls were seen", False)
+        return
     calls.sort(key=lambda call: -call[3])
     print(f"  routines of BLAS and LAPACK at {row.label} joint points, {seconds:.1f} s: " + ", ".join(
         f"{name.strip('_')} of order {order} and more {100*time/seconds:.1f} %" for name, order, _, time in calls[:6]))
@@ -228,6 +231,7 @@ def main():
     """Bars, tables, verdicts; exit code 1 if a bar is missed"""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--axijoint", required=True)
+    parser.add_argument("--shared", required=True, help="the same program with a shared BLAS, whose calls are looked at")
     parser.add_argument("--quick", action="store_true", help="small sizes")
     parser.add_argument("--full", action="store_true", help="largest sizes, too")
     parser.add_argument("--only", default="", help="parts whose names contain this: unknowns, harmonics, points")

@@ -1,10 +1,10 @@
 !> Results of all increments, one after the other, for every file that shows them
 module axijoint_output_increments
    use omp_lib, only : omp_get_max_threads
-   use axijoint_analysis_core_increment_fields, only : solve_increment, solve_state, recover_state, &
-      solved_state_type
+   use axijoint_analysis_core_increment_fields, only : solve_increment, solve_increments, recover_state
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_series, only : series_type, new_series, append_increment
+   use axijoint_analysis_core_solution, only : solved_state_type
    use axijoint_base_error, only : error_type
    use axijoint_base_progress, only : show_progress
    use axijoint_base_text, only : to_text
@@ -27,6 +27,8 @@ module axijoint_output_increments
    !> Nodes up to which a thread finds the fields of an increment by itself: its stack is small. Of
    !> larger meshes the harmonics are shared
    integer, parameter :: most_nodes = 20000
+   !> Increments whose displacements are found at once, so that a factor is read once for all of them
+   integer, parameter :: at_once = 4
 
 contains
 
@@ -63,16 +65,11 @@ contains
                             states(last)%increment), i=1, last)]))
          call job%timer%push(phase_recover)
          shown = pack([(i, i=1, last - 1)], [(is_shown(model, states(i), states(last)), i=1, last - 1)])
-         allocate (solved(at_once()))
+         allocate (solved(merge(at_once, 1, by_threads())))
          do first = 1, size(shown), size(solved)
             n = min(size(solved), size(shown) - first + 1)
-            do k = 1, n
-               call show_progress(job%progress, 'fields of increment '// &
-                  to_text(shown(first + k - 1))//' of '//to_text(last))
-               call solve_state(model, structure, states(shown(first + k - 1)), results, solved(k), &
-                  error)
-               if (allocated(error)) exit
-            end do
+            call show_progress(job%progress, 'fields of increment '//to_text(shown(first))//' of '//to_text(last))
+            call solve_increments(model, structure, shown(first:first + n - 1), results, solved(:n), error)
             if (allocated(error)) exit
             !$omp parallel do ordered schedule(static, 1) if (n > 1)
             do k = 1, n
@@ -88,13 +85,12 @@ contains
 
    contains
 
-      !> How many increments are looked at at once. Processes meet increment by increment
-      integer function at_once()
-         at_once = 1
+      !> Whether threads share the increments. Processes meet increment by increment
+      logical function by_threads()
+         by_threads = .false.
          if (size(shown) < 2) return  ! no structure may be there
-         if (job%structure%equations%team%size == 1 .and. n_nodes(job%model%mesh) <= most_nodes) &
-            at_once = min(omp_get_max_threads(), size(shown))
-      end function at_once
+         by_threads = job%structure%equations%team%size == 1 .and. n_nodes(job%model%mesh) <= most_nodes
+      end function by_threads
 
       !> Find the fields of an increment, and hand them to the files when its turn comes
       subroutine find(i, solved)
@@ -146,7 +142,7 @@ contains
       last = size(results%states)
       do i = 1, last - 1
          if (.not. is_shown(job%model, results%states(i), results%states(last))) cycle
-         call solve_increment(job%model, job%structure, results%states(i), results, earlier, error)
+         call solve_increment(job%model, job%structure, i, results, earlier, error)
          if (allocated(error)) return
       end do
    end subroutine help_with_increments

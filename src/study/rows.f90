@@ -278,7 +278,7 @@ contains
       end if
       series = new_series(model, results, size(results%states))
       do i = 1, size(results%states) - 1
-         call solve_increment(model, rows%structure, results%states(i), results, earlier, error)
+         call solve_increment(model, rows%structure, i, results, earlier, error)
          if (allocated(error)) return
          call append_increment(model, rows%structure, results, i, earlier, series)
       end do

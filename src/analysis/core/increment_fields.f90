@@ -8,8 +8,8 @@ module axijoint_analysis_core_increment_fields
    use axijoint_analysis_core_nodal_stress, only : smooth_stress
    use axijoint_analysis_core_plastic_fields, only : plastic_fields
    use axijoint_analysis_core_recovery, only : recover
-   use axijoint_analysis_core_results, only : results_type, mode_solve_type, n_resultants
-   use axijoint_analysis_core_solution, only : solve_displacements
+   use axijoint_analysis_core_results, only : results_type, n_resultants
+   use axijoint_analysis_core_solution, only : solve_states, solved_state_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_assembly_force, only : joint_jump, elastic_joint_stress
    use axijoint_assembly_loading, only : loading_type, new_loading
@@ -28,17 +28,8 @@ module axijoint_analysis_core_increment_fields
    implicit none
    private
    public :: elastic_field, field_of_state, recover_fields, move_bodies
-   public :: solved_state_type, solve_state, recover_state, solve_increment
+   public :: solve_increments, recover_state, solve_increment
    public :: load_plastic_strain, stress_plastic_strain
-
-   !> A state whose displacements are found
-   type :: solved_state_type
-      private
-      !> Its loads
-      type(loading_type) :: loading
-      !> Amplitudes, shape (3, nodes, modes)
-      real(wp), allocatable :: displacement(:, :, :)
-   end type solved_state_type
 
 contains
 
@@ -166,49 +157,53 @@ contains
    end subroutine move_bodies
 
    !> Find the fields of an increment again
-   subroutine solve_increment(model, structure, state, final, results, error)
+   subroutine solve_increment(model, structure, place, final, results, error)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure; its factors are made again where they are not kept
       type(structure_type), intent(inout) :: structure
-      !> What was kept of the increment
-      type(increment_state_type), intent(in) :: state
-      !> Results at the end of the run, for their extents
+      !> Place of the increment among what was kept of all
+      integer, intent(in) :: place
+      !> Results at the end of the run, with what was kept of the increments
       type(results_type), intent(in) :: final
       !> The fields of the increment; nothing that is about the run
       type(results_type), intent(out) :: results
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      type(solved_state_type) :: solved
+      type(solved_state_type) :: solved(1)
 
-      call solve_state(model, structure, state, final, solved, error)
-      if (.not. allocated(error)) call recover_state(model, structure, state, final, solved, results)
+      call solve_increments(model, structure, [place], final, solved, error)
+      if (.not. allocated(error)) call recover_state(model, structure, final%states(place), final, solved(1), results)
    end subroutine solve_increment
 
-   !> Find the displacements of an increment again: one solution a mode
-   subroutine solve_state(model, structure, state, final, solved, error)
+   !> Find the displacements of increments again: one solution a mode and increment
+   subroutine solve_increments(model, structure, places, final, solved, error)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure; its factors are made again where they are not kept
       type(structure_type), intent(inout) :: structure
-      !> What was kept of the increment
-      type(increment_state_type), intent(in) :: state
-      !> Results at the end of the run, for their extents
+      !> Places of the increments among what was kept of all
+      integer, intent(in) :: places(:)
+      !> Results at the end of the run, with what was kept of the increments
       type(results_type), intent(in) :: final
-      !> The displacements
-      type(solved_state_type), intent(out) :: solved
+      !> The displacements, as many as there are places
+      type(solved_state_type), intent(out) :: solved(:)
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      type(mode_solve_type), allocatable :: solves(:)
+      integer :: i
 
-      allocate (solved%displacement, mold=final%displacement)
-      call load_plastic_strain(model, structure, state, solved%loading)
-      ! where no joint yields there is no excess stress
-      call solve_displacements(structure, model, solved%loading, solved%displacement, solves, &
-         error, state%excess)
-   end subroutine solve_state
+      do i = 1, size(places)
+         associate (state => final%states(places(i)))
+            allocate (solved(i)%displacement, mold=final%displacement)
+            call load_plastic_strain(model, structure, state, solved(i)%loading)
+            ! where no joint yields there is no excess stress
+            if (allocated(state%excess)) solved(i)%excess = state%excess
+         end associate
+      end do
+      call solve_states(structure, model, solved, error)
+   end subroutine solve_increments
 
    !> Find the fields of an increment from its displacements
    subroutine recover_state(model, structure, state, final, solved, results)

@@ -17,13 +17,31 @@ module axijoint_analysis_core_solution
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: solve_displacements
+   public :: solve_displacements, solve_states, solved_state_type
+
+   !> A state whose displacements are looked for, with its joints known
+   type :: solved_state_type
+      !> Its loads
+      type(loading_type) :: loading
+      !> Excess stress of the joint points that yield, shape (3, points, modes); none if not allocated
+      real(wp), allocatable :: excess(:, :, :)
+      !> Amplitudes, shape (3, nodes, modes); their extents are there before
+      real(wp), allocatable :: displacement(:, :, :)
+   end type solved_state_type
+
+   !> Loads, and where their displacements go
+   type :: task_type
+      !> Loads
+      type(loading_type), pointer :: loading => null()
+      !> Excess stress of the joint points that yield, shape (3, points, modes)
+      real(wp), allocatable :: acting(:, :, :)
+      !> Displacement amplitudes, shape (3, nodes, modes)
+      real(wp), pointer :: displacement(:, :, :) => null()
+   end type task_type
 
 contains
 
-   !> Displacements under loads and excess joint stress, a step of refinement in them unless the
-   !> structure takes what rounding leaves without it. A factor that is not kept is made, used for all
-   !> that needs it, and given up. Each rank solves its systems, and learns the rest.
+   !> Displacements under loads and excess joint stress, and what is asked besides
    subroutine solve_displacements(structure, model, loading, displacement, solves, error, excess, &
       difference)
       !> The structure, assembled
@@ -31,9 +49,9 @@ contains
       !> The job, for the words of an error
       type(model_type), intent(in) :: model
       !> The loads
-      type(loading_type), intent(in) :: loading
+      type(loading_type), intent(in), target :: loading
       !> Displacement amplitudes, shape (3, nodes, modes)
-      real(wp), intent(out) :: displacement(:, :, :)
+      real(wp), intent(out), target :: displacement(:, :, :)
       !> How well each mode was solved
       type(mode_solve_type), allocatable, intent(out) :: solves(:)
       !> Singular stiffness, or out of memory
@@ -43,19 +61,78 @@ contains
       !> Takes the difference to the solution on the fine level, and times: of linear jobs
       type(difference_type), intent(inout), optional :: difference
 
+      type(task_type) :: tasks(1)
+
+      tasks(1)%loading => loading
+      tasks(1)%displacement => displacement
+      tasks(1)%acting = acting_stress(structure, excess)
+      call solve_tasks(structure, model, tasks, solves, error, difference)
+   end subroutine solve_displacements
+
+   !> Displacements of several states, for which each factor is read once. No bit of one depends on the others
+   subroutine solve_states(structure, model, states, error)
+      !> The structure, assembled
+      type(structure_type), intent(inout) :: structure
+      !> The job, for the words of an error
+      type(model_type), intent(in) :: model
+      !> The states
+      type(solved_state_type), intent(inout), target :: states(:)
+      !> Singular stiffness, or out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(mode_solve_type), allocatable :: solves(:)
+      type(task_type) :: tasks(size(states))
+      integer :: t
+
+      do t = 1, size(states)
+         tasks(t)%loading => states(t)%loading
+         tasks(t)%displacement => states(t)%displacement
+         tasks(t)%acting = acting_stress(structure, states(t)%excess)
+      end do
+      call solve_tasks(structure, model, tasks, solves, error)
+   end subroutine solve_states
+
+   !> Excess stress that acts
+   function acting_stress(structure, excess) result(acting)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> Excess stress of the joint points that yield, shape (3, points, modes); none if left out
+      real(wp), intent(in), optional :: excess(:, :, :)
+      !> The same, of no points if there is none
+      real(wp), allocatable :: acting(:, :, :)
+
+      if (present(excess)) then
+         acting = excess
+      else
+         allocate (acting(3, 0, size(structure%modes)))
+      end if
+   end function acting_stress
+
+   !> Displacements of tasks, a step of refinement in them unless the structure takes what rounding
+   !> leaves without it. A factor that is not kept is made, used for all that needs it, and given up.
+   !> Each rank solves its systems, and learns the rest.
+   subroutine solve_tasks(structure, model, tasks, solves, error, difference)
+      !> The structure, assembled
+      type(structure_type), intent(inout) :: structure
+      !> The job, for the words of an error
+      type(model_type), intent(in) :: model
+      !> Loads and their displacements
+      type(task_type), intent(inout) :: tasks(:)
+      !> How well each mode was solved, for the first of them
+      type(mode_solve_type), allocatable, intent(out) :: solves(:)
+      !> Singular stiffness, or out of memory
+      type(error_type), allocatable, intent(out) :: error
+      !> Takes the difference to the solution on the fine level, of the first of them, and times
+      type(difference_type), intent(inout), optional :: difference
+
       type(fine_load_type) :: load
       type(workspace_type), allocatable :: spaces(:)
       type(room_type), allocatable :: rooms(:)
-      real(wp), allocatable :: acting(:, :, :)
       real(wp) :: times(4, size(structure%equations%systems))
-      integer :: s, n, n_threads
+      integer :: s, t, n_threads
 
       allocate (solves(size(structure%modes)))
-      n = 0
-      if (present(excess)) n = size(structure%condensed%points)
-      allocate (acting(3, n, size(structure%modes)))
-      if (present(excess)) acting = excess
-      if (present(difference)) load = new_fine_load(structure%fine, structure%modes, loading)
+      if (present(difference)) load = new_fine_load(structure%fine, structure%modes, tasks(1)%loading)
       call new_workspaces(structure%equations, spaces)
       allocate (rooms(size(spaces)))
       times = 0.0_wp
@@ -84,7 +161,9 @@ contains
          end if
          call report_failure(equations, model, error)
          if (allocated(error)) return
-         call equations%team%gather(displacement, size(displacement, kind=i8), equations%last_mode)
+         do t = 1, size(tasks)
+            call equations%team%gather(tasks(t)%displacement, size(tasks(t)%displacement, kind=i8), equations%last_mode)
+         end do
          call share_solves(equations, solves)
          if (present(difference)) call share_difference(equations, difference)
       end associate
@@ -98,34 +177,22 @@ contains
 
          real(wp), allocatable :: force(:, :, :), found(:, :, :)  ! threads have small stacks
          real(wp) :: before_errors
-         integer :: i, k
 
          times(1, s) = omp_get_wtime()
          call hold_factor(structure%equations, s, spaces(own()))
          times(2, s) = omp_get_wtime()
-         associate (equations => structure%equations, points => structure%condensed%points(:n), &
-                    modes => structure%equations%systems(s)%modes)
+         associate (equations => structure%equations)
             if (.not. equations%systems(s)%failed) then
-               allocate (force(3, size(displacement, 2), size(modes)))
+               allocate (force(3, size(tasks(1)%displacement, 2), size(equations%systems(s)%modes)*size(tasks)))
                allocate (found, mold=force)
-               do i = 1, size(modes)
-                  k = modes(i)
-                  force(:, :, i) = loading%right(:, :, k) + &
-                     joint_force(points, equations%modes(k)%harmonic, acting(:, :, k), size(force, 2))
-               end do
+               call load_system(s, force)
                call solve_system(equations, s, force, found)
-               solves(modes)%condition = equations%systems(s)%condition
-               do i = 1, size(modes)
-                  k = modes(i)
-                  displacement(:, :, k) = found(:, :, i)
-                  call refine_solve(equations, k, force(:, :, i), structure%negligible, displacement(:, :, k), solves(k))
-                  if (allocated(loading%held)) displacement(:, :, k) = displacement(:, :, k) + loading%held(:, :, k)
-               end do
+               call take_solution(s, force, found)
                deallocate (force, found)
                before_errors = omp_get_wtime()
                if (present(difference)) then
-                  call find_difference(structure%fine, equations, s, load, displacement, points, acting, rooms(own()), &
-                     difference)
+                  call find_difference(structure%fine, equations, s, load, tasks(1)%displacement, &
+                     structure%condensed%points(:size(tasks(1)%acting, 2)), tasks(1)%acting, rooms(own()), difference)
                end if
                times(3, s) = omp_get_wtime() - before_errors
                call release_factor(equations, s, spaces(own()))
@@ -134,7 +201,59 @@ contains
          times(4, s) = omp_get_wtime()
       end subroutine solve_one
 
-   end subroutine solve_displacements
+      !> Forces of all tasks, mode by mode
+      subroutine load_system(s, force)
+         !> Place of the system
+         integer, intent(in) :: s
+         !> Forces on components, shape (3, nodes, modes of the system times tasks)
+         real(wp), intent(out) :: force(:, :, :)
+
+         integer :: i, j, k, t
+
+         associate (modes => structure%equations%systems(s)%modes)
+            j = 0
+            do t = 1, size(tasks)
+               associate (points => structure%condensed%points(:size(tasks(t)%acting, 2)))
+                  do i = 1, size(modes)
+                     j = j + 1
+                     k = modes(i)
+                     force(:, :, j) = tasks(t)%loading%right(:, :, k) + joint_force(points, &
+                        structure%equations%modes(k)%harmonic, tasks(t)%acting(:, :, k), size(force, 2))
+                  end do
+               end associate
+            end do
+         end associate
+      end subroutine load_system
+
+      !> Displacements of all tasks, refined
+      subroutine take_solution(s, force, found)
+         !> Place of the system
+         integer, intent(in) :: s
+         !> Forces on components, and the displacements under them, shape (3, nodes, modes of the system times tasks)
+         real(wp), intent(in) :: force(:, :, :), found(:, :, :)
+
+         type(mode_solve_type) :: report
+         integer :: i, j, k, t
+
+         associate (equations => structure%equations, modes => structure%equations%systems(s)%modes)
+            j = 0
+            do t = 1, size(tasks)
+               associate (loading => tasks(t)%loading, displacement => tasks(t)%displacement)
+                  do i = 1, size(modes)
+                     j = j + 1
+                     k = modes(i)
+                     displacement(:, :, k) = found(:, :, j)
+                     report%condition = equations%systems(s)%condition
+                     call refine_solve(equations, k, force(:, :, j), structure%negligible, displacement(:, :, k), report)
+                     if (t == 1) solves(k) = report
+                     if (allocated(loading%held)) displacement(:, :, k) = displacement(:, :, k) + loading%held(:, :, k)
+                  end do
+               end associate
+            end do
+         end associate
+      end subroutine take_solution
+
+   end subroutine solve_tasks
 
    !> Let all ranks know how well all modes were solved
    subroutine share_solves(equations, solves)
