@@ -32,8 +32,6 @@ program flexibility
    integer, parameter :: harmonic = 2
    !> Longer factorizations are left out [second]
    real(wp), parameter :: limit = 30.0_wp
-   !> Rows of the figures: the order without regard to the set, or with it last
-   logical, parameter :: set_last(2) = [.false., .true.]
 
    type(model_type) :: model
    logical, allocatable :: wanted(:)
@@ -53,24 +51,19 @@ program flexibility
       wanted = [(any(mod(k - 1, n_side) == [middle, middle + 1]) .and. (k - 1)/n_side >= middle, &
                  k=1, n_side**2)]
    end associate
-   write (output_unit, '(a)') 'nodes_per_side,unknowns,set,solver,set_last,factor_entries,'// &
+   write (output_unit, '(a)') 'nodes_per_side,unknowns,set,solver,factor_entries,'// &
       'factorization_s,inverse_s,operations'
    solvers = known_solvers()
    do i = 1, size(solvers)
-      do k = 1, size(set_last)
-         if (set_last(k) .and. solvers(i)%name /= 'SPARSE') cycle  ! the others do not gain from it
-         call measure(solvers(i), set_last(k))
-      end do
+      call measure(solvers(i))
    end do
 
 contains
 
    !> Factorization and flexibility with one solver
-   subroutine measure(entry, last)
+   subroutine measure(entry)
       !> The solver
       type(solver_entry_type), intent(in) :: entry
-      !> Whether the set is ordered last
-      logical, intent(in) :: last
 
       type(graph_type) :: graph
       type(stiffness_type) :: stiffness(1)
@@ -85,11 +78,7 @@ contains
       real(wp) :: start, factorization, inversion
 
       graph = node_graph(model%mesh)
-      if (last) then
-         call new_orders(orders, graph, wanted, error)
-      else
-         call new_orders(orders, graph, error=error)
-      end if
+      call new_orders(orders, graph, error)
       call stop_on(error)
       call new_stiffness(stiffness(1), model, mode_type(harmonic), graph, entry%order(orders))
       call entry%new_plan(solver)
@@ -114,7 +103,7 @@ contains
       call stop_on(error)
       inversion = seconds() - start
       write (output_unit, '(a)') to_text(n_side)//','//to_text(matrix%n)//','//to_text(size(set))// &
-         ','//trim(lower(entry%name))//','//merge('yes', 'no ', last)//','// &
+         ','//trim(lower(entry%name))//','// &
          to_text(real(solver%factor_entries, wp))//','//to_text(factorization)//','// &
          to_text(inversion)//','//to_text(solver%operations)
    end subroutine measure

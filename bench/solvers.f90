@@ -162,7 +162,7 @@ contains
       call omp_set_num_threads(1)
       start = seconds()
       graph = node_graph(model%mesh)
-      call new_orders(orders, graph, error=error)
+      call new_orders(orders, graph, error)
       call stop_on(error)
       order = entry%order(orders)
       record%order = seconds() - start
@@ -316,7 +316,7 @@ contains
       call omp_set_num_threads(n_threads)
       model%solver = entry
       start = seconds()
-      call new_orders(orders, node_graph(model%mesh), error=error)
+      call new_orders(orders, node_graph(model%mesh), error)
       call stop_on(error)
       call plan_equations(equations, model, [(mode_type(m), m=1, config%n_harmonics)], orders, error)
       call stop_on(error)

@@ -1,4 +1,4 @@
-!> Factors by MUMPS against those by the band solver: solutions, inverses, Schur complements, pivots
+!> Factors by MUMPS against those by the band solver: solutions, inverses, pivots
 program factors
    use, intrinsic :: iso_fortran_env, only : output_unit
    use axijoint_base_error, only : error_type
@@ -99,9 +99,6 @@ contains
       call one%inverse_block(set, a, error)
       call other%inverse_block(set, b, error)
       call expect(maxval(abs(a - b)) <= close*maxval(abs(a))/ground, name//': inverses')
-      call one%schur_complement(set, a, error)
-      call other%schur_complement(set, b, error)
-      call expect(maxval(abs(a - b)) <= close*maxval(abs(a))/ground, name//': Schur complements')
       call expect(all(pivots%equation == 0), name//': no pivot fails')
       ! MUMPS orders the unknowns of a front itself, so the pivots are not the same numbers
       call expect(abs(log(pivots(1)%smallest/pivots(2)%smallest)) < log(2.0_wp), name//': smallest pivot')

@@ -28,9 +28,8 @@ module axijoint_assembly_equations
    integer, parameter :: least_equations = 5000
    !> Rate of matrix products that solvers are chosen by [operations/second]
    real(wp), parameter :: nominal_rate = 5.0e10_wp
-   !> Time of an operation of condensing to joints [second]; solutions for unit loads run at a lower
-   !> rate than the inverse of a triangle: one of them counts as so many
-   real(wp), parameter :: seconds_of_operation = 2.3e-11_wp, for_unit_loads = 1.75_wp
+   !> Time of an operation of condensing to joints [second]
+   real(wp), parameter :: seconds_of_operation = 2.3e-11_wp
    !> All that a system takes grows like this power of its equations. Factorization and solutions with all that
    !> follows them take about the same
    real(wp), parameter :: growth = 1.25_wp
@@ -105,9 +104,10 @@ contains
 
       type(solver_entry_type), allocatable :: solvers(:)
       type(equations_type), allocatable :: others
-      integer :: k, set
+      logical, allocatable :: condensed(:)
+      integer :: k
 
-      set = 3*count(yielding_nodes(model))
+      condensed = yielding_nodes(model)
       if (allocated(model%solver)) then
          solvers = [model%solver]
       else
@@ -118,42 +118,42 @@ contains
          call plan_solver(others, model, modes, orders, solvers(k), error, all_classes=size(solvers) > 1)
          if (allocated(error)) return
          if (allocated(equations)) then
-            if (seconds_in_all(equations, set) <= seconds_in_all(others, set)) cycle
+            if (seconds_in_all(equations, condensed) <= seconds_in_all(others, condensed)) cycle
          end if
          call move_alloc(others, equations)
       end do
    end subroutine plan_equations
 
    !> Expected time of factorizations and of condensing to joints
-   pure real(wp) function seconds_in_all(equations, set) result(seconds)
+   real(wp) function seconds_in_all(equations, condensed) result(seconds)
       !> The equations, planned
       type(equations_type), intent(in) :: equations
-      !> Equations that are condensed to
-      integer, intent(in) :: set
+      !> Nodes that are condensed to
+      logical, intent(in) :: condensed(:)
 
       seconds = planned_seconds(equations, kept=.true.) &
-         + seconds_of_operation*condensing_operations(equations, set)
+         + seconds_of_operation*condensing_operations(equations, condensed)
    end function seconds_in_all
 
-   !> Operations that condensing all systems to some equations takes: where these are last in the
-   !> factor, the inverse of its last triangle; else solutions for unit loads
-   pure real(wp) function condensing_operations(equations, set) result(n)
+   !> Operations that condensing all systems to some nodes takes
+   real(wp) function condensing_operations(equations, condensed) result(n)
       !> The equations, planned
       type(equations_type), intent(in) :: equations
-      !> Equations that are condensed to
-      integer, intent(in) :: set
+      !> Nodes that are condensed to
+      logical, intent(in) :: condensed(:)
 
-      integer :: s
+      real(wp) :: operations(size(equations%plans))
+      integer :: k
 
-      n = 0.0_wp
-      do s = 1, size(equations%systems)
-         if (equations%solver%holds_last) then
-            n = n + 2.0_wp/3.0_wp*real(set, wp)**3
-         else
-            n = n + for_unit_loads*2.0_wp*set &
-               *equations%plans(equations%systems(s)%class)%solver%factor_entries
-         end if
+      operations = 0.0_wp
+      do k = 1, size(operations)
+         if (.not. any(condensed)) cycle
+         associate (equation => equations%classes(k)%dofs%equation)
+            operations(k) = equations%plans(k)%solver%inverse_operations( &
+               pack(equation, spread(condensed, 1, 3) .and. equation > 0))
+         end associate
       end do
+      n = sum(operations(equations%systems%class))
    end function condensing_operations
 
    !> Whether a solver need be thought of where the choice is the program's

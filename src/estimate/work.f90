@@ -48,6 +48,7 @@ contains
       real(wp) :: work(n_terms)
 
       type(reference_type), allocatable :: references(:)
+      logical, allocatable :: condensed(:)
       real(wp) :: set, jumps
       integer :: s
 
@@ -67,10 +68,11 @@ contains
                   *n_factorings(model, structure)
             end associate
          end do
-         set = 3.0_wp*count(yielding_nodes(model))
+         condensed = yielding_nodes(model)
+         set = 3.0_wp*count(condensed)
          jumps = 3.0_wp*n_yielding(model, structure)
          if (.not. jumps > 0.0_wp) return
-         work(inverse) = condensing_operations(equations, nint(set))
+         work(inverse) = condensing_operations(equations, condensed)
          work(block_entries) = size(equations%systems)*(set**2 + 6.0_wp*set*jumps + jumps**2)
       end associate
    end function structure_work

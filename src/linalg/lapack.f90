@@ -5,7 +5,7 @@ module axijoint_linalg_lapack
    implicit none
    private
    public :: band_cholesky, dpbtrs, dtrsm, dgemm, dgemv, dsyrk, dpotrf
-   public :: cholesky, inverse_from_cholesky, product_with_transpose, symmetric_eigen, &
+   public :: cholesky, inverse_from_cholesky, symmetric_eigen, &
       use_one_blas_thread
    public :: product_rate
    public :: matrix_vector, single_symmetric_vector, transposed_vector, matrix_sparse_vector
@@ -176,22 +176,6 @@ contains
          a(:i - 1, i) = a(i, :i - 1)
       end do
    end subroutine inverse_from_cholesky
-
-   !> c = a a^T, the whole of it
-   subroutine product_with_transpose(a, c)
-      !> a
-      real(wp), intent(in), contiguous :: a(:, :)
-      !> c, shape (rows of a, rows of a)
-      real(wp), intent(inout), contiguous :: c(:, :)
-
-      integer :: i
-
-      call dsyrk('L', 'N', size(a, 1), size(a, 2), 1.0_wp, a, max(1, size(a, 1)), 0.0_wp, c, &
-                 max(1, size(c, 1)))
-      do i = 2, size(c, 2)
-         c(:i - 1, i) = c(i, :i - 1)
-      end do
-   end subroutine product_with_transpose
 
    !> Eigenvalues, ascending, and eigenvectors of a symmetric matrix
    subroutine symmetric_eigen(a, eigenvalue, info)

@@ -195,7 +195,7 @@ contains
                          /= yield_none)
    end function bodies_yield
 
-   !> Nodes of the joints that can yield: ordered last, they are condensed to
+   !> Nodes of the joints that can yield: they are condensed to
    pure function yielding_nodes(model) result(yields)
       !> The job
       type(model_type), intent(in) :: model

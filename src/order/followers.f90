@@ -14,46 +14,36 @@ module axijoint_order_followers
 contains
 
    !> Which nodes follow another one
-   pure function followers(graph, free) result(follows)
+   pure function followers(graph) result(follows)
       !> Graph of the nodes
       type(graph_type), intent(in) :: graph
-      !> Nodes that are ordered; who lies between others alone follows none, shape (n)
-      logical, intent(in) :: free(:)
       !> Shape (n)
-      logical :: follows(size(free))
-
-      integer :: node
+      logical :: follows(graph%n)
 
       follows = .false.
-      if (.not. allocated(graph%between)) return
-      do node = 1, graph%n
-         follows(node) = any(free(pack(graph%between(:, node), graph%between(:, node) > 0)))
-      end do
-      follows = follows .and. free
+      if (allocated(graph%between)) follows = any(graph%between > 0, dim=1)
    end function followers
 
    !> Put followers just before the first of those that they lie between: centres before sides, as their
    !> neighbours are all neighbours of each other
-   function with_followers(graph, free, leaders) result(order)
+   function with_followers(graph, leaders) result(order)
       !> Graph of the nodes
       type(graph_type), intent(in) :: graph
-      !> Nodes that are ordered, shape (n)
-      logical, intent(in) :: free(:)
-      !> Those of them that follow none, in their order
+      !> Nodes that follow none, in their order
       integer, intent(in) :: leaders(:)
-      !> All of them in their order
+      !> All nodes in their order
       integer, allocatable :: order(:)
 
-      logical :: waiting(size(free))
+      logical :: waiting(graph%n)
       integer :: k, n
 
-      waiting = free
+      waiting = .true.
       waiting(leaders) = .false.
       if (.not. any(waiting)) then
          order = leaders
          return
       end if
-      allocate (order(count(free)))
+      allocate (order(graph%n))
       n = 0
       do k = 1, size(leaders)
          call place_around(leaders(k), centres=.true.)

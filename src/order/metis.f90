@@ -44,31 +44,25 @@ contains
 
    !> Order of the nodes with little fill: separators last (Karypis and Kumar,
    !> SIAM J. Sci. Comput. 20, 1998)
-   subroutine nested_dissection(graph, order, last, error)
+   subroutine nested_dissection(graph, order, error)
       !> Graph of the nodes
       type(graph_type), intent(in) :: graph
       !> order(k) is the k-th node, shape (n)
       integer, allocatable, intent(out) :: order(:)
-      !> Nodes to be ordered behind all others, in this order
-      integer, intent(in), optional :: last(:)
       !> Out of memory, or an error inside METIS
       type(error_type), allocatable, intent(out) :: error
 
       integer, allocatable :: leaders(:)
-      logical :: free(graph%n)
       integer :: k
 
-      free = .true.
-      if (present(last)) free(last) = .false.
-      leaders = pack([(k, k=1, graph%n)], free .and. .not. followers(graph, free))
+      leaders = pack([(k, k=1, graph%n)], .not. followers(graph))
       if (size(leaders) == graph%n) then
          call dissect(graph, order, error)
       else
          call dissect(subgraph(graph, leaders), order, error)
       end if
       if (allocated(error)) return
-      order = with_followers(graph, free, leaders(order))
-      if (present(last)) order = [order, last]
+      order = with_followers(graph, leaders(order))
    end subroutine nested_dissection
 
    !> Order all nodes

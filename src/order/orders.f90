@@ -20,20 +20,18 @@ module axijoint_order_orders
 contains
 
    !> Order the nodes in every way
-   subroutine new_orders(orders, graph, last, error, by_sloan)
+   subroutine new_orders(orders, graph, error, by_sloan)
       !> The orders
       type(orders_type), intent(out) :: orders
       !> Graph of the nodes
       type(graph_type), intent(in) :: graph
-      !> Nodes that nested dissection orders behind all others
-      logical, intent(in), optional :: last(:)
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
       !> Whether Sloan's order is wanted; true if absent
       logical, intent(in), optional :: by_sloan
 
       call order_by_profile(orders, graph, by_sloan)
-      call dissect(orders, last, error)
+      call dissect(orders, error)
    end subroutine new_orders
 
    !> Order the nodes for a band and a skyline
@@ -55,22 +53,13 @@ contains
    end subroutine order_by_profile
 
    !> Order the nodes by nested dissection, which takes longest
-   subroutine dissect(orders, last, error)
+   subroutine dissect(orders, error)
       !> The orders, those by profile there
       type(orders_type), intent(inout) :: orders
-      !> Nodes whose flexibility is wanted: they are ordered behind all others, so that the factor
-      !> holds their Schur complement
-      logical, intent(in), optional :: last(:)
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      if (present(last)) then
-         associate (k => orders%cuthill_mckee)
-            call nested_dissection(orders%graph, orders%dissection, pack(k, last(k)), error)
-         end associate
-      else
-         call nested_dissection(orders%graph, orders%dissection, error=error)
-      end if
+      call nested_dissection(orders%graph, orders%dissection, error)
    end subroutine dissect
 
    !> The order for factors in a band: reverse Cuthill-McKee

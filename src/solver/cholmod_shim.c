@@ -60,14 +60,6 @@ static handle_type *new_handle(int64_t n) {
    return handle;
 }
 
-/* CHOLMOD shares its loops among four threads if it may; here a thread works on a harmonic of its
-   own, and threads inside it would only wait for each other. Gives what to restore afterwards. */
-static int forbid_threads(void) {
-   int levels = omp_get_max_active_levels();
-   omp_set_max_active_levels(omp_get_active_level());
-   return levels;
-}
-
 /* A view of a triangle by columns */
 static cholmod_sparse view(int64_t n, int64_t *start, int64_t *row, double *value, int stype) {
    cholmod_sparse a;
@@ -268,6 +260,10 @@ void axijoint_supernodal_factorize(const structure_type *structure, const double
 /* supernodal_solve.f90 */
 void axijoint_supernodal_solve(const structure_type *structure, const double *l, int64_t n_sides, double *x,
                                double *work);
+void axijoint_supernodal_inverse(const structure_type *structure, const double *l, int64_t n_loads, const int64_t *place,
+                                 double *inverse, int32_t *code);
+void axijoint_supernodal_inverse_operations(const structure_type *structure, int64_t n_loads, const int64_t *place,
+                                            double *operations, int32_t *code);
 
 /* Structure of a factor; the pattern of the matrix is known to a plan alone */
 static structure_type structure_of(const handle_type *plan, const cholmod_factor *l) {
@@ -319,30 +315,6 @@ void *axijoint_cholmod_factorize(const void *pointer, void *old, int large, cons
    return handle;
 }
 
-/* A view of right-hand sides */
-static cholmod_dense columns(int64_t n, int64_t count, double *b) {
-   cholmod_dense view;
-   memset(&view, 0, sizeof view);
-   view.nrow = view.d = (size_t)n;
-   view.ncol = (size_t)count;
-   view.nzmax = view.nrow * view.ncol;
-   view.x = b;
-   view.xtype = CHOLMOD_REAL;
-   view.dtype = CHOLMOD_DOUBLE;
-   return view;
-}
-
-/* Whether there is memory for a block of right-hand sides: solution, the same in the order of the factor, rows of a
-   supernode. CHOLMOD itself does not bear to find out half-way. */
-static int has_room(const handle_type *handle, int64_t n_rhs) {
-   size_t n = (size_t)handle->n, rows = handle->factor->maxesize;
-   axijoint_let_fail(1);
-   void *room = malloc(sizeof(double) * (2 * n + rows) * (size_t)n_rhs);
-   axijoint_let_fail(-1);
-   free(room);
-   return room != NULL;
-}
-
 /* Solve for a few right-hand sides in place: their unknowns in the order of the factor, and the rows of a supernode,
    take the room given */
 static void solve_few(const handle_type *handle, int64_t n_rhs, double *b, double *permuted, double *rows) {
@@ -357,8 +329,8 @@ static void solve_few(const handle_type *handle, int64_t n_rhs, double *b, doubl
       for (k = 0; k < n; k++) b[order[k] + i * n] = permuted[k + i * n];
 }
 
-/* Solve for up to this many right-hand sides by loops of our own, which give each of them the same bits as if it were
-   alone; more pay for CHOLMOD's matrix products */
+/* So many right-hand sides are solved for at once, while a panel of the factor is at hand; each has the same bits as if it
+   were alone */
 static const int64_t few = 4;
 
 /* Solve for a few right-hand sides in room of their own; 1 if there is no memory */
@@ -374,68 +346,66 @@ static int solve_together(const handle_type *handle, int64_t n_rhs, double *b) {
    return code;
 }
 
-/* Solve for a block of right-hand sides by CHOLMOD; 1 if there is no memory */
-static int solve_block(handle_type *handle, int64_t n_rhs, double *b) {
-   cholmod_dense right = columns(handle->n, n_rhs, b), *x = NULL;
-   int levels = forbid_threads();
-   if (has_room(handle, n_rhs)) x = cholmod_l_solve(CHOLMOD_A, handle->factor, &right, &handle->common);
-   omp_set_max_active_levels(levels);
-   if (!x) return 1;
-   memcpy(b, x->x, sizeof(double) * right.nzmax);
-   cholmod_l_free_dense(&x, &handle->common);
-   return 0;
-}
-
-/* Solve for right-hand sides in place: all at once, or if there is no memory for that, one after the other in the room
+/* Solve for right-hand sides in place: a few at once, or if there is no memory for that, one after the other in the room
    reserved, one thread at a time */
 void axijoint_cholmod_solve(void *pointer, int64_t n_rhs, double *b) {
    handle_type *handle = pointer;
-   if (n_rhs > few && !solve_block(handle, n_rhs, b)) return;
-   if (n_rhs > 1 && n_rhs <= few && !solve_together(handle, n_rhs, b)) return;
-   omp_set_lock(&handle->reserved);
-   for (int64_t k = 0; k < n_rhs; k++) solve_few(handle, 1, b + k * handle->n, handle->permuted, handle->rows);
-   omp_unset_lock(&handle->reserved);
+   for (int64_t k = 0; k < n_rhs; k += few, b += few * handle->n) {
+      const int64_t count = n_rhs - k < few ? n_rhs - k : few;
+      if (count > 1 && !solve_together(handle, count, b)) continue;
+      omp_set_lock(&handle->reserved);
+      for (int64_t i = 0; i < count; i++) solve_few(handle, 1, b + i * handle->n, handle->permuted, handle->rows);
+      omp_unset_lock(&handle->reserved);
+   }
 }
 
-/* The columns of the factor at a set of equations, counted from one, as a dense lower triangle:
-   its Schur complement is the product of that triangle and its transpose, if no entry of the
-   columns lies outside the set. That is so where the set is ordered last, and stays so whatever
-   order the elimination tree then asks for. `place` takes the place in the set of each row of the
-   triangle. 0; 1 if there is no memory; 2 if entries lie outside the set. */
-int axijoint_cholmod_trailing(const void *pointer, int64_t count, const int32_t *set,
-                              double *triangle, int32_t *place) {
-   const handle_type *handle = pointer;
-   const cholmod_factor *l = handle->factor;
-   const int64_t *order = l->Perm, *super = l->super, *pi = l->pi, *px = l->px, *rows = l->s;
-   const double *x = l->x;
-   int64_t k, s, c, n = handle->n, found = 0;
+/* Equations of a set, counted from one, as the factor has them: their places in its order, ascending, and the place of each in
+   the set, counted from one. 0; 1 if there is no memory */
+static int sort_set(const handle_type *handle, int64_t count, const int32_t *set, int64_t *row, int32_t *place) {
+   const int64_t *order = handle->factor->Perm;
+   int64_t k, found = 0;
    axijoint_let_fail(1);
-   int64_t *rank = malloc(sizeof *rank * (size_t)(n + 1)); /* by equation, then by row of L */
-   int64_t *by_row = malloc(sizeof *by_row * (size_t)(n + 1));
+   int32_t *rank = calloc((size_t)handle->n + 1, sizeof *rank);
    axijoint_let_fail(-1);
-   int code = !rank || !by_row;
-   if (!code) {
-      for (k = 0; k < n; k++) rank[k] = -1;
-      for (k = 0; k < count; k++) rank[set[k] - 1] = k;
-      for (k = 0; k < n; k++) {
-         int64_t member = rank[order[k]];
-         by_row[k] = member < 0 ? -1 : found;
-         if (member >= 0) place[found++] = (int32_t)(member + 1);
+   if (!rank) return 1;
+   for (k = 0; k < count; k++) rank[set[k] - 1] = (int32_t)(k + 1);
+   for (k = 0; k < handle->n; k++)
+      if (rank[order[k]]) {
+         row[found] = k;
+         place[found++] = rank[order[k]];
       }
-      for (s = 0; s < (int64_t)l->nsuper && !code; s++) {
-         int64_t height = pi[s + 1] - pi[s];
-         for (c = super[s]; c < super[s + 1] && !code; c++) {
-            const double *column = x + px[s] + (c - super[s]) * height;
-            if (by_row[c] < 0) continue;
-            for (k = c - super[s]; k < height && !code; k++) {
-               int64_t row = by_row[rows[pi[s] + k]];
-               if (row >= 0) triangle[by_row[c] * count + row] = column[k];
-               else if (column[k] != 0.0) code = 2;
-            }
-         }
-      }
-   }
    free(rank);
-   free(by_row);
+   return 0;
+}
+
+/* The lower triangle of the inverse at a set of equations, counted from one, whatever the order; `place` takes the place in
+   the set of each row of it. 0; 1 if there is no memory */
+int axijoint_cholmod_inverse(const void *pointer, int64_t count, const int32_t *set, double *inverse, int32_t *place) {
+   const handle_type *handle = pointer;
+   structure_type structure = structure_of(handle, handle->factor);
+   int32_t code = 1;
+   axijoint_let_fail(1);
+   int64_t *row = malloc(sizeof *row * (size_t)(count + 1));
+   axijoint_let_fail(-1);
+   if (row && !sort_set(handle, count, set, row, place))
+      axijoint_supernodal_inverse(&structure, handle->factor->x, count, row, inverse, &code);
+   free(row);
    return code;
+}
+
+/* Operations that this will take, by the plan; below zero if there is no memory to find out */
+double axijoint_cholmod_inverse_operations(const void *pointer, int64_t count, const int32_t *set) {
+   const handle_type *handle = pointer;
+   structure_type structure = structure_of(handle, handle->factor);
+   int32_t code = 1;
+   double operations = -1.0;
+   axijoint_let_fail(1);
+   int64_t *row = malloc(sizeof *row * (size_t)(count + 1));
+   int32_t *place = malloc(sizeof *place * (size_t)(count + 1));
+   axijoint_let_fail(-1);
+   if (row && place && !sort_set(handle, count, set, row, place))
+      axijoint_supernodal_inverse_operations(&structure, count, row, &operations, &code);
+   free(row);
+   free(place);
+   return code ? -1.0 : operations;
 }

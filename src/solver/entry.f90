@@ -41,9 +41,6 @@ module axijoint_solver_entry
       integer :: widest_band = huge(1)
       !> Whether several threads may factor and solve at once
       logical :: concurrent = .true.
-      !> Whether its factor holds the flexibility of nodes that are ordered last; else it takes unit
-      !> loads
-      logical :: holds_last = .false.
       !> Bytes that its library takes once it is used
       integer(i8) :: library_bytes = 0
       !> What its user should know, such as a licence, for listing and estimate; may be empty

@@ -5,18 +5,14 @@ module axijoint_solver_sparse
    use axijoint_base_error, only : error_type, memory_error
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_text, only : to_text
-   use axijoint_linalg_lapack, only : inverse_from_cholesky, product_with_transpose
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    use axijoint_order_orders, only : least_fill
    use axijoint_solver_entry, only : solver_entry_type, cost_type
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type, judge_pivots, &
-                                    inverse_by_loads, invert_flexibility, new_block
+                                    new_block
    implicit none
    private
    public :: sparse_solver_type, sparse_entry
-
-   !> The columns of a set have entries outside the set
-   integer(c_int), parameter :: not_last = 2
 
    !> Plan: supernodes of the order that the matrix comes in, postordered
    type, extends(solver_type) :: sparse_solver_type
@@ -25,6 +21,7 @@ module axijoint_solver_sparse
    contains
       procedure :: analyse
       procedure :: factorize
+      procedure :: inverse_operations
       final :: free_solver
    end type sparse_solver_type
 
@@ -35,7 +32,6 @@ module axijoint_solver_sparse
    contains
       procedure :: solve
       procedure :: inverse_block
-      procedure :: schur_complement
       final :: free_factor
    end type sparse_factor_type
 
@@ -71,9 +67,9 @@ module axijoint_solver_sparse
          integer(c_int64_t), value :: n_rhs
          real(c_double), intent(inout) :: b(*)
       end subroutine cholmod_solve
-      !> Columns of the factor at a set of equations
-      function cholmod_trailing(handle, n_set, set, triangle, place) result(code) &
-         bind(c, name='axijoint_cholmod_trailing')
+      !> Lower triangle of the inverse at a set of equations
+      function cholmod_inverse(handle, n_set, set, triangle, place) result(code) &
+         bind(c, name='axijoint_cholmod_inverse')
          import :: c_ptr, c_int, c_int32_t, c_int64_t, c_double
          type(c_ptr), value :: handle
          integer(c_int64_t), value :: n_set
@@ -81,7 +77,16 @@ module axijoint_solver_sparse
          real(c_double), intent(inout) :: triangle(*)
          integer(c_int32_t), intent(out) :: place(*)
          integer(c_int) :: code
-      end function cholmod_trailing
+      end function cholmod_inverse
+      !> Operations that this takes, by the plan
+      function cholmod_inverse_operations(handle, n_set, set) result(operations) &
+         bind(c, name='axijoint_cholmod_inverse_operations')
+         import :: c_ptr, c_int32_t, c_int64_t, c_double
+         type(c_ptr), value :: handle
+         integer(c_int64_t), value :: n_set
+         integer(c_int32_t), intent(in) :: set(*)
+         real(c_double) :: operations
+      end function cholmod_inverse_operations
       !> Free a plan or a factor
       subroutine cholmod_free(handle) bind(c, name='axijoint_cholmod_free')
          import :: c_ptr
@@ -103,7 +108,6 @@ contains
       entry%cost = cost_type(share=0.76_wp, kept_entry=9.0e-9_wp, passing_entry=7.0e-9_wp, &
          equation=2.0e-7_wp)
       entry%automatic = .true.
-      entry%holds_last = .true.
       entry%library_bytes = 2500000_i8  ! measured
    end function sparse_entry
 
@@ -203,8 +207,18 @@ contains
       call cholmod_solve(self%handle, size(b, 2, c_int64_t), b)
    end subroutine solve
 
-   !> The inverse restricted to a set: from the trailing triangle of the factor
-   !> where the set is ordered last, else by unit loads
+   !> Operations of finding the inverse at some equations
+   real(wp) function inverse_operations(self, set) result(operations)
+      !> The plan, analysed
+      class(sparse_solver_type), intent(in) :: self
+      !> Equations, each once
+      integer, intent(in) :: set(:)
+
+      operations = cholmod_inverse_operations(self%handle, size(set, kind=c_int64_t), set)
+      if (operations < 0.0_wp) operations = huge(1.0_wp)  ! no memory for it
+   end function inverse_operations
+
+   !> The inverse restricted to a set, up the elimination tree
    subroutine inverse_block(self, set, inverse, error)
       !> The factor
       class(sparse_factor_type), intent(in) :: self
@@ -216,73 +230,19 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       real(wp), allocatable :: triangle(:, :)
-      integer :: place(size(set))
-      logical :: last
+      integer :: place(size(set)), j
 
-      call trailing_triangle(self, set, triangle, place, last, error)
-      if (allocated(error)) return
-      if (last) then
-         call inverse_from_cholesky(triangle)
-         call arrange(triangle, place, inverse, error)
-      else
-         call inverse_by_loads(self, set, inverse, error)
-      end if
-   end subroutine inverse_block
-
-   !> Schur complement on a set: the product of the trailing triangle of the
-   !> factor and its transpose where the set is ordered last, else the inverse of
-   !> the flexibility
-   subroutine schur_complement(self, set, schur, error)
-      !> The factor
-      class(sparse_factor_type), intent(in) :: self
-      !> Equations, each once, in any order
-      integer, intent(in) :: set(:)
-      !> schur(i, j) belongs to set(i), set(j)
-      real(wp), allocatable, intent(out) :: schur(:, :)
-      !> Out of memory; a flexibility lost in rounding
-      type(error_type), allocatable, intent(out) :: error
-
-      real(wp), allocatable :: triangle(:, :), product(:, :)
-      integer :: place(size(set))
-      logical :: last
-
-      call trailing_triangle(self, set, triangle, place, last, error)
-      if (allocated(error)) return
-      if (last) then
-         call new_block(product, size(set), size(set), error)
-         if (allocated(error)) return
-         call product_with_transpose(triangle, product)
-         call arrange(product, place, schur, error)
-      else
-         call invert_flexibility(self, set, schur, error)
-      end if
-   end subroutine schur_complement
-
-   !> The columns of the factor at a set of equations
-   subroutine trailing_triangle(self, set, triangle, place, last, error)
-      !> The factor
-      class(sparse_factor_type), intent(in) :: self
-      !> Equations, each once, in any order
-      integer, intent(in) :: set(:)
-      !> Lower triangle of the columns
-      real(wp), allocatable, intent(out) :: triangle(:, :)
-      !> Place in the set of each row of the triangle
-      integer, intent(out) :: place(:)
-      !> Whether the columns have no entries elsewhere: the set is ordered last
-      logical, intent(out) :: last
-      !> Out of memory
-      type(error_type), allocatable, intent(out) :: error
-
-      integer(c_int) :: code
-
-      last = .false.
       call new_block(triangle, size(set), size(set), error)
       if (allocated(error)) return
-      code = cholmod_trailing(self%handle, size(set, kind=c_int64_t), set, triangle, place)
-      last = code == 0
-      if (last .or. code == not_last) return
-      call memory_error(error, 'columns of a sparse factor')
-   end subroutine trailing_triangle
+      if (cholmod_inverse(self%handle, size(set, kind=c_int64_t), set, triangle, place) /= 0) then
+         call memory_error(error, 'the inverse at '//to_text(size(set))//' equations')
+         return
+      end if
+      do j = 2, size(set)
+         triangle(:j - 1, j) = triangle(j, :j - 1)
+      end do
+      call arrange(triangle, place, inverse, error)
+   end subroutine inverse_block
 
    !> A matrix of the rows of the triangle in the order of the set
    subroutine arrange(matrix, place, arranged, error)

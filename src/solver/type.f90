@@ -1,15 +1,14 @@
 !> What every solver of symmetric positive definite systems offers
 module axijoint_solver_type
-   use axijoint_base_error, only : error_type, fatal_error, exit_singular, memory_error
+   use axijoint_base_error, only : error_type, memory_error
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_last_words, only : let_fail
    use axijoint_base_text, only : to_text
-   use axijoint_linalg_lapack, only : cholesky, inverse_from_cholesky
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    implicit none
    private
    public :: solver_type, factor_type, pivot_report_type, judge_pivots
-   public :: inverse_by_loads, invert_flexibility, new_block
+   public :: new_block
 
    !> A pivot below this share of the diagonal entry that it started from is
    !> rounding, so the matrix is singular to working precision. Cholesky
@@ -19,6 +18,8 @@ module axijoint_solver_type
 
    !> Right-hand sides solved at once for an inverse
    integer, parameter :: block_size = 64
+   !> Solutions for unit loads run at a lower rate than other matrix products: an operation counts as so many
+   real(wp), parameter :: for_unit_loads = 1.75_wp
 
    !> Where a factorization broke down, and how near it came to that
    type :: pivot_report_type
@@ -47,6 +48,8 @@ module axijoint_solver_type
       procedure(analyse_interface), deferred :: analyse
       !> Factor a matrix of that pattern
       procedure(factorize_interface), deferred :: factorize
+      !> Operations of finding the inverse at some equations
+      procedure :: inverse_operations => operations_by_loads
    end type solver_type
 
    !> Factor of one matrix
@@ -58,8 +61,6 @@ module axijoint_solver_type
       procedure(solve_interface), deferred :: solve
       !> Rows and columns of the inverse at a set of equations: the flexibility of these unknowns
       procedure :: inverse_block => inverse_by_loads
-      !> Schur complement on a set of equations
-      procedure :: schur_complement => invert_flexibility
    end type factor_type
 
    abstract interface
@@ -108,6 +109,16 @@ module axijoint_solver_type
 
 contains
 
+   !> Operations of finding the inverse at some equations by unit loads
+   real(wp) function operations_by_loads(self, set) result(operations)
+      !> The plan, analysed
+      class(solver_type), intent(in) :: self
+      !> Equations, each once
+      integer, intent(in) :: set(:)
+
+      operations = for_unit_loads*2.0_wp*size(set)*real(self%factor_entries, wp)
+   end function operations_by_loads
+
    !> The inverse restricted to a set by unit loads. Solvers that hold it in their factor do better
    subroutine inverse_by_loads(self, set, inverse, error)
       !> The factor
@@ -140,32 +151,6 @@ contains
          inverse(:j - 1, j) = inverse(j, :j - 1)
       end do
    end subroutine inverse_by_loads
-
-   !> Schur complement K_bb - K_ba K_aa^-1 K_ab on a set b of equations: the
-   !> inverse of the flexibility of the set. Solvers that hold it in their factor
-   !> do better.
-   subroutine invert_flexibility(self, set, schur, error)
-      !> The factor
-      class(factor_type), intent(in) :: self
-      !> Equations, each once, in any order
-      integer, intent(in) :: set(:)
-      !> schur(i, j) belongs to set(i), set(j)
-      real(wp), allocatable, intent(out) :: schur(:, :)
-      !> Out of memory; a flexibility lost in rounding
-      type(error_type), allocatable, intent(out) :: error
-
-      integer :: info
-
-      call self%inverse_block(set, schur, error)
-      if (allocated(error)) return
-      call cholesky(schur, info)
-      if (info == 0) then
-         call inverse_from_cholesky(schur)
-      else
-         call fatal_error(error, exit_singular, 'the flexibility of '//to_text(size(set))// &
-                          ' unknowns is not positive definite: the matrix is ill-conditioned')
-      end if
-   end subroutine invert_flexibility
 
    !> A block of zeros, or words for an error
    subroutine new_block(block, rows, columns, error)

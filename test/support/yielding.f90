@@ -17,7 +17,7 @@ module axijoint_test_yielding
    use axijoint_joints_residual, only : load_norm
    use axijoint_model_joint_points, only : new_joint_points
    use axijoint_model_load, only : combination_type
-   use axijoint_model_model, only : model_type, yielding_nodes, can_yield, method_newton
+   use axijoint_model_model, only : model_type, can_yield, method_newton
    use axijoint_order_orders, only : orders_type, new_orders
    use axijoint_plastic_bodies, only : bodies_type, new_bodies
    use axijoint_plastic_elastic, only : to_vector
@@ -57,7 +57,7 @@ contains
       type(orders_type) :: orders
       type(error_type), allocatable :: error
 
-      call new_orders(orders, node_graph(model%mesh), yielding_nodes(model), error)
+      call new_orders(orders, node_graph(model%mesh), error)
       if (allocated(error)) error stop 'no orders'
       call plan_equations(yielding%equations, model, modes, orders, error)
       if (allocated(error)) error stop 'no plan'

@@ -25,8 +25,7 @@ module axijoint_analysis_core_structure
    use axijoint_joints_planes, only : planes_type, new_planes
    use axijoint_linalg_blas_buffers, only : reserve_blas_buffers
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points
-   use axijoint_model_model, only : model_type, can_yield, can_yield_at, yielding_nodes, &
-      bodies_yield
+   use axijoint_model_model, only : model_type, can_yield, can_yield_at, bodies_yield
    use axijoint_model_modes, only : used_modes
    use axijoint_model_mesh, only : n_nodes
    use axijoint_model_request, only : line_type, print_orders, rows_expected
@@ -219,7 +218,7 @@ contains
       call show_progress(progress, 'assembling '//to_text(size(structure%modes))//' modes')
       compared = rows_expected(model%print, print_orders, real(n_nodes(model%mesh), wp)) > 0.0_wp
       call order_by_profile(orders, node_graph(model%mesh), compared .or. needs_sloan(model))
-      call dissect(orders, yielding_nodes(model), error)
+      call dissect(orders, error)
       if (allocated(error)) return
       call plan_equations(structure%equations, model, structure%modes, orders, error)
       if (allocated(error)) return
