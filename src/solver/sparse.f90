@@ -229,38 +229,66 @@ contains
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp), allocatable :: triangle(:, :)
-      integer :: place(size(set)), j
+      integer :: place(size(set))
 
-      call new_block(triangle, size(set), size(set), error)
+      call new_block(inverse, size(set), size(set), error)
       if (allocated(error)) return
-      if (cholmod_inverse(self%handle, size(set, kind=c_int64_t), set, triangle, place) /= 0) then
+      if (cholmod_inverse(self%handle, size(set, kind=c_int64_t), set, inverse, place) /= 0) then
          call memory_error(error, 'the inverse at '//to_text(size(set))//' equations')
          return
       end if
-      do j = 2, size(set)
-         triangle(:j - 1, j) = triangle(j, :j - 1)
-      end do
-      call arrange(triangle, place, inverse, error)
+      call complete(inverse)
+      call arrange(inverse, place)
    end subroutine inverse_block
 
-   !> A matrix of the rows of the triangle in the order of the set
-   subroutine arrange(matrix, place, arranged, error)
+   !> The upper triangle of a symmetric matrix, tile by tile, which the cache holds
+   subroutine complete(matrix)
+      !> The matrix, its lower triangle there
+      real(wp), intent(inout) :: matrix(:, :)
+
+      integer, parameter :: side = 64
+      integer :: first, row, i, j
+
+      do first = 1, size(matrix, 2), side
+         do row = first, size(matrix, 1), side
+            do j = first, min(first + side - 1, size(matrix, 2))
+               do i = max(row, j + 1), min(row + side - 1, size(matrix, 1))
+                  matrix(j, i) = matrix(i, j)
+               end do
+            end do
+         end do
+      end do
+   end subroutine complete
+
+   !> Bring rows and columns of a matrix to their places, without another as large
+   subroutine arrange(matrix, place)
       !> The matrix
-      real(wp), intent(in) :: matrix(:, :)
-      !> Place in the set of each of its rows
+      real(wp), intent(inout) :: matrix(:, :)
+      !> Place of each of its rows and columns
       integer, intent(in) :: place(:)
-      !> The matrix of the set
-      real(wp), allocatable, intent(out) :: arranged(:, :)
-      !> Out of memory
-      type(error_type), allocatable, intent(out) :: error
 
-      integer :: j
+      real(wp), allocatable :: column(:), next(:)
+      logical :: done(size(place))
+      integer :: j, k
 
-      call new_block(arranged, size(place), size(place), error)
-      if (allocated(error)) return
+      allocate (column(size(place)), next(size(place)))
       do j = 1, size(place)
-         arranged(place, place(j)) = matrix(:, j)
+         column(place) = matrix(:, j)
+         matrix(:, j) = column
+      end do
+      done = .false.
+      do j = 1, size(place)
+         if (done(j)) cycle
+         k = j  ! each column pushes away the one in its place, until the place of the first is reached
+         column = matrix(:, k)
+         do
+            k = place(k)
+            next = matrix(:, k)
+            matrix(:, k) = column
+            done(k) = .true.
+            if (k == j) exit
+            column = next
+         end do
       end do
    end subroutine arrange
 

@@ -113,7 +113,7 @@ contains
          footprint%stresses = 2*footprint%stresses + footprint%loads
       end if
       if (bodies_yield(model)) call add_bodies(model, references, modes, footprint)
-      footprint%joint_work = 2*real_bytes*unknowns**2  ! the inverse, and what it is made in
+      footprint%joint_work = real_bytes*unknowns**2  ! the inverse
       if (jumps == 0) footprint%joint_work = 0
    end function data_footprint
 
