@@ -185,9 +185,9 @@ contains
             if (.not. equations%systems(s)%failed) then
                allocate (force(3, size(tasks(1)%displacement, 2), size(equations%systems(s)%modes)*size(tasks)))
                allocate (found, mold=force)
-               call load_system(s, force)
+               call load_system(structure, tasks, s, force)
                call solve_system(equations, s, force, found)
-               call take_solution(s, force, found)
+               call take_solution(structure, tasks, s, force, found, solves)
                deallocate (force, found)
                before_errors = omp_get_wtime()
                if (present(difference)) then
@@ -201,59 +201,69 @@ contains
          times(4, s) = omp_get_wtime()
       end subroutine solve_one
 
-      !> Forces of all tasks, mode by mode
-      subroutine load_system(s, force)
-         !> Place of the system
-         integer, intent(in) :: s
-         !> Forces on components, shape (3, nodes, modes of the system times tasks)
-         real(wp), intent(out) :: force(:, :, :)
-
-         integer :: i, j, k, t
-
-         associate (modes => structure%equations%systems(s)%modes)
-            j = 0
-            do t = 1, size(tasks)
-               associate (points => structure%condensed%points(:size(tasks(t)%acting, 2)))
-                  do i = 1, size(modes)
-                     j = j + 1
-                     k = modes(i)
-                     force(:, :, j) = tasks(t)%loading%right(:, :, k) + joint_force(points, &
-                        structure%equations%modes(k)%harmonic, tasks(t)%acting(:, :, k), size(force, 2))
-                  end do
-               end associate
-            end do
-         end associate
-      end subroutine load_system
-
-      !> Displacements of all tasks, refined
-      subroutine take_solution(s, force, found)
-         !> Place of the system
-         integer, intent(in) :: s
-         !> Forces on components, and the displacements under them, shape (3, nodes, modes of the system times tasks)
-         real(wp), intent(in) :: force(:, :, :), found(:, :, :)
-
-         type(mode_solve_type) :: report
-         integer :: i, j, k, t
-
-         associate (equations => structure%equations, modes => structure%equations%systems(s)%modes)
-            j = 0
-            do t = 1, size(tasks)
-               associate (loading => tasks(t)%loading, displacement => tasks(t)%displacement)
-                  do i = 1, size(modes)
-                     j = j + 1
-                     k = modes(i)
-                     displacement(:, :, k) = found(:, :, j)
-                     report%condition = equations%systems(s)%condition
-                     call refine_solve(equations, k, force(:, :, j), structure%negligible, displacement(:, :, k), report)
-                     if (t == 1) solves(k) = report
-                     if (allocated(loading%held)) displacement(:, :, k) = displacement(:, :, k) + loading%held(:, :, k)
-                  end do
-               end associate
-            end do
-         end associate
-      end subroutine take_solution
-
    end subroutine solve_tasks
+
+   !> Forces of all tasks, mode by mode
+   subroutine load_system(structure, tasks, s, force)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> Loads
+      type(task_type), intent(in) :: tasks(:)
+      !> Place of the system
+      integer, intent(in) :: s
+      !> Forces on components, shape (3, nodes, modes of the system times tasks)
+      real(wp), intent(out) :: force(:, :, :)
+
+      integer :: i, j, k, t
+
+      associate (modes => structure%equations%systems(s)%modes)
+         j = 0
+         do t = 1, size(tasks)
+            associate (points => structure%condensed%points(:size(tasks(t)%acting, 2)))
+               do i = 1, size(modes)
+                  j = j + 1
+                  k = modes(i)
+                  force(:, :, j) = tasks(t)%loading%right(:, :, k) + joint_force(points, &
+                     structure%equations%modes(k)%harmonic, tasks(t)%acting(:, :, k), size(force, 2))
+               end do
+            end associate
+         end do
+      end associate
+   end subroutine load_system
+
+   !> Displacements of all tasks, refined
+   subroutine take_solution(structure, tasks, s, force, found, solves)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> Takes the displacements
+      type(task_type), intent(inout) :: tasks(:)
+      !> Place of the system
+      integer, intent(in) :: s
+      !> Forces on components, and the displacements under them, shape (3, nodes, modes of the system times tasks)
+      real(wp), intent(in) :: force(:, :, :), found(:, :, :)
+      !> How well each mode was solved, for the first of the tasks
+      type(mode_solve_type), intent(inout) :: solves(:)
+
+      type(mode_solve_type) :: report
+      integer :: i, j, k, t
+
+      associate (equations => structure%equations, modes => structure%equations%systems(s)%modes)
+         j = 0
+         do t = 1, size(tasks)
+            associate (loading => tasks(t)%loading, displacement => tasks(t)%displacement)
+               do i = 1, size(modes)
+                  j = j + 1
+                  k = modes(i)
+                  displacement(:, :, k) = found(:, :, j)
+                  report%condition = equations%systems(s)%condition
+                  call refine_solve(equations, k, force(:, :, j), structure%negligible, displacement(:, :, k), report)
+                  if (t == 1) solves(k) = report
+                  if (allocated(loading%held)) displacement(:, :, k) = displacement(:, :, k) + loading%held(:, :, k)
+               end do
+            end associate
+         end do
+      end associate
+   end subroutine take_solution
 
    !> Let all ranks know how well all modes were solved
    subroutine share_solves(equations, solves)
