@@ -76,20 +76,6 @@ def model(one, measured_harmonics, harmonics, ranks, exchanged):
             0.0 if ranks == 1 else exchanged/measured_harmonics*harmonics*2**20/BYTES_PER_SECOND)
 
 
-def shares(runs):
-    """Seconds of factors and solution of harmonic 0 and of another, by runs of one harmonic and of two"""
-    first, both = (sum(r[p][0] for p in ("factor", "joints")) for r in runs)
-    return first, both - first
-
-
-def limit(one, harmonics, zero):
-    """How many times as fast two ranks are at most, if one of them has half of all harmonics, among which is none that
-    takes `zero` of another"""
-    own = sum(one[name][0] for name in ("factor", "joints")) + (1 - REDUNDANT_RECOVER)*one["recover"][0]
-    share = (harmonics/2)/(harmonics - 1 + zero)
-    return one["total"][0]/(one["total"][0] - own*(1 - share))
-
-
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--axijoint", required=True)
@@ -103,14 +89,9 @@ def main():
         path = os.path.join(folder, "tube.dat")
         with open(path, "w", encoding="utf-8") as file:
             file.write(deck(n, harmonics))
-        for count in (1, 2):
-            with open(os.path.join(folder, f"{count}.dat"), "w", encoding="utf-8") as file:
-                file.write(deck(n, count))
         apart = [os.path.join(folder, name) for name in ("first", "second")]
         found = [(run([args.axijoint], path, folder), run(mpirun, path, folder), side_by_side([args.axijoint], path, apart))
                  for _ in range(rounds)]
-        few = [tuple(run([args.axijoint], os.path.join(folder, f"{count}.dat"), folder) for count in (1, 2))
-               for _ in range(rounds)]
     one, two, beside = (least([runs[k] for runs in found]) for k in range(3))
     print(f"{3*(2*n + 1)*2*n:,} unknowns x {harmonics} harmonics; least of {rounds} rounds; load at the end: "
           f"{os.getloadavg()[0]:.1f}\n\nphase     seconds of 1, 2 ranks  ratio   processor s of rank 0  ratio   "
@@ -121,9 +102,6 @@ def main():
         print(f"{name:9} {a:9.2f} {b:9.2f} {a/b:9.2f} {c:13.2f} {d:9.2f} {c/d:6.2f} {e:17.2f} {2*a/e:12.2f}")
     print("limit: twice one run over two that go at once and know nothing of each other: as fast as this machine makes two "
           "processes, whatever they share")
-    zero, other = shares([least([runs[k] for runs in few]) for k in (0, 1)])
-    print(f"harmonic 0 takes {zero:.2f} s of factors and solution, harmonic 1 {other:.2f} s: with harmonics shared whole and no loss "
-          f"{limit(one, harmonics, zero/other):.2f} times")
     print(f"memory of a rank {one['peak memory']:.0f}, {two['peak memory']:.0f} MB; exchanged {two['exchanged']:.0f} MB")
     said = sum(model(one, harmonics, harmonics, 2, two["exchanged"]))
     print(f"model of two ranks {said:.1f} s, processor time of rank 0 {two['total'][1]:.1f} s, "

@@ -1,6 +1,6 @@
 !> A team of MPI processes
 module axijoint_mpi_team
-   use, intrinsic :: iso_c_binding, only : c_char, c_ptr, c_f_pointer
+   use, intrinsic :: iso_c_binding, only : c_char, c_int, c_ptr, c_f_pointer
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp, i8
@@ -39,6 +39,11 @@ module axijoint_mpi_team
       type(c_ptr) function openblas_get_corename() bind(c)
          import :: c_ptr
       end function openblas_get_corename
+      !> Do nothing for some milliseconds; process_shim.c
+      subroutine c_pause(milliseconds) bind(c, name='axijoint_pause')
+         import :: c_int
+         integer(c_int), value :: milliseconds
+      end subroutine c_pause
    end interface
 
 contains
@@ -214,6 +219,7 @@ contains
       integer :: first, code
       character(len=:), allocatable :: message
 
+      call wait_for_all(self)
       first = merge(self%rank, self%size, allocated(error))
       call MPI_Allreduce(MPI_IN_PLACE, first, 1, MPI_INTEGER, MPI_MIN, self%communicator)
       if (first == self%size) return
@@ -229,6 +235,26 @@ contains
       error%code = code
       error%message = message
    end subroutine agree
+
+   !> Wait until all ranks have come here, after a moment without a processor: the last ones may have a use for it
+   subroutine wait_for_all(self)
+      !> The team
+      class(mpi_team_type), intent(in) :: self
+
+      integer, parameter :: patience = 1000
+      type(MPI_Request) :: request
+      logical :: here
+      integer :: tests
+
+      call MPI_Ibarrier(self%communicator, request)
+      tests = 0
+      do
+         call MPI_Test(request, here, MPI_STATUS_IGNORE)
+         if (here) exit
+         tests = tests + 1
+         if (tests > patience) call c_pause(1)
+      end do
+   end subroutine wait_for_all
 
    !> Whether something is so on all ranks
    logical function all_of(self, flag)

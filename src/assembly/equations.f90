@@ -85,6 +85,8 @@ module axijoint_assembly_equations
       integer, allocatable :: last_system(:), last_mode(:)
       !> Systems of this rank: first and last
       integer :: first = 1, last = 0
+      !> The rank whose systems take least time
+      integer :: least_busy = 0
    end type equations_type
 
 contains
@@ -220,7 +222,7 @@ contains
       !> The equations, unknowns numbered
       type(equations_type), intent(inout) :: equations
 
-      real(wp) :: cost(size(equations%systems))
+      real(wp) :: cost(size(equations%systems)), share(0:equations%team%size - 1)
       integer :: s, rank
 
       do s = 1, size(cost)
@@ -235,6 +237,8 @@ contains
          do rank = 0, team%size
             equations%last_mode(rank) = count(equations%system <= equations%last_system(rank))
          end do
+         share = [(sum(cost(equations%last_system(rank) + 1:equations%last_system(rank + 1))), rank=0, team%size - 1)]
+         equations%least_busy = minloc(share, 1) - 1
          equations%first = equations%last_system(team%rank) + 1
          equations%last = equations%last_system(team%rank + 1)
       end associate

@@ -167,13 +167,14 @@ contains
       is_kept = s < equations%first + equations%n_kept
    end function is_kept
 
-   !> Memory for all threads of a loop over systems
+   !> Memory for all threads of a loop over systems, each of which calls BLAS by itself
    subroutine new_workspaces(equations, spaces)
       !> The equations, planned
       type(equations_type), intent(in) :: equations
       !> One a thread
       type(workspace_type), allocatable, intent(out) :: spaces(:)
 
+      call use_one_blas_thread()
       allocate (spaces(equations%n_workers))
    end subroutine new_workspaces
 
@@ -194,7 +195,6 @@ contains
       type(workspace_type), allocatable :: spaces(:)
       integer :: s
 
-      call use_one_blas_thread()
       call new_workspaces(equations, spaces)
       !$omp parallel do schedule(dynamic) num_threads(size(spaces))
       do s = equations%first, equations%first + equations%n_kept - 1

@@ -11,7 +11,7 @@ module axijoint_assembly_node_blocks
       max_unknowns, max_blocks
    use axijoint_assembly_stiffness, only : least_elements
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_base_large_pages, only : zero_large_pages
+   use axijoint_base_large_pages, only : use_large_pages, zero_large_pages
    use axijoint_base_ranges, only : range_end
    use axijoint_base_sort, only : sort_short
    use axijoint_base_team, only : team_type
@@ -24,7 +24,7 @@ module axijoint_assembly_node_blocks
    use axijoint_order_graph, only : graph_type
    implicit none
    private
-   public :: node_blocks_type, new_node_blocks, assemble_blocks, block_product, harmonic_factors, evaluate, block_size
+   public :: node_blocks_type, new_node_blocks, assemble_blocks, tell_blocks, block_product, harmonic_factors, evaluate, block_size
 
    !> Numbers of a block
    integer, parameter :: block_size = 14
@@ -117,8 +117,8 @@ contains
    end function coupling_before
 
    !> Integrate all elements, joints and springs. Every thread adds to rows of its own, element by
-   !> element, so that sums do not depend on the number of threads. Ranks of one machine share the rows, too
-   subroutine assemble_blocks(blocks, model, joint_points, support_points, team)
+   !> element, so that sums do not depend on the number of threads
+   subroutine assemble_blocks(blocks, model, joint_points, support_points)
       !> The blocks
       type(node_blocks_type), intent(inout) :: blocks
       !> The job
@@ -126,36 +126,36 @@ contains
       !> Points of all joints, and of all springs
       type(model_joint_point_type), intent(in) :: joint_points(:)
       type(support_point_type), intent(in) :: support_points(:)
-      !> Processes that work on the job
-      class(team_type), intent(in) :: team
 
-      integer :: last_row(0:team%size), own(2)
-      integer :: k, rank, n_ranges
+      integer :: k, n, n_ranges
 
-      allocate (blocks%parts(block_size, blocks%row_start(size(blocks%row_start)) - 1))
+      allocate (blocks%parts(block_size, size(blocks%column, kind=i8)))
       call zero_large_pages(blocks%parts)
-      last_row = [(range_end(size(blocks%place), rank, team%size), rank=0, team%size)]
-      own = [1, size(blocks%place)]
-      if (shares_rows(team)) own = last_row(team%rank:team%rank + 1) + [1, 0]
+      n = size(blocks%place)
       n_ranges = merge(omp_get_max_threads(), 1, n_elements(model%mesh) > least_elements)
       !$omp parallel do schedule(static, 1) if (n_ranges > 1)
       do k = 1, n_ranges
-         call assemble_rows(blocks, model, joint_points, support_points, &
-                            own(1) + range_end(own(2) - own(1) + 1, k - 1, n_ranges), &
-                            own(1) - 1 + range_end(own(2) - own(1) + 1, k, n_ranges))
+         call assemble_rows(blocks, model, joint_points, support_points, 1 + range_end(n, k - 1, n_ranges), &
+            range_end(n, k, n_ranges))
       end do
       !$omp end parallel do
-      if (shares_rows(team)) &
-         call team%gather(blocks%parts, size(blocks%parts, kind=i8), int(blocks%row_start(1 + last_row)) - 1)
    end subroutine assemble_blocks
 
-   !> Whether rows are shared by ranks: telling them takes less than forming them where memory is shared
-   pure logical function shares_rows(team)
+   !> Let all ranks know the blocks that one has assembled
+   subroutine tell_blocks(blocks, team, rank)
+      !> The blocks, with their pattern
+      type(node_blocks_type), intent(inout) :: blocks
       !> The ranks
       class(team_type), intent(in) :: team
+      !> The one
+      integer, intent(in) :: rank
 
-      shares_rows = team%size > 1 .and. team%sharers == team%size
-   end function shares_rows
+      if (.not. allocated(blocks%parts)) then
+         allocate (blocks%parts(block_size, size(blocks%column, kind=i8)))
+         call use_large_pages(blocks%parts)
+      end if
+      call team%broadcast(blocks%parts, size(blocks%parts, kind=i8), rank)
+   end subroutine tell_blocks
 
    !> Add to a range of rows
    subroutine assemble_rows(blocks, model, joint_points, support_points, from, to)

@@ -43,20 +43,20 @@ contains
    !> Two nodes at the ends of a long path through a component: go on to a node
    !> of least degree in the last level as long as that adds levels (George and
    !> Liu, Computer Solution of Large Sparse Positive Definite Systems, 1981)
-   subroutine find_ends(graph, seed, level, start, finish)
+   subroutine find_ends(graph, seed, level, list, start, finish)
       !> Graph of the nodes
       type(graph_type), intent(in) :: graph
       !> Any node of the component
       integer, intent(in) :: seed
       !> Negative for the nodes of the component, on entry and on return
       integer, intent(inout) :: level(:)
+      !> Room for as many nodes as the graph has: one may have many components
+      integer, intent(inout) :: list(:)
       !> The ends
       integer, intent(out) :: start, finish
 
-      integer, allocatable :: list(:)
       integer :: depth, next_depth, next
 
-      allocate (list(graph%n))
       start = seed
       call last_level(start, depth, finish)
       do

@@ -20,18 +20,20 @@ contains
 
       !> Negative for the nodes that are not numbered yet
       integer, allocatable :: mark(:)
+      !> Nodes of a component by distance
+      integer, allocatable :: list(:)
       !> Number of neighbours of each node
       integer, allocatable :: degrees(:)
       integer :: seed, first, last, start, finish
 
-      allocate (order(graph%n), mark(graph%n))
+      allocate (order(graph%n), mark(graph%n), list(graph%n))
       mark = -1
       degrees = [(degree(graph, seed), seed=1, graph%n)]
       last = 0
       do seed = 1, graph%n
          if (mark(seed) >= 0) cycle
          first = last + 1
-         call find_ends(graph, seed, mark, start, finish)
+         call find_ends(graph, seed, mark, list, start, finish)
          call cuthill_mckee(graph, degrees, start, mark, order, last)
          order(first:last) = order(last:first:-1)
       end do

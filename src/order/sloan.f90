@@ -46,7 +46,7 @@ contains
       last = 0
       do seed = 1, graph%n
          if (front%state(seed) == numbered) cycle
-         call find_ends(graph, seed, distance, start, finish)
+         call find_ends(graph, seed, distance, list, start, finish)
          call breadth_first(graph, finish, distance, list, n_list)
          do k = 1, n_list
             front%priority(list(k)) = weight_distance*distance(list(k)) &

@@ -1,5 +1,6 @@
 !> The files of a run: all of them complete under their final names, or none
 module axijoint_output_output
+   use omp_lib, only : omp_get_max_threads
    use axijoint_analysis_core_results, only : results_type, remark_type
    use axijoint_analysis_core_series, only : series_type
    use axijoint_base_error, only : error_type, fatal_error, exit_io, exit_internal
@@ -13,6 +14,8 @@ module axijoint_output_output
    use axijoint_deck_text_source, only : source_type, card_file
    use axijoint_job_combination, only : combination_label
    use axijoint_job_job, only : job_type, result_name
+   use axijoint_model_mesh, only : n_nodes
+   use axijoint_model_model, only : model_type
    use axijoint_output_file_echo, only : deck_path
    use axijoint_output_file_hdf5, only : hdf5_file_type
    use axijoint_output_file_names, only : endings, file_arrays, file_listing, file_summary, &
@@ -26,7 +29,7 @@ module axijoint_output_output
    use axijoint_output_legacy_fit, only : check_fit
    use axijoint_output_legacy_listing, only : old_listing_type, begin_old_listing, &
       end_old_listing
-   use axijoint_output_listing_contents, only : write_listing
+   use axijoint_output_listing_contents, only : write_listing, end_listing
    use axijoint_output_listing_solution, only : convergence_text
    use axijoint_output_listing_sweep, only : picture_type, new_picture
    use axijoint_output_summary, only : write_summary, write_failure_summary
@@ -36,6 +39,9 @@ module axijoint_output_output
    implicit none
    private
    public :: check_output, write_output, write_error_summary
+
+   !> Results of smaller meshes are written faster than a thread wakes up
+   integer, parameter :: least_nodes = 5000
 
 contains
 
@@ -167,6 +173,7 @@ contains
       !> A file could not be written
       type(error_type), allocatable, intent(out) :: error
 
+      type(error_type), allocatable :: unfinished
       type(run_type) :: run
       type(hdf5_file_type) :: arrays
       type(bodies_type) :: bodies
@@ -197,7 +204,6 @@ contains
          call add_last(warnings, no_room(old_listing, name))
          call add_last(messages, no_room(old_listing, name))
       end if
-      if (.not. allocated(error)) call arrays%finish(error)
       if (.not. allocated(error)) call end_bodies(bodies, results, error)
       if (.not. allocated(error)) call end_surfaces(surfaces, results, error)
       if (.not. allocated(error)) call end_old_listing(old_listing, error)
@@ -205,8 +211,16 @@ contains
          call listing%open(final_path(directory, name, file_listing), error)
       if (.not. allocated(error)) then
          pictures = pictures_of(name, bodies, surfaces)
+         !$omp parallel sections num_threads(n_writers(job%model, team))
+         !$omp section
+         call write_results(arrays, run, job%source, messages, job%model, results)
+         call arrays%finish(unfinished)
+         !$omp section
          call write_listing(listing, run, job, warnings, results, series, pictures)
+         !$omp end parallel sections
+         call end_listing(listing, results, job%timer)
          call listing%finish(error)
+         if (allocated(unfinished)) error = unfinished
       end if
       if (.not. allocated(error)) &
          call summary%open(final_path(directory, name, file_summary), error)
@@ -229,12 +243,11 @@ contains
 
    contains
 
-      !> The results file, swept bodies and joints and an old listing if they are wanted, up to what
+      !> The results file, swept bodies and joints and an old listing if they are wanted, before what
       !> is written increment by increment
       subroutine begin_arrays()
          call arrays%create(final_path(directory, name, file_arrays), error)
          if (allocated(error)) return
-         call write_results(arrays, run, job%source, messages, job%model, results)
          if (any(files == file_bodies)) &
             call begin_bodies(final_path(directory, name, file_bodies), run, job%model, results, &
                bodies, error)
@@ -249,6 +262,17 @@ contains
       end subroutine begin_arrays
 
    end subroutine write_files
+
+   !> Threads that write: arrays and listing at once. Other processes of the machine wait meanwhile
+   integer function n_writers(model, team)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The processes
+      class(team_type), intent(in) :: team
+
+      n_writers = 1
+      if (n_nodes(model%mesh) >= least_nodes) n_writers = min(2, max(omp_get_max_threads(), team%sharers))
+   end function n_writers
 
    !> Sizes of the files of swept bodies and joints
    function pictures_of(name, bodies, surfaces) result(pictures)

@@ -5,7 +5,7 @@ module axijoint_analysis_core_solution
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_fine_difference, only : difference_type, room_type, &
       find_difference, share_difference
-   use axijoint_analysis_fine_level, only : fine_load_type, new_fine_load
+   use axijoint_analysis_fine_level, only : fine_load_type, new_fine_load, share_stiffness
    use axijoint_assembly_equations, only : equations_type, own_modes, solve_system, refine_mode, &
                                            find_unbalanced, worth_threads
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
@@ -110,7 +110,8 @@ contains
 
    !> Displacements of tasks, a step of refinement in them unless the structure takes what rounding
    !> leaves without it. A factor that is not kept is made, used for all that needs it, and given up.
-   !> Each rank solves its systems, and learns the rest.
+   !> Each rank solves its systems, and learns the rest. The stiffness of the fine level, which one rank forms for all,
+   !> is told when all have solved their first system: none waits for it long.
    subroutine solve_tasks(structure, model, tasks, solves, error, difference)
       !> The structure, assembled
       type(structure_type), intent(inout) :: structure
@@ -137,13 +138,16 @@ contains
       allocate (rooms(size(spaces)))
       times = 0.0_wp
       associate (equations => structure%equations)
+         if (present(difference) .and. (size(spaces) > 1 .or. equations%last < equations%first)) &
+            call share_stiffness(structure%fine, equations%team, error)
+         if (allocated(error)) return
          if (size(spaces) == 1) then
             ! one system at a time: other threads take the tasks that it leaves
             n_threads = merge(omp_get_max_threads(), 1, worth_threads(equations))
             !$omp parallel num_threads(n_threads)
             !$omp master
             do s = equations%first, equations%last
-               call solve_one(s)
+               if (.not. allocated(error)) call solve_one(s)
             end do
             !$omp end master
             !$omp end parallel
@@ -159,7 +163,7 @@ contains
             difference%factor_share = sum(times(2, :) - times(1, :))/max(tiny(1.0_wp), &
                sum(times(4, :) - times(1, :)))
          end if
-         call report_failure(equations, model, error)
+         if (.not. allocated(error)) call report_failure(equations, model, error)
          if (allocated(error)) return
          do t = 1, size(tasks)
             call equations%team%gather(tasks(t)%displacement, size(tasks(t)%displacement, kind=i8), equations%last_mode)
@@ -189,6 +193,9 @@ contains
                call solve_system(equations, s, force, found)
                call take_solution(structure, tasks, s, force, found, solves)
                deallocate (force, found)
+            end if
+            if (present(difference) .and. size(spaces) == 1) call share_stiffness(structure%fine, equations%team, error)
+            if (.not. (equations%systems(s)%failed .or. allocated(error))) then
                before_errors = omp_get_wtime()
                if (present(difference)) then
                   call find_difference(structure%fine, equations, s, load, tasks(1)%displacement, &

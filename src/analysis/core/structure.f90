@@ -71,7 +71,8 @@ module axijoint_analysis_core_structure
 
 contains
 
-   !> Assemble and factor the equations of all modes
+   !> Assemble and factor the equations of all modes. Ranks of a team wait for each other if factors are kept; otherwise
+   !> an error of one is told to the others where they agree next
    subroutine build_structure(model, structure, timer, progress, error)
       !> The job
       type(model_type), intent(in) :: model
@@ -89,18 +90,27 @@ contains
       call timer%push(phase_assemble)
       call assemble(model, structure, progress, error)
       call timer%pop()
-      if (allocated(model%team)) call model%team%agree(error)
+      if (allocated(model%team) .and. (allocated(error) .or. reuses_factors(model))) call model%team%agree(error)
       if (allocated(error)) return
-      call timer%push(phase_factor)
-      if (structure%equations%n_kept > 0) then
-         call show_progress(progress, 'factoring '//to_text(structure%equations%n_kept)// &
-            ' harmonics')
+      if (reuses_factors(model)) then
+         call timer%push(phase_factor)
+         if (structure%equations%n_kept > 0) then
+            call show_progress(progress, 'factoring '//to_text(structure%equations%n_kept)// &
+               ' harmonics')
+         end if
+         call factorize_equations(structure%equations, model, error)
+         call timer%pop()
+         if (allocated(error)) return
       end if
-      call factorize_equations(structure%equations, model, error)
-      call timer%pop()
-      if (allocated(error)) return
       call timer%push(phase_assemble)
-      call new_fine_level(model, structure%equations%team, structure%fine)
+      associate (team => structure%equations%team)
+         if (team%size > 1 .and. team%sharers == team%size .and. .not. reuses_factors(model)) then
+            ! telling it takes less than forming it where memory is shared
+            call new_fine_level(model, team, structure%fine, formed_by=structure%equations%least_busy)
+         else
+            call new_fine_level(model, team, structure%fine)
+         end if
+      end associate
       call take_conditions(structure%equations, structure%fine)
       structure%sections = cut_sections(model%mesh, model%cuts)
       structure%singular = find_singular_places(model, structure%fine%mesh)

@@ -8,10 +8,11 @@ module axijoint_analysis_fine_level
       new_smoother
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_loading, only : loading_type, new_initial_state
-   use axijoint_assembly_node_blocks, only : node_blocks_type, new_node_blocks, assemble_blocks
+   use axijoint_assembly_node_blocks, only : node_blocks_type, new_node_blocks, assemble_blocks, tell_blocks
    use axijoint_assembly_pattern, only : node_graph
    use axijoint_assembly_solid_force, only : initial_state_type
    use axijoint_assembly_support, only : support_point_type, new_support_points
+   use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
    use axijoint_base_team, only : team_type
    use axijoint_element_joint, only : new_joint_point, lower_node
@@ -23,6 +24,7 @@ module axijoint_analysis_fine_level
    implicit none
    private
    public :: fine_level_type, fine_load_type, new_fine_level, take_conditions, take_fine_model, new_fine_load
+   public :: share_stiffness
 
    !> The fine level
    type :: fine_level_type
@@ -38,6 +40,8 @@ module axijoint_analysis_fine_level
       type(model_joint_point_type), allocatable :: on_coarse(:), coarse_points(:)
       !> Stiffness in blocks of two nodes; all that follows is in the order of its rows
       type(node_blocks_type) :: stiffness
+      !> The rank that has formed it, if the others are still to be told
+      integer, allocatable :: formed_by
       !> What the nodes follow
       type(parents_type) :: parents
       !> Which components are free in each class of modes
@@ -58,14 +62,16 @@ module axijoint_analysis_fine_level
 
 contains
 
-   !> Cut the mesh of a job and integrate its stiffness
-   subroutine new_fine_level(model, team, level)
+   !> Cut the mesh of a job and integrate its stiffness, unless another rank does
+   subroutine new_fine_level(model, team, level, formed_by)
       !> The job
       type(model_type), intent(in) :: model
-      !> Processes that work on it
+      !> Ranks that work on it
       class(team_type), intent(in) :: team
       !> The fine level; what is free in the classes of modes is for `take_conditions`
       type(fine_level_type), intent(out) :: level
+      !> The rank that forms the stiffness, for `share_stiffness` to tell the others; each for itself if absent
+      integer, intent(in), optional :: formed_by
 
       type(graph_type) :: graph
       integer, allocatable :: block(:), order(:)
@@ -83,9 +89,38 @@ contains
       call new_node_blocks(level%stiffness, graph, order)
       level%parents = ordered(level%mesh%parents, order)
       call new_smoother(level%smoother, level%stiffness, block, order)
-      call assemble_blocks(level%stiffness, level%model, level%joint_points, level%support_points, team)
+      if (present(formed_by)) level%formed_by = formed_by
+      if (.not. is_told(level, team)) &
+         call assemble_blocks(level%stiffness, level%model, level%joint_points, level%support_points)
       level%seconds = omp_get_wtime() - start
    end subroutine new_fine_level
+
+   !> Whether this rank will be told the stiffness
+   pure logical function is_told(level, team)
+      !> The fine level
+      type(fine_level_type), intent(in) :: level
+      !> The ranks
+      class(team_type), intent(in) :: team
+
+      is_told = .false.
+      if (allocated(level%formed_by)) is_told = level%formed_by /= team%rank
+   end function is_told
+
+   !> Let all ranks have the stiffness; nothing where they have
+   subroutine share_stiffness(level, team, error)
+      !> The fine level
+      type(fine_level_type), intent(inout) :: level
+      !> The ranks
+      class(team_type), intent(in) :: team
+      !> An error that a rank has met since they agreed last
+      type(error_type), allocatable, intent(inout) :: error
+
+      if (.not. allocated(level%formed_by)) return
+      call team%agree(error)
+      if (allocated(error)) return
+      call tell_blocks(level%stiffness, team, level%formed_by)
+      deallocate (level%formed_by)
+   end subroutine share_stiffness
 
    !> Find what is free in each class of modes
    subroutine take_conditions(equations, level)

@@ -228,21 +228,31 @@ contains
       if (properties /= self%small) call close_properties(properties, failure)
    end subroutine release
 
-   !> Extents of a chunk: whole leading indices up to `chunk_values` values
+   !> Extents of a chunk: whole leading indices up to `chunk_values` values, an index that does not fit cut into parts as
+   !> equal as may be, as each chunk takes its room whole
    pure function chunk_extent(extent) result(chunk)
       !> Extents of the array, all positive
       integer(hsize_t), intent(in) :: extent(:)
       !> Extents of a chunk
       integer(hsize_t) :: chunk(size(extent))
 
-      integer(hsize_t) :: room
+      integer(hsize_t) :: room, n_parts
       integer :: i
 
       room = chunk_values
       do i = 1, size(extent)
-         chunk(i) = max(1_hsize_t, min(extent(i), room))
+         n_parts = parts(extent(i), max(1_hsize_t, room))
+         chunk(i) = parts(extent(i), n_parts)
          room = room/chunk(i)
       end do
    end function chunk_extent
+
+   !> Parts of a length at most that a whole is cut into
+   pure integer(hsize_t) function parts(whole, longest)
+      !> The whole, and the longest part
+      integer(hsize_t), intent(in) :: whole, longest
+
+      parts = (whole + longest - 1)/longest
+   end function parts
 
 end module axijoint_output_file_hdf5_storage

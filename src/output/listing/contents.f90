@@ -3,6 +3,7 @@ module axijoint_output_listing_contents
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_series, only : series_type
    use axijoint_base_text, only : to_text
+   use axijoint_base_timer, only : timer_type
    use axijoint_base_version, only : program_name, program_version
    use axijoint_deck_text_source, only : source_type, card_keyword
    use axijoint_job_job, only : job_type
@@ -39,20 +40,20 @@ module axijoint_output_listing_contents
    use axijoint_output_table_yield_errors, only : write_yield_errors
    implicit none
    private
-   public :: write_listing
+   public :: write_listing, end_listing
 
    !> Cards below a keyword that are listed of a long deck, too
    integer, parameter :: first_cards = 20
 
 contains
 
-   !> All tables in order
+   !> All tables in order, except that of times
    subroutine write_listing(file, run, job, warnings, results, series, pictures)
       !> The listing
       class(text_file_type), intent(inout) :: file
       !> Name tags of the run
       type(run_type), intent(in) :: run
-      !> Deck, model, times
+      !> Deck, model
       type(job_type), intent(in) :: job
       !> Warnings of the deck
       character(len=*), intent(in) :: warnings(:)
@@ -106,10 +107,27 @@ contains
          call write_rounds(file, results)
          call write_strips(file, model, results)
          call write_pictures(file, size(results%states), pictures)
-         call write_times(file, results, job%timer)
-         call write_end(file, results)
       end associate
    end subroutine write_listing
+
+   !> Times, once the other files are written, and the last line
+   subroutine end_listing(file, results, timer)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> Results
+      type(results_type), intent(in) :: results
+      !> Times of the run
+      type(timer_type), intent(in) :: timer
+
+      call write_times(file, results, timer)
+      call file%put("")
+      call file%put(rule)
+      if (results%converged) then
+         call file%put("END OF LISTING")
+      else
+         call file%put("END OF LISTING   "//mark_not_converged)
+      end if
+   end subroutine end_listing
 
    !> Program, deck, date, status
    subroutine write_header(file, run, model, results)
@@ -160,21 +178,5 @@ contains
       call write_echo(file, source, listed)
       call write_left(file, "DECK", count(listed), size(listed))
    end subroutine write_deck
-
-   !> Last line: the listing is whole, and whether it converged
-   subroutine write_end(file, results)
-      !> The listing
-      class(text_file_type), intent(inout) :: file
-      !> Results
-      type(results_type), intent(in) :: results
-
-      call file%put("")
-      call file%put(rule)
-      if (results%converged) then
-         call file%put("END OF LISTING")
-      else
-         call file%put("END OF LISTING   "//mark_not_converged)
-      end if
-   end subroutine write_end
 
 end module axijoint_output_listing_contents
