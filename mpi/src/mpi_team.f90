@@ -236,23 +236,23 @@ contains
       error%message = message
    end subroutine agree
 
-   !> Wait until all ranks have come here, after a moment without a processor: the last ones may have a use for it
+   !> Wait until all ranks have come here; where that takes long, without a processor, which others may have a use for
    subroutine wait_for_all(self)
       !> The team
       class(mpi_team_type), intent(in) :: self
 
-      integer, parameter :: patience = 1000
+      !> Long [second]: a pause is a fiftieth of it
+      real(wp), parameter :: long = 0.05_wp
       type(MPI_Request) :: request
       logical :: here
-      integer :: tests
+      real(wp) :: start
 
       call MPI_Ibarrier(self%communicator, request)
-      tests = 0
+      start = MPI_Wtime()
       do
          call MPI_Test(request, here, MPI_STATUS_IGNORE)
          if (here) exit
-         tests = tests + 1
-         if (tests > patience) call c_pause(1)
+         if (MPI_Wtime() - start > long) call c_pause(1)
       end do
    end subroutine wait_for_all
 

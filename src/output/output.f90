@@ -173,14 +173,12 @@ contains
       !> A file could not be written
       type(error_type), allocatable, intent(out) :: error
 
-      type(error_type), allocatable :: unfinished
       type(run_type) :: run
       type(hdf5_file_type) :: arrays
       type(bodies_type) :: bodies
       type(surfaces_type) :: surfaces
       type(old_listing_type) :: old_listing
       type(series_type) :: series
-      type(picture_type), allocatable :: pictures(:)
       type(text_file_type) :: listing, summary
       character(len=:), allocatable :: directory, name, warnings(:), messages(:)
       integer, allocatable :: files(:)
@@ -209,19 +207,7 @@ contains
       if (.not. allocated(error)) call end_old_listing(old_listing, error)
       if (.not. allocated(error)) &
          call listing%open(final_path(directory, name, file_listing), error)
-      if (.not. allocated(error)) then
-         pictures = pictures_of(name, bodies, surfaces)
-         !$omp parallel sections num_threads(n_writers(job%model, team))
-         !$omp section
-         call write_results(arrays, run, job%source, messages, job%model, results)
-         call arrays%finish(unfinished)
-         !$omp section
-         call write_listing(listing, run, job, warnings, results, series, pictures)
-         !$omp end parallel sections
-         call end_listing(listing, results, job%timer)
-         call listing%finish(error)
-         if (allocated(unfinished)) error = unfinished
-      end if
+      if (.not. allocated(error)) call write_arrays_and_listing()
       if (.not. allocated(error)) &
          call summary%open(final_path(directory, name, file_summary), error)
       if (.not. allocated(error)) then
@@ -260,6 +246,24 @@ contains
             call begin_old_listing(final_path(directory, name, file_old_listing), job%model, &
                results, old_listing, error)
       end subroutine begin_arrays
+
+      !> Arrays and listing, at once where there is a thread for each; the listing ends with the times of both
+      subroutine write_arrays_and_listing()
+         type(error_type), allocatable :: unfinished
+         type(picture_type), allocatable :: pictures(:)
+
+         pictures = pictures_of(name, bodies, surfaces)
+         !$omp parallel sections num_threads(n_writers(job%model, team))
+         !$omp section
+         call write_results(arrays, run, job%source, messages, job%model, results)
+         call arrays%finish(unfinished)
+         !$omp section
+         call write_listing(listing, run, job, warnings, results, series, pictures)
+         !$omp end parallel sections
+         call end_listing(listing, results, job%timer)
+         call listing%finish(error)
+         if (allocated(unfinished)) error = unfinished
+      end subroutine write_arrays_and_listing
 
    end subroutine write_files
 
