@@ -4,6 +4,7 @@ module axijoint_mpi_team
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_stop, only : own_wish, agree_wish
    use axijoint_base_team, only : team_type
    use mpi_f08
    implicit none
@@ -30,6 +31,7 @@ module axijoint_mpi_team
       procedure :: tell
       procedure :: agree
       procedure :: all_of
+      procedure :: share_wish
       procedure :: exchanged
       procedure :: split
    end type mpi_team_type
@@ -209,7 +211,7 @@ contains
       call count_bytes(self, int(length, i8)*merge(self%size - 1, 1, rank == self%rank))
    end subroutine tell_from
 
-   !> Agree on an error: that of the first rank that has one
+   !> Agree on an error: that of the first rank that has one. A wish that the program ends is shared
    subroutine agree(self, error)
       !> The team
       class(mpi_team_type), intent(in) :: self
@@ -220,6 +222,7 @@ contains
       character(len=:), allocatable :: message
 
       call wait_for_all(self)
+      call share_wish(self)
       first = merge(self%rank, self%size, allocated(error))
       call MPI_Allreduce(MPI_IN_PLACE, first, 1, MPI_INTEGER, MPI_MIN, self%communicator)
       if (first == self%size) return
@@ -265,6 +268,18 @@ contains
 
       call MPI_Allreduce(flag, all_of, 1, MPI_LOGICAL, MPI_LAND, self%communicator)
    end function all_of
+
+   !> Let a wish of one rank that the program ends be one of all
+   subroutine share_wish(self)
+      !> The team
+      class(mpi_team_type), intent(in) :: self
+
+      integer :: wish
+
+      wish = own_wish()
+      call MPI_Allreduce(MPI_IN_PLACE, wish, 1, MPI_INTEGER, MPI_MAX, self%communicator)
+      call agree_wish(wish)
+   end subroutine share_wish
 
    !> Bytes that this rank has sent and received so far
    integer(i8) function exchanged(self)

@@ -6,9 +6,10 @@
 #    export AXIJOINT_MPI=/home/me/axijoint/bin/axijoint-mpi
 #    sbatch --nodes=2 --ntasks=16 --cpus-per-task=4 --mem=64G scripts/slurm/mpi.sh chimney.dat -o out
 #
+# Two minutes before its time is over the job is stopped, keeps how far it is, and goes back to the queue; its next
+# start goes on from there, with as many processes as it has then.
 # AXIJOINT_MPI is the path of the program that is built for MPI (doc/cluster.md), MPIRUN what starts it: mpirun, or
-# "srun --mpi=pmix" where the MPI of the site knows it. Several processes keep no state: a job that is
-# put back in the queue begins anew.
+# "srun --mpi=pmix" where the MPI of the site knows it.
 #
 # Options on the command line of sbatch win over these:
 #SBATCH --job-name=axijoint
@@ -16,6 +17,8 @@
 #SBATCH --cpus-per-task=1
 #SBATCH --mem=4G
 #SBATCH --time=1:00:00
+#SBATCH --signal=B:USR1@120
+#SBATCH --requeue
 #SBATCH --open-mode=append
 
 # Runs a program and ends the job with its exit code. `B:` sends the signal to this shell alone, which hands it on;
@@ -44,4 +47,4 @@ command -v "$AXIJOINT" >/dev/null || {
 export OMP_NUM_THREADS=${SLURM_CPUS_PER_TASK:-1} # what the job has
 
 # shellcheck disable=SC2086  # several words
-run_job ${MPIRUN:-mpirun --bind-to none} "$AXIJOINT" run "$@"
+run_job ${MPIRUN:-mpirun --bind-to none} "$AXIJOINT" run "$@" --resume

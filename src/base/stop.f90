@@ -1,16 +1,20 @@
 !> A wish that the program ends before its time, at the next place from which it can be gone on:
 !> SIGTERM, SIGINT or SIGUSR1, or a file that somebody makes. It stays once it is there, so that
-!> whoever leaves a loop for it can count on those above to see it, too.
+!> whoever leaves a loop for it can count on those above to see it, too. Processes that work together
+!> would leave their loops at different places: a wish that one of them knows of counts when it is
+!> shared.
 module axijoint_base_stop
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_null_char
    use axijoint_base_error, only : error_type, fatal_error, exit_stopped
    implicit none
    private
-   public :: heed_signals, heed_file, stop_wished, stop_cause, check_stop
+   public :: heed_signals, heed_file, stop_wished, stop_cause, check_stop, own_wish, agree_wish
 
    interface
       !> Take note of signals; stop_shim.c
-      subroutine c_heed_signals() bind(c, name='axijoint_heed_signals')
+      subroutine c_heed_signals(with_others) bind(c, name='axijoint_heed_signals')
+         import :: c_int
+         integer(c_int), value :: with_others
       end subroutine c_heed_signals
 
       !> Take note of a file; stop_shim.c
@@ -20,25 +24,33 @@ module axijoint_base_stop
       end subroutine c_heed_file
 
       !> What was noted; stop_shim.c
+      function c_own_wish() bind(c, name='axijoint_own_wish')
+         import :: c_int
+         integer(c_int) :: c_own_wish
+      end function c_own_wish
+
+      !> What counts; stop_shim.c
       function c_stop_wish() bind(c, name='axijoint_stop_wish')
          import :: c_int
          integer(c_int) :: c_stop_wish
       end function c_stop_wish
 
-      !> Which signal that is; stop_shim.c
-      function c_signal_name(number) bind(c, name='axijoint_signal_name')
+      !> Let a wish count; stop_shim.c
+      subroutine c_agree_wish(number) bind(c, name='axijoint_agree_wish')
          import :: c_int
          integer(c_int), value :: number
-         integer(c_int) :: c_signal_name
-      end function c_signal_name
+      end subroutine c_agree_wish
    end interface
 
 contains
 
    !> From now on SIGTERM, SIGINT and SIGUSR1 are wishes; a second SIGINT ends the program at once,
    !> and SIGPIPE, of an output that nobody reads any more, does not
-   subroutine heed_signals()
-      call c_heed_signals()
+   subroutine heed_signals(with_others)
+      !> Whether several processes work together: what counts is what they agree on
+      logical, intent(in) :: with_others
+
+      call c_heed_signals(merge(1_c_int, 0_c_int, with_others))
    end subroutine heed_signals
 
    !> From now on a file of some name is a wish, too
@@ -54,18 +66,28 @@ contains
       stop_wished = c_stop_wish() /= 0_c_int
    end function stop_wished
 
+   !> The wish that this process knows of, as a number; 0 for none
+   integer function own_wish()
+      own_wish = int(c_own_wish())
+   end function own_wish
+
+   !> Let a wish of one process count in this one
+   subroutine agree_wish(wish)
+      !> Number of the wish; 0 for none
+      integer, intent(in) :: wish
+
+      call c_agree_wish(int(wish, c_int))
+   end subroutine agree_wish
+
    !> Where the wish came from, such as SIGTERM
    function stop_cause() result(cause)
       !> The cause
       character(len=:), allocatable :: cause
 
-      character(len=16), parameter :: names(0:3) = [character(len=16) :: &
-         'a signal', 'SIGTERM', 'SIGINT', 'SIGUSR1']
-      integer(c_int) :: wish
+      character(len=*), parameter :: names(0:4) = [character(len=11) :: &
+         'nobody', 'SIGTERM', 'SIGINT', 'SIGUSR1', 'a STOP file']
 
-      wish = c_stop_wish()
-      cause = 'a STOP file'
-      if (wish > 0) cause = trim(names(c_signal_name(wish)))
+      cause = trim(names(c_stop_wish()))
    end function stop_cause
 
    !> Make the wish an error, which ends what is under way; nothing is wrong

@@ -9,6 +9,7 @@
 static volatile sig_atomic_t wish = 0;
 static char file[4096];
 static volatile time_t looked = 0;
+static int together = 0, agreed = 0;
 
 /* The first time, remember it; interrupted once more, end as if nothing had been set up. */
 static void note_signal(int number)
@@ -21,9 +22,11 @@ static void note_signal(int number)
 }
 
 /* From now on take note of signals, but of none that this process was told to ignore. That nobody
-   reads what is printed any more is no reason to end. */
-void axijoint_heed_signals(void)
+   reads what is printed any more is no reason to end. Where several processes work together, what
+   counts is the wish that they have agreed on. */
+void axijoint_heed_signals(int with_others)
 {
+   together = with_others;
    signal(SIGPIPE, SIG_IGN);
    const int numbers[] = {SIGTERM, SIGINT, SIGUSR1};
    for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
@@ -44,9 +47,9 @@ void axijoint_heed_file(const char *path)
    looked = 0;
 }
 
-/* The wish: 0 none, else the number of the signal, -1 for the file. The file is looked for once a
-   second. */
-int axijoint_stop_wish(void)
+/* The wish that this process knows of: 0 none, 1 SIGTERM, 2 SIGINT, 3 SIGUSR1, 4 the file, for the
+   numbers of signals are not the same everywhere. The file is looked for once a second. */
+int axijoint_own_wish(void)
 {
    if (wish == 0 && file[0] != '\0') {
       const time_t now = time(NULL);
@@ -55,12 +58,17 @@ int axijoint_stop_wish(void)
          if (access(file, F_OK) == 0) wish = -1;
       }
    }
-   return wish;
+   return wish == SIGTERM ? 1 : wish == SIGINT ? 2 : wish == SIGUSR1 ? 3 : wish == -1 ? 4 : 0;
 }
 
-/* What the signals are called here, as their numbers are not the same everywhere: 1 SIGTERM, 2 SIGINT,
-   3 SIGUSR1, 0 another. */
-int axijoint_signal_name(int number)
+/* The wish that counts */
+int axijoint_stop_wish(void)
 {
-   return number == SIGTERM ? 1 : number == SIGINT ? 2 : number == SIGUSR1 ? 3 : 0;
+   return together ? agreed : axijoint_own_wish();
+}
+
+/* What the processes agree on, the same for all at the same place of their way */
+void axijoint_agree_wish(int number)
+{
+   agreed = number;
 }

@@ -29,6 +29,8 @@ module axijoint_base_team
       procedure :: agree
       !> Whether something is so on all ranks
       procedure :: all_of
+      !> Let a wish of one rank that the program ends be one of all
+      procedure :: share_wish
       !> Bytes that this rank has sent and received so far
       procedure :: exchanged
       !> Teams of the ranks that name the same group
@@ -118,7 +120,7 @@ contains
       end associate
    end subroutine tell
 
-   !> Agree on an error: that of the first rank that has one
+   !> Agree on an error: that of the first rank that has one. A wish that the program ends is shared
    subroutine agree(self, error)
       !> The team
       class(team_type), intent(in) :: self
@@ -140,6 +142,15 @@ contains
       end associate
       all_of = flag
    end function all_of
+
+   !> Let a wish of one rank that the program ends be one of all
+   subroutine share_wish(self)
+      !> The team
+      class(team_type), intent(in) :: self
+
+      associate (unused => self)
+      end associate
+   end subroutine share_wish
 
    !> Bytes that this rank has sent and received so far
    integer(i8) function exchanged(self)

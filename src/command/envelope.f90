@@ -6,7 +6,7 @@ module axijoint_command_envelope
       exit_not_converged
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : show_progress, clear_progress
-   use axijoint_base_stop, only : check_stop
+   use axijoint_base_stop, only : heed_signals, check_stop
    use axijoint_base_system, only : error_output_is_terminal
    use axijoint_base_text, only : to_text, count_of
    use axijoint_base_version, only : program_version
@@ -54,6 +54,7 @@ contains
       type(undertaking_type) :: undertaking
 
       exit_code = exit_ok
+      call heed_signals(with_others=.false.)
       if (command%threads > 0) call omp_set_num_threads(command%threads)
       job%options = command%options
       call read_job(command%decks(1)%text, job, diagnostics)
@@ -76,7 +77,7 @@ contains
          call job%timer%start()
          name = job_name(command%decks(1)%text)//'.envelope'
          call begin_undertaking(command%options%directory, name, [name], &
-            'envelope '//command%decks(1)%text, .true., undertaking, notes, error)
+            'envelope '//command%decks(1)%text, undertaking, notes, error)
          if (len(notes) > 0) write (error_unit, '(a)') notes
          if (.not. allocated(error)) &
             call search_all(command, job, control, cases, directions, undertaking, found, error)

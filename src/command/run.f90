@@ -43,12 +43,8 @@ contains
       exit_code = exit_ok
       call warn_if_slow()
       if (command%threads > 0) call omp_set_num_threads(command%threads)
-      ! a signal comes to one of several processes, and the others would wait for it
-      if (.not. allocated(command%options%team)) call heed_signals()
+      call heed_signals(with_others=allocated(command%options%team))
       call check_names(command%decks, error)
-      if (.not. allocated(error) .and. command%resume .and. allocated(command%options%team)) &
-         call fatal_error(error, exit_deck, 'option --resume: several processes keep no state'// &
-         new_line('a')//'mend: run anew, or go on with one process')
       if (allocated(error)) then
          call print_error('', error)
          exit_code = error%code
@@ -115,15 +111,14 @@ contains
             call tell(notes)
          end if
       end if
-      if (allocated(job%options%team)) then
-         call agree_on_deck(job, error)
-      else if (.not. allocated(error)) then
+      if (allocated(job%options%team)) call agree_on_deck(job, error)
+      if (.not. allocated(error)) then
          call begin_state(job, command%interval, command%resume, notes, error)
          call tell(notes)
       end if
       if (.not. allocated(error)) call solve_and_write(job, command%quiet, exit_code, error)
       call clear_progress(job%progress)
-      if (allocated(job%options%team)) return
+      if (.not. speaks(command)) return
       if (.not. allocated(error)) then
          call end_state(job)
       else if (error%code == exit_stopped) then

@@ -6,7 +6,7 @@ module axijoint_command_study
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_memory, only : give_back_memory
    use axijoint_base_progress, only : show_progress, clear_progress
-   use axijoint_base_stop, only : check_stop
+   use axijoint_base_stop, only : heed_signals, check_stop
    use axijoint_base_system, only : error_output_is_terminal
    use axijoint_base_team, only : team_type
    use axijoint_base_text, only : to_text, count_of
@@ -90,12 +90,13 @@ contains
       character(len=:), allocatable :: notes
 
       exit_code = exit_ok
+      call heed_signals(with_others=allocated(command%options%team))
       call begin_study(command, study, error)
       if (.not. allocated(error)) then
          if (speaks(command)) then
             call begin_undertaking(command%options%directory, study%name, &
                claimed_names(study%name, command%part), 'study '//command%decks(1)%text, &
-               .not. allocated(command%options%team), study%undertaking, notes, error)
+               study%undertaking, notes, error)
             if (len(notes) > 0) write (error_unit, '(a)') notes
          end if
          call agree(command, error)

@@ -32,7 +32,8 @@ module axijoint_job_checkpoint
 
    !> How far a job is. By default nothing is kept
    type, extends(keeper_type) :: checkpoint_type
-      !> The file, what it is of, and the least time between two writings [second]
+      !> The file, what it is of, and the least time between two writings [second]. Without a name
+      !> nothing is kept: another process does that
       character(len=:), allocatable :: path
       type(state_mark_type) :: mark
       real(wp) :: interval = whenever_cheap
@@ -67,7 +68,9 @@ module axijoint_job_checkpoint
       procedure :: note_done
       !> Write what is pending
       procedure :: flush
-      !> Read what a file holds
+      !> What a file holds
+      procedure :: bytes
+      !> Take over what a file holds
       procedure :: take
       procedure, private :: now_and_then
    end type checkpoint_type
@@ -78,7 +81,7 @@ contains
    subroutine begin(self, path, mark, interval, n_combinations, n_increments)
       !> The state
       class(checkpoint_type), intent(inout) :: self
-      !> The file
+      !> The file; empty to keep nothing
       character(len=*), intent(in) :: path
       !> What it is of
       type(state_mark_type), intent(in) :: mark
@@ -139,6 +142,7 @@ contains
       integer(i8) :: now, rate
 
       if (.not. allocated(self%parts)) return
+      if (len(self%path) == 0) return
       call system_clock(now, rate)
       if (abs(self%interval) > 0.0_wp .and. real(now - self%noted, wp) < &
           self%noting/cheap_share*real(rate, wp)) return
@@ -200,6 +204,7 @@ contains
       integer(i8) :: now, rate
       real(wp) :: least
 
+      if (len(self%path) == 0) return
       self%pending = .true.
       least = self%interval
       if (self%interval < 0.0_wp) least = self%cost/cheap_share
@@ -212,12 +217,28 @@ contains
       !> The state
       class(checkpoint_type), intent(inout) :: self
 
-      type(writer_type) :: writer
       integer(i8) :: before, rate
-      integer :: k
 
       if (.not. self%pending) return
       call system_clock(before)
+      self%mark%place = self%place
+      call write_state_file(self%path, self%mark, self%bytes(), self%failure)
+      self%pending = .false.
+      if (.not. allocated(self%failure)) self%there = .true.
+      call system_clock(self%last, rate)
+      self%cost = real(self%last - before, wp)/real(rate, wp)
+   end subroutine flush
+
+   !> What a file holds
+   function bytes(self)
+      !> The state
+      class(checkpoint_type), intent(in) :: self
+      !> The bytes
+      character(len=:), allocatable :: bytes
+
+      type(writer_type) :: writer
+      integer :: k
+
       call writer%put(self%round)
       call writer%put(size(self%parts))
       do k = 1, size(self%parts)
@@ -226,13 +247,8 @@ contains
          call writer%put(self%parts(k)%exit_code)
          call writer%put(self%parts(k)%digest)
       end do
-      self%mark%place = self%place
-      call write_state_file(self%path, self%mark, writer%bytes(), self%failure)
-      self%pending = .false.
-      if (.not. allocated(self%failure)) self%there = .true.
-      call system_clock(self%last, rate)
-      self%cost = real(self%last - before, wp)/real(rate, wp)
-   end subroutine flush
+      bytes = writer%bytes()
+   end function bytes
 
    !> Take over what a file holds
    subroutine take(self, bytes, place, taken)

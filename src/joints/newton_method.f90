@@ -129,6 +129,7 @@ contains
       do while (course%watch%k < control%most)
          call note(course%watch, condensed, scene, control%now, self%accumulates, course%residual, &
             field, verdict)
+         call condensed%team%share_wish()
          if (stop_wished()) exit  ! nobody uses what was reached
          verdict%ran_away = verdict%ran_away .or. course%ran
          verdict%stalled = ieee_is_finite(verdict%residual%ratio) .and. .not. course%ran &

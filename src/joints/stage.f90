@@ -106,6 +106,7 @@ contains
       history%at = first_step(stage%combination)
       if (present(keeper)) call go_on_from(stage, keeper, history)
       do while (history%increment < size(stage%model%increments) .or. size(history%ahead) > 0)
+         call stage%equations%team%share_wish()
          call check_stop(history%failure)
          if (allocated(history%failure)) return
          if (size(history%ahead) == 0) call go_ahead(stage, history, progress)

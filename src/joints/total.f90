@@ -66,6 +66,7 @@ contains
       moves = self%depth == 0
       do
          call note(watch, condensed, scene, control%now, self%accumulates, residual, field, verdict)
+         call condensed%team%share_wish()
          if (stop_wished()) exit  ! nobody uses what was reached
          if (verdict%ran_away) exit
          moves = moves .and. watch%k <= watch%best_at + most_moves

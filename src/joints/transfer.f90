@@ -59,6 +59,7 @@ contains
       do
          ! step 5, Eq. 17
          call note(watch, condensed, scene, control%now, self%accumulates, residual, field, verdict)
+         call condensed%team%share_wish()
          if (stop_wished()) exit  ! nobody uses what was reached
          if (verdict%ran_away) exit
          call pass_on(self, condensed, scene, control%tolerance, field, residual, verdict, again)

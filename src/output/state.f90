@@ -24,8 +24,45 @@ module axijoint_output_state
 
 contains
 
-   !> Begin to keep the state of a job, from where an earlier run was if that is asked for
+   !> Begin to keep the state of a job, from where an earlier run was if that is asked for. Of several
+   !> processes the first keeps it, and tells the others what was there
    subroutine begin_state(job, interval, resume, notes, error)
+      !> The job, read
+      type(job_type), intent(inout) :: job
+      !> Least time between two states that are kept [second]
+      real(wp), intent(in) :: interval
+      !> Whether to go on from the state that is there
+      logical, intent(in) :: resume
+      !> What was found, a line each
+      character(len=:), allocatable, intent(out) :: notes
+      !> The state cannot be gone on from
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: bytes
+      logical :: taken
+
+      notes = ''
+      if (.not. allocated(job%options%team)) then
+         call open_state(job, interval, resume, notes, error)
+         return
+      end if
+      associate (team => job%options%team)
+         if (team%rank == 0) then
+            call open_state(job, interval, resume, notes, error)
+         else
+            call job%checkpoint%begin('', mark_of(job), interval, size(job%model%combinations), &
+               size(job%model%increments))
+         end if
+         call team%agree(error)
+         if (allocated(error)) return
+         bytes = job%checkpoint%bytes()
+         call team%tell(bytes)
+         if (team%rank > 0) call job%checkpoint%take(bytes, '', taken)
+      end associate
+   end subroutine begin_state
+
+   !> Begin to keep the state of a job in a file, from what is there if that is asked for
+   subroutine open_state(job, interval, resume, notes, error)
       !> The job, read
       type(job_type), intent(inout) :: job
       !> Least time between two states that are kept [second]
@@ -102,7 +139,7 @@ contains
          notes = notes//'axijoint: '//line
       end subroutine add
 
-   end subroutine begin_state
+   end subroutine open_state
 
    !> What a state must be of, to be gone on from
    subroutine compare_marks(mark, found, failure)
@@ -201,11 +238,13 @@ contains
       integer, intent(in) :: exit_code
 
       if (.not. allocated(job%checkpoint%parts)) return
+      if (len(job%checkpoint%path) == 0) return
       job%checkpoint%at = k
       call job%checkpoint%note_done(exit_code, digest_of(job, k))
    end subroutine note_written
 
-   !> Whether the run that is gone on with wrote the results of a combination, and they are there
+   !> Whether the run that is gone on with wrote the results of a combination, and they are there. Of
+   !> several processes the first looks
    logical function is_written(job, k)
       !> The job
       type(job_type), intent(in) :: job
@@ -213,9 +252,12 @@ contains
       integer, intent(in) :: k
 
       is_written = .false.
-      if (.not. allocated(job%checkpoint%parts)) return  ! several processes keep no state
+      if (.not. allocated(job%checkpoint%parts)) return
       is_written = job%checkpoint%parts(k)%done
-      if (is_written) is_written = job%checkpoint%parts(k)%digest == digest_of(job, k)
+      if (.not. is_written) return
+      if (len(job%checkpoint%path) > 0) &
+         is_written = job%checkpoint%parts(k)%digest == digest_of(job, k)
+      if (allocated(job%options%team)) is_written = job%options%team%all_of(is_written)
    end function is_written
 
    !> What tells the results of a combination from others: the hash of the summary, which holds the

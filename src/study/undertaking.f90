@@ -2,7 +2,7 @@
 !> and files that get that name as one
 module axijoint_study_undertaking
    use axijoint_base_error, only : error_type, exit_stopped
-   use axijoint_base_stop, only : heed_signals, heed_file
+   use axijoint_base_stop, only : heed_file
    use axijoint_base_system, only : make_directories, unlink_path
    use axijoint_output_claim, only : claim_type, claim_names, release_output
    use axijoint_output_file_names, only : journal_ending, table_ending
@@ -27,8 +27,8 @@ module axijoint_study_undertaking
 
 contains
 
-   !> Take a name, and heed signals and its STOP file from now on
-   subroutine begin_undertaking(directory, name, claimed, purpose, heeds, undertaking, notes, error)
+   !> Take a name, and heed its STOP file from now on
+   subroutine begin_undertaking(directory, name, claimed, purpose, undertaking, notes, error)
       !> Directory, made if it is not there
       character(len=*), intent(in) :: directory
       !> Name of the files without ending
@@ -38,8 +38,6 @@ contains
       character(len=*), intent(in) :: claimed(:)
       !> What it is, a line that others are told
       character(len=*), intent(in) :: purpose
-      !> Whether signals and the STOP file end it: one of several processes would leave the others
-      logical, intent(in) :: heeds
       !> What is under way
       type(undertaking_type), intent(out) :: undertaking
       !> What was found and done, a line each; may be empty
@@ -54,7 +52,6 @@ contains
       undertaking%name = name
       undertaking%stem = join_path(directory, name)
       undertaking%stop_file = join_path(directory, trim(claimed(1)))//stop_ending
-      if (heeds) call heed_signals()
       call make_directories(directory, errno)
       if (errno /= 0) then
          call io_error(error, 'make', directory, errno)
@@ -63,7 +60,7 @@ contains
       call claim_names(directory, claimed, purpose, undertaking%claim, notes, error)
       if (allocated(error)) return
       call unlink_path(undertaking%stop_file, errno)  ! of an earlier one
-      if (heeds) call heed_file(undertaking%stop_file)
+      call heed_file(undertaking%stop_file)
    end subroutine begin_undertaking
 
    !> Give the name back; an end before its time says how to go on

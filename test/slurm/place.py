@@ -3,6 +3,7 @@ import csv
 import os
 import pathlib
 import re
+import shutil
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -12,6 +13,7 @@ from same_bits import digests  # noqa: E402
 from support import read_text  # noqa: E402
 
 SCRIPTS = ROOT/'scripts/slurm'
+NO_MPI = 'AXIJOINT_MPI names no program for MPI, or there is no mpirun'
 
 
 class Place:
@@ -19,6 +21,7 @@ class Place:
 
     def __init__(self, program, cluster, folder, history):
         self.program, self.cluster, self.folder, self.history = program, cluster, folder, history
+        self.has_mpi = 'AXIJOINT_MPI' in os.environ and shutil.which('mpirun')
 
     def path(self, *names):
         """A path in the folder"""
@@ -26,7 +29,11 @@ class Place:
 
     def submit(self, script, *words, before=()):
         """Submit one of the scripts: the number of the job"""
-        return self.cluster.submit(self.folder, *before, SCRIPTS/script, *words, AXIJOINT=self.program.path)
+        variables = {'AXIJOINT': self.program.path}
+        if script == 'mpi.sh':
+            variables = {'AXIJOINT_MPI': os.environ['AXIJOINT_MPI'], 'OMPI_MCA_mpi_yield_when_idle': '1',
+                         'OMPI_ALLOW_RUN_AS_ROOT': '1', 'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1'}
+        return self.cluster.submit(self.folder, *before, SCRIPTS/script, *words, **variables)
 
     def output(self, job):
         """What a job has printed, all of its starts"""

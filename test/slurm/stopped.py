@@ -4,7 +4,7 @@ import pathlib
 import re
 import time
 
-from place import rows_of, same
+from place import NO_MPI, rows_of, same
 from support import INPUTS, expected, input_deck, write
 
 # 400 rows
@@ -38,10 +38,10 @@ class History:
         return time.time() - start
 
 
-def interrupted(place, end, before=(), again=''):
+def interrupted(place, end, before=(), again='', script='one.sh'):
     """A history that is stopped in the middle goes back to the queue and on, to the same bits"""
     write(place.folder, 'history.dat', place.history.text())
-    job = place.submit('one.sh', 'history.dat', '-o', 'out', '--checkpoint', '0.01', before=before)
+    job = place.submit(script, 'history.dat', '-o', 'out', '--checkpoint', '0.01', before=before)
     place.cluster.wait_for(lambda: increment_of(place) >= 3, 'an increment')
     end(place, job)
     place.cluster.wait_for(lambda: 'stopped by' in place.output(job), 'the stop')
@@ -69,6 +69,14 @@ def warned(place):
     """The signal of --signal=B:USR1, as Slurm sends it before the time is over"""
     return interrupted(place, lambda place, job: place.cluster.command('scancel', '--signal=USR1', '--batch', job),
                        again='The job goes back to the queue')
+
+
+def mpi_warned(place):
+    """The same in two processes by MPI"""
+    if not place.has_mpi:
+        return NO_MPI
+    return interrupted(place, lambda place, job: place.cluster.command('scancel', '--signal=USR1', '--batch', job),
+                       again='The job goes back to the queue', script='mpi.sh')
 
 
 def pre_empted(place):
@@ -124,4 +132,4 @@ def lines_of(path):
     return pathlib.Path(path).read_text(encoding='utf-8').count('\n') if os.path.exists(path) else 0
 
 
-CHECKS = (warned, pre_empted, out_of_time, cancelled, study_warned)
+CHECKS = (warned, mpi_warned, pre_empted, out_of_time, cancelled, study_warned)
