@@ -11,8 +11,10 @@
 
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
 
-/* Least block that is worth the call */
+/* Least block that is worth the call, and the least that is worth a look at the heap: smaller ones are many, and what
+   they made it grow by is seen with the next */
 #define WORTH_ASKING ((size_t)1 << 20)
+#define WORTH_A_LOOK ((size_t)1 << 10)
 /* Least heap: in a small one the pages that are large by chance would take more memory than a job is told to need */
 #define LARGE_HEAP ((uintptr_t)64 << 20)
 #define PAGE ((uintptr_t)4096)
@@ -31,6 +33,7 @@ static void ask(uintptr_t from, uintptr_t to)
 void axijoint_ask_large_pages(const void *block, size_t bytes)
 {
    static uintptr_t heap, seen;
+   if (bytes < WORTH_A_LOOK) return;
    const uintptr_t from = (uintptr_t)block, end = (uintptr_t)sbrk(0);
    uintptr_t begin = __atomic_load_n(&heap, __ATOMIC_RELAXED);
    const int grown = __atomic_exchange_n(&seen, end, __ATOMIC_RELAXED) != end;

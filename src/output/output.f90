@@ -14,7 +14,6 @@ module axijoint_output_output
    use axijoint_deck_text_source, only : source_type, card_file
    use axijoint_job_combination, only : combination_label
    use axijoint_job_job, only : job_type, result_name
-   use axijoint_model_mesh, only : n_nodes
    use axijoint_model_model, only : model_type
    use axijoint_output_file_echo, only : deck_path
    use axijoint_output_file_hdf5, only : hdf5_file_type
@@ -39,9 +38,6 @@ module axijoint_output_output
    implicit none
    private
    public :: check_output, write_output, write_error_summary
-
-   !> Results of smaller meshes are written faster than a thread wakes up
-   integer, parameter :: least_nodes = 5000
 
 contains
 
@@ -247,13 +243,14 @@ contains
                results, old_listing, error)
       end subroutine begin_arrays
 
-      !> Arrays and listing, at once where there is a thread for each; the listing ends with the times of both
+      !> Arrays and listing, at once where there is a thread for each – other processes of the machine that work on the
+      !> job wait meanwhile; the listing ends with the times of both
       subroutine write_arrays_and_listing()
          type(error_type), allocatable :: unfinished
          type(picture_type), allocatable :: pictures(:)
 
          pictures = pictures_of(name, bodies, surfaces)
-         !$omp parallel sections num_threads(n_writers(job%model, team))
+         !$omp parallel sections num_threads(min(2, max(omp_get_max_threads(), team%sharers)))
          !$omp section
          call write_results(arrays, run, job%source, messages, job%model, results)
          call arrays%finish(unfinished)
@@ -266,17 +263,6 @@ contains
       end subroutine write_arrays_and_listing
 
    end subroutine write_files
-
-   !> Threads that write: arrays and listing at once. Other processes of the machine wait meanwhile
-   integer function n_writers(model, team)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The processes
-      class(team_type), intent(in) :: team
-
-      n_writers = 1
-      if (n_nodes(model%mesh) >= least_nodes) n_writers = min(2, max(omp_get_max_threads(), team%sharers))
-   end function n_writers
 
    !> Sizes of the files of swept bodies and joints
    function pictures_of(name, bodies, surfaces) result(pictures)
