@@ -4,7 +4,7 @@ module axijoint_mpi_team
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_base_stop, only : heed_signals, own_wish, agree_wish
+   use axijoint_base_stop, only : own_wish, agree_wish
    use axijoint_base_team, only : team_type
    use mpi_f08
    implicit none
@@ -57,7 +57,6 @@ contains
 
       integer :: provided
 
-      call heed_signals(with_others=.true.)  ! one that comes while processes find each other is not lost
       call MPI_Init_thread(MPI_THREAD_FUNNELED, provided)
       call new_team(MPI_COMM_WORLD, team)
       allocate (team%bytes, source=0_i8)

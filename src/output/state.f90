@@ -38,61 +38,65 @@ contains
       !> The state cannot be gone on from
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: bytes
+      type(state_mark_type) :: mark
+      character(len=:), allocatable :: path, bytes
       logical :: taken
 
       notes = ''
-      if (.not. allocated(job%options%team)) then
-         call open_state(job, interval, resume, notes, error)
-         return
-      end if
+      mark = mark_of(job)
+      path = join_path(job%options%directory, job_name(job%deck)//state_ending)
+      if (is_another(job)) path = ''
+      call job%checkpoint%begin(path, mark, interval, size(job%model%combinations), &
+         size(job%model%increments))
+      if (.not. is_another(job)) call look_for_state(job, mark, resume, notes, error)
+      if (.not. allocated(job%options%team)) return
       associate (team => job%options%team)
-         if (team%rank == 0) then
-            call open_state(job, interval, resume, notes, error)
-         else
-            call job%checkpoint%begin('', mark_of(job), interval, size(job%model%combinations), &
-               size(job%model%increments))
-         end if
          call team%agree(error)
          if (allocated(error)) return
          bytes = job%checkpoint%bytes()
          call team%tell(bytes)
-         if (team%rank > 0) call job%checkpoint%take(bytes, '', taken)
+         if (is_another(job)) call job%checkpoint%take(bytes, '', taken)
       end associate
    end subroutine begin_state
 
-   !> Begin to keep the state of a job in a file, from what is there if that is asked for
-   subroutine open_state(job, interval, resume, notes, error)
-      !> The job, read
+   !> Whether another process keeps the state
+   pure logical function is_another(job)
+      !> The job
+      type(job_type), intent(in) :: job
+
+      is_another = .false.
+      if (allocated(job%options%team)) is_another = job%options%team%rank > 0
+   end function is_another
+
+   !> Heed the file that asks the run to end, and look for what an earlier run left
+   subroutine look_for_state(job, mark, resume, notes, error)
+      !> The job, whose state is begun
       type(job_type), intent(inout) :: job
-      !> Least time between two states that are kept [second]
-      real(wp), intent(in) :: interval
+      !> What its state is of
+      type(state_mark_type), intent(in) :: mark
       !> Whether to go on from the state that is there
       logical, intent(in) :: resume
-      !> What was found, a line each
-      character(len=:), allocatable, intent(out) :: notes
+      !> What was found, a line each, is added
+      character(len=:), allocatable, intent(inout) :: notes
       !> The state cannot be gone on from
       type(error_type), allocatable, intent(out) :: error
 
-      type(state_mark_type) :: mark, found
-      character(len=:), allocatable :: path, body, failure, stop_file
+      type(state_mark_type) :: found
+      character(len=:), allocatable :: body, failure, stop_file
       integer :: errno
       logical :: there
 
-      notes = ''
-      path = join_path(job%options%directory, job_name(job%deck)//state_ending)
-      stop_file = join_path(job%options%directory, job_name(job%deck)//stop_ending)
-      if (path_kind(stop_file) /= path_absent) then
-         call unlink_path(stop_file, errno)
-         call add('a STOP file from before this run was removed: '//stop_file)
-      end if
-      call heed_file(stop_file)
-      mark = mark_of(job)
-      call job%checkpoint%begin(path, mark, interval, size(job%model%combinations), &
-         size(job%model%increments))
-      call read_state_file(path, found, body, there, failure)
-      if (resume .and. .not. there) call add('there is no state '//path// &
-         ' to go on from: the run begins anew')
+      associate (path => job%checkpoint%path)
+         stop_file = join_path(job%options%directory, job_name(job%deck)//stop_ending)
+         if (path_kind(stop_file) /= path_absent) then
+            call unlink_path(stop_file, errno)
+            call add('a STOP file from before this run was removed: '//stop_file)
+         end if
+         call heed_file(stop_file)
+         call read_state_file(path, found, body, there, failure)
+         if (resume .and. .not. there) call add('there is no state '//path// &
+            ' to go on from: the run begins anew')
+      end associate
       if (.not. there) return
       if (resume) then
          call go_on()
@@ -112,11 +116,11 @@ contains
             if (.not. taken) failure = 'is of another job'
          end if
          if (allocated(failure)) then
-            call fatal_error(error, exit_state, 'the state '//path//' '//failure//new_line('a')// &
+            call fatal_error(error, exit_state, 'the state '//job%checkpoint%path//' '//failure//new_line('a')// &
                'mend: run without --resume, which begins anew')
             return
          end if
-         call add('goes on from '//path//', '//found%place//' of '//found%date)
+         call add('goes on from '//job%checkpoint%path//', '//found%place//' of '//found%date)
       end subroutine go_on
 
       !> Keep the state under another name: somebody may have forgotten to go on from it
@@ -125,9 +129,9 @@ contains
 
          what = ''
          if (.not. allocated(failure)) what = ' ('//found%place//', '//found%date//')'
-         call rename_path(path, path//put_aside, errno)
+         call rename_path(job%checkpoint%path, job%checkpoint%path//put_aside, errno)
          if (errno == 0) call add('a run that was not ended left its state'//what//', now '// &
-            path//put_aside//'; --resume would have gone on from it, this run begins anew')
+            job%checkpoint%path//put_aside//'; --resume would have gone on from it, this run begins anew')
       end subroutine put_state_aside
 
       !> Add a line to the notes
@@ -139,7 +143,7 @@ contains
          notes = notes//'axijoint: '//line
       end subroutine add
 
-   end subroutine open_state
+   end subroutine look_for_state
 
    !> What a state must be of, to be gone on from
    subroutine compare_marks(mark, found, failure)
