@@ -102,7 +102,7 @@ contains
       results%orderings = structure%orderings
       results%left_out = what_was_left_out(model, structure)
       results%solver = structure%equations%solver
-      results%singular = structure%singular
+      if (allocated(structure%singular)) results%singular = structure%singular
       results%in_situ = in_situ_balance(model, combination)
       call timer%push(phase_joints)
       if (bodies_yield(model)) then

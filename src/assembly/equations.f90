@@ -61,6 +61,12 @@ module axijoint_assembly_equations
       class(solver_type), allocatable :: solver
    end type plan_slot_type
 
+   !> How the analysis of a class ended
+   type :: outcome_type
+      !> What went wrong, if anything did
+      type(error_type), allocatable :: error
+   end type outcome_type
+
    !> Equations of the modes in use
    type :: equations_type
       !> Modes, ascending
@@ -170,7 +176,8 @@ contains
          may_be_fastest = bandwidth(orders%graph, solver%order(orders)) <= solver%widest_band
    end function may_be_fastest
 
-   !> Number the unknowns of all classes, and analyse the patterns of those that this rank solves for a solver
+   !> Number the unknowns of all classes, and analyse the patterns of those that this rank solves for a solver;
+   !> threads that have nothing else to do take some
    subroutine plan_solver(equations, model, modes, orders, solver, error, all_classes)
       !> The equations, planned
       type(equations_type), allocatable, intent(out) :: equations
@@ -188,6 +195,7 @@ contains
       !> false if absent
       logical, intent(in), optional :: all_classes
 
+      type(outcome_type), allocatable :: outcomes(:)
       logical, allocatable :: analysed(:)
       integer, allocatable :: order(:)
       integer :: k, n_classes
@@ -208,12 +216,18 @@ contains
       call share_systems(equations)
       analysed = [(any(equations%systems(equations%first:equations%last)%class == k), k=1, n_classes)]
       if (present(all_classes)) analysed = analysed .or. all_classes
+      allocate (outcomes(n_classes))
       do k = 1, n_classes
          if (.not. analysed(k)) cycle
+         !$omp task default(shared) firstprivate(k)
          call find_sparsity(equations%classes(k), orders%graph, order)
          call solver%new_plan(equations%plans(k)%solver)
-         call equations%plans(k)%solver%analyse(equations%classes(k)%pattern, error)
-         if (allocated(error)) return
+         call equations%plans(k)%solver%analyse(equations%classes(k)%pattern, outcomes(k)%error)
+         !$omp end task
+      end do
+      !$omp taskwait
+      do k = 1, n_classes
+         if (allocated(outcomes(k)%error) .and. .not. allocated(error)) call move_alloc(outcomes(k)%error, error)
       end do
    end subroutine plan_solver
 

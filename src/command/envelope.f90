@@ -210,7 +210,7 @@ contains
       if (n_before > 0 .and. .not. command%quiet) write (error_unit, '(a)') 'axijoint: '// &
          count_of(n_before, 'direction')//' of '//to_text(size(rows))//' were found before'
       allocate (job%structure)
-      call build_structure(job%model, job%structure, job%timer, job%progress, error)
+      call build_structure(job%model, job%structure, job%timer, job%progress, error, estimated=.false.)
       if (allocated(error)) return
       allocate (found(size(rows)))
       do k = 1, size(rows)

@@ -91,7 +91,7 @@ module axijoint_model_request
    character(len=5), parameter :: rows_names(4) = &
       [character(len=5) :: 'ALL', 'EVERY', 'UPTO', 'NONE']
    !> Rows of a table that is listed whole unless the deck says otherwise
-   integer, parameter :: usual_rows = 10000
+   integer, parameter :: usual_rows = 1000
 
    !> Rows of a table of the listing that are wanted
    type :: print_type

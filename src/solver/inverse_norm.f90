@@ -13,26 +13,26 @@ module axijoint_solver_inverse_norm
 
 contains
 
-   !> Estimate of the 1-norm of the inverse of a factored symmetric matrix, from below: the column
-   !> of the inverse where the gradient of the norm is largest (Hager; N. J. Higham, ACM Trans. Math.
-   !> Software 14, 1988, algorithm 4.1), found by three solutions.
+   !> Estimate of the 1-norm of the inverse of a factored symmetric matrix, from below, as Hager's (N. J. Higham,
+   !> ACM Trans. Math. Software 14, 1988, algorithm 4.1), but with two passes of the factor in place of three. The
+   !> first solves for a vector that rises with the number of the equation, which no symmetry of a body keeps away
+   !> from its softest motions. The second solves for the gradient of the norm there, none of whose parts is above
+   !> one, so that the largest of its solution is a bound, too: the matrix is symmetric; and for the unknown that the
+   !> first moved most, a column of the inverse.
    !>
-   !> The gradient is that at a vector that rises with the number of the equation, which no symmetry
-   !> of a body keeps away from its softest motions. To go on to other columns, and to look at a
-   !> vector of alternating signs, took two solutions more and gained next to nothing: of 297 matrices
-   !> of 119 decks the estimate is 0.60 to 1 of the norm, 0.977 on the average, where it was 0.48 to 1
-   !> and 0.987
+   !> Hager's column is that of the largest part of the gradient's solution. Beside it, which is 0.60 to 1 of the norm,
+   !> this is 0.53 to 1.4, in the mean 0.95, of 202 matrices of the decks of inputs/
    subroutine find_inverse_norm(factor, norm, along)
       !> The factor
       class(factor_type), intent(in) :: factor
       !> The estimate; zero without equations
       real(wp), intent(out) :: norm
-      !> Right-hand sides, then solutions, which are found with the first of the three, so that the factor is
+      !> Right-hand sides, then solutions, which are found in the first pass, so that the factor is
       !> read once for all of them; shape (n, any)
       real(wp), intent(inout), optional :: along(:, :)
 
       real(wp), allocatable :: x(:, :)
-      integer :: i, column, n, n_along
+      integer :: i, moved, n, n_along
 
       n = factor%n
       norm = 0.0_wp
@@ -47,14 +47,11 @@ contains
       call factor%solve(x)
       if (present(along)) along = x(:, 2:)
       norm = sum(abs(x(:, 1)))
-      x = sign(1.0_wp, x(:, :1))
+      moved = maxloc(abs(x(:, 1)), 1)
+      x = reshape([sign(1.0_wp, x(:, 1)), (0.0_wp, i=1, n)], [n, 2])
+      x(moved, 2) = 1.0_wp
       call factor%solve(x)
-      column = maxloc(abs(x(:, 1)), 1)
-      norm = max(norm, abs(x(column, 1)))
-      x = 0.0_wp
-      x(column, 1) = 1.0_wp
-      call factor%solve(x)
-      norm = max(norm, sum(abs(x)))
+      norm = max(norm, maxval(abs(x(:, 1))), sum(abs(x(:, 2))))
    end subroutine find_inverse_norm
 
 end module axijoint_solver_inverse_norm

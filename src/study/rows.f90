@@ -241,7 +241,7 @@ contains
          deallocate (rows%structure, rows%built_for)
       end if
       allocate (rows%structure)
-      call build_structure(model, rows%structure, rows%timer, rows%progress, error)
+      call build_structure(model, rows%structure, rows%timer, rows%progress, error, rows%estimated)
       if (allocated(error)) then
          deallocate (rows%structure)
          return

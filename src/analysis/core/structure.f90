@@ -3,14 +3,15 @@ module axijoint_analysis_core_structure
    use axijoint_analysis_core_cut_motion, only : cut_sections
    use axijoint_analysis_core_footprint, only : footprint_type, data_footprint
    use axijoint_analysis_core_results, only : ordering_type
-   use axijoint_analysis_fine_level, only : fine_level_type, new_fine_level, take_conditions, &
-      take_fine_model
+   use axijoint_analysis_fine_level, only : fine_level_type, lay_out_level, form_stiffness, &
+      take_conditions, take_fine_model
    use axijoint_analysis_fine_singular_places, only : singular_place_type, find_singular_places, &
       judged_points
    use axijoint_assembly_equations, only : equations_type, plan_equations, assemble_equations
    use axijoint_assembly_factors, only : plan_factors, factorize_equations, report_failure
    use axijoint_assembly_mechanism, only : check_mechanism
    use axijoint_assembly_pattern, only : node_graph
+   use axijoint_assembly_stiffness, only : least_elements
    use axijoint_assembly_support, only : support_point_type, new_support_points
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp, i8
@@ -27,11 +28,11 @@ module axijoint_analysis_core_structure
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points
    use axijoint_model_model, only : model_type, can_yield, can_yield_at, bodies_yield
    use axijoint_model_modes, only : used_modes
-   use axijoint_model_mesh, only : n_nodes
+   use axijoint_model_mesh, only : n_nodes, n_elements
    use axijoint_model_request, only : line_type, print_orders, rows_expected
    use axijoint_order_graph, only : graph_type, bandwidth, profile, fill
    use axijoint_order_orders, only : orders_type, order_by_profile, dissect, least_profile
-   use omp_lib, only : omp_get_max_threads
+   use omp_lib, only : omp_get_max_threads, omp_get_wtime
    implicit none
    private
    public :: structure_type, build_structure, build_equations, plan_structure, take_loads_of, reuses_factors
@@ -73,7 +74,7 @@ contains
 
    !> Assemble and factor the equations of all modes. Ranks of a team wait for each other if factors are kept; otherwise
    !> an error of one is told to the others where they agree next
-   subroutine build_structure(model, structure, timer, progress, error)
+   subroutine build_structure(model, structure, timer, progress, error, estimated)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure
@@ -84,11 +85,17 @@ contains
       type(progress_type), intent(inout) :: progress
       !> Singular stiffness, or out of memory
       type(error_type), allocatable, intent(out) :: error
+      !> Whether errors will be estimated, which takes the fine level; true if absent
+      logical, intent(in), optional :: estimated
 
-      integer :: k
+      logical :: estimates
 
+      estimates = .true.
+      if (present(estimated)) estimates = estimated
       call timer%push(phase_assemble)
-      call assemble(model, structure, progress, error)
+      call plan_levels(model, estimates, structure, progress, error)
+      if (.not. allocated(error)) call assemble_equations(structure%equations, model, structure%joint_points, &
+         structure%support_points)
       call timer%pop()
       if (allocated(model%team) .and. (allocated(error) .or. reuses_factors(model))) call model%team%agree(error)
       if (allocated(error)) return
@@ -103,27 +110,70 @@ contains
          if (allocated(error)) return
       end if
       call timer%push(phase_assemble)
-      associate (team => structure%equations%team)
-         if (team%size > 1 .and. team%sharers == team%size .and. .not. reuses_factors(model)) then
-            ! telling it takes less than forming it where memory is shared
-            call new_fine_level(model, team, structure%fine, formed_by=structure%equations%least_busy)
-         else
-            call new_fine_level(model, team, structure%fine)
-         end if
-      end associate
-      call take_conditions(structure%equations, structure%fine)
+      if (estimates) call form_fine_level(model, structure)
       structure%sections = cut_sections(model%mesh, model%cuts)
-      structure%singular = find_singular_places(model, structure%fine%mesh)
-      associate (points => structure%joint_points)
-         structure%judged = judged_points(model%mesh, structure%singular, &
-                                          reshape([(points(k)%position, k=1, size(points))], &
-                                          [2, size(points)]))
-      end associate
       call timer%pop()
       call timer%push(phase_joints)
       call condense(model, structure, progress, error)
       call timer%pop()
    end subroutine build_structure
+
+   !> Plan the equations, and lay out what estimates of errors need: neither waits for the other
+   subroutine plan_levels(model, estimates, structure, progress, error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Whether errors will be estimated
+      logical, intent(in) :: estimates
+      !> The structure
+      type(structure_type), intent(inout) :: structure
+      !> Where to show progress
+      type(progress_type), intent(inout) :: progress
+      !> A mechanism, or out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp) :: start
+      integer :: n_threads
+
+      n_threads = merge(min(2, omp_get_max_threads()), 1, n_elements(model%mesh) > least_elements)
+      !$omp parallel num_threads(n_threads)
+      !$omp master
+      if (estimates) then
+         !$omp task default(shared) private(start)
+         start = omp_get_wtime()
+         call lay_out_level(model, structure%fine)
+         structure%singular = find_singular_places(model, structure%fine%mesh)
+         structure%fine%seconds = (omp_get_wtime() - start)/n_threads
+         !$omp end task
+      end if
+      call plan_structure(model, structure, progress, error)
+      !$omp end master
+      !$omp end parallel
+   end subroutine plan_levels
+
+   !> Integrate the fine level, and find which joint points are judged
+   subroutine form_fine_level(model, structure)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, planned
+      type(structure_type), intent(inout) :: structure
+
+      real(wp) :: start
+      integer :: k
+
+      start = omp_get_wtime()
+      associate (team => structure%equations%team, points => structure%joint_points)
+         if (team%size > 1 .and. team%sharers == team%size .and. .not. reuses_factors(model)) then
+            ! telling it takes less than forming it where memory is shared
+            call form_stiffness(team, structure%fine, formed_by=structure%equations%least_busy)
+         else
+            call form_stiffness(team, structure%fine)
+         end if
+         call take_conditions(structure%equations, structure%fine)
+         structure%judged = judged_points(model%mesh, structure%singular, &
+            reshape([(points(k)%position, k=1, size(points))], [2, size(points)]))
+      end associate
+      structure%fine%seconds = structure%fine%seconds + omp_get_wtime() - start
+   end subroutine form_fine_level
 
    !> Assemble, factor and condense the equations of all modes and no more: no estimate of errors can
    !> be made of it

@@ -146,7 +146,7 @@ contains
          end associate
       end do
       call timer%start()
-      call build_structure(stiffer, structure, timer, progress, error)
+      call build_structure(stiffer, structure, timer, progress, error, estimated=.false.)
       if (allocated(error)) return
       if (size(structure%yielding) > 0) then
          call run_increments(stiffer, structure%equations, structure%condensed, &

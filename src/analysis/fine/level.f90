@@ -1,6 +1,5 @@
 !> The job on the fine mesh, as far as estimates of errors need it: stiffness and blocks, no factor
 module axijoint_analysis_fine_level
-   use omp_lib, only : omp_get_wtime
    use axijoint_analysis_fine_conditions, only : conditions_type, new_conditions
    use axijoint_analysis_fine_mesh, only : fine_mesh_type, parents_type, new_fine_mesh, ordered
    use axijoint_analysis_fine_model, only : new_fine_model
@@ -23,7 +22,7 @@ module axijoint_analysis_fine_level
    use axijoint_order_graph, only : graph_type
    implicit none
    private
-   public :: fine_level_type, fine_load_type, new_fine_level, take_conditions, take_fine_model, new_fine_load
+   public :: fine_level_type, fine_load_type, lay_out_level, form_stiffness, take_conditions, take_fine_model, new_fine_load
    public :: share_stiffness
 
    !> The fine level
@@ -48,7 +47,7 @@ module axijoint_analysis_fine_level
       type(conditions_type), allocatable :: conditions(:)
       !> Blocks of nodes
       type(smoother_type) :: smoother
-      !> Time that all this took [second]
+      !> Time that all this took, over the threads that worked at once [second]
       real(wp) :: seconds = 0.0_wp
    end type fine_level_type
 
@@ -62,22 +61,16 @@ module axijoint_analysis_fine_level
 
 contains
 
-   !> Cut the mesh of a job and integrate its stiffness, unless another rank does
-   subroutine new_fine_level(model, team, level, formed_by)
+   !> Cut the mesh of a job, and find the pattern of its stiffness and the blocks; nothing is integrated yet
+   subroutine lay_out_level(model, level)
       !> The job
       type(model_type), intent(in) :: model
-      !> Ranks that work on it
-      class(team_type), intent(in) :: team
       !> The fine level; what is free in the classes of modes is for `take_conditions`
       type(fine_level_type), intent(out) :: level
-      !> The rank that forms the stiffness, for `share_stiffness` to tell the others; each for itself if absent
-      integer, intent(in), optional :: formed_by
 
       type(graph_type) :: graph
       integer, allocatable :: block(:), order(:)
-      real(wp) :: start
 
-      start = omp_get_wtime()
       call new_fine_mesh(model%mesh, level%mesh)
       call new_fine_model(model, level%mesh, level%model)
       level%joint_points = new_joint_points(level%model)
@@ -89,11 +82,21 @@ contains
       call new_node_blocks(level%stiffness, graph, order)
       level%parents = ordered(level%mesh%parents, order)
       call new_smoother(level%smoother, level%stiffness, block, order)
+   end subroutine lay_out_level
+
+   !> Integrate the stiffness, unless another rank does
+   subroutine form_stiffness(team, level, formed_by)
+      !> Ranks that work on the job
+      class(team_type), intent(in) :: team
+      !> The fine level
+      type(fine_level_type), intent(inout) :: level
+      !> The rank that forms the stiffness, for `share_stiffness` to tell the others; each for itself if absent
+      integer, intent(in), optional :: formed_by
+
       if (present(formed_by)) level%formed_by = formed_by
       if (.not. is_told(level, team)) &
          call assemble_blocks(level%stiffness, level%model, level%joint_points, level%support_points)
-      level%seconds = omp_get_wtime() - start
-   end subroutine new_fine_level
+   end subroutine form_stiffness
 
    !> Whether this rank will be told the stiffness
    pure logical function is_told(level, team)

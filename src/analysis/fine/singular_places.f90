@@ -63,6 +63,21 @@ module axijoint_analysis_fine_singular_places
       real(wp), allocatable :: stiffness(:), length(:)
    end type joint_places_type
 
+   !> Wedges at all nodes. Along a boundary of two materials one is like the next
+   type :: wedges_type
+      !> Wedges that differ from those before, and how many there are
+      type(wedge_type), allocatable :: different(:)
+      integer :: n = 0
+      !> Nodes at tips, with the places of their wedges, shape (2, any), and how many there are
+      integer, allocatable :: tip(:, :)
+      integer :: n_tips = 0
+   end type wedges_type
+
+   !> A wedge is compared with so many of those before
+   integer, parameter :: looked_back = 8
+   !> Angles that differ by no more are those of one wedge [radian]
+   real(wp), parameter :: rounding = 1.0e-10_wp
+
 contains
 
    !> Find the places
@@ -76,17 +91,29 @@ contains
 
       type(corners_type) :: corners
       type(joint_places_type) :: joints
+      type(wedges_type) :: wedges
+      real(wp), allocatable :: exponents(:)
       real(wp) :: exponent(n_nodes(model%mesh)), distance
-      integer :: node
+      integer :: node, k
 
-      allocate (places(0))
+      allocate (places(0), wedges%different(looked_back), wedges%tip(2, looked_back))
       call look_at_joints(model, joints)
       corners = corners_of(model, fine, joints)
-      !$omp parallel do schedule(dynamic, 64)
       do node = 1, n_nodes(model%mesh)
-         exponent(node) = exponent_at(model, fine, corners, joints, node)
+         call find_wedges(model, fine, corners, joints, node, wedges)
+      end do
+      allocate (exponents(wedges%n))
+      !$omp parallel do schedule(dynamic)
+      do k = 1, wedges%n
+         exponents(k) = wedge_exponent(wedges%different(k)) - 1.0_wp
       end do
       !$omp end parallel do
+      exponent = 0.0_wp
+      do k = 1, wedges%n_tips
+         associate (least => exponent(wedges%tip(1, k)))
+            least = min(least, exponents(wedges%tip(2, k)))
+         end associate
+      end do
       do node = 1, n_nodes(model%mesh)
          if (.not. exponent(node) < slow) cycle
          distance = merge(reach*joints%length(node), 0.0_wp, hold_together(joints, node))
@@ -94,8 +121,8 @@ contains
       end do
    end function find_singular_places
 
-   !> The least exponent at a node
-   function exponent_at(model, fine, corners, joints, node) result(exponent)
+   !> Find the wedges at a node; none on the axis, or if another node tells of the place
+   subroutine find_wedges(model, fine, corners, joints, node, wedges)
       !> The job
       type(model_type), intent(in) :: model
       !> Edges of its mesh
@@ -106,25 +133,24 @@ contains
       type(joint_places_type), intent(in) :: joints
       !> The node
       integer, intent(in) :: node
-      !> Zero if stresses are finite, on the axis, or if another node tells of the place
-      real(wp) :: exponent
+      !> Takes the wedges
+      type(wedges_type), intent(inout) :: wedges
 
       type(sector_type), allocatable :: sectors(:)
 
-      exponent = 0.0_wp
       if (.not. model%mesh%coordinates(1, node) > 0.0_wp) return
       if (.not. hold_together(joints, node)) then
-         exponent = exponent_of(model, fine, &
-            corners%sectors(corners%start(node):corners%start(node + 1) - 1), open=.true.)
+         call divide(model, fine, corners%sectors(corners%start(node):corners%start(node + 1) - 1), node, &
+            open=.true., wedges=wedges)
       ! others are told with the first node of the place
       else if (joints%together(node) == node) then
          sectors = sectors_at(corners, joints%together, node)
-         exponent = exponent_of(model, fine, sectors, open=.false.)
+         call divide(model, fine, sectors, node, open=.false., wedges=wedges)
          ! where other joints hold, they have an edge where one opens
          if (any(joints%holds .and. joints%together == node)) &
-            exponent = min(exponent, exponent_of(model, fine, sectors, open=.true.))
+            call divide(model, fine, sectors, node, open=.true., wedges=wedges)
       end if
-   end function exponent_at
+   end subroutine find_wedges
 
    !> Whether joints hold the bodies together at a node, as seen from a little farther away
    elemental logical function hold_together(joints, node)
@@ -339,23 +365,25 @@ contains
       end do
    end function least_modulus
 
-   !> The exponent at a node, of the wedges that its sectors form
-   function exponent_of(model, fine, sectors, open) result(exponent)
+   !> Divide the sectors at a node into wedges; none where a material is not isotropic
+   subroutine divide(model, fine, sectors, node, open, wedges)
       !> The job
       type(model_type), intent(in) :: model
       !> Edges of its mesh
       type(fine_mesh_type), intent(in) :: fine
       !> The sectors
       type(sector_type), intent(in) :: sectors(:)
+      !> The node
+      integer, intent(in) :: node
       !> Whether joints that can open are open
       logical, intent(in) :: open
-      !> The least exponent; zero if stresses are finite, or the material is not isotropic
-      real(wp) :: exponent
+      !> Takes those that could make stresses infinite
+      type(wedges_type), intent(inout) :: wedges
 
       type(sector_type), allocatable :: sorted(:)
+      type(wedge_type) :: wedge
       integer :: first, last, n
 
-      exponent = 0.0_wp
       if (any(model%materials(model%mesh%element_material(sectors%element))%orthotropic)) return
       n = size(sectors)
       sorted = sectors
@@ -380,10 +408,56 @@ contains
             if (.not. follows(sorted(last), sorted(last + 1))) exit
             last = last + 1
          end do
-         exponent = min(exponent, wedge_of(model, fine, sorted(first:last)))
+         wedge = wedge_of(model, fine, sorted(first:last))
+         if (.not. is_smooth(wedge)) call take_wedge(wedge, node, wedges)
          first = last + 1
       end do
-   end function exponent_of
+   end subroutine divide
+
+   !> Take the wedge of a node
+   subroutine take_wedge(wedge, node, wedges)
+      !> The wedge
+      type(wedge_type), intent(in) :: wedge
+      !> The node
+      integer, intent(in) :: node
+      !> Takes both
+      type(wedges_type), intent(inout) :: wedges
+
+      type(wedge_type), allocatable :: more(:)
+      integer, allocatable :: tip(:, :)
+      integer :: k
+
+      do k = wedges%n, max(1, wedges%n - looked_back + 1), -1
+         if (are_alike(wedge, wedges%different(k))) exit
+      end do
+      if (k < max(1, wedges%n - looked_back + 1)) then
+         if (wedges%n == size(wedges%different)) then
+            allocate (more(2*wedges%n))
+            more(:wedges%n) = wedges%different
+            call move_alloc(more, wedges%different)
+         end if
+         wedges%n = wedges%n + 1
+         k = wedges%n
+         wedges%different(k) = wedge
+      end if
+      if (wedges%n_tips == size(wedges%tip, 2)) then
+         allocate (tip(2, 2*wedges%n_tips))
+         tip(:, :wedges%n_tips) = wedges%tip
+         call move_alloc(tip, wedges%tip)
+      end if
+      wedges%n_tips = wedges%n_tips + 1
+      wedges%tip(:, wedges%n_tips) = [node, k]
+   end subroutine take_wedge
+
+   !> Whether two wedges have the same exponents
+   pure logical function are_alike(a, b)
+      !> The wedges
+      type(wedge_type), intent(in) :: a, b
+
+      are_alike = size(a%young) == size(b%young) .and. (a%closed .eqv. b%closed) .and. all(a%held .eqv. b%held)
+      if (are_alike) are_alike = all(abs(a%young - b%young) <= 0.0_wp) .and. &
+         all(abs(a%poisson - b%poisson) <= 0.0_wp) .and. all(abs(a%ray - b%ray) <= rounding)
+   end function are_alike
 
    !> Place of a sector before which there is a gap; 1 if there is none
    pure integer function start_of(sectors) result(place)
@@ -405,21 +479,19 @@ contains
          .and. .not. (before%opens(2) .or. after%opens(1))
    end function follows
 
-   !> Exponent of one wedge
-   function wedge_of(model, fine, sectors) result(exponent)
+   !> The wedge of some sectors
+   function wedge_of(model, fine, sectors) result(wedge)
       !> The job
       type(model_type), intent(in) :: model
       !> Edges of its mesh
       type(fine_mesh_type), intent(in) :: fine
       !> Its sectors, one after the other
       type(sector_type), intent(in) :: sectors(:)
-      !> The exponent
-      real(wp) :: exponent
-
+      !> The wedge
       type(wedge_type) :: wedge
+
       integer :: k, n, now, before
 
-      exponent = 0.0_wp
       n = size(sectors)
       allocate (wedge%ray(1), wedge%young(0), wedge%poisson(0))
       wedge%ray = sectors(1)%from
@@ -440,8 +512,6 @@ contains
          wedge%held(:, 1) = held_along(sectors(1)%node, sectors(1)%ends(1))
          wedge%held(:, 2) = held_along(sectors(n)%node, sectors(n)%ends(2))
       end if
-      if (is_smooth(wedge)) return
-      exponent = wedge_exponent(wedge) - 1.0_wp
 
    contains
 

@@ -29,7 +29,7 @@ contains
 
       section%name = keyword_print
       section%purpose = 'how much of long tables the listing shows; without the section tables '// &
-         'of up to 10000 rows'
+         'of up to 1000 rows'
       section%stage = stage_requests
       section%read => read_print
       section%fields = &
