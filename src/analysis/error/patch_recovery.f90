@@ -2,7 +2,7 @@
 !> (Zienkiewicz and Zhu, Int. J. Numer. Meth. Eng. 33, 1992), a patch for each element
 !> (Wiberg and Li, Comm. Numer. Meth. Eng. 10, 1994)
 module axijoint_analysis_error_patch_recovery
-   use axijoint_analysis_error_polynomial_fit, only : n_complete, max_functions, polynomials, &
+   use axijoint_analysis_error_polynomial_fit, only : n_complete, polynomials, &
       fit_polynomial
    use axijoint_base_kinds, only : wp
    use axijoint_fe_extrapolation, only : projection_matrix
@@ -42,6 +42,22 @@ module axijoint_analysis_error_patch_recovery
       integer, allocatable :: first(:), element(:)
    end type patches_type
 
+   !> A fit on a patch, and what it follows from
+   type :: fit_type
+      !> Degree of the polynomial
+      integer :: degree = -1
+      !> Coordinates in the patch, of the samples and of the points where it is wanted, shapes (2, samples) and
+      !> (2, points), and weights of the samples: rounded, so that they are the same where patches are
+      real(wp), allocatable :: place(:, :), wanted(:, :), weight(:)
+      !> Values at the points from those at the samples, shape (points, samples)
+      real(wp), allocatable :: matrix(:, :)
+   end type fit_type
+
+   !> Fits that are kept for other patches that look the same: those of most elements of a regular mesh do
+   integer, parameter :: n_kept = 4
+   !> Coordinates are rounded to multiples of this, far below what an estimate of errors can tell
+   real(wp), parameter :: grain = 2.0_wp**(-30)
+
    !> What a thread needs to work on patches
    type :: patch_work_type
       !> The patch: the element itself, then its neighbours; the first n are in use
@@ -52,13 +68,9 @@ module axijoint_analysis_error_patch_recovery
       !> Samples of the patch, the first n_samples of which are in use
       integer, allocatable :: samples(:)
       integer :: n_samples = 0
-      !> Coordinates of the samples in the patch, shape (2, samples), and weights
-      real(wp), allocatable :: place(:, :), weight(:)
-      !> Coefficients of the fit from values at the samples, shape (max_functions, samples)
-      real(wp), allocatable :: coefficient(:, :)
-      !> The fit: values at the points of the element from those at the samples, shape
-      !> (max_element_points, samples)
-      real(wp), allocatable :: matrix(:, :)
+      !> The last fits, the one of the patch, and the one that was kept last
+      type(fit_type) :: fits(n_kept)
+      integer :: fit = 1, last = 1
    end type patch_work_type
 
    !> Coordinates of a patch
@@ -255,10 +267,9 @@ contains
 
       if (allocated(work%samples)) then
          if (size(work%samples) >= n) return
-         deallocate (work%samples, work%place, work%weight, work%coefficient, work%matrix)
+         deallocate (work%samples)
       end if
-      allocate (work%samples(2*n), work%place(2, 2*n), work%weight(2*n), &
-                work%coefficient(max_functions, 2*n), work%matrix(max_element_points, 2*n))
+      allocate (work%samples(2*n))
    end subroutine reserve
 
    !> Add the neighbours of an element to a patch, but for other materials
@@ -307,24 +318,71 @@ contains
       type(patch_work_type), intent(inout) :: work
 
       type(frame_type) :: frame
-      real(wp) :: at_target(max_functions)
-      integer :: i, n, m, s
+      type(fit_type) :: fit
+      integer :: i, k
 
-      n = work%n_samples
-      m = n_complete(degree)
-      frame = new_frame(mesh, element, patches%position(:, work%samples(:n)))
-      do i = 1, n
-         work%place(:, i) = in_frame(frame, patches%position(:, work%samples(i)))
-         work%weight(i) = weight_of(frame, patches%position(:, work%samples(i)))
-      end do
-      call fit_polynomial(work%place(:, :n), work%weight(:n), work%coefficient(:m, :n))
+      associate (positions => patches%position(:, work%samples(:work%n_samples)))
+         frame = new_frame(mesh, element, positions)
+         fit%degree = degree
+         allocate (fit%place, mold=positions)
+         allocate (fit%wanted, mold=targets)
+         allocate (fit%weight(work%n_samples))
+         do i = 1, work%n_samples
+            fit%place(:, i) = rounded(in_frame(frame, positions(:, i)))
+            fit%weight(i) = rounded(weight_of(frame, positions(:, i)))
+         end do
+      end associate
       do i = 1, size(targets, 2)
-         at_target(:m) = polynomials(m, in_frame(frame, targets(:, i)))
-         do s = 1, n
-            work%matrix(i, s) = dot_product(at_target(:m), work%coefficient(:m, s))
+         fit%wanted(:, i) = rounded(in_frame(frame, targets(:, i)))
+      end do
+      do k = 1, n_kept
+         if (.not. are_alike(fit, work%fits(k))) cycle
+         work%fit = k
+         return
+      end do
+      call find_matrix(fit)
+      work%last = mod(work%last, n_kept) + 1
+      work%fit = work%last
+      work%fits(work%last) = fit
+   end subroutine fit_patch
+
+   !> A coordinate rounded; a huge one, of a patch that is a point, as it is
+   elemental real(wp) function rounded(x)
+      !> The coordinate
+      real(wp), intent(in) :: x
+
+      rounded = x
+      if (abs(x) < 1.0_wp/grain) rounded = anint(x/grain)*grain
+   end function rounded
+
+   !> Whether two fits are the same
+   pure logical function are_alike(a, b)
+      !> The fits
+      type(fit_type), intent(in) :: a, b
+
+      are_alike = a%degree == b%degree
+      if (are_alike) are_alike = size(a%weight) == size(b%weight) .and. size(a%wanted, 2) == size(b%wanted, 2)
+      if (are_alike) are_alike = all(abs(a%weight - b%weight) <= 0.0_wp)
+      if (are_alike) are_alike = all(abs(a%place - b%place) <= 0.0_wp) .and. all(abs(a%wanted - b%wanted) <= 0.0_wp)
+   end function are_alike
+
+   !> Values at the points that are wanted from those at the samples
+   pure subroutine find_matrix(fit)
+      !> What the fit follows from; takes the matrix
+      type(fit_type), intent(inout) :: fit
+
+      real(wp) :: coefficient(n_complete(fit%degree), size(fit%weight)), at_point(n_complete(fit%degree))
+      integer :: i, s
+
+      call fit_polynomial(fit%place, fit%weight, coefficient)
+      allocate (fit%matrix(size(fit%wanted, 2), size(fit%weight)))
+      do i = 1, size(fit%matrix, 1)
+         at_point = polynomials(size(at_point), fit%wanted(:, i))
+         do s = 1, size(fit%matrix, 2)
+            fit%matrix(i, s) = dot_product(at_point, coefficient(:, s))
          end do
       end do
-   end subroutine fit_patch
+   end subroutine find_matrix
 
    !> Coordinates of a patch, in the directions of the natural coordinates of its element: a
    !> patch of long and thin elements is as wide as it is high

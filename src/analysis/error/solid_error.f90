@@ -237,9 +237,11 @@ contains
                         position(:, :reference%n_points), work)
          do i = 1, reference%n_points
             recovered = 0.0_wp
-            do s = 1, work%n_samples
-               recovered = recovered + work%matrix(i, s)*fields%sampled(:, :, work%samples(s))
-            end do
+            associate (matrix => work%fits(work%fit)%matrix)
+               do s = 1, work%n_samples
+                  recovered = recovered + matrix(i, s)*fields%sampled(:, :, work%samples(s))
+               end do
+            end associate
             associate (point => fields%before(element) + i, weight => 0.5_wp*points(i)%weight)
                do k = 1, size(error)
                   error(k) = error(k) + weight*square(compliance, &

@@ -21,6 +21,8 @@ module axijoint_deck_check_mesh
    real(wp), parameter :: hanging_distance = 1.0e-3_wp
    !> Room for neighbours of a point
    integer, parameter :: most_near = 64
+   !> Threads are woken for more nodes than this
+   integer, parameter :: worth_threads = 5000
 
 contains
 
@@ -129,11 +131,20 @@ contains
       type(diagnostics_type), intent(inout) :: diagnostics
 
       real(wp), allocatable :: shortest(:)
+      logical, allocatable :: alone(:)
       integer :: node, i, other, n_found, found(most_near)
 
       call shortest_edges(draft, edges, shortest)
+      allocate (alone(draft%n_nodes), source=.true.)
+      !$omp parallel do private(found, n_found) if (draft%n_nodes > worth_threads)
       do node = 1, draft%n_nodes
          if (.not. draft%node_good(node) .or. shortest(node) >= huge(1.0_wp)) cycle
+         call points_near(tree, draft%position(:, node), least_distance*shortest(node), found, n_found)
+         alone(node) = n_found == 1  ! itself
+      end do
+      !$omp end parallel do
+      do node = 1, draft%n_nodes
+         if (alone(node)) cycle
          call points_near(tree, draft%position(:, node), least_distance*shortest(node), found, &
             n_found)
          do i = 1, n_found

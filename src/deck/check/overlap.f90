@@ -63,10 +63,12 @@ contains
             if (edges%element(last + 1) /= edges%element(first)) exit
             last = last + 1
          end do
-         polygon = outline_of(draft, edges, first, last)
-         point = point_inside(cells, polygon, edges%element(first))
-         if (point > 0) call report(draft, cells%element(point), edges%element(first), &
-                                    cells%position(:, point), told, diagnostics)
+         if (are_near(cells, draft, edges, first, last)) then
+            polygon = outline_of(draft, edges, first, last)
+            point = point_inside(cells, polygon, edges%element(first))
+            if (point > 0) call report(draft, cells%element(point), edges%element(first), &
+                                       cells%position(:, point), told, diagnostics)
+         end if
          first = last + 1
       end do
    end subroutine check_overlap
@@ -161,6 +163,43 @@ contains
       place = 1 + int(min(real(cells%n - 1, wp), &
          max(0.0_wp, (position - cells%corner)/cells%width)))
    end function place_of
+
+   !> Whether there are points in the cells of an element, as there are none of most inside a body
+   pure logical function are_near(cells, draft, edges, first, last)
+      !> Points of the outlines
+      type(cells_type), intent(in) :: cells
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> Edges of the elements
+      type(edge_table_type), intent(in) :: edges
+      !> Edges of the element
+      integer, intent(in) :: first, last
+
+      real(wp) :: corner(2), least(2), largest(2)
+      integer :: low(2), high(2), i, row
+
+      least = huge(least)
+      largest = -huge(largest)
+      do i = first, last
+         associate (x => draft%position, nodes => edges%nodes(:, i))
+            least = min(least, x(:, nodes(1)))
+            largest = max(largest, x(:, nodes(1)))
+            if (nodes(3) == 0) cycle
+            ! a parabola lies in the triangle of its ends and the point where its tangents there meet
+            corner = 2.0_wp*x(:, nodes(3)) - 0.5_wp*(x(:, nodes(1)) + x(:, nodes(2)))
+            least = min(least, corner)
+            largest = max(largest, corner)
+         end associate
+      end do
+      low = place_of(cells, least)
+      high = place_of(cells, largest)
+      are_near = .false.
+      do row = low(2), high(2)
+         associate (before => (row - 1)*cells%n(1))
+            are_near = are_near .or. cells%start(before + high(1) + 1) > cells%start(before + low(1))
+         end associate
+      end do
+   end function are_near
 
    !> Corners of the polygon that stands for an element
    pure function outline_of(draft, edges, first, last) result(polygon)
