@@ -206,7 +206,7 @@ def share(args, folder, title, row, text, options, verdicts):
     """What of the processor seconds are dense steps whose order grows with the joint points, by calls that are timed"""
     shim, told, deck = (os.path.join(folder, name) for name in ("dense_calls.so", "dense.txt", "job.dat"))
     if not os.path.exists(shim):
-        subprocess.run(["gcc", "-O2", "-shared", "-fPIC", "-o", shim, os.path.join(HERE, "dense_calls.c"), "-ldl"], check=True)
+        subprocess.run(["gcc", "-O2", "-shared", "-fPIC", "-o", shim, os.path.join(HERE, "preload", "dense_calls.c"), "-ldl"], check=True)
     with open(deck, "w", encoding="utf-8") as file:
         file.write(text)
     seconds, _, code, said = spent(["env", f"LD_PRELOAD={shim}", f"DENSE_CALLS={told}", args.shared, "run", deck, "-o", folder,
