@@ -20,6 +20,7 @@ FULL = DEFAULT + [401, 501]
 SOLVERS = ["band", "skyline", "sparse"]
 COLORS = {"band": "#1b6ca8", "skyline": "#c77d1e", "sparse": "#2f8f4e"}
 ROUNDS = 4  # of the comparison with the peers
+COMPARED = [61, 121, 211, 301]  # sizes of the comparison alone; --full goes on to 501
 LEAST_FIT = 5000  # unknowns from which on exponents are fitted: below, overhead hides them
 PEER_COLUMNS = ["solver", "order", "analysis_s", "factorization_s", "repeated_s", "solve_s",
                 "operations", "factor_mb", "factor_entries", "lapack_ratio", "processor_share"]
@@ -137,7 +138,7 @@ def compare(args, side, rounds):
     with tempfile.TemporaryDirectory() as folder:
         matrix = os.path.join(folder, "matrix")
         for k in range(rounds):
-            options = ["--solvers", "sparse", "--harmonics", "8"]
+            options = ["--solvers", "sparse", "--harmonics", "8" if side <= 301 else "5"]
             ours += measure(args.program, side, *options, *(["--dump", matrix] if k == 0 else []))
             for row in measure_peers(args, matrix):
                 peers.append({"nodes_per_side": side, "unknowns": ours[0]["unknowns"],
@@ -159,7 +160,8 @@ def print_comparison(ours, peers):
           "LAPACK ratio")
     print(f"  axijoint given      {least(ours, 'analysis_s'):10.3f} {own:9.3f} {kept:8.3f}"
           f" {least(ours, 'solve_s'):8.3f}  {number(ours[0], 'operations') / own / 1e9:8.1f}"
-          f"  {number(ours[0], 'factor_mb'):5.0f}  {number(ours[0], 'lapack_ratio'):.2g}")
+          f"  {number(ours[0], 'factor_mb'):5.0f}  {number(ours[0], 'lapack_ratio'):.2g}"
+          f"  ({number(ours[0], 'operations') / own / 1e9 / max(number(r, 'dgemm_gflops') for r in ours):.2f} of dgemm)")
     best = {"factorization_s": (math.inf, ""), "repeated_s": (math.inf, "")}
     for name, order in dict.fromkeys((r["solver"], r["order"]) for r in peers):
         mine = [r for r in peers if (r["solver"], r["order"]) == (name, order)]
@@ -265,17 +267,26 @@ def write(path, rows):
         writer.writerows(rows)
 
 
+def compare_sizes(args, sides):
+    """The comparison with the peers alone"""
+    all_ours, all_peers = [], []
+    for side in sides:
+        ours, peers = compare(args, side, ROUNDS if side <= 301 else 2)
+        print_comparison([r for r in ours if r["harmonics"] == "1"], peers)
+        print_shares([], ours, side)
+        all_ours += ours
+        all_peers += peers
+        write(os.path.join(args.output, "rounds.csv"), all_ours)
+        if all_peers:
+            write(os.path.join(args.output, "peers.csv"), all_peers)
+
+
 def main():
     args = arguments()
     sides = QUICK if args.quick else FULL if args.full else DEFAULT
     compared = 121 if args.quick else 301
     if args.peers_only:
-        ours, peers = compare(args, compared, ROUNDS)
-        write(os.path.join(args.output, "rounds.csv"), ours)
-        if peers:
-            write(os.path.join(args.output, "peers.csv"), peers)
-        print_comparison([r for r in ours if r["harmonics"] == "1"], peers)
-        print_shares([], ours, compared)
+        compare_sizes(args, [121] if args.quick else COMPARED + [501]*args.full)
         return
     print("unknowns solver thr har  order s  analy s  parts s matrix s factor s  again s  solve s    flops"
           " GFLOP/s dgemm MB factor   entries  backw.e  LAPACK  expect s  cpu  note")
