@@ -117,33 +117,66 @@ contains
 
       integer, allocatable :: columns(:), first(:)
       integer(i8) :: count
-      integer :: pass, k, i, node, row, n_columns
+      integer :: k, i, j, node, row, n_columns
 
       allocate (first(graph%n))
       do node = 1, graph%n
          first(node) = first_equation(dofs%equation(:, node))
       end do
-      allocate (pattern%row_start(dofs%n_equations + 1))
+      allocate (pattern%row_start(dofs%n_equations + 1), pattern%column(n_entries(graph, dofs, first)))
       allocate (columns(3*(1 + maxval([0, graph%start(2:) - graph%start(:graph%n)]))))
       pattern%n = dofs%n_equations
-      do pass = 1, 2  ! count the entries, then store them
-         count = 0
-         row = 0
-         do k = 1, size(order)
-            node = order(k)
-            if (first(node) == 0) cycle
-            call coupled_equations(node, graph, dofs, first, columns, n_columns)
-            do i = 1, 3
-               if (dofs%equation(i, node) /= row + 1) cycle  ! none, or that of another component
-               row = row + 1
-               pattern%row_start(row) = count + 1
-               call append_columns(columns(:n_columns), row, pass == 2, pattern, count)
+      count = 0
+      row = 0
+      do k = 1, size(order)
+         node = order(k)
+         if (first(node) == 0) cycle
+         call coupled_equations(node, graph, dofs, first, columns, n_columns)
+         do i = 1, 3
+            if (dofs%equation(i, node) /= row + 1) cycle  ! none, or that of another component
+            row = row + 1
+            pattern%row_start(row) = count + 1
+            do j = 1, n_columns
+               if (columns(j) > row) exit
+               count = count + 1
+               pattern%column(count) = columns(j)
             end do
          end do
-         pattern%row_start(pattern%n + 1) = count + 1
-         if (pass == 1) allocate (pattern%column(count))
       end do
+      pattern%row_start(pattern%n + 1) = count + 1
    end subroutine new_pattern
+
+   !> Entries of the lower triangle: each equation of a node with those of the neighbours before it, and with those
+   !> of its own up to itself
+   pure integer(i8) function n_entries(graph, dofs, first)
+      !> Graph of the nodes
+      type(graph_type), intent(in) :: graph
+      !> The unknowns
+      type(dofs_type), intent(in) :: dofs
+      !> First equation of each node, or zero
+      integer, intent(in) :: first(:)
+
+      integer :: own(graph%n), node, l
+      integer(i8) :: before
+
+      do node = 1, graph%n
+         associate (equation => dofs%equation(:, node))
+            own(node) = count(equation > 0)
+            if (equation(3) > 0 .and. equation(3) == equation(1)) own(node) = own(node) - 1  ! w tied to u
+         end associate
+      end do
+      n_entries = 0
+      do node = 1, graph%n
+         if (own(node) == 0) cycle
+         before = 0
+         do l = graph%start(node), graph%start(node + 1) - 1
+            associate (other => graph%neighbour(l))
+               if (first(other) < first(node)) before = before + own(other)  ! without equations it adds nothing
+            end associate
+         end do
+         n_entries = n_entries + own(node)*before + (own(node)*(own(node) + 1))/2
+      end do
+   end function n_entries
 
    !> Equations of a node and of its neighbours before it, ascending: those of a node follow each other
    subroutine coupled_equations(node, graph, dofs, first, columns, n_columns)
@@ -183,27 +216,5 @@ contains
          end associate
       end do
    end subroutine coupled_equations
-
-   !> Append the entries of a row up to the diagonal
-   subroutine append_columns(columns, row, store, pattern, count)
-      !> Equations coupled with the row, ascending
-      integer, intent(in) :: columns(:)
-      !> The row
-      integer, intent(in) :: row
-      !> Whether to store the entries or only to count them
-      logical, intent(in) :: store
-      !> The pattern
-      type(symmetric_matrix_type), intent(inout) :: pattern
-      !> Entries so far
-      integer(i8), intent(inout) :: count
-
-      integer :: k
-
-      do k = 1, size(columns)
-         if (columns(k) > row) exit
-         count = count + 1
-         if (store) pattern%column(count) = columns(k)
-      end do
-   end subroutine append_columns
 
 end module axijoint_assembly_pattern

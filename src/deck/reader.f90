@@ -58,8 +58,6 @@ module axijoint_deck_reader
       !> Edges of the elements, and number of each node's place
       type(edge_table_type) :: edges
       integer, allocatable :: group(:)
-      !> All sections, which are the same for any deck
-      type(read_section_type), allocatable :: sections(:)
    end type kept_mesh_type
 
 contains
@@ -143,10 +141,9 @@ contains
       type(refinement_type), intent(in), optional :: refinement
 
       type(deck_type), target :: deck
-      type(read_section_type), allocatable :: sections(:)
+      type(read_section_type), pointer :: sections(:)
 
-      if (present(kept)) call move_alloc(kept%sections, sections)
-      if (.not. allocated(sections)) sections = all_sections()
+      sections => all_sections()
       deck%sections = entries
       deck%source => source
       deck%model => model
@@ -164,7 +161,6 @@ contains
       call make_loads(deck, sections)
       call read_stage(deck, sections, stage_requests)
       call place_requests(deck)
-      if (present(kept)) call move_alloc(sections, kept%sections)
       if (diagnostics%n_errors > 0) return
       call take_model(deck%draft, deck%properties, model)
       call warn_of_lacking_properties(deck)

@@ -55,17 +55,26 @@ module axijoint_deck_registry
    private
    public :: all_sections, without_readers
 
+   !> The sections, made when they are first asked for: the same for any deck
+   type(read_section_type), allocatable, target, save :: known(:)
+
 contains
 
    !> The sections. Those of one stage are read in this order, and all are listed in it
    function all_sections() result(sections)
-      !> The sections
-      type(read_section_type), allocatable :: sections(:)
+      !> The sections; not to be changed
+      type(read_section_type), pointer :: sections(:)
 
+      if (.not. allocated(known)) call make_known()
+      sections => known
+   end function all_sections
+
+   !> Make the list
+   subroutine make_known()
       integer :: n
 
       n = 0
-      allocate (sections(50))
+      allocate (known(50))
       call add(title_section())
       call add(control_section())
       call add(increments_section())
@@ -125,11 +134,11 @@ contains
          type(read_section_type), intent(in) :: section
 
          n = n + 1
-         sections(n) = section
-         if (.not. allocated(sections(n)%fields)) allocate (sections(n)%fields(0))
+         known(n) = section
+         if (.not. allocated(known(n)%fields)) allocate (known(n)%fields(0))
       end subroutine add
 
-   end function all_sections
+   end subroutine make_known
 
    !> What cards look like, for those who read or describe any sections
    pure function without_readers(sections) result(described)

@@ -48,7 +48,7 @@ contains
 
       call open_deck(deck, source, entries, diagnostics)
       if (source%n_cards > 0 .and. entries%complete) &
-         call make_model(source, entries, model, diagnostics)
+         call make_model(source, entries, model, diagnostics, rows%mesh)
       if (diagnostics%n_errors == 0) then
          if (size(model%combinations) > 1) call add_error(diagnostics, 0, 0, 0, &
             'the deck of a study has one combination of load cases', &

@@ -13,7 +13,7 @@ module axijoint_study_rows
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type
    use axijoint_base_progress, only : progress_type
-   use axijoint_deck_job_deck, only : read_section_type, stage_properties, stage_loads, &
+   use axijoint_deck_job_deck, only : read_section_type, stage_job, stage_properties, stage_loads, &
       stage_requests
    use axijoint_deck_reader, only : make_model, kept_mesh_type
    use axijoint_deck_registry, only : all_sections
@@ -87,8 +87,8 @@ contains
       type(study_table_type), intent(in) :: table
       !> Whether errors are estimated
       logical, intent(in) :: estimated
-      !> What rows share
-      type(rows_type), intent(out) :: rows
+      !> What rows share; it may have the mesh of the deck
+      type(rows_type), intent(inout) :: rows
 
       rows%source = source
       rows%entries = entries
@@ -109,15 +109,15 @@ contains
       !> Shape (columns)
       logical, allocatable, intent(out) :: keeps_mesh(:), keeps_structure(:)
 
-      type(read_section_type), allocatable :: sections(:)
+      type(read_section_type), pointer :: sections(:)
       integer :: k, stage
 
       allocate (keeps_mesh(size(table%columns)), keeps_structure(size(table%columns)))
-      sections = all_sections()
+      sections => all_sections()
       do k = 1, size(table%columns)
          associate (column => table%columns(k))
             stage = sections(column%section)%stage
-            keeps_mesh(k) = any(stage == [stage_loads, stage_requests]) .or. &
+            keeps_mesh(k) = any(stage == [stage_job, stage_loads, stage_requests]) .or. &
                (stage == stage_properties .and. column%kind%kind == kind_real)
             select case (source%sections(column%section)%name)
             case ('MATERIALS')

@@ -97,6 +97,10 @@ contains
       real(wp) :: means(size(samples, 1), n_resamples), sorted(n_resamples), share
       integer :: i, k
 
+      if (size(samples, 2) == 1) then
+         ends = spread(samples(:, 1), 1, 2)
+         return
+      end if
       associate (n => size(samples, 2))
          generator = new_generator(1, n)
          means = 0.0_wp

@@ -5,6 +5,7 @@ module axijoint_analysis_core_structure
    use axijoint_analysis_core_results, only : ordering_type
    use axijoint_analysis_fine_level, only : fine_level_type, lay_out_level, form_stiffness, &
       take_conditions, take_fine_model
+   use axijoint_analysis_fine_mesh, only : new_fine_mesh
    use axijoint_analysis_fine_singular_places, only : singular_place_type, find_singular_places, &
       judged_points
    use axijoint_assembly_equations, only : equations_type, plan_equations, assemble_equations
@@ -28,7 +29,7 @@ module axijoint_analysis_core_structure
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points
    use axijoint_model_model, only : model_type, can_yield, can_yield_at, bodies_yield
    use axijoint_model_modes, only : used_modes
-   use axijoint_model_mesh, only : n_nodes, n_elements
+   use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements
    use axijoint_model_request, only : line_type, print_orders, rows_expected
    use axijoint_order_graph, only : graph_type, bandwidth, profile, fill
    use axijoint_order_orders, only : orders_type, order_by_profile, dissect, least_profile
@@ -111,6 +112,7 @@ contains
       end if
       call timer%push(phase_assemble)
       if (estimates) call form_fine_level(model, structure)
+      if (allocated(structure%singular)) call judge_points(model%mesh, structure)
       structure%sections = cut_sections(model%mesh, model%cuts)
       call timer%pop()
       call timer%push(phase_joints)
@@ -137,10 +139,14 @@ contains
       n_threads = merge(min(2, omp_get_max_threads()), 1, n_elements(model%mesh) > least_elements)
       !$omp parallel num_threads(n_threads)
       !$omp master
-      if (estimates) then
+      if (estimates .or. can_yield(model)) then  ! the iterations of joints end by the stress of points that are judged
          !$omp task default(shared) private(start)
          start = omp_get_wtime()
-         call lay_out_level(model, structure%fine)
+         if (estimates) then
+            call lay_out_level(model, structure%fine)
+         else
+            call new_fine_mesh(model%mesh, structure%fine%mesh)
+         end if
          structure%singular = find_singular_places(model, structure%fine%mesh)
          structure%fine%seconds = (omp_get_wtime() - start)/n_threads
          !$omp end task
@@ -150,7 +156,22 @@ contains
       !$omp end parallel
    end subroutine plan_levels
 
-   !> Integrate the fine level, and find which joint points are judged
+   !> Find which joint points are judged
+   subroutine judge_points(mesh, structure)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The structure, its singular places known
+      type(structure_type), intent(inout) :: structure
+
+      integer :: k
+
+      associate (points => structure%joint_points)
+         structure%judged = judged_points(mesh, structure%singular, &
+            reshape([(points(k)%position, k=1, size(points))], [2, size(points)]))
+      end associate
+   end subroutine judge_points
+
+   !> Integrate the fine level
    subroutine form_fine_level(model, structure)
       !> The job
       type(model_type), intent(in) :: model
@@ -158,20 +179,17 @@ contains
       type(structure_type), intent(inout) :: structure
 
       real(wp) :: start
-      integer :: k
 
       start = omp_get_wtime()
-      associate (team => structure%equations%team, points => structure%joint_points)
+      associate (team => structure%equations%team)
          if (team%size > 1 .and. team%sharers == team%size .and. .not. reuses_factors(model)) then
             ! telling it takes less than forming it where memory is shared
             call form_stiffness(team, structure%fine, formed_by=structure%equations%least_busy)
          else
             call form_stiffness(team, structure%fine)
          end if
-         call take_conditions(structure%equations, structure%fine)
-         structure%judged = judged_points(model%mesh, structure%singular, &
-            reshape([(points(k)%position, k=1, size(points))], [2, size(points)]))
       end associate
+      call take_conditions(structure%equations, structure%fine)
       structure%fine%seconds = structure%fine%seconds + omp_get_wtime() - start
    end subroutine form_fine_level
 

@@ -128,16 +128,19 @@ contains
       !> Cells along r, along z
       integer :: n(2)
 
-      real(wp) :: extent, mean, wanted(2)
-      integer :: axis, element
+      real(wp) :: extent, mean, wanted(2), least, largest
+      integer :: axis, element, i
 
       do axis = 1, 2
          mean = 0.0_wp
          do element = 1, draft%n_elements
-            associate (x => draft%position(axis, &
-               draft%element_nodes(:n_corners(draft%element_size(element)), element)))
-               mean = mean + (maxval(x) - minval(x))/draft%n_elements
-            end associate
+            least = huge(least)
+            largest = -huge(largest)
+            do i = 1, n_corners(draft%element_size(element))
+               least = min(least, draft%position(axis, draft%element_nodes(i, element)))
+               largest = max(largest, draft%position(axis, draft%element_nodes(i, element)))
+            end do
+            mean = mean + (largest - least)/draft%n_elements
          end do
          associate (x => draft%position(axis, :draft%n_nodes))
             extent = maxval(x) - minval(x)
@@ -239,10 +242,12 @@ contains
       integer, intent(in) :: element
 
       integer :: low(2), high(2), column, row, k
-      real(wp) :: depth
+      real(wp) :: least(2), largest(2), depth
 
-      low = place_of(cells, minval(polygon, 2))
-      high = place_of(cells, maxval(polygon, 2))
+      least = minval(polygon, 2)
+      largest = maxval(polygon, 2)
+      low = place_of(cells, least)
+      high = place_of(cells, largest)
       depth = least_depth(polygon)
       do row = low(2), high(2)
          do column = low(1), high(1)
@@ -250,8 +255,7 @@ contains
                do k = cells%start(cell), cells%start(cell + 1) - 1
                   point = cells%list(k)
                   if (cells%element(point) == element) cycle
-                  if (any(cells%position(:, point) < minval(polygon, 2)) .or. &
-                      any(cells%position(:, point) > maxval(polygon, 2))) cycle
+                  if (any(cells%position(:, point) < least .or. cells%position(:, point) > largest)) cycle
                   if (is_inside(polygon, cells%position(:, point), depth)) return
                end do
             end associate
