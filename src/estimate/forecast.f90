@@ -1,6 +1,6 @@
 !> What a run of a deck will take: seconds by phase, memory, disk
 module axijoint_estimate_forecast
-   use axijoint_analysis_core_structure, only : structure_type, plan_structure
+   use axijoint_analysis_core_structure, only : structure_type, expect_estimates, plan_structure
    use axijoint_base_error, only : error_type, exit_memory
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_progress, only : progress_type
@@ -45,7 +45,7 @@ module axijoint_estimate_forecast
 contains
 
    !> Plan the equations of a job as a run would, and measure how long that takes
-   subroutine plan_run(model, timer, structure, error)
+   subroutine plan_run(model, timer, structure, error, estimated)
       !> The job
       type(model_type), intent(in) :: model
       !> Takes the time
@@ -54,9 +54,12 @@ contains
       type(structure_type), intent(out) :: structure
       !> A mechanism
       type(error_type), allocatable, intent(out) :: error
+      !> Whether errors are estimated; true if absent
+      logical, intent(in), optional :: estimated
 
       type(progress_type) :: progress
 
+      call expect_estimates(model, structure, estimated)
       call timer%push(phase_assemble)
       call plan_structure(model, structure, progress, error)
       call timer%pop()

@@ -41,7 +41,7 @@ contains
 
       associate (equations => structure%equations)
          others = data_footprint(model, size(structure%modes), size(equations%systems), &
-                                 structure%joint_points)
+                                 structure%joint_points, structure%estimated)
          bytes = at_start + program_bytes + equations%solver%library_bytes + others%mesh + &
             standing_bytes(equations) + parts_bytes(equations) &
             + kept_bytes(equations) + others%joints + others%bodies + others%fine &
@@ -98,11 +98,12 @@ contains
       type(error_type), allocatable :: error
 
       bytes = 0
+      structure%estimated = .false.
       call plan_structure(model, structure, silent, error)
       if (allocated(error)) return  ! does not fit
       associate (equations => structure%equations)
          others = data_footprint(model, size(structure%modes), size(equations%systems), &
-                                 structure%joint_points)
+                                 structure%joint_points, structure%estimated)
          bytes = others%mesh + standing_bytes(equations) + parts_bytes(equations) &
             + kept_bytes(equations) + others%joints + others%bodies + others%loads &
             + solving_bytes(structure, others)

@@ -105,7 +105,7 @@ contains
             call cpu_time(finish)
             if (len(row%message) > 0) return
          end do
-         call plan_run(model, clock, structure, error)
+         call plan_run(model, clock, structure, error, shared%estimated)
          if (allocated(error)) return
          n_good = n_good + 1
          work(:, 1) = work(:, 1) + structure_work(model, structure, machine%product_rate)

@@ -20,7 +20,7 @@ module axijoint_estimate_work
    !> Solutions of a mode: displacements with one refinement, condition of the matrix; with joints
    !> that yield those of the corrections and of what estimates of errors change; or displacements
    !> alone, and the product by which they need no refinement
-   real(wp), parameter :: linear_solutions = 4.0_wp, yielding_solutions = 11.0_wp, &
+   real(wp), parameter :: linear_solutions = 3.0_wp, yielding_solutions = 10.0_wp, &
       unjudged_solutions = 1.5_wp
    !> Steps down on the fine level, each with a solution on the mesh
    real(wp), parameter :: steps_down = 3.0_wp
@@ -55,9 +55,9 @@ contains
       work = 0.0_wp
       references = element_references(model%mesh)
       associate (mesh => model%mesh)
-         work(shape_products) = 5.0_wp*sum(real(mesh%element_size, wp)**2 &
-                                           *references(mesh%element_kind)%n_points)
-         work(fine_nodes) = sum(fine_nodes_of(mesh%element_size))
+         work(shape_products) = merge(5.0_wp, 1.0_wp, structure%estimated)*sum(real(mesh%element_size, wp)**2 &
+            *references(mesh%element_kind)%n_points)  ! four elements of the fine level in each
+         if (structure%estimated) work(fine_nodes) = sum(fine_nodes_of(mesh%element_size))
       end associate
       associate (equations => structure%equations)
          work(factoring) = planned_seconds(equations, reuses_factors(model), product_rate) &

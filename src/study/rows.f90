@@ -235,7 +235,7 @@ contains
 
       if (allocated(rows%structure)) then
          if (same_structure(model, rows%built_for, rows%structure)) then
-            call take_loads_of(model, rows%structure, rows%estimated)
+            call take_loads_of(model, rows%structure)
             return
          end if
          deallocate (rows%structure, rows%built_for)

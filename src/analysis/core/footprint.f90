@@ -69,13 +69,15 @@ module axijoint_analysis_core_footprint
 contains
 
    !> Memory of loads, results and joints
-   pure function data_footprint(model, n_modes, n_systems, joint_points) result(footprint)
+   pure function data_footprint(model, n_modes, n_systems, joint_points, estimated) result(footprint)
       !> The job
       type(model_type), intent(in) :: model
       !> Modes, and matrices
       integer, intent(in) :: n_modes, n_systems
       !> Points of all joints
       type(model_joint_point_type), intent(in) :: joint_points(:)
+      !> Whether errors are estimated by the fine level
+      logical, intent(in) :: estimated
       !> The bytes
       type(footprint_type) :: footprint
 
@@ -88,8 +90,10 @@ contains
       footprint%mesh = mesh_bytes*nodes
       ! displacements, two kinds of loads twice, errors of nodes
       footprint%loads = 21*nodes*n_modes*real_bytes
-      footprint%fine = sum(fine_bytes(model%mesh%element_size))
-      footprint%fine_work = fine_work_bytes(model%mesh)
+      if (estimated) then
+         footprint%fine = sum(fine_bytes(model%mesh%element_size))
+         footprint%fine_work = fine_work_bytes(model%mesh)
+      end if
       footprint%stresses = 9*nodes + 6*sum(int(references(model%mesh%element_kind)%n_points, i8)) &
          + 6*nodes &  ! smoothed to nodes
          + 6*sum(merge(1_i8, 4_i8, model%mesh%element_size <= 4))  ! at samples
@@ -151,8 +155,6 @@ contains
       ! which may be all; when one is appended they are there twice
       footprint%bodies = footprint%bodies + 2*real_bytes*earlier*points*(8*planes + 12*n_modes)
       footprint%body_work = real_bytes*(19*points*planes + 2*6*points*n_modes + vectors*vector)
-      footprint%fine = 0
-      footprint%fine_work = 0
    end subroutine add_bodies
 
    !> Memory of the fine level for an element: the nodes that it has there, with the blocks of

@@ -36,7 +36,8 @@ module axijoint_analysis_core_structure
    use omp_lib, only : omp_get_max_threads, omp_get_wtime
    implicit none
    private
-   public :: structure_type, build_structure, build_equations, plan_structure, take_loads_of, reuses_factors
+   public :: structure_type, build_structure, build_equations, expect_estimates, plan_structure, take_loads_of, &
+      reuses_factors
 
    !> A structure ready to be loaded
    type :: structure_type
@@ -54,6 +55,8 @@ module axijoint_analysis_core_structure
       !> Planes that joint results are shown on: all, while the iterations leave out those
       !> that are like others
       type(planes_type) :: planes
+      !> Whether errors of states will be estimated by the fine level, which is there then
+      logical :: estimated = .true.
       !> The same on a mesh of elements half as large, for estimates of errors
       type(fine_level_type) :: fine
       !> Where stresses are infinite, and whether the stress of a joint point, far enough from
@@ -89,12 +92,9 @@ contains
       !> Whether errors will be estimated, which takes the fine level; true if absent
       logical, intent(in), optional :: estimated
 
-      logical :: estimates
-
-      estimates = .true.
-      if (present(estimated)) estimates = estimated
+      call expect_estimates(model, structure, estimated)
       call timer%push(phase_assemble)
-      call plan_levels(model, estimates, structure, progress, error)
+      call plan_levels(model, structure, progress, error)
       if (.not. allocated(error)) call assemble_equations(structure%equations, model, structure%joint_points, &
          structure%support_points)
       call timer%pop()
@@ -111,7 +111,7 @@ contains
          if (allocated(error)) return
       end if
       call timer%push(phase_assemble)
-      if (estimates) call form_fine_level(model, structure)
+      if (structure%estimated) call form_fine_level(model, structure)
       if (allocated(structure%singular)) call judge_points(model%mesh, structure)
       structure%sections = cut_sections(model%mesh, model%cuts)
       call timer%pop()
@@ -120,12 +120,23 @@ contains
       call timer%pop()
    end subroutine build_structure
 
-   !> Plan the equations, and lay out what estimates of errors need: neither waits for the other
-   subroutine plan_levels(model, estimates, structure, progress, error)
+   !> Say whether errors of states will be estimated by the fine level: none that holds with plastic strain
+   pure subroutine expect_estimates(model, structure, estimated)
       !> The job
       type(model_type), intent(in) :: model
-      !> Whether errors will be estimated
-      logical, intent(in) :: estimates
+      !> The structure
+      type(structure_type), intent(inout) :: structure
+      !> Whether they are wanted; true if absent
+      logical, intent(in), optional :: estimated
+
+      structure%estimated = .not. bodies_yield(model)
+      if (present(estimated)) structure%estimated = structure%estimated .and. estimated
+   end subroutine expect_estimates
+
+   !> Plan the equations, and lay out what estimates of errors need: neither waits for the other
+   subroutine plan_levels(model, structure, progress, error)
+      !> The job
+      type(model_type), intent(in) :: model
       !> The structure
       type(structure_type), intent(inout) :: structure
       !> Where to show progress
@@ -139,10 +150,11 @@ contains
       n_threads = merge(min(2, omp_get_max_threads()), 1, n_elements(model%mesh) > least_elements)
       !$omp parallel num_threads(n_threads)
       !$omp master
-      if (estimates .or. can_yield(model)) then  ! the iterations of joints end by the stress of points that are judged
+      ! the iterations of joints end by the stress of points that are judged, far from singular places
+      if (structure%estimated .or. can_yield(model) .or. bodies_yield(model)) then
          !$omp task default(shared) private(start)
          start = omp_get_wtime()
-         if (estimates) then
+         if (structure%estimated) then
             call lay_out_level(model, structure%fine)
          else
             call new_fine_mesh(model%mesh, structure%fine%mesh)
@@ -205,6 +217,7 @@ contains
       !> Singular stiffness, or out of memory
       type(error_type), allocatable, intent(out) :: error
 
+      structure%estimated = .false.
       call assemble(model, structure, progress, error)
       if (allocated(error)) return
       call factorize_equations(structure%equations, model, error)
@@ -240,15 +253,13 @@ contains
 
    !> Let a structure serve another job that has the same: the fine level knows its loads and laws, and
    !> cuts may be elsewhere
-   subroutine take_loads_of(model, structure, estimated)
+   subroutine take_loads_of(model, structure)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure
       type(structure_type), intent(inout) :: structure
-      !> Whether errors are estimated, for which the fine level is
-      logical, intent(in) :: estimated
 
-      if (estimated) call take_fine_model(model, structure%fine)
+      if (structure%estimated) call take_fine_model(model, structure%fine)
       structure%sections = cut_sections(model%mesh, model%cuts)
    end subroutine take_loads_of
 
@@ -310,7 +321,7 @@ contains
       call check_stop(error)
       if (allocated(error)) return
       others = data_footprint(model, size(structure%modes), &
-         structure%equations%last - structure%equations%first + 1, structure%joint_points)
+         structure%equations%last - structure%equations%first + 1, structure%joint_points, structure%estimated)
       call plan_factors(structure%equations, reuses_factors(model), others%staying(), &
                         others%of_a_thread(), others%later(), model%memory_limit, error)
    end subroutine plan_structure
