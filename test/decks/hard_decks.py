@@ -17,7 +17,7 @@ ONE_CYCLE = [(1, 2), (-1, 2), (-1, 2), (1, 2)]
 
 def solved(program, folder, name, deck, code=0):
     """Run a deck: summary and tables of the listing"""
-    ran = program.run('run', write(folder, f'{name}.dat', deck), '-o', folder)
+    ran = program.run('run', write(folder, f'{name}.dat', listing.all_rows(deck)), '-o', folder)
     faults = ran.ended_with(code)
     if faults:
         raise AssertionError('\n'.join([name, *faults]))

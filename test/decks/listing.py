@@ -38,6 +38,14 @@ RESULTANTS = {'axial force': 'axial', 'lateral force (along theta = 0)': 'latera
               'moment (lifts theta = 90)': 'moment_90'}
 
 
+def all_rows(deck):
+    """A deck whose listing has all tables whole, however long they are"""
+    if '\nPRINT\n' in deck:
+        return deck
+    above, end, below = deck.rpartition('\nEND')
+    return above + '\nPRINT\n TABLES, ALL' + end + below
+
+
 def tables(text):
     """Tables by name; each a list of rows, each row a dictionary by the names of its columns"""
     found, lines, k = {}, text.split('\n'), 0

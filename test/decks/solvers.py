@@ -7,6 +7,7 @@ import resource
 import subprocess
 
 from hard_scenes import example
+from listing import all_rows
 from support import INPUTS, Test, read_text, write
 
 # Of Linux: whether the system gives large pages to a process and those that it starts
@@ -32,6 +33,8 @@ TRACTIONS
 2, 1, 1, 1, -1
 2, 2, 1, 1, 1
 2, 5, 1, 1, 1
+PRINT
+ TABLES, ALL
 END
 """
 
@@ -104,11 +107,11 @@ def predicted_memory(program, deck, *options):
 def memory_changes_nothing(program, folder):
     """With less memory fewer factors are there at once, and every number stays: a linear job, one
     with several combinations, which keeps its factors, and one with joints"""
-    fine = RING.replace('1, 1, 8, 20, 20', '1, 1, 8, 70, 70').replace('END', 'PRINT\n TABLES, ALL\nEND')
+    fine = RING.replace('1, 1, 8, 20, 20', '1, 1, 8, 70, 70')
     decks = {'linear': (fine, 2, 1),
              'combined': (fine.replace('TRACTIONS', 'CASE\n1, all\nTRACTIONS').replace(
                  'END', 'COMBINE\n1, 1, 1\n2, 1, 2\nEND'), 4, 1),
-             'joints': (example(3, refined=7, harmonic=4, planes=17), 5, 1)}
+             'joints': (all_rows(example(3, refined=7, harmonic=4, planes=17)), 5, 1)}
     faults = []
     for name, (text, most, least) in decks.items():
         deck = write(folder, name + '.dat', text)

@@ -38,7 +38,7 @@ class Runner:
 
     def run(self, deck):
         """Exit code, summary, tables and text of the listing of a deck"""
-        ran = self.program.run('run', write(self.folder, 'scene.dat', deck), '-o', self.folder, time_limit=LONG_LIMIT)
+        ran = self.program.run('run', write(self.folder, 'scene.dat', listing.all_rows(deck)), '-o', self.folder, time_limit=LONG_LIMIT)
         text = read_text(os.path.join(self.folder, 'scene.lis'))
         return ran.code, json.loads(read_text(os.path.join(self.folder, 'scene.json'))), listing.tables(text), text
 

@@ -566,14 +566,14 @@ class Cards:
               table: Literal["DECK", "COORDS", "INCIDENCE", "JOINTNODES", "LOADS", "PATH", "AMPLITUDE", "TOTALS", "STRESSES", "NODAL", "STATES", "REACTIONS", "ORDERS", "TABLES"],
               rows: Literal["ALL", "EVERY", "UPTO", "NONE"], *, number: int | None = None,
               body: int | None = None, rectangle: Reals | None = None) -> None:
-        """PRINT: how much of long tables the listing shows; without the section tables of up to 10000 rows.
+        """PRINT: how much of long tables the listing shows; without the section tables of up to 1000 rows.
 
         table: table: DECK; COORDS, INCIDENCE, JOINTNODES of the mesh; LOADS; PATH of iterations; AMPLITUDE,
             TOTALS of displacements; STRESSES at Gauss points; NODAL ones; STATES of joints; REACTIONS; ORDERS
             of the; allowed: DECK, COORDS, INCIDENCE, JOINTNODES, LOADS, PATH, AMPLITUDE, TOTALS, STRESSES,
             NODAL, STATES, REACTIONS, ORDERS, TABLES
         rows: its rows; allowed: ALL, EVERY n-th, UPTO n: all if they are so many at most, NONE
-        number: n of EVERY and UPTO; if not given: 10000
+        number: n of EVERY and UPTO; if not given: 1000
         body: of which body; if not given: any; allowed: 1 … 9999
         rectangle: least and largest r and z of a rectangle: of places in it; if not given: anywhere; allowed:
             all four, or none
