@@ -3,7 +3,7 @@ module axijoint_analysis_core_structure
    use axijoint_analysis_core_cut_motion, only : cut_sections
    use axijoint_analysis_core_footprint, only : footprint_type, data_footprint
    use axijoint_analysis_core_results, only : ordering_type
-   use axijoint_analysis_fine_level, only : fine_level_type, lay_out_level, form_stiffness, &
+   use axijoint_analysis_fine_level, only : fine_level_type, lay_out_level, is_laid_out, bytes_to_come, form_stiffness, &
       take_conditions, take_fine_model
    use axijoint_analysis_fine_mesh, only : new_fine_mesh
    use axijoint_analysis_fine_singular_places, only : singular_place_type, find_singular_places, &
@@ -163,9 +163,10 @@ contains
          structure%fine%seconds = (omp_get_wtime() - start)/n_threads
          !$omp end task
       end if
-      call plan_structure(model, structure, progress, error)
+      call plan_systems(model, structure, progress, error)
       !$omp end master
       !$omp end parallel
+      if (.not. allocated(error)) call plan_memory(model, structure, error)
    end subroutine plan_levels
 
    !> Find which joint points are judged
@@ -292,8 +293,22 @@ contains
       !> A mechanism, or out of memory: the factors are planned then all the same
       type(error_type), allocatable, intent(out) :: error
 
+      call plan_systems(model, structure, progress, error)
+      if (.not. allocated(error)) call plan_memory(model, structure, error)
+   end subroutine plan_structure
+
+   !> Find modes, joint points, unknowns, orders and patterns of the equations
+   subroutine plan_systems(model, structure, progress, error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(inout) :: structure
+      !> Where to show progress
+      type(progress_type), intent(inout) :: progress
+      !> A mechanism, or out of memory
+      type(error_type), allocatable, intent(out) :: error
+
       type(orders_type) :: orders
-      type(footprint_type) :: others
       logical :: compared
 
       structure%joint_points = new_joint_points(model)
@@ -319,12 +334,25 @@ contains
          end associate
       end if
       call check_stop(error)
-      if (allocated(error)) return
+   end subroutine plan_systems
+
+   !> Find how many factors are there at once, by the memory that is free now
+   subroutine plan_memory(model, structure, error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, its systems planned; the fine level may be laid out
+      type(structure_type), intent(inout) :: structure
+      !> Out of memory: the factors are planned all the same
+      type(error_type), allocatable, intent(out) :: error
+
+      type(footprint_type) :: others
+
       others = data_footprint(model, size(structure%modes), &
          structure%equations%last - structure%equations%first + 1, structure%joint_points, structure%estimated)
+      if (is_laid_out(structure%fine)) others%fine = bytes_to_come(structure%fine)
       call plan_factors(structure%equations, reuses_factors(model), others%staying(), &
                         others%of_a_thread(), others%later(), model%memory_limit, error)
-   end subroutine plan_structure
+   end subroutine plan_memory
 
    !> Whether the factors are needed more than once: by several load combinations, by bodies that
    !> yield, or by joints, which take flexibilities, then displacements, or to show earlier increments

@@ -7,12 +7,12 @@ module axijoint_analysis_fine_level
       new_smoother
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_loading, only : loading_type, new_initial_state
-   use axijoint_assembly_node_blocks, only : node_blocks_type, new_node_blocks, assemble_blocks, tell_blocks
+   use axijoint_assembly_node_blocks, only : node_blocks_type, new_node_blocks, assemble_blocks, tell_blocks, block_size
    use axijoint_assembly_pattern, only : node_graph
    use axijoint_assembly_solid_force, only : initial_state_type
    use axijoint_assembly_support, only : support_point_type, new_support_points
    use axijoint_base_error, only : error_type
-   use axijoint_base_kinds, only : wp
+   use axijoint_base_kinds, only : wp, i8
    use axijoint_base_team, only : team_type
    use axijoint_element_joint, only : new_joint_point, lower_node
    use axijoint_fe_mode, only : mode_type
@@ -22,7 +22,8 @@ module axijoint_analysis_fine_level
    use axijoint_order_graph, only : graph_type
    implicit none
    private
-   public :: fine_level_type, fine_load_type, lay_out_level, form_stiffness, take_conditions, take_fine_model, new_fine_load
+   public :: fine_level_type, fine_load_type, lay_out_level, is_laid_out, bytes_to_come, form_stiffness, &
+      take_conditions, take_fine_model, new_fine_load
    public :: share_stiffness
 
    !> The fine level
@@ -83,6 +84,22 @@ contains
       level%parents = ordered(level%mesh%parents, order)
       call new_smoother(level%smoother, level%stiffness, block, order)
    end subroutine lay_out_level
+
+   !> Whether the fine level is laid out
+   pure logical function is_laid_out(level)
+      !> The fine level
+      type(fine_level_type), intent(in) :: level
+
+      is_laid_out = allocated(level%stiffness%column)
+   end function is_laid_out
+
+   !> Bytes that its stiffness will take, once it is laid out
+   pure integer(i8) function bytes_to_come(level)
+      !> The fine level
+      type(fine_level_type), intent(in) :: level
+
+      bytes_to_come = storage_size(1.0_wp)/8*block_size*size(level%stiffness%column, kind=i8)
+   end function bytes_to_come
 
    !> Integrate the stiffness, unless another rank does
    subroutine form_stiffness(team, level, formed_by)
