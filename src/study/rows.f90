@@ -13,7 +13,7 @@ module axijoint_study_rows
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type
    use axijoint_base_progress, only : progress_type
-   use axijoint_deck_job_deck, only : read_section_type, stage_job, stage_properties, stage_loads, &
+   use axijoint_deck_job_deck, only : read_section_type, stage_properties, stage_loads, &
       stage_requests
    use axijoint_deck_reader, only : make_model, kept_mesh_type
    use axijoint_deck_registry, only : all_sections
@@ -117,7 +117,8 @@ contains
       do k = 1, size(table%columns)
          associate (column => table%columns(k))
             stage = sections(column%section)%stage
-            keeps_mesh(k) = any(stage == [stage_job, stage_loads, stage_requests]) .or. &
+            keeps_mesh(k) = any(stage == [stage_loads, stage_requests]) .or. &
+               source%sections(column%section)%name == 'INCREMENTS' .or. &  ! not CONTROL, which has rules of elements
                (stage == stage_properties .and. column%kind%kind == kind_real)
             select case (source%sections(column%section)%name)
             case ('MATERIALS')

@@ -1,6 +1,7 @@
 """Studies: rows against runs of decks with the same values, tables with faults, studies that are killed, parts"""
 import csv
 import glob
+import itertools
 import json
 import math
 import os
@@ -141,6 +142,26 @@ def every_field(program, folder, deck):
     if not runs:
         faults.append('no field was varied')
     return faults
+
+
+def controls(program, folder):
+    """Load factors, harmonics and rules of elements, which no real tells, in turn: each row is that of a run by itself, and
+    rows that differ in load alone share a structure"""
+    text = input_deck('case3_balanced.dat').replace('\nEND', '\nINCREMENTS\n       1.0\nEND')
+    table = ('INCREMENTS 1 FACTOR, CONTROL highest harmonic M, CONTROL number of Gauss points (linear)\n'
+             '0.5;1, 2;4, 2;3\n')
+    ran = program.run('study', write(folder, 'controls.csv', table), write(folder, 'whole.dat', text), '-o', folder, '--threads', '1',
+                      folder=folder)
+    faults = ran.ended_with(0)
+    if '8 solved now with 4 structures' not in ran.out:
+        faults.append(f'not with 4 structures: {ran.out}')
+    rows = rows_of(os.path.join(folder, 'controls.study.csv'))
+    for row, (factor, harmonic, points) in zip(rows, itertools.product(('0.5', '1'), ('2', '4'), ('2', '3'))):
+        one = changed(changed(changed(text, 'INCREMENTS', 0, 1, 10, factor), 'CONTROL', 0, 1, 5, harmonic), 'CONTROL', 0, 11, 15, points)
+        faults += program.run('run', write(folder, 'one.dat', one), '-o', folder, '--quiet', folder=folder).ended_with(0)
+        faults += compared(row, json.loads(read_text(os.path.join(folder, 'one.json'))), f'{factor}, {harmonic}, {points}')
+    found = {row['largest_displacement'] for row in rows}
+    return faults + expected('rows, all different', (8, 8), (len(rows), len(found)))
 
 
 def order_does_not_matter(program, folder):
@@ -441,6 +462,7 @@ def tests(program):
     found = [Test(f'studies/every field of {deck}', lambda folder, deck=deck: every_field(program, folder, deck))
              for deck in VARIED]
     return found + [
+        Test('studies/controls', lambda folder: controls(program, folder)),
         Test('studies/order and parts', lambda folder: order_does_not_matter(program, folder)),
         Test('studies/processes', lambda folder: processes(program, folder)),
         Test('studies/wrong tables', lambda folder: wrong_tables(program, folder)),
