@@ -197,6 +197,11 @@ def print_shares(rows, ours, side):
         print(f"Assembly of {found[0]['harmonics']} harmonics at {found[0]['unknowns']} unknowns on "
               f"{threads} thread(s): integration {parts:.3f} s, matrices {matrix:.3f} s; "
               f"{(parts + matrix) / one:.2f} of one factorization ({one:.3f} s); least of {len(found)}")
+    alone = [r for r in mine if r["harmonics"] == "1"]
+    shared = least(alone, "shared_s")
+    if math.isfinite(shared):
+        print(f"One harmonic on 2 threads: {least(alone, 'repeated_s') / shared:.2f} times as fast as on 1 "
+              f"({least(alone, 'repeated_s'):.4f} s and {shared:.4f} s, memory kept); least of {len(alone)}")
     if {"1", "2"} <= times.keys():
         print(f"{many['2'][0]['harmonics']} harmonics on 2 threads: {times['1'] / times['2']:.2f} times as "
               f"fast as on 1 ({times['1']:.2f} s and {times['2']:.2f} s); least of {len(many['2'])}")
