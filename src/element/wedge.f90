@@ -22,9 +22,9 @@ module axijoint_element_wedge
 
    !> Exponents are looked for between these, by steps
    real(wp), parameter :: least = 0.02_wp, most = 0.98_wp, step = 0.02_wp
-   !> Most steps to a root, and what is exact enough
+   !> Most steps to a root, and what is exact enough of a complex and of a real one
    integer, parameter :: most_steps = 40
-   real(wp), parameter :: exact = 1.0e-9_wp
+   real(wp), parameter :: exact = 1.0e-9_wp, root_exact = 1.0e-13_wp
 
 contains
 
@@ -57,7 +57,7 @@ contains
          value = [value(2:3), determinant_at(x)]
          if (k < 1) cycle
          if (value(2)*value(3) <= 0.0_wp) then
-            lambda = bisected(x - step, x)
+            lambda = root_between(x - step, x, value(2), value(3))
             return
          end if
          if (k < 2) cycle
@@ -79,26 +79,33 @@ contains
          determinant_at = real(determinant(wedge, plane, cmplx(x, 0.0_wp, wp)))
       end function determinant_at
 
-      !> A root between two exponents
-      real(wp) function bisected(a, b) result(middle)
+      !> A root between two exponents: chords, of which an end that stays counts half the next time (Illinois)
+      real(wp) function root_between(a, b, at_a, at_b) result(root)
          !> The exponents
          real(wp), intent(in) :: a, b
+         !> The determinants there, of which one is not positive, the other not negative
+         real(wp), intent(in) :: at_a, at_b
 
-         real(wp) :: low, high, at_low
-         integer :: i
+         real(wp) :: ends(2), at_ends(2), value
+         integer :: i, moved
 
-         low = a
-         high = b
-         at_low = determinant_at(low)
+         ends = [a, b]
+         at_ends = [at_a, at_b]
+         root = a
+         if (.not. abs(at_a) > 0.0_wp) return
+         moved = 0
          do i = 1, most_steps
-            middle = 0.5_wp*(low + high)
-            if (at_low*determinant_at(middle) > 0.0_wp) then
-               low = middle
-            else
-               high = middle
-            end if
+            root = (ends(1)*at_ends(2) - ends(2)*at_ends(1))/(at_ends(2) - at_ends(1))
+            value = determinant_at(root)
+            associate (this => merge(1, 2, value*at_ends(1) > 0.0_wp))
+               if (abs(root - ends(this)) < root_exact .or. .not. abs(value) > 0.0_wp) return
+               if (this == moved) at_ends(3 - this) = 0.5_wp*at_ends(3 - this)
+               ends(this) = root
+               at_ends(this) = value
+               moved = this
+            end associate
          end do
-      end function bisected
+      end function root_between
 
       !> A complex root by the secant method; somewhere else if it is none
       subroutine improve(start, root)
