@@ -80,7 +80,7 @@ contains
           option_type('--resume', '', 'go on from NAME.state, which a run that was stopped or '// &
                       'died left beside its results'), &
           option_type('--checkpoint', 'MINUTES', 'keep NAME.state up to date every so many '// &
-                      'minutes; 0: after each load step (default: as often as takes 2 % of the '// &
+                      'minutes; 0: after each load step (default: as often as takes 1 % of the '// &
                       'time)'), &
           quiet, &
           option_type('--verbose', '', 'lines on the standard error output that say what is '// &

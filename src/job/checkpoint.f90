@@ -16,7 +16,7 @@ module axijoint_job_checkpoint
 
    !> Interval for: as often as that costs no more than the share below of the time of the run
    real(wp), parameter :: whenever_cheap = -1.0_wp
-   real(wp), parameter :: cheap_share = 0.02_wp
+   real(wp), parameter :: cheap_share = 0.01_wp
    !> Time that writing takes before it was measured [second]
    real(wp), parameter :: expected_time = 0.02_wp
 
