@@ -1,4 +1,4 @@
-/* Large pages for large arrays and for a large heap. A page is cleared when it is first touched; there are 512 times fewer
+/* Large pages for large arrays and for the heap. A page is cleared when it is first touched; there are 512 times fewer
    large ones, and each costs a tenth of what it stands for. Systems that give them to who asks alone ("madvise") are
    asked here for whatever the program and its libraries take, without a word in the places that allocate. Only a hint;
    nothing depends on it. This file is a part of programs only, never of the library. */
@@ -15,9 +15,9 @@
    they made it grow by is seen with the next */
 #define WORTH_ASKING ((size_t)1 << 20)
 #define WORTH_A_LOOK ((size_t)1 << 10)
-/* Least heap: in a small one the pages that are large by chance would take more memory than a job is told to need */
-#define LARGE_HEAP ((uintptr_t)64 << 20)
 #define PAGE ((uintptr_t)4096)
+/* Where heaps of other threads than the first lie: each has so many bytes of addresses, from a multiple of them on (glibc) */
+#define THREAD_HEAP ((uintptr_t)64 << 20)
 
 static void ask(uintptr_t from, uintptr_t to)
 {
@@ -28,8 +28,9 @@ static void ask(uintptr_t from, uintptr_t to)
    errno = cause;
 }
 
-/* A block has been allocated: ask for it if it is large. Where it lies in a large heap, or that has grown, ask for all of
-   the heap, which small blocks share: the part that it was given back by and has grown by again has forgotten. */
+/* A block has been allocated: ask for it if it is large. Where it lies in the heap, or that has grown, ask for all of
+   the heap, which small blocks share: the part that it was given back by and has grown by again has forgotten. A thread
+   that has come to another heap of its own asks for all of that. */
 void axijoint_ask_large_pages(const void *block, size_t bytes)
 {
    static uintptr_t heap, seen;
@@ -42,8 +43,16 @@ void axijoint_ask_large_pages(const void *block, size_t bytes)
       begin = from && from < end ? from : end;
       __atomic_store_n(&heap, begin, __ATOMIC_RELAXED);
    }
-   if (end - begin >= LARGE_HEAP && (grown || (bytes >= WORTH_ASKING && from >= begin && from < end))) ask(begin, end);
-   if (bytes >= WORTH_ASKING && from > end) ask(from, from + bytes);
+   if (grown || (bytes >= WORTH_ASKING && from >= begin && from < end)) ask(begin, end);
+   if (from <= end) return;
+   if (bytes >= WORTH_ASKING) {
+      ask(from, from + bytes);
+      return;
+   }
+   static _Thread_local uintptr_t own;
+   const uintptr_t base = from / THREAD_HEAP * THREAD_HEAP;
+   if (base != own) ask(base, base + THREAD_HEAP);
+   own = base;
 }
 
 #else
