@@ -135,6 +135,14 @@ contains
 
    end function least_root
 
+   !> Constants of a sector, which are as many as displacements and tractions on a ray
+   pure integer function constants(plane)
+      !> Plane strain, else antiplane
+      logical, intent(in) :: plane
+
+      constants = merge(4, 2, plane)
+   end function constants
+
    !> Determinant of the conditions on the rays, for the constants of the sectors
    function determinant(wedge, plane, lambda) result(value)
       !> The wedge
@@ -146,12 +154,12 @@ contains
       !> The determinant, of rows that are scaled to one
       complex(wp) :: value
 
-      complex(wp), allocatable :: a(:, :), first(:, :), last(:, :)
+      complex(wp), dimension(constants(plane), constants(plane)) :: first, last
+      complex(wp) :: a(constants(plane)*size(wedge%young), constants(plane)*size(wedge%young))
       integer :: n, m, k, row
 
-      m = merge(4, 2, plane)  ! constants of a sector; half of them displacements, half stresses
+      m = constants(plane)
       n = size(wedge%young)
-      allocate (a(m*n, m*n))
       a = 0.0_wp
       row = 0
       do k = 1, n
@@ -208,20 +216,21 @@ contains
       !> The ray
       real(wp), intent(in) :: angle
       !> Shape (4, 4) or (2, 2)
-      complex(wp), allocatable :: field(:, :)
+      complex(wp) :: field(constants(plane), constants(plane))
 
       complex(wp) :: polar(4, 4), c(2), s(2)
       real(wp) :: turn(2, 2), shear, kolosov
 
       shear = wedge%young(sector)/(2.0_wp + 2.0_wp*wedge%poisson(sector))/maxval(wedge%young)
-      c = [cos((lambda + 1.0_wp)*angle), cos((lambda - 1.0_wp)*angle)]
-      s = [sin((lambda + 1.0_wp)*angle), sin((lambda - 1.0_wp)*angle)]
       if (.not. plane) then
          c(1) = cos(lambda*angle)
          s(1) = sin(lambda*angle)
-         field = reshape([c(1), -shear*lambda*s(1), s(1), shear*lambda*c(1)], [2, 2])
+         field(1, :) = [c(1), s(1)]
+         field(2, :) = shear*lambda*[-s(1), c(1)]
          return
       end if
+      c = [cos((lambda + 1.0_wp)*angle), cos((lambda - 1.0_wp)*angle)]
+      s = [sin((lambda + 1.0_wp)*angle), sin((lambda - 1.0_wp)*angle)]
       kolosov = 3.0_wp - 4.0_wp*wedge%poisson(sector)
       associate (plus => lambda + 1.0_wp, minus => lambda - 1.0_wp)
          polar(1, :) = [-plus*c(1), -plus*s(1), (kolosov - lambda)*c(2), &
@@ -232,7 +241,6 @@ contains
          polar(4, :) = lambda*[plus*c(1), plus*s(1), plus*c(2), plus*s(2)]  ! normal stress
       end associate
       turn = reshape([cos(angle), sin(angle), -sin(angle), cos(angle)], [2, 2])
-      allocate (field(4, 4))
       field(:2, :) = matmul(turn, polar(:2, :))
       field(3:, :) = matmul(turn, polar(3:, :))
    end function fields
