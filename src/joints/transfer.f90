@@ -89,7 +89,7 @@ contains
       logical, intent(in), optional :: judged
 
       real(wp), allocatable :: jump(:, :, :), trial(:, :, :)
-      integer :: k
+      integer :: j, k
 
       associate (unused => self, also => present(judged))
       end associate
@@ -103,9 +103,10 @@ contains
          jump = jump + field%moved
       end if
       trial = field%stress
-      do k = 1, size(scene%laws)
-         trial(:, k, :) = trial(:, k, :) + spread(scene%laws(k)%stiffness, 2, size(jump, 3)) &
-            *(jump(:, k, :) - field%jump(:, k, :))
+      do j = 1, size(jump, 3)
+         do k = 1, size(scene%laws)
+            trial(:, k, j) = trial(:, k, j) + scene%laws(k)%stiffness*(jump(:, k, j) - field%jump(:, k, j))
+         end do
       end do
       field%jump = jump
       ! (4) debonding and slip (Eq. 15, 16); what is reduced goes back to the harmonics

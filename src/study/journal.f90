@@ -68,6 +68,7 @@ contains
          if (errno == 0) &
             call append_to_file(path, opening//sha256(key)//new_line('a'), .true., errno)
       end if
+      call system_clock(journal%synced)
       if (errno /= 0) call io_error(error, 'write', path, errno)
    end subroutine open_journal
 

@@ -139,13 +139,16 @@ contains
       !> tau_xi, sigma, tau_theta
       real(wp) :: stress(3)
 
-      real(wp) :: tangent(3, 3)
-      integer :: k
+      real(wp) :: tangent(3, 3), shape(course%n), trial(3)
+      integer :: i, k
 
       k = course%first - 1 + minloc(abs(course%x(:course%n) - x), 1)
-      call admit(model%joint_materials(points(k)%material)%law, field%memory(k, plane), &
-                 matmul(course%trial(:, :course%n), lagrange(course%x(:course%n), x)), stress, &
-                 tangent)
+      shape = lagrange(course%x(:course%n), x)
+      trial = 0.0_wp
+      do i = 1, course%n
+         trial = trial + course%trial(:, i)*shape(i)
+      end do
+      call admit(model%joint_materials(points(k)%material)%law, field%memory(k, plane), trial, stress, tangent)
    end function law_stress
 
    !> Whether the stresses at the ends and in the middle lie on the course of those at the points
@@ -188,8 +191,8 @@ contains
       real(wp) :: missed(3, course%n)
 
       type(joint_point_type) :: point
-      real(wp) :: work(3, course%n), t(n_gauss), w(n_gauss), x, shape(3), matrix(course%n, course%n)
-      integer :: piece, i
+      real(wp) :: work(3, course%n), t(n_gauss), w(n_gauss), x, stress(3), matrix(course%n, course%n)
+      integer :: piece, i, j
 
       call gauss_rule(n_gauss, t, w)
       work = 0.0_wp
@@ -197,17 +200,18 @@ contains
          do i = 1, n_gauss
             x = -1.0_wp + (2.0_wp*piece - 1.0_wp + t(i))/n_pieces
             point = new_joint_point(course%side(:, :course%n), x, w(i)/n_pieces)
-            work = work + point%weight*spread(law_stress(model, points, field, plane, course, x), &
-               2, course%n) &
-                   *spread(point%shape(:course%n), 1, 3)
+            stress = law_stress(model, points, field, plane, course, x)
+            do j = 1, course%n
+               work(:, j) = work(:, j) + point%weight*stress*point%shape(j)
+            end do
          end do
       end do
       do i = 1, course%n
          associate (at => course%points(i))
-            shape = at%shape
-            matrix(:, i) = at%weight*shape(:course%n)
-            work = work - at%weight*spread(course%stress(:, i), 2, &
-               course%n)*spread(shape(:course%n), 1, 3)
+            matrix(:, i) = at%weight*at%shape(:course%n)
+            do j = 1, course%n
+               work(:, j) = work(:, j) - at%weight*course%stress(:, i)*at%shape(j)
+            end do
          end associate
       end do
       missed = solved(matrix, work)
