@@ -4,6 +4,7 @@
    nothing depends on it. This file is a part of programs only, never of the library. */
 #define _GNU_SOURCE
 #include <errno.h>
+#include <pthread.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <sys/mman.h>
@@ -30,16 +31,18 @@ static void ask(uintptr_t from, uintptr_t to)
 
 /* A block has been allocated: ask for it if it is large. Where it lies in the heap, or that has grown, ask for all of
    the heap, which small blocks share: the part that it was given back by and has grown by again has forgotten. A thread
-   that has come to another heap of its own asks for all of that. */
+   that has come to another heap of its own asks for all of that; the first one has none but the heap. */
 void axijoint_ask_large_pages(const void *block, size_t bytes)
 {
    static uintptr_t heap, seen;
+   static pthread_t first;
    if (bytes < WORTH_A_LOOK) return;
    const uintptr_t from = (uintptr_t)block, end = (uintptr_t)sbrk(0);
    uintptr_t begin = __atomic_load_n(&heap, __ATOMIC_RELAXED);
    const int grown = __atomic_exchange_n(&seen, end, __ATOMIC_RELAXED) != end;
 
    if (!begin) {
+      first = pthread_self();
       begin = from && from < end ? from : end;
       __atomic_store_n(&heap, begin, __ATOMIC_RELAXED);
    }
@@ -49,6 +52,7 @@ void axijoint_ask_large_pages(const void *block, size_t bytes)
       ask(from, from + bytes);
       return;
    }
+   if (pthread_equal(pthread_self(), first)) return;
    static _Thread_local uintptr_t own;
    const uintptr_t base = from / THREAD_HEAP * THREAD_HEAP;
    if (base != own) ask(base, base + THREAD_HEAP);

@@ -217,15 +217,16 @@ contains
       analysed = [(any(equations%systems(equations%first:equations%last)%class == k), k=1, n_classes)]
       if (present(all_classes)) analysed = analysed .or. all_classes
       allocate (outcomes(n_classes))
+      !$omp taskgroup
       do k = 1, n_classes
          if (.not. analysed(k)) cycle
-         !$omp task default(shared) firstprivate(k)
+         !$omp task default(shared) firstprivate(k) if(solver%concurrent)
          call find_sparsity(equations%classes(k), orders%graph, order)
          call solver%new_plan(equations%plans(k)%solver)
          call equations%plans(k)%solver%analyse(equations%classes(k)%pattern, outcomes(k)%error)
          !$omp end task
       end do
-      !$omp taskwait
+      !$omp end taskgroup
       do k = 1, n_classes
          if (allocated(outcomes(k)%error) .and. .not. allocated(error)) call move_alloc(outcomes(k)%error, error)
       end do

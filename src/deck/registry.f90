@@ -65,7 +65,9 @@ contains
       !> The sections; not to be changed
       type(read_section_type), pointer :: sections(:)
 
+      !$omp critical (axijoint_sections)
       if (.not. allocated(known)) call make_known()
+      !$omp end critical (axijoint_sections)
       sections => known
    end function all_sections
 

@@ -235,7 +235,8 @@ contains
       if (present(asked)) old_output = asked(increment)
    end function old_output
 
-   !> What a deck says of a table of the listing, else of all tables, else what is usual
+   !> What a deck says of a table of the listing, else of all tables, else what is usual: orders that no solver takes
+   !> are for who asks for them
    pure function cards_about(print, what) result(cards)
       !> What it says of all tables; nothing if absent
       type(print_type), intent(in), optional :: print(:)
@@ -249,7 +250,7 @@ contains
          cards = pack(print, print%what == what)
          if (size(cards) == 0) cards = pack(print, print%what == print_all)
       end if
-      if (size(cards) == 0) cards = [print_type(what, rows_upto, usual_rows)]
+      if (size(cards) == 0) cards = [print_type(what, merge(rows_none, rows_upto, what == print_orders), usual_rows)]
    end function cards_about
 
    !> Rows of a table that are listed, at most: those of a body or a rectangle are counted as if it

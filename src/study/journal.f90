@@ -18,8 +18,8 @@ module axijoint_study_journal
    !> What a journal begins with
    character(len=*), parameter :: opening = 'axijoint study, rows that are done; of '
 
-   !> Rows are brought to the disk so often at least, if the machine fails [second]; a program that
-   !> is killed loses none
+   !> Rows are brought to the disk, where they outlive a machine that fails, with the first that is done so much later
+   !> than the last that was, or than the start [second]; a program that is killed loses none
    integer(i8), parameter :: most_apart = 5
 
    !> A journal

@@ -24,7 +24,6 @@ module axijoint_study_rows
    use axijoint_job_in_situ_messages, only : judge_in_situ
    use axijoint_job_job, only : options_type, take_options
    use axijoint_model_model, only : model_type
-   use axijoint_model_request, only : print_type, print_all, rows_none
    use axijoint_output_listing_solution, only : convergence_text
    use axijoint_output_file_run, only : exit_code_of
    use axijoint_study_quantities, only : quantity_values
@@ -223,7 +222,6 @@ contains
          row%message = render(diagnostics, rows%source)
          return
       end if
-      model%print = [print_type(print_all, rows_none)]  ! rows have no listing: nothing is found for its tables
       call take_options(rows%options, model)
    end subroutine make_row
 

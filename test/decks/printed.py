@@ -104,18 +104,23 @@ def long_tables(program, folder):
 
 
 def orders(program, folder):
-    """Orders of the nodes: all side by side for so few nodes, else that of the solver, with the same figures"""
+    """Orders of the nodes: all side by side where that is asked for, else that of the solver, with the same figures"""
     def rows(text):
         table = text.split('order of the nodes')[1].split('harmonic')[0]
         return [line.strip() for line in table.split('\n')[1:-1]]
 
-    whole = rows(run(program, folder, 'whole'))
-    faults = expected('orders', ['reverse Cuthill-McKee', 'Sloan', 'nested dissection'],
-                      [re.split(r'  +', row)[0] for row in whole])
+    def deck_with(cards):
+        return input_deck('first.dat').replace('\nEND\n', f'\nPRINT\n{cards}END\n' if cards else '\nEND\n')
+
+    write(folder, 'whole.dat', deck_with(' TABLES, ALL\n'))
+    faults = program.run('run', 'whole.dat', '-o', folder, folder=folder).ended_with(0)
+    whole = rows(read_text(os.path.join(folder, 'whole.lis')))
+    faults += expected('orders', ['reverse Cuthill-McKee', 'Sloan', 'nested dissection'],
+                       [re.split(r'  +', row)[0] for row in whole])
     for solver, place in (('SPARSE', 2), ('BAND', 0), ('SKYLINE', 1)):
-        for name, cards, wanted in (('none', ' ORDERS, NONE\n', [whole[place]]), ('few', ' ORDERS, UPTO, 20\n', [whole[place]]),
+        for name, cards, wanted in (('usual', '', [whole[place]]), ('none', ' ORDERS, NONE\n', [whole[place]]), ('few', ' ORDERS, UPTO, 20\n', [whole[place]]),
                                     ('all', ' ORDERS, ALL\n', whole)):
-            deck = input_deck('first.dat').replace('\nEND\n', f'\nPRINT\n{cards}END\n')
+            deck = deck_with(cards)
             ran = program.run('run', write(folder, f'{name}.dat', deck), '-o', folder, '--solver', solver)
             faults += ran.ended_with(0) + expected(f'{solver}, {name}', wanted, rows(read_text(os.path.join(folder, f'{name}.lis'))))
     return faults

@@ -566,7 +566,7 @@ class Cards:
               table: Literal["DECK", "COORDS", "INCIDENCE", "JOINTNODES", "LOADS", "PATH", "AMPLITUDE", "TOTALS", "STRESSES", "NODAL", "STATES", "REACTIONS", "ORDERS", "TABLES"],
               rows: Literal["ALL", "EVERY", "UPTO", "NONE"], *, number: int | None = None,
               body: int | None = None, rectangle: Reals | None = None) -> None:
-        """PRINT: how much of long tables the listing shows; without the section tables of up to 1000 rows.
+        """PRINT: how much of long tables the listing shows; without it tables of up to 1000 rows, but not ORDERS.
 
         table: table: DECK; COORDS, INCIDENCE, JOINTNODES of the mesh; LOADS; PATH of iterations; AMPLITUDE,
             TOTALS of displacements; STRESSES at Gauss points; NODAL ones; STATES of joints; REACTIONS; ORDERS

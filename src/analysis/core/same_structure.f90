@@ -8,7 +8,7 @@ module axijoint_analysis_core_same_structure
    use axijoint_model_load, only : edge_support_type
    use axijoint_model_material, only : solid_material_type, joint_material_type, elasticity
    use axijoint_model_mesh, only : mesh_type
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, bodies_yield
    use axijoint_model_modes, only : used_modes
    use axijoint_model_restraint, only : restraint_type
    implicit none
@@ -46,7 +46,8 @@ contains
          .and. model%n_planes == built_for%n_planes &
          .and. same_solver(model, built_for) &
          .and. model%memory_limit == built_for%memory_limit &
-         .and. (reuses_factors(model) .eqv. reuses_factors(built_for))
+         .and. (reuses_factors(model) .eqv. reuses_factors(built_for)) &
+         .and. (bodies_yield(model) .eqv. bodies_yield(built_for))  ! without estimates by a finer level
       if (.not. same_structure) return
       modes = used_modes(model)
       same_structure = size(modes) == size(structure%modes)

@@ -5,7 +5,7 @@ module axijoint_analysis_core_structure
    use axijoint_analysis_core_results, only : ordering_type
    use axijoint_analysis_fine_level, only : fine_level_type, lay_out_level, is_laid_out, bytes_to_come, form_stiffness, &
       take_conditions, take_fine_model
-   use axijoint_analysis_fine_mesh, only : new_fine_mesh
+   use axijoint_analysis_fine_mesh, only : fine_mesh_type, new_fine_mesh
    use axijoint_analysis_fine_singular_places, only : singular_place_type, find_singular_places, &
       judged_points
    use axijoint_assembly_equations, only : equations_type, plan_equations, assemble_equations
@@ -154,12 +154,8 @@ contains
       if (structure%estimated .or. can_yield(model) .or. bodies_yield(model)) then
          !$omp task default(shared) private(start)
          start = omp_get_wtime()
-         if (structure%estimated) then
-            call lay_out_level(model, structure%fine)
-         else
-            call new_fine_mesh(model%mesh, structure%fine%mesh)
-         end if
-         structure%singular = find_singular_places(model, structure%fine%mesh)
+         if (structure%estimated) call lay_out_level(model, structure%fine)
+         call find_singular(model, structure)
          structure%fine%seconds = (omp_get_wtime() - start)/n_threads
          !$omp end task
       end if
@@ -168,6 +164,23 @@ contains
       !$omp end parallel
       if (.not. allocated(error)) call plan_memory(model, structure, error)
    end subroutine plan_levels
+
+   !> Find singular places on the mesh of elements half as large, which stays only if it serves estimates
+   subroutine find_singular(model, structure)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure, its fine level laid out if errors are estimated
+      type(structure_type), intent(inout) :: structure
+
+      type(fine_mesh_type) :: mesh
+
+      if (structure%estimated) then
+         structure%singular = find_singular_places(model, structure%fine%mesh)
+      else
+         call new_fine_mesh(model%mesh, mesh)
+         structure%singular = find_singular_places(model, mesh)
+      end if
+   end subroutine find_singular
 
    !> Find which joint points are judged
    subroutine judge_points(mesh, structure)

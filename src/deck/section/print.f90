@@ -28,8 +28,8 @@ contains
       type(read_section_type) :: section
 
       section%name = keyword_print
-      section%purpose = 'how much of long tables the listing shows; without the section tables '// &
-         'of up to 1000 rows'
+      section%purpose = 'how much of long tables the listing shows; without it tables '// &
+         'of up to 1000 rows, but not ORDERS'
       section%stage = stage_requests
       section%read => read_print
       section%fields = &
