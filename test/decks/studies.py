@@ -164,6 +164,24 @@ def controls(program, folder):
     return faults + expected('rows, all different', (8, 8), (len(rows), len(found)))
 
 
+def yielding(program, folder):
+    """A body that yields in every other row, with estimates of errors, which it has none of: elastic rows have theirs"""
+    text = input_deck('first.dat').replace('\nLAWS', '\n    2     3.0E4      0.17\nYIELD\n    2     MISES       1.0\nLAWS', 1)
+    deck = write(folder, 'yielding.dat', text)
+    for order in ('1\n2\n1\n', '2\n1\n2\n'):
+        ran = program.run('study', write(folder, 'yielding.csv', 'YIELD 2 MATERIAL\n' + order), deck, '-o', folder, '--estimates', folder=folder)
+        faults = ran.ended_with(0)
+        rows = rows_of(os.path.join(folder, 'yielding.study.csv')) if not faults else []
+        for row, material in zip(rows, order.split()):
+            one = changed(text, 'YIELD', 0, 1, 5, material)
+            faults += program.run('run', write(folder, 'one.dat', one), '-o', folder, '--quiet', folder=folder).ended_with(0)
+            faults += compared(row, json.loads(read_text(os.path.join(folder, 'one.json'))), f'material {material}')
+        if faults:
+            return faults
+        os.remove(os.path.join(folder, 'yielding.study.csv'))
+    return expected('rows, and different displacements', (3, 2), (len(rows), len({row['largest_displacement'] for row in rows})))
+
+
 def order_does_not_matter(program, folder):
     """The same rows in another order, in parts, and after a kill give the same digits"""
     deck = os.path.join(INPUTS, 'case3_balanced.dat')
@@ -463,6 +481,7 @@ def tests(program):
              for deck in VARIED]
     return found + [
         Test('studies/controls', lambda folder: controls(program, folder)),
+        Test('studies/yielding', lambda folder: yielding(program, folder)),
         Test('studies/order and parts', lambda folder: order_does_not_matter(program, folder)),
         Test('studies/processes', lambda folder: processes(program, folder)),
         Test('studies/wrong tables', lambda folder: wrong_tables(program, folder)),
