@@ -14,7 +14,7 @@ module axijoint_assembly_equations
    use axijoint_order_graph, only : bandwidth
    use axijoint_order_orders, only : orders_type
    use axijoint_solver_entry, only : solver_entry_type
-   use axijoint_solver_inverse_norm, only : find_inverse_norm
+   use axijoint_solver_inverse_norm, only : first_side, second_sides, inverse_norm
    use axijoint_solver_registry, only : known_solvers
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type
    implicit none
@@ -22,7 +22,7 @@ module axijoint_assembly_equations
    public :: equations_type, system_type, plan_equations, assemble_equations
    public :: solve_mode, solve_system, find_unbalanced, on_equations
    public :: own_modes, plan_solver, worth_threads, planned_seconds, condensing_operations, &
-      refine_mode, find_condition
+      correct_system, expand_mode
 
    !> With fewer equations in all, threads cost more than they save
    integer, parameter :: least_equations = 5000
@@ -48,8 +48,10 @@ module axijoint_assembly_equations
       !> Factor while it is there, and pivots once it was
       class(factor_type), allocatable :: factor
       type(pivot_report_type) :: pivots
-      !> Estimate of the condition number in the 1-norm, once asked for; negative before
+      !> Estimate of the condition number in the 1-norm, once the system is solved and corrected; negative before
       real(wp) :: condition = -1.0_wp
+      !> Solution of the first pass for the estimate, until the second
+      real(wp), allocatable :: probe(:)
       !> Whether it cannot be factored, and the words if a pivot is not the reason
       logical :: failed = .false.
       type(error_type), allocatable :: failure
@@ -379,36 +381,12 @@ contains
       end associate
    end subroutine solve_mode
 
-   !> One step of iterative refinement
-   subroutine refine_mode(equations, k, unbalanced, displacement, correction)
-      !> The equations, factored
-      type(equations_type), intent(in) :: equations
-      !> Place of the mode
-      integer, intent(in) :: k
-      !> Forces that the displacements leave, shape (n_equations)
-      real(wp), intent(in) :: unbalanced(:)
-      !> Displacement amplitudes, shape (3, nodes)
-      real(wp), intent(inout) :: displacement(:, :)
-      !> Largest correction: what rounding did to the solution before, and about what it leaves
-      real(wp), intent(out) :: correction
-
-      real(wp), allocatable :: b(:, :)
-
-      associate (dofs => equations%classes(equations%systems(equations%system(k))%class)%dofs)
-         allocate (b(dofs%n_equations, 1))
-         b(:, 1) = unbalanced
-         call equations%systems(equations%system(k))%factor%solve(b)
-         displacement = displacement + expand(dofs, b(:, 1))
-         correction = maxval([0.0_wp, abs(b)])
-      end associate
-   end subroutine refine_mode
-
-   !> Displacements of all modes of one system under nodal forces, found together, and an estimate of its
-   !> condition number in the 1-norm if it is not known yet
+   !> Displacements of all modes of one system under nodal forces, found together, with the first pass for an estimate
+   !> of its condition number if that is not known yet
    subroutine solve_system(equations, s, force, displacement)
       !> The equations, factored
       type(equations_type), intent(inout) :: equations
-      !> Place of the system; its condition is zero without equations
+      !> Place of the system
       integer, intent(in) :: s
       !> Forces on components, shape (3, nodes, modes of the system)
       real(wp), intent(in) :: force(:, :, :)
@@ -416,41 +394,65 @@ contains
       real(wp), intent(out) :: displacement(:, :, :)
 
       real(wp), allocatable :: b(:, :)
-      real(wp) :: norm
-      integer :: i
+      integer :: i, n
 
       associate (system => equations%systems(s), dofs => equations%classes(equations%systems(s)%class)%dofs)
-         allocate (b(dofs%n_equations, size(force, 3)))
-         do i = 1, size(b, 2)
+         n = size(force, 3)
+         allocate (b(dofs%n_equations, n + merge(1, 0, system%condition < 0.0_wp)))
+         do i = 1, n
             b(:, i) = gather(dofs, force(:, :, i))
          end do
-         if (system%condition < 0.0_wp) then
-            call find_inverse_norm(system%factor, norm, b)
-            system%condition = norm*system%norm
-         else
-            call system%factor%solve(b)
-         end if
-         do i = 1, size(b, 2)
+         if (system%condition < 0.0_wp) b(:, n + 1) = first_side(dofs%n_equations)
+         call system%factor%solve(b)
+         if (system%condition < 0.0_wp) system%probe = b(:, n + 1)
+         do i = 1, n
             displacement(:, :, i) = expand(dofs, b(:, i))
          end do
       end associate
    end subroutine solve_system
 
-   !> Estimate of the condition number of one system alone, found when it is first asked for
-   subroutine find_condition(equations, k)
-      !> The equations, factored
+   !> Solutions for forces that displacements of a system leave: a step of iterative refinement, with the second pass for
+   !> the estimate of its condition number in the 1-norm if that is not known yet
+   subroutine correct_system(equations, s, correction)
+      !> The equations, factored; the system has been solved
       type(equations_type), intent(inout) :: equations
       !> Place of the system; its condition is zero without equations
-      integer, intent(in) :: k
+      integer, intent(in) :: s
+      !> Forces on equations, then the corrections of the unknowns, shape (n_equations, any)
+      real(wp), intent(inout) :: correction(:, :)
 
-      real(wp) :: norm
+      real(wp), allocatable :: b(:, :)
+      integer :: n
 
-      associate (system => equations%systems(k))
-         if (system%condition >= 0.0_wp) return
-         call find_inverse_norm(system%factor, norm)
-         system%condition = norm*system%norm
+      associate (system => equations%systems(s))
+         if (system%condition >= 0.0_wp) then
+            call system%factor%solve(correction)
+            return
+         end if
+         n = size(correction, 2)
+         allocate (b(size(correction, 1), n + 2))
+         b(:, :n) = correction
+         b(:, n + 1:) = second_sides(system%probe)
+         call system%factor%solve(b)
+         correction = b(:, :n)
+         system%condition = system%norm*inverse_norm(system%probe, b(:, n + 1:))
+         deallocate (system%probe)
       end associate
-   end subroutine find_condition
+   end subroutine correct_system
+
+   !> Components of one mode from its unknowns
+   function expand_mode(equations, k, unknowns) result(displacement)
+      !> The equations
+      type(equations_type), intent(in) :: equations
+      !> Place of the mode
+      integer, intent(in) :: k
+      !> The unknowns, shape (n_equations)
+      real(wp), intent(in) :: unknowns(:)
+      !> Displacement amplitudes, shape (3, nodes)
+      real(wp), allocatable :: displacement(:, :)
+
+      displacement = expand(equations%classes(equations%systems(equations%system(k))%class)%dofs, unknowns)
+   end function expand_mode
 
    !> Forces on the equations of one mode, from forces on components
    function on_equations(equations, k, force) result(vector)

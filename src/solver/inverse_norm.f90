@@ -6,50 +6,47 @@
 !> reordered.
 module axijoint_solver_inverse_norm
    use axijoint_base_kinds, only : wp
-   use axijoint_solver_type, only : factor_type
    implicit none
    private
-   public :: find_inverse_norm
+   public :: first_side, second_sides, inverse_norm
 
 contains
 
-   !> Estimate of the 1-norm of the inverse of a factored symmetric matrix, from below, as Hager's (N. J. Higham,
-   !> ACM Trans. Math. Software 14, 1988, algorithm 4.1), but with two passes of the factor in place of three. The
-   !> first solves for a vector that rises with the number of the equation, which no symmetry of a body keeps away
-   !> from its softest motions. The second solves for the gradient of the norm there, none of whose parts is above
-   !> one, so that the largest of its solution is a bound, too: the matrix is symmetric; and for the unknown that the
-   !> first moved most, a column of the inverse.
-   !> Hager's column is that of the largest part of the gradient's solution.
-   subroutine find_inverse_norm(factor, norm, along)
-      !> The factor
-      class(factor_type), intent(in) :: factor
-      !> The estimate; zero without equations
-      real(wp), intent(out) :: norm
-      !> Right-hand sides, then solutions, which are found in the first pass, so that the factor is
-      !> read once for all of them; shape (n, any)
-      real(wp), intent(inout), optional :: along(:, :)
+   !> Right-hand side of the first of two solutions from which the 1-norm of the inverse of a symmetric matrix is
+   !> estimated, from below, as by Hager (N. J. Higham, ACM Trans. Math. Software 14, 1988, algorithm 4.1), but with two
+   !> passes of the factor in place of three, each of which may serve other right-hand sides, too. It rises with the
+   !> number of the equation: no symmetry of a body keeps such a vector away from its softest motions
+   pure function first_side(n) result(x)
+      !> Number of equations
+      integer, intent(in) :: n
+      !> The vector, of norm 1
+      real(wp) :: x(n)
 
-      real(wp), allocatable :: x(:, :)
-      integer :: i, moved, n, n_along
+      integer :: i
 
-      n = factor%n
-      norm = 0.0_wp
-      if (n == 0) return
-      n_along = 0
-      if (present(along)) n_along = size(along, 2)
-      allocate (x(n, 1 + n_along))
-      do i = 1, n
-         x(i, 1) = 2.0_wp*i/(real(n, wp)*(n + 1.0_wp))  ! of norm 1
-      end do
-      if (present(along)) x(:, 2:) = along
-      call factor%solve(x)
-      if (present(along)) along = x(:, 2:)
-      norm = sum(abs(x(:, 1)))
-      moved = maxloc(abs(x(:, 1)), 1)
-      x = reshape([sign(1.0_wp, x(:, 1)), (0.0_wp, i=1, n)], [n, 2])
-      x(moved, 2) = 1.0_wp
-      call factor%solve(x)
-      norm = max(norm, maxval(abs(x(:, 1))), sum(abs(x(:, 2))))
-   end subroutine find_inverse_norm
+      x = [(2.0_wp*i/(real(n, wp)*(n + 1.0_wp)), i=1, n)]
+   end function first_side
+
+   !> Right-hand sides of the second: the gradient of the norm there, none of whose parts is above one, so that the
+   !> largest part of its solution is a bound, too: the matrix is symmetric; and the unknown that the first moved most,
+   !> which gives a column of the inverse. Hager's column is that of the largest part of the gradient's solution
+   pure function second_sides(first) result(x)
+      !> Solution for the first
+      real(wp), intent(in) :: first(:)
+      !> The vectors
+      real(wp) :: x(size(first), 2)
+
+      x(:, 1) = sign(1.0_wp, first)
+      x(:, 2) = 0.0_wp
+      if (size(first) > 0) x(maxloc(abs(first), 1), 2) = 1.0_wp
+   end function second_sides
+
+   !> The estimate
+   pure real(wp) function inverse_norm(first, second)
+      !> Solution for the first side, and those for the second
+      real(wp), intent(in) :: first(:), second(:, :)
+
+      inverse_norm = max(sum(abs(first)), maxval([0.0_wp, abs(second(:, 1))]), sum(abs(second(:, 2))))
+   end function inverse_norm
 
 end module axijoint_solver_inverse_norm

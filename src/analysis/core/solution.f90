@@ -6,8 +6,8 @@ module axijoint_analysis_core_solution
    use axijoint_analysis_fine_difference, only : difference_type, room_type, &
       find_difference, share_difference
    use axijoint_analysis_fine_level, only : fine_load_type, new_fine_load, share_stiffness
-   use axijoint_assembly_equations, only : equations_type, own_modes, solve_system, refine_mode, &
-                                           find_unbalanced, worth_threads
+   use axijoint_assembly_equations, only : equations_type, own_modes, solve_system, correct_system, &
+                                           expand_mode, find_unbalanced, worth_threads
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
                                          release_factor, report_failure
    use axijoint_assembly_force, only : joint_force
@@ -241,7 +241,7 @@ contains
    !> Displacements of all tasks, refined
    subroutine take_solution(structure, tasks, s, force, found, solves)
       !> The structure
-      type(structure_type), intent(in) :: structure
+      type(structure_type), intent(inout) :: structure
       !> Takes the displacements
       type(task_type), intent(inout) :: tasks(:)
       !> Place of the system
@@ -251,21 +251,20 @@ contains
       !> How well each mode was solved, for the first of the tasks
       type(mode_solve_type), intent(inout) :: solves(:)
 
-      type(mode_solve_type) :: report
-      integer :: i, j, k, t
+      type(mode_solve_type) :: reports(size(structure%equations%systems(s)%modes))
+      integer :: i, k, t
 
-      associate (equations => structure%equations, modes => structure%equations%systems(s)%modes)
-         j = 0
+      associate (modes => structure%equations%systems(s)%modes)
          do t = 1, size(tasks)
-            associate (loading => tasks(t)%loading, displacement => tasks(t)%displacement)
+            associate (own => [(i, i=(t - 1)*size(modes) + 1, t*size(modes))], loading => tasks(t)%loading, &
+                       displacement => tasks(t)%displacement)
+               displacement(:, :, modes) = found(:, :, own)
+               call refine_solution(structure%equations, s, force(:, :, own), structure%negligible, displacement, reports)
+               if (t == 1) solves(modes) = reports
+               if (.not. allocated(loading%held)) cycle
                do i = 1, size(modes)
-                  j = j + 1
                   k = modes(i)
-                  displacement(:, :, k) = found(:, :, j)
-                  report%condition = equations%systems(s)%condition
-                  call refine_solve(equations, k, force(:, :, j), structure%negligible, displacement(:, :, k), report)
-                  if (t == 1) solves(k) = report
-                  if (allocated(loading%held)) displacement(:, :, k) = displacement(:, :, k) + loading%held(:, :, k)
+                  displacement(:, :, k) = displacement(:, :, k) + loading%held(:, :, k)
                end do
             end associate
          end do
@@ -300,35 +299,51 @@ contains
       end do
    end subroutine share_solves
 
-   !> Refine the solution of one mode, and see how well its equations are solved. A backward error is
+   !> Refine the solution of the modes of a system, and see how well its equations are solved. A backward error is
    !> a relative change of the data, which the condition number passes on at most: where that is
    !> negligible, it stands for the correction that is not made
-   subroutine refine_solve(equations, k, force, negligible, displacement, report)
+   subroutine refine_solution(equations, s, force, negligible, displacement, reports)
       !> The equations
-      type(equations_type), intent(in) :: equations
-      !> Place of the mode
-      integer, intent(in) :: k
-      !> Forces on components, shape (3, nodes)
-      real(wp), intent(in) :: force(:, :)
+      type(equations_type), intent(inout) :: equations
+      !> Place of the system
+      integer, intent(in) :: s
+      !> Forces on components, shape (3, nodes, modes of the system)
+      real(wp), intent(in) :: force(:, :, :)
       !> What rounding may leave without refinement, over the largest displacement
       real(wp), intent(in) :: negligible
-      !> Displacement amplitudes, shape (3, nodes)
-      real(wp), intent(inout) :: displacement(:, :)
-      !> The report; its condition number is there
-      type(mode_solve_type), intent(inout) :: report
+      !> Displacement amplitudes, shape (3, nodes, modes)
+      real(wp), intent(inout) :: displacement(:, :, :)
+      !> The reports, one a mode of the system
+      type(mode_solve_type), intent(out) :: reports(:)
 
-      real(wp), allocatable :: unbalanced(:)
+      real(wp), allocatable :: unbalanced(:), correction(:, :)
       real(wp) :: left
+      integer :: i, k
 
-      report%smallest_pivot = equations%systems(equations%system(k))%pivots%smallest
-      call find_unbalanced(equations, k, force, displacement, unbalanced, report%backward_error)
-      left = report%backward_error*report%condition
-      if (left <= negligible) then
-         report%correction = left*maxval(abs(displacement))
-         return
-      end if
-      call refine_mode(equations, k, unbalanced, displacement, report%correction)
-      call find_unbalanced(equations, k, force, displacement, unbalanced, report%backward_error)
-   end subroutine refine_solve
+      associate (system => equations%systems(s))
+         do i = 1, size(reports)
+            call find_unbalanced(equations, system%modes(i), force(:, :, i), displacement(:, :, system%modes(i)), &
+               unbalanced, reports(i)%backward_error)
+            if (i == 1) allocate (correction(size(unbalanced), size(reports)))
+            correction(:, i) = unbalanced
+         end do
+         if (system%condition < 0.0_wp .or. any(reports%backward_error*system%condition > negligible)) &
+            call correct_system(equations, s, correction)
+         do i = 1, size(reports)
+            k = system%modes(i)
+            reports(i)%smallest_pivot = system%pivots%smallest
+            reports(i)%condition = system%condition
+            left = reports(i)%backward_error*system%condition
+            if (left <= negligible) then
+               reports(i)%correction = left*maxval(abs(displacement(:, :, k)))
+            else
+               reports(i)%correction = maxval([0.0_wp, abs(correction(:, i))])
+               displacement(:, :, k) = displacement(:, :, k) + expand_mode(equations, k, correction(:, i))
+               call find_unbalanced(equations, k, force(:, :, i), displacement(:, :, k), unbalanced, &
+                  reports(i)%backward_error)
+            end if
+         end do
+      end associate
+   end subroutine refine_solution
 
 end module axijoint_analysis_core_solution

@@ -18,12 +18,10 @@ module axijoint_analysis_fine_difference
    private
    public :: difference_type, room_type, new_difference, find_difference, share_difference
 
-   !> Steps: of 38 meshes of elements of all kinds, uniform, graded, distorted and slender, the
-   !> second came to 0.80 to 1.03 of the largest difference of a node, the first to 0.6 to 0.95.
-   !> Where nodes are much better than what is between them, as in smooth fields, it takes more:
-   !> until a step changes nodes and jumps of joints by less than this part
-   integer, parameter :: least_steps = 2, most_steps = 8
-   real(wp), parameter :: settled = 0.4_wp
+   !> Steps at most, and the part of nodes and jumps of joints that is left to the blocks alone after a
+   !> step. `scripts/bench estimates` shows what that does to the estimates
+   integer, parameter :: most_steps = 8
+   real(wp), parameter :: settled = 0.3_wp
 
    !> The difference
    type :: difference_type
@@ -165,7 +163,9 @@ contains
       end associate
    end subroutine left_force
 
-   !> Displacements under forces, in a few steps
+   !> Displacements under forces: steps that blocks and the coarse mesh make together, as many as it takes
+   !> until what the blocks would add to them is small. That is added without a product for how far to go:
+   !> as far as the blocks alone would have gone in the step before
    subroutine descend(level, equations, k, room, difference)
       !> The fine level
       type(fine_level_type), intent(in) :: level
@@ -179,8 +179,8 @@ contains
       type(difference_type), intent(inout) :: difference
 
       real(wp), allocatable :: jump(:, :)
-      real(wp) :: length
-      integer :: step, i, n
+      real(wp) :: length, of_blocks
+      integer :: step, n
 
       associate (harmonic => equations%modes(k)%harmonic, force => room%force, way => room%way, &
                  pull => room%pull, change => room%external, place => level%stiffness%place, &
@@ -191,10 +191,22 @@ contains
          if (size(level%coarse_points) > 0) n = size(change, 2)  ! jumps are of fine nodes, too
          do step = 1, most_steps
             associate (d => way(:, :, step), kd => pull(:, :, step))
-               call look_down(level, equations, k, room%factor, force, room%u, d)
-               do i = 1, step - 1
-                  d = d - sum(pull(:, :, i)*d)*way(:, :, i)
-               end do
+               d = force
+               call solve_blocks(level%smoother, room%factor, d)
+               call hold(conditions, d)
+               if (step > 1) then
+                  room%u = d
+                  call keep_apart(way(:, :, :step - 1), pull(:, :, :step - 1), room%u)
+                  change(:, :n) = of_blocks*room%u(:, place(:n))
+                  jump = joint_jump(level%coarse_points, change)
+                  if (is_small(change(:, :size(displacement, 2)), displacement) .and. is_small(jump, jumps)) then
+                     displacement = displacement + change(:, :size(displacement, 2))
+                     jumps = jumps + jump
+                     exit
+                  end if
+               end if
+               call look_down(level, equations, k, force, room%u, d, of_blocks)
+               call keep_apart(way(:, :, :step - 1), pull(:, :, :step - 1), d)
                call block_product(level%stiffness, harmonic, d, kd)
                length = sum(d*kd)
                if (.not. length > 0.0_wp) exit
@@ -202,51 +214,61 @@ contains
                kd = kd/sqrt(length)
                length = sum(d*force)
                change(:, :n) = length*d(:, place(:n))
-               jump = joint_jump(level%coarse_points, change)
                displacement = displacement + change(:, :size(displacement, 2))
-               jumps = jumps + jump
+               jumps = jumps + joint_jump(level%coarse_points, change)
                force = force - length*kd
                call take_reactions(conditions, force)
-               if (step >= least_steps .and. is_small(change(:, :size(displacement, 2)), &
-                  displacement) &
-                   .and. is_small(jump, jumps)) exit
             end associate
          end do
       end associate
+
    end subroutine descend
 
-   !> Whether a change is small
-   pure logical function is_small(change, whole)
-      !> The change, and what was changed
-      real(wp), intent(in) :: change(:, :), whole(:, :)
+   !> Take from a way what goes along those before it
+   subroutine keep_apart(ways, pulls, d)
+      !> Ways of unit energy and the forces that they take, shape (3, fine nodes, ways)
+      real(wp), intent(in) :: ways(:, :, :), pulls(:, :, :)
+      !> The way
+      real(wp), intent(inout), contiguous :: d(:, :)
 
-      is_small = maxval(abs(change)) <= settled*maxval(abs(whole))
+      integer :: i
+
+      do i = 1, size(ways, 3)
+         d = d - sum(pulls(:, :, i)*d)*ways(:, :, i)
+      end do
+   end subroutine keep_apart
+
+   !> Whether a change is small
+   pure logical function is_small(change, before)
+      !> The change, and what would be changed
+      real(wp), intent(in) :: change(:, :), before(:, :)
+
+      is_small = maxval(abs(change)) <= settled*maxval(abs(before + change))
    end function is_small
 
    !> A way down: what the blocks make of forces, and what the coarse mesh does then
-   subroutine look_down(level, equations, k, factor, force, rest, d)
+   subroutine look_down(level, equations, k, force, rest, d, of_blocks)
       !> The fine level
       type(fine_level_type), intent(in) :: level
       !> Equations of the coarse mesh, factored
       type(equations_type), intent(in) :: equations
       !> Place of the mode
       integer, intent(in) :: k
-      !> Factors of the blocks
-      real(wp), intent(in) :: factor(:)
       !> Forces, shape (3, fine nodes)
       real(wp), intent(in) :: force(:, :)
       !> Room for forces and displacements, same shape
       real(wp), intent(inout), contiguous :: rest(:, :)
-      !> Displacements, same shape
-      real(wp), intent(out), contiguous :: d(:, :)
+      !> Displacements of the blocks, then with those of the coarse mesh, same shape
+      real(wp), intent(inout), contiguous :: d(:, :)
+      !> How far the blocks alone would go
+      real(wp), intent(out) :: of_blocks
 
       real(wp), allocatable :: coarse(:, :), displacement(:, :)
 
       associate (conditions => level%conditions(equations%systems(equations%system(k))%class))
-         d = force
-         call solve_blocks(level%smoother, factor, d)
-         call hold(conditions, d)
          call block_product(level%stiffness, equations%modes(k)%harmonic, d, rest)
+         of_blocks = sum(d*rest)
+         if (of_blocks > 0.0_wp) of_blocks = sum(d*force)/of_blocks
          rest = force - rest
          call take_reactions(conditions, rest)
          allocate (coarse(3, size(equations%classes(1)%dofs%equation, 2)))
