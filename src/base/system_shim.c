@@ -134,15 +134,15 @@ void axijoint_return_freed_memory(void)
 
 /* What is freed stays, but for the largest arrays, as long as no more than so much of it lies at the end: the
    next harmonic, or the next row of a study, has the same arrays again, and fetching their pages is a tenth
-   of the time of a run, and a quarter of that of a row. The heap grows by 16 MiB of addresses at once, so that the
-   pages it is asked for can be large ones, unless addresses are limited: memory is taken by what is used alone. */
+   of the time of a run, and a quarter of that of a row. The heap grows by 64 MiB of addresses at once, so that the
+   pages it is asked for can be large ones all over, unless addresses are limited: memory is taken by what is used alone. */
 void axijoint_keep_freed_memory(int mebibytes)
 {
 #ifdef M_MMAP_THRESHOLD
    struct rlimit space;
    mallopt(M_MMAP_THRESHOLD, 32 << 20);
    mallopt(M_TRIM_THRESHOLD, mebibytes << 20);
-   if (getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur == RLIM_INFINITY) mallopt(M_TOP_PAD, 16 << 20);
+   if (getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur == RLIM_INFINITY) mallopt(M_TOP_PAD, 64 << 20);
 #else
    (void)mebibytes;
 #endif

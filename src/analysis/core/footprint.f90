@@ -20,7 +20,7 @@ module axijoint_analysis_core_footprint
 
    !> What program and libraries without any data take beyond their start once they are used, with what the last of
    !> the heap's large pages is too large [byte]; measured
-   integer(i8), parameter :: program_bytes = 9500000_i8
+   integer(i8), parameter :: program_bytes = 12000000_i8
    !> Bytes of a real
    integer(i8), parameter :: real_bytes = storage_size(1.0_wp)/8
    !> Numbers of a joint point on a plane: jumps, stresses, states, slip, slopes, and copies
