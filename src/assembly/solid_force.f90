@@ -93,13 +93,17 @@ contains
 
       type(reference_type), allocatable :: references(:)
       type(solid_strip_type) :: strip
+      type(solid_point_type) :: points(max_element_points, most_elements)
+      type(dilatation_type) :: dilatations(most_elements)
       real(wp), dimension(most_elements, 6, max_element_points) :: now, in_situ
       real(wp), dimension(most_elements, 3, max_element_nodes) :: local, balance
       real(wp) :: d(6, 6)
       integer :: before, e, first, i, k, last, node
-      logical :: averaged
+      logical :: averaged, stressed
 
       references = element_references(model%mesh)
+      stressed = .false.
+      if (allocated(initial%in_situ)) stressed = size(initial%in_situ) > 0
       force = 0.0_wp
       local = 0.0_wp
       before = 0
@@ -110,7 +114,8 @@ contains
          if (present(body)) then
             if (all(body /= [0, model%mesh%element_body(first)])) cycle
          end if
-         call fill_strip(model%mesh, references(model%mesh%element_kind(first)), first, last, strip)
+         call fill_strip(model%mesh, references(model%mesh%element_kind(first)), first, last, strip, &
+            points, dilatations)
          d = elasticity(model%materials(model%mesh%element_material(first)))
          do k = 1, size(modes)
             do i = 1, strip%n
@@ -119,11 +124,13 @@ contains
                end do
             end do
             call strip_stresses(strip, d, modes(k)%harmonic, local, now)
-            if (initial%present) call find_free_stress(model, initial, place + k - 1, modes(k), &
-               references(model%mesh%element_kind(first)), first, last, before, d, now, in_situ)
+            call add_free_stress(model, initial, place + k - 1, points(:strip%n_points, :), dilatations, first, last, &
+               before, d, now)
             balance = 0.0_wp
             call add_strip_forces(strip, modes(k)%harmonic, now, balance)
-            if (initial%present) then  ! equilibrium in situ knows of no means
+            if (stressed .and. same_mode(modes(k), mode_type(0, family_symmetric))) then
+               call find_in_situ_stress(model, initial%in_situ, points, first, last, strip%n_points, in_situ)
+               ! equilibrium in situ knows of no means
                averaged = strip%averaged
                strip%averaged = .false.
                call add_strip_forces(strip, modes(k)%harmonic, in_situ, balance)
@@ -164,7 +171,7 @@ contains
    end function end_of_strip
 
    !> Put elements into a strip
-   pure subroutine fill_strip(mesh, reference, first, last, strip)
+   pure subroutine fill_strip(mesh, reference, first, last, strip, points, dilatations)
       !> The mesh
       type(mesh_type), intent(in) :: mesh
       !> Their kind
@@ -173,61 +180,75 @@ contains
       integer, intent(in) :: first, last
       !> The strip
       type(solid_strip_type), intent(inout) :: strip
+      !> Points of each element, shape (max_element_points, most_elements), and means over it
+      type(solid_point_type), intent(inout) :: points(:, :)
+      type(dilatation_type), intent(inout) :: dilatations(:)
 
-      type(solid_point_type) :: points(max_element_points)
-      type(dilatation_type) :: dilatation
-      integer :: e
+      integer :: e, place
 
       do e = first, last
+         place = e - first + 1
          call formulated_points(mesh%coordinates(:, mesh%element_nodes(:reference%n_nodes, e)), &
-            reference, points(:reference%n_points), dilatation)
-         call put_element(points(:reference%n_points), reference%n_nodes, dilatation, &
-            e - first + 1, strip)
+            reference, points(:reference%n_points, place), dilatations(place))
+         call put_element(points(:reference%n_points, place), reference%n_nodes, dilatations(place), place, strip)
       end do
    end subroutine fill_strip
 
-   !> Stress of a strip in one mode that is there without strain
-   pure subroutine find_free_stress(model, initial, k, mode, reference, first, last, before, d, now, &
-      in_situ)
+   !> Add the stress of a strip in one mode that temperatures and plastic strain give without strain
+   pure subroutine add_free_stress(model, initial, k, points, dilatations, first, last, before, d, stress)
       !> The job
       type(model_type), intent(in) :: model
       !> Stress without strain
       type(initial_state_type), intent(in) :: initial
-      !> Place of the mode, and the mode
+      !> Place of the mode
       integer, intent(in) :: k
-      type(mode_type), intent(in) :: mode
-      !> Kind of the elements
-      type(reference_type), intent(in) :: reference
+      !> Points of each element, shape (points, most_elements), and means over it
+      type(solid_point_type), intent(in) :: points(:, :)
+      type(dilatation_type), intent(in) :: dilatations(:)
       !> First and last element, and points of all elements before them
       integer, intent(in) :: first, last, before
       !> Elasticity matrix
       real(wp), intent(in) :: d(6, 6)
-      !> Stress of the strains; takes that of temperatures and of plastic strain
-      real(wp), intent(inout) :: now(most_elements, 6, max_element_points)
-      !> In-situ stress
-      real(wp), intent(inout) :: in_situ(most_elements, 6, max_element_points)
+      !> Stress of the strains; takes that besides
+      real(wp), intent(inout) :: stress(most_elements, 6, max_element_points)
 
-      type(solid_point_type) :: points(max_element_points)
-      type(dilatation_type) :: dilatation
       integer :: e, i, n
 
-      in_situ = 0.0_wp
-      n = reference%n_points
+      if (.not. (allocated(initial%temperature) .or. allocated(initial%taken))) return
+      n = size(points, 1)
       do e = 1, last - first + 1
-         associate (element => first + e - 1)
-            call formulated_points(model%mesh%coordinates(:, &
-               model%mesh%element_nodes(:reference%n_nodes, element)), reference, points(:n), &
-               dilatation)
-            do i = 1, n
-               now(e, :, i) = now(e, :, i) + thermal_stress(model, initial, k, element, &
-                  strain_shape(dilatation, points(i)), d)
-               if (allocated(initial%taken)) &
-                  now(e, :, i) = now(e, :, i) - initial%taken(:, before + (e - 1)*n + i, k)
-               in_situ(e, :, i) = in_situ_stress(model, initial, mode, element, points(i))
-            end do
-         end associate
+         do i = 1, n
+            if (allocated(initial%temperature)) stress(e, :, i) = stress(e, :, i) &
+               + thermal_stress(model, initial, k, first + e - 1, strain_shape(dilatations(e), points(i, e)), d)
+            if (allocated(initial%taken)) &
+               stress(e, :, i) = stress(e, :, i) - initial%taken(:, before + (e - 1)*n + i, k)
+         end do
       end do
-   end subroutine find_free_stress
+   end subroutine add_free_stress
+
+   !> In-situ stress of a strip: r, z, theta, rz; in the mode of the axis alone
+   pure subroutine find_in_situ_stress(model, states, points, first, last, n, stress)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> In-situ stresses
+      type(initial_stress_type), intent(in) :: states(:)
+      !> Points of each element, shape (max_element_points, most_elements)
+      type(solid_point_type), intent(in) :: points(:, :)
+      !> First and last element, and points of each
+      integer, intent(in) :: first, last, n
+      !> The stress
+      real(wp), intent(out) :: stress(most_elements, 6, max_element_points)
+
+      integer :: e, i
+
+      stress = 0.0_wp
+      do e = 1, last - first + 1
+         do i = 1, n
+            stress(e, :4, i) = stress_before(states, model%mesh%element_body(first + e - 1), &
+               model%mesh%element_material(first + e - 1), points(i, e)%position(2))
+         end do
+      end do
+   end subroutine find_in_situ_stress
 
    !> Stress at a point that temperature gives without strain: - D alpha T
    pure function thermal_stress(model, initial, k, element, shape, d) result(stress)
@@ -254,27 +275,6 @@ contains
             *matmul(d, thermal_strain(material))
       end associate
    end function thermal_stress
-
-   !> In-situ stress at a point
-   pure function in_situ_stress(model, initial, mode, element, point) result(stress)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> In-situ stresses
-      type(initial_state_type), intent(in) :: initial
-      !> The mode
-      type(mode_type), intent(in) :: mode
-      !> The element
-      integer, intent(in) :: element
-      !> The point
-      type(solid_point_type), intent(in) :: point
-      !> Amplitudes of r, z, theta, rz, r-theta, z-theta
-      real(wp) :: stress(6)
-
-      stress = 0.0_wp
-      if (.not. same_mode(mode, mode_type(0, family_symmetric))) return
-      stress(:4) = stress_before(initial%in_situ, model%mesh%element_body(element), &
-                                 model%mesh%element_material(element), point%position(2))
-   end function in_situ_stress
 
    !> Add the nodal forces of an acceleration of all masses
    subroutine add_mass_force(model, load, factor, force)

@@ -180,6 +180,7 @@ contains
          integer, intent(in) :: s
 
          real(wp), allocatable :: force(:, :, :), found(:, :, :)  ! threads have small stacks
+         type(mode_solve_type), allocatable :: reports(:)
          real(wp) :: before_errors
 
          times(1, s) = omp_get_wtime()
@@ -189,9 +190,12 @@ contains
             if (.not. equations%systems(s)%failed) then
                allocate (force(3, size(tasks(1)%displacement, 2), size(equations%systems(s)%modes)*size(tasks)))
                allocate (found, mold=force)
+               allocate (reports(size(force, 3)))
                call load_system(structure, tasks, s, force)
                call solve_system(equations, s, force, found)
-               call take_solution(structure, tasks, s, force, found, solves)
+               call refine_solutions(equations, s, force, structure%negligible, found, reports)
+               call take_solution(structure, tasks, s, found)
+               solves(equations%systems(s)%modes) = reports(:size(equations%systems(s)%modes))
                deallocate (force, found)
             end if
             if (present(difference) .and. size(spaces) == 1) call share_stiffness(structure%fine, equations%team, error)
@@ -238,33 +242,28 @@ contains
       end associate
    end subroutine load_system
 
-   !> Displacements of all tasks, refined
-   subroutine take_solution(structure, tasks, s, force, found, solves)
+   !> Displacements of all tasks from those of the unknowns
+   subroutine take_solution(structure, tasks, s, found)
       !> The structure
-      type(structure_type), intent(inout) :: structure
+      type(structure_type), intent(in) :: structure
       !> Takes the displacements
       type(task_type), intent(inout) :: tasks(:)
       !> Place of the system
       integer, intent(in) :: s
-      !> Forces on components, and the displacements under them, shape (3, nodes, modes of the system times tasks)
-      real(wp), intent(in) :: force(:, :, :), found(:, :, :)
-      !> How well each mode was solved, for the first of the tasks
-      type(mode_solve_type), intent(inout) :: solves(:)
+      !> The displacements without those of held components, shape (3, nodes, modes of the system times tasks)
+      real(wp), intent(in) :: found(:, :, :)
 
-      type(mode_solve_type) :: reports(size(structure%equations%systems(s)%modes))
-      integer :: i, k, t
+      integer :: i, j, k, t
 
       associate (modes => structure%equations%systems(s)%modes)
+         j = 0
          do t = 1, size(tasks)
-            associate (own => [(i, i=(t - 1)*size(modes) + 1, t*size(modes))], loading => tasks(t)%loading, &
-                       displacement => tasks(t)%displacement)
-               displacement(:, :, modes) = found(:, :, own)
-               call refine_solution(structure%equations, s, force(:, :, own), structure%negligible, displacement, reports)
-               if (t == 1) solves(modes) = reports
-               if (.not. allocated(loading%held)) cycle
+            associate (loading => tasks(t)%loading, displacement => tasks(t)%displacement)
                do i = 1, size(modes)
+                  j = j + 1
                   k = modes(i)
-                  displacement(:, :, k) = displacement(:, :, k) + loading%held(:, :, k)
+                  displacement(:, :, k) = found(:, :, j)
+                  if (allocated(loading%held)) displacement(:, :, k) = displacement(:, :, k) + loading%held(:, :, k)
                end do
             end associate
          end do
@@ -299,51 +298,52 @@ contains
       end do
    end subroutine share_solves
 
-   !> Refine the solution of the modes of a system, and see how well its equations are solved. A backward error is
+   !> Refine solutions of a system, and see how well its equations are solved. A backward error is
    !> a relative change of the data, which the condition number passes on at most: where that is
    !> negligible, it stands for the correction that is not made
-   subroutine refine_solution(equations, s, force, negligible, displacement, reports)
+   subroutine refine_solutions(equations, s, force, negligible, displacement, reports)
       !> The equations
       type(equations_type), intent(inout) :: equations
       !> Place of the system
       integer, intent(in) :: s
-      !> Forces on components, shape (3, nodes, modes of the system)
+      !> Forces on components: of the modes of the system, once or some times. Shape (3, nodes, any)
       real(wp), intent(in) :: force(:, :, :)
       !> What rounding may leave without refinement, over the largest displacement
       real(wp), intent(in) :: negligible
-      !> Displacement amplitudes, shape (3, nodes, modes)
+      !> Displacement amplitudes, same shape
       real(wp), intent(inout) :: displacement(:, :, :)
-      !> The reports, one a mode of the system
+      !> The reports, one a solution
       type(mode_solve_type), intent(out) :: reports(:)
 
       real(wp), allocatable :: unbalanced(:), correction(:, :)
       real(wp) :: left
-      integer :: i, k
+      integer :: i
 
       associate (system => equations%systems(s))
-         do i = 1, size(reports)
-            call find_unbalanced(equations, system%modes(i), force(:, :, i), displacement(:, :, system%modes(i)), &
-               unbalanced, reports(i)%backward_error)
-            if (i == 1) allocate (correction(size(unbalanced), size(reports)))
-            correction(:, i) = unbalanced
-         end do
-         if (system%condition < 0.0_wp .or. any(reports%backward_error*system%condition > negligible)) &
-            call correct_system(equations, s, correction)
-         do i = 1, size(reports)
-            k = system%modes(i)
-            reports(i)%smallest_pivot = system%pivots%smallest
-            reports(i)%condition = system%condition
-            left = reports(i)%backward_error*system%condition
-            if (left <= negligible) then
-               reports(i)%correction = left*maxval(abs(displacement(:, :, k)))
-            else
-               reports(i)%correction = maxval([0.0_wp, abs(correction(:, i))])
-               displacement(:, :, k) = displacement(:, :, k) + expand_mode(equations, k, correction(:, i))
-               call find_unbalanced(equations, k, force(:, :, i), displacement(:, :, k), unbalanced, &
+         associate (mode => [(system%modes(modulo(i - 1, size(system%modes)) + 1), i=1, size(reports))])
+            do i = 1, size(reports)
+               call find_unbalanced(equations, mode(i), force(:, :, i), displacement(:, :, i), unbalanced, &
                   reports(i)%backward_error)
-            end if
-         end do
+               if (i == 1) allocate (correction(size(unbalanced), size(reports)))
+               correction(:, i) = unbalanced
+            end do
+            if (system%condition < 0.0_wp .or. any(reports%backward_error*system%condition > negligible)) &
+               call correct_system(equations, s, correction)
+            do i = 1, size(reports)
+               reports(i)%smallest_pivot = system%pivots%smallest
+               reports(i)%condition = system%condition
+               left = reports(i)%backward_error*system%condition
+               if (left <= negligible) then
+                  reports(i)%correction = left*maxval(abs(displacement(:, :, i)))
+               else
+                  reports(i)%correction = maxval([0.0_wp, abs(correction(:, i))])
+                  displacement(:, :, i) = displacement(:, :, i) + expand_mode(equations, mode(i), correction(:, i))
+                  call find_unbalanced(equations, mode(i), force(:, :, i), displacement(:, :, i), unbalanced, &
+                     reports(i)%backward_error)
+               end if
+            end do
+         end associate
       end associate
-   end subroutine refine_solution
+   end subroutine refine_solutions
 
 end module axijoint_analysis_core_solution
