@@ -1,6 +1,6 @@
-!> What a change of the excess stress of joints does to the displacements
+!> What changes of the excess stress of joints do to the displacements
 module axijoint_analysis_error_excess_effect
-   use axijoint_assembly_equations, only : equations_type, solve_mode
+   use axijoint_assembly_equations, only : equations_type, on_equations, expand_mode
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
       release_factor
    use axijoint_assembly_force, only : joint_force
@@ -10,10 +10,15 @@ module axijoint_analysis_error_excess_effect
    private
    public :: add_excess_effect
 
+   !> Of one change, or of several, for which each factor is read once
+   interface add_excess_effect
+      module procedure add_effect_of_one, add_effects
+   end interface add_excess_effect
+
 contains
 
    !> Add the displacements from excess joint stress
-   subroutine add_excess_effect(equations, points, excess, displacement, found)
+   subroutine add_effect_of_one(equations, points, excess, displacement, found)
       !> The equations, factored
       type(equations_type), intent(inout) :: equations
       !> Joint points
@@ -25,32 +30,71 @@ contains
       !> Whether all are there: a factor that is not kept may lack the memory to be formed again
       logical, intent(out) :: found
 
+      real(wp), allocatable :: effect(:, :, :, :)
+
+      effect = reshape(displacement, [shape(displacement), 1])
+      call add_effects(equations, points, reshape(excess, [shape(excess), 1]), effect, found)
+      displacement = effect(:, :, :, 1)
+   end subroutine add_effect_of_one
+
+   !> The same of several changes
+   subroutine add_effects(equations, points, excess, displacement, found)
+      !> The equations, factored
+      type(equations_type), intent(inout) :: equations
+      !> Joint points
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Amplitudes, shape (3, points, modes, changes)
+      real(wp), intent(in) :: excess(:, :, :, :)
+      !> Displacement amplitudes, shape (3, nodes, modes, changes)
+      real(wp), intent(inout) :: displacement(:, :, :, :)
+      !> Whether all are there: a factor that is not kept may lack the memory to be formed again
+      logical, intent(out) :: found
+
       type(workspace_type), allocatable :: spaces(:)
-      real(wp), allocatable :: part(:, :), force(:, :)  ! threads have small stacks
-      integer :: s, i, k
+      real(wp), allocatable :: b(:, :)  ! threads have small stacks
+      integer, allocatable :: change(:)
+      integer :: c, i, j, k, s
 
       found = .true.
-      if (.not. any(abs(excess) > 0.0_wp)) return
+      change = pack([(c, c=1, size(excess, 4))], [(any(abs(excess(:, :, :, c)) > 0.0_wp), c=1, size(excess, 4))])
+      if (size(change) == 0) return
       call new_workspaces(equations, spaces)
-      !$omp parallel do schedule(dynamic) private(i, k, part, force) num_threads(size(spaces)) &
+      !$omp parallel do schedule(dynamic) private(b, c, i, j, k) num_threads(size(spaces)) &
       !$omp reduction(.and.: found)
       do s = equations%first, equations%last
          call hold_factor(equations, s, spaces(own()))
-         found = found .and. .not. equations%systems(s)%failed
-         if (equations%systems(s)%failed) cycle
-         do i = 1, size(equations%systems(s)%modes)
-            k = equations%systems(s)%modes(i)
-            force = joint_force(points, equations%modes(k)%harmonic, excess(:, :, k), &
-               size(displacement, 2))
-            part = force  ! for its shape
-            call solve_mode(equations, k, force, part)
-            displacement(:, :, k) = displacement(:, :, k) + part
-         end do
+         associate (system => equations%systems(s), n => equations%classes(equations%systems(s)%class)%dofs%n_equations)
+            found = found .and. .not. system%failed
+            if (system%failed) cycle
+            allocate (b(n, size(system%modes)*size(change)))
+            j = 0
+            do c = 1, size(change)
+               do i = 1, size(system%modes)
+                  j = j + 1
+                  k = system%modes(i)
+                  b(:, j) = on_equations(equations, k, joint_force(points, equations%modes(k)%harmonic, &
+                     excess(:, :, k, change(c)), size(displacement, 2)))
+               end do
+            end do
+            call system%factor%solve(b)
+            j = 0
+            do c = 1, size(change)
+               do i = 1, size(system%modes)
+                  j = j + 1
+                  k = system%modes(i)
+                  displacement(:, :, k, change(c)) = displacement(:, :, k, change(c)) + expand_mode(equations, k, b(:, j))
+               end do
+            end do
+            deallocate (b)
+         end associate
          call release_factor(equations, s, spaces(own()))
       end do
       !$omp end parallel do
       found = equations%team%all_of(found)
-      call equations%team%gather(displacement, size(displacement, kind=i8), equations%last_mode)
-   end subroutine add_excess_effect
+      do c = 1, size(change)
+         call equations%team%gather(displacement(:, :, :, change(c)), size(displacement(:, :, :, 1), kind=i8), &
+            equations%last_mode)
+      end do
+   end subroutine add_effects
 
 end module axijoint_analysis_error_excess_effect

@@ -52,7 +52,7 @@ contains
 
       type(joint_field_type), allocatable :: balanced
       type(joint_changes_type) :: changes
-      real(wp), allocatable :: displacement(:, :, :)
+      real(wp), allocatable :: displacement(:, :, :), effect(:, :, :, :)
       real(wp) :: start, largest
 
       start = omp_get_wtime()
@@ -73,24 +73,62 @@ contains
          displacement = results%displacement
          call add_motions(condensed%floating, field%offset, displacement)
          largest = largest_vector(results%modes, displacement)
-         displacement = results%displacement
          changes%iteration = change_between(scene, field, balanced, &
             structure%judged(structure%yielding))
          changes%iteration%seconds = omp_get_wtime() - start
-         call add_excess_effect(structure%equations, condensed%points, changes%iteration%excess, &
-            displacement, &
-                                changes%iteration%known)
          call find_joint_changes(condensed, scene, balanced, history%start, &
                                  structure%judged(structure%yielding), changes)
-         call take_share(structure, history, results, largest, changes%iteration, &
+         call find_effects(structure, size(displacement, 2), changes, effect)
+         displacement = results%displacement + effect(:, :, :, 1)
+         call take_share(structure, history, results, largest, changes%iteration, effect(:, :, :, 1), &
             results%joint_errors(1))
-         call take_share(structure, history, results, largest, changes%planes, &
+         call take_share(structure, history, results, largest, changes%planes, effect(:, :, :, 2), &
             results%joint_errors(2))
-         call take_share(structure, history, results, largest, changes%harmonics, &
+         call take_share(structure, history, results, largest, changes%harmonics, effect(:, :, :, 3), &
             results%joint_errors(3))
          call mesh_error_of_balanced(structure, history, balanced, displacement, mesh_error)
       end associate
    end subroutine estimate_yielding_errors
+
+   !> What the changes of the joints do to the displacements, each without rigid motions of floating parts
+   subroutine find_effects(structure, n_nodes, changes, effect)
+      !> The structure
+      type(structure_type), intent(inout) :: structure
+      !> Nodes
+      integer, intent(in) :: n_nodes
+      !> The changes; those whose effect is not found are not known, and each took its part of the time
+      type(joint_changes_type), intent(inout) :: changes
+      !> Of iteration, planes, harmonics: amplitudes, shape (3, nodes, modes, 3)
+      real(wp), allocatable, intent(out) :: effect(:, :, :, :)
+
+      real(wp), allocatable :: excess(:, :, :, :)
+      real(wp) :: seconds
+      logical :: found
+
+      seconds = omp_get_wtime()
+      allocate (excess(3, size(structure%condensed%points), size(structure%modes), 3), source=0.0_wp)
+      if (changes%iteration%known) excess(:, :, :, 1) = changes%iteration%excess
+      if (changes%planes%known) excess(:, :, :, 2) = changes%planes%excess
+      if (changes%harmonics%known) excess(:, :, :, 3) = changes%harmonics%excess
+      allocate (effect(3, n_nodes, size(structure%modes), 3), source=0.0_wp)
+      call add_excess_effect(structure%equations, structure%condensed%points, excess, effect, found)
+      seconds = (omp_get_wtime() - seconds)/3.0_wp
+      call see(changes%iteration)
+      call see(changes%planes)
+      call see(changes%harmonics)
+
+   contains
+
+      !> See whether the effect of a change is known, and what it took
+      subroutine see(change)
+         !> The change
+         type(joint_change_type), intent(inout) :: change
+
+         change%known = change%known .and. found
+         change%seconds = change%seconds + seconds
+      end subroutine see
+
+   end subroutine find_effects
 
    !> What the iteration left, by the state in which the joints are wholly balanced: a bound where
    !> that is within what is wanted
@@ -125,7 +163,10 @@ contains
             if (share%displacement <= wanted%displacement .and. &
                 share%joint_stress <= wanted%joint_stress) return
          end if
-         call take_share(structure, history, results, largest, change, share)
+         if (.not. change%known) return
+         displacement = 0.0_wp
+         call add_excess_effect(structure%equations, condensed%points, change%excess, displacement, change%known)
+         call take_share(structure, history, results, largest, change, displacement, share)
       end associate
    end subroutine iteration_error
 
@@ -174,9 +215,9 @@ contains
    end function nothing_is_left
 
    !> An error in relative numbers
-   subroutine take_share(structure, history, results, largest, change, share)
+   subroutine take_share(structure, history, results, largest, change, effect, share)
       !> The structure
-      type(structure_type), intent(inout) :: structure
+      type(structure_type), intent(in) :: structure
       !> What the increments came to
       type(history_type), intent(in) :: history
       !> Results with displacements
@@ -185,21 +226,18 @@ contains
       real(wp), intent(in) :: largest
       !> The change of the joints
       type(joint_change_type), intent(in) :: change
+      !> Displacements that it makes but for rigid motions of floating parts, shape (3, nodes, modes)
+      real(wp), intent(in) :: effect(:, :, :)
       !> Takes stress, displacement and time
       type(error_share_type), intent(inout) :: share
 
       real(wp), allocatable :: displacement(:, :, :)
       real(wp) :: start
-      logical :: found
 
       start = omp_get_wtime()
       share%seconds = change%seconds
       if (.not. change%known) return
-      allocate (displacement, mold=results%displacement)
-      displacement = 0.0_wp
-      call add_excess_effect(structure%equations, structure%condensed%points, change%excess, &
-         displacement, found)
-      if (.not. found) return
+      displacement = effect
       call add_motions(structure%condensed%floating, change%offset, displacement)
       share%joint_stress = ratio(max(change%stress, elastic_change(structure, displacement)), &
                                  stress_scale(structure, history, results%displacement))
