@@ -403,7 +403,7 @@ contains
             b(:, i) = gather(dofs, force(:, :, i))
          end do
          if (system%condition < 0.0_wp) b(:, n + 1) = first_side(dofs%n_equations)
-         call system%factor%solve(b)
+         call system%factor%solve_apart(b)
          if (system%condition < 0.0_wp) system%probe = b(:, n + 1)
          do i = 1, n
             displacement(:, :, i) = expand(dofs, b(:, i))
@@ -419,21 +419,21 @@ contains
       !> Place of the system; its condition is zero without equations
       integer, intent(in) :: s
       !> Forces on equations, then the corrections of the unknowns, shape (n_equations, any)
-      real(wp), intent(inout) :: correction(:, :)
+      real(wp), intent(inout), contiguous :: correction(:, :)
 
       real(wp), allocatable :: b(:, :)
       integer :: n
 
       associate (system => equations%systems(s))
          if (system%condition >= 0.0_wp) then
-            call system%factor%solve(correction)
+            call system%factor%solve_apart(correction)
             return
          end if
          n = size(correction, 2)
          allocate (b(size(correction, 1), n + 2))
          b(:, :n) = correction
          b(:, n + 1:) = second_sides(system%probe)
-         call system%factor%solve(b)
+         call system%factor%solve_apart(b)
          correction = b(:, :n)
          system%condition = system%norm*inverse_norm(system%probe, b(:, n + 1:))
          deallocate (system%probe)

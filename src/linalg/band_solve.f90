@@ -9,7 +9,7 @@ module axijoint_linalg_band_solve
    !> Columns of the factor in a block
    integer, parameter :: block_size = 64
    !> Narrower bands, and fewer right-hand sides, gain nothing from blocks
-   integer, parameter :: least_bandwidth = 16, least_right_hand_sides = 4
+   integer, parameter :: least_bandwidth = 16, least_right_hand_sides = 5
 
 contains
 

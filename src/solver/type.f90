@@ -18,6 +18,8 @@ module axijoint_solver_type
 
    !> Right-hand sides solved at once for an inverse
    integer, parameter :: block_size = 64
+   !> Right-hand sides of which each has the same bits as if it were alone, whatever the solver
+   integer, parameter :: few = 4
    !> Solutions for unit loads run at a lower rate than other matrix products: an operation counts as so many
    real(wp), parameter :: for_unit_loads = 1.75_wp
 
@@ -59,6 +61,8 @@ module axijoint_solver_type
    contains
       !> Solve for a block of right-hand sides
       procedure(solve_interface), deferred :: solve
+      !> The same, but a few at once: no bit of one depends on the others
+      procedure :: solve_apart
       !> Rows and columns of the inverse at a set of equations: the flexibility of these unknowns
       procedure :: inverse_block => inverse_by_loads
    end type factor_type
@@ -108,6 +112,20 @@ module axijoint_solver_type
    end interface
 
 contains
+
+   !> Solve for right-hand sides, a few at once, so that no bit of one depends on the others
+   subroutine solve_apart(self, b)
+      !> The factor
+      class(factor_type), intent(in) :: self
+      !> Right-hand sides, then solutions, shape (n, any)
+      real(wp), intent(inout), contiguous :: b(:, :)
+
+      integer :: k
+
+      do k = 1, size(b, 2), few
+         call self%solve(b(:, k:min(k + few - 1, size(b, 2))))
+      end do
+   end subroutine solve_apart
 
    !> Operations of finding the inverse at some equations by unit loads
    real(wp) function operations_by_loads(self, set) result(operations)

@@ -312,7 +312,7 @@ contains
       real(wp), intent(in) :: negligible
       !> Displacement amplitudes, same shape
       real(wp), intent(inout) :: displacement(:, :, :)
-      !> The reports, one a solution
+      !> The reports, one a solution; after the first of each mode, the backward error is that before the correction
       type(mode_solve_type), intent(out) :: reports(:)
 
       real(wp), allocatable :: unbalanced(:), correction(:, :)
@@ -338,8 +338,8 @@ contains
                else
                   reports(i)%correction = maxval([0.0_wp, abs(correction(:, i))])
                   displacement(:, :, i) = displacement(:, :, i) + expand_mode(equations, mode(i), correction(:, i))
-                  call find_unbalanced(equations, mode(i), force(:, :, i), displacement(:, :, i), unbalanced, &
-                     reports(i)%backward_error)
+                  if (i <= size(system%modes)) call find_unbalanced(equations, mode(i), force(:, :, i), &
+                     displacement(:, :, i), unbalanced, reports(i)%backward_error)
                end if
             end do
          end associate

@@ -76,7 +76,7 @@ contains
                      excess(:, :, k, change(c)), size(displacement, 2)))
                end do
             end do
-            call system%factor%solve(b)
+            call system%factor%solve_apart(b)
             j = 0
             do c = 1, size(change)
                do i = 1, size(system%modes)
