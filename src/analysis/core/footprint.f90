@@ -20,11 +20,13 @@ module axijoint_analysis_core_footprint
 
    !> What program and libraries without any data take beyond their start once they are used, with what the last of
    !> the heap's large pages is too large [byte]; measured
-   integer(i8), parameter :: program_bytes = 12000000_i8
+   integer(i8), parameter :: program_bytes = 9500000_i8
    !> Bytes of a real
    integer(i8), parameter :: real_bytes = storage_size(1.0_wp)/8
    !> Numbers of a joint point on a plane: jumps, stresses, states, slip, slopes, and copies
    integer(i8), parameter :: plane_numbers = 100
+   !> Planes round the whole circle take so many halves of those of half of it, as measured
+   integer(i8), parameter :: around = 5
    !> Planes on which the estimates of errors find joints again, times so many
    integer(i8), parameter :: more_planes = 4
 
@@ -106,7 +108,7 @@ contains
       unknowns = 3*count(yielding_nodes(model), kind=i8)
       planes = model%n_planes
       modes = used_modes(model)
-      if (any(modes%family == family_antisymmetric)) planes = 2*(planes - 1)
+      if (any(modes%family == family_antisymmetric)) planes = around*(planes - 1)/2
       if (maxval(model%harmonics) > 0) planes = planes + more_planes*planes
       footprint%joints = real_bytes*(n_systems*jumps**2 &
                                      + plane_numbers*jumps/3*max(planes, int(n_modes, i8)) &
