@@ -21,7 +21,7 @@ module axijoint_analysis_fine_difference
    !> Steps at most, and the part of nodes and jumps of joints that is left to the blocks alone after a
    !> step. `scripts/bench estimates` shows what that does to the estimates
    integer, parameter :: most_steps = 8
-   real(wp), parameter :: settled = 0.3_wp
+   real(wp), parameter :: settled = 0.2_wp
    !> The first step, and the blocks alone in it, go so far at least where the coarse mesh moves the fine one as it does
    !> itself. It does not where elements of constant volume cannot follow: in nearly incompressible bodies the one or the
    !> other went backwards to 0.43 (4-node B-bar and 8-node reduced), in 220 other modes 0.59 to 1.2
