@@ -1,5 +1,5 @@
-/* The environment of the numerical libraries: threads that wait leave their processor to others,
-   threads are for harmonics and not for the matrices inside one, and OpenBLAS 0.3.21 takes newer
+/* The environment of the numerical libraries: threads that wait leave their processor to others, but not for the
+   few microseconds between the products of an iteration, since waking them takes longer than that; threads are for harmonics and not for the matrices inside one, and OpenBLAS 0.3.21 takes newer
    AMD processors for Haswell, whose kernels leave their AVX-512 units idle. The libraries ask for
    these variables when they are loaded, before any code of the program; but what stands in the
    program itself goes before the same names in the system's library, for all libraries that are
@@ -37,10 +37,11 @@ static int has_avx512(void)
 /* In place of the system's function: what is set, if empty, stays */
 char *getenv(const char *name)
 {
-   static char passive[] = "PASSIVE", one[] = "1", skylake[] = "SKYLAKEX";
+   static char passive[] = "PASSIVE", turns[] = "4000", one[] = "1", skylake[] = "SKYLAKEX";
    char *value = value_set(name);
    if (value) return value;
    if (strcmp(name, "OMP_WAIT_POLICY") == 0) return passive;
+   if (strcmp(name, "GOMP_SPINCOUNT") == 0 && !value_set("OMP_WAIT_POLICY")) return turns;
    if (strcmp(name, "OPENBLAS_NUM_THREADS") == 0) return one;
    if (strcmp(name, "OPENBLAS_CORETYPE") == 0 && has_avx512()) return skylake;
    return NULL;

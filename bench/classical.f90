@@ -147,7 +147,7 @@ contains
          call solve_displacements(structure, model, history%loading, displacement, solves, error, history%field%excess)
       else
          call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
-                          model%combinations(1), history%loading)
+                          structure%equations%unit_loads, model%combinations(1), history%loading)
          allocate (displacement, mold=history%loading%right)
          call solve_displacements(structure, model, history%loading, displacement, solves, error)
       end if
@@ -176,7 +176,7 @@ contains
       field = new_state(structure%condensed, scene)
       associate (points => structure%condensed%points, equations => structure%equations)
          call new_loading(model, structure%joint_points, structure%support_points, equations%modes, &
-                          model%combinations(1), loading)
+                          equations%unit_loads, model%combinations(1), loading)
          norm = load_norm(equations, loading)
          allocate (jump, residual, mold=field%excess)
          allocate (excess, mold=field%jump)

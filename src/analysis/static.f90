@@ -288,7 +288,7 @@ contains
       type(difference_type) :: difference
 
       call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
-                       combination_type(combination%label, final_factors(model, combination)), &
+                       structure%equations%unit_loads, combination_type(combination%label, final_factors(model, combination)), &
                        history%loading)
       history%peak = history%loading
       allocate (results%displacement, mold=history%loading%right)

@@ -5,6 +5,7 @@ module axijoint_assembly_equations
    use axijoint_assembly_mode_classes, only : mode_classes
    use axijoint_assembly_stiffness, only : stiffness_type, number_unknowns, find_sparsity, assemble_parts
    use axijoint_assembly_support, only : support_point_type
+   use axijoint_assembly_unit_loads, only : unit_loads_type, new_unit_loads
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
    use axijoint_base_team, only : team_type, take_team, equal_shares
@@ -83,6 +84,8 @@ module axijoint_assembly_equations
       type(stiffness_type), allocatable :: classes(:)
       !> Plans of the solver, one a class
       type(plan_slot_type), allocatable :: plans(:)
+      !> Forces of masses and of in-situ stress under a factor of one
+      type(unit_loads_type) :: unit_loads
       !> So many systems, the first ones of this rank, keep their factors
       integer :: n_kept = 0
       !> Systems that are worked on at once
@@ -358,6 +361,7 @@ contains
       type(support_point_type), intent(in) :: support_points(:)
 
       call assemble_parts(equations%classes, model, joint_points, support_points)
+      call new_unit_loads(model, joint_points, equations%unit_loads)
    end subroutine assemble_equations
 
    !> Displacement of one mode under nodal forces

@@ -3,18 +3,16 @@ module axijoint_assembly_loading
    use axijoint_assembly_force, only : add_edge_load, joint_force, joint_jump, elastic_joint_stress
    use axijoint_assembly_solid_force, only : initial_state_type, solid_force, add_mass_force
    use axijoint_assembly_support, only : support_point_type, add_support_force
+   use axijoint_assembly_unit_loads, only : unit_loads_type, in_situ_force, in_situ_joint_stress
    use axijoint_base_kinds, only : wp
    use axijoint_fe_mode, only : mode_type, same_mode, family_symmetric
    use axijoint_model_joint_points, only : model_joint_point_type
-   use axijoint_model_load, only : combination_type, initial_stress_type, covers, is_stressed, &
-      scaled_stresses, &
-      stress_before
+   use axijoint_model_load, only : combination_type, scaled_stresses
    use axijoint_model_mesh, only : n_nodes, n_elements, max_element_nodes
    use axijoint_model_model, only : model_type, on_axis
    implicit none
    private
-   public :: loading_type, new_loading, in_situ_joint_stress, add_external, new_initial_state, &
-      still_force
+   public :: loading_type, new_loading, add_external, new_initial_state, still_force
 
    !> Loads
    type :: loading_type
@@ -35,7 +33,7 @@ module axijoint_assembly_loading
 contains
 
    !> Loads of a combination
-   subroutine new_loading(model, joint_points, supports, modes, combination, loading, taken)
+   subroutine new_loading(model, joint_points, supports, modes, unit_loads, combination, loading, taken)
       !> The job
       type(model_type), intent(in) :: model
       !> Points of all joints
@@ -44,6 +42,8 @@ contains
       type(support_point_type), intent(in) :: supports(:)
       !> Modes in use
       type(mode_type), intent(in) :: modes(:)
+      !> Forces of masses and of in-situ stress under a factor of one
+      type(unit_loads_type), intent(in) :: unit_loads
       !> Factors of the load cases
       type(combination_type), intent(in) :: combination
       !> The loads
@@ -52,7 +52,7 @@ contains
       real(wp), intent(in), allocatable, optional :: taken(:, :, :)
 
       real(wp), allocatable :: still(:, :)
-      integer :: k
+      integer :: i, k
 
       associate (n => n_nodes(model%mesh))
          allocate (loading%external(3, n, size(modes)), source=0.0_wp)
@@ -60,7 +60,13 @@ contains
       end associate
       loading%case_factor = combination%factor
       do k = 1, size(modes)
-         call add_external(model, modes(k), combination%factor, loading%external(:, :, k))
+         call add_lines(model, modes(k), combination%factor, loading%external(:, :, k))
+         do i = 1, size(model%body_loads)
+            associate (load => model%body_loads(i))
+               if (same_mode(load%mode, modes(k))) loading%external(:, :, k) = loading%external(:, :, k) &
+                  + combination%factor(load%case)*unit_loads%mass(:, :, i)
+            end associate
+         end do
       end do
       if (size(model%prescribed) > 0) then
          allocate (loading%held, mold=loading%external)
@@ -74,28 +80,34 @@ contains
       if (.not. allocated(loading%held) .and. .not. loading%initial%present) return
       do k = 1, size(modes)
          if (allocated(loading%held)) still = loading%held(:, :, k)
-         if (.not. (any(abs(still) > 0.0_wp) .or. is_in_mode(loading%initial, k, modes(k)))) cycle
-         loading%right(:, :, k) = loading%right(:, :, k) - &
-            still_force(model, joint_points, supports, loading%initial, &
-                                                                       k, modes(k), still, &
-                                                                       combination%factor)
+         if (any(abs(still) > 0.0_wp) .or. is_free_in_mode(loading%initial, k)) then
+            loading%right(:, :, k) = loading%right(:, :, k) - still_force(model, joint_points, supports, &
+               loading%initial, k, modes(k), still, combination%factor)
+         else if (is_axis(modes(k))) then
+            loading%right(:, :, k) = loading%right(:, :, k) - in_situ_force(unit_loads, combination%factor)
+         end if
       end do
    end subroutine new_loading
 
-   !> Whether an initial state is in a mode: in-situ stress is in that of the axis alone
-   pure logical function is_in_mode(state, k, mode)
-      !> The state
+   !> Whether temperatures or plastic strain stress the solids in a mode
+   pure logical function is_free_in_mode(state, k) result(is_in_mode)
+      !> What stresses the solids
       type(initial_state_type), intent(in) :: state
-      !> Place of the mode, and the mode
+      !> Place of the mode
       integer, intent(in) :: k
+
+      is_in_mode = .false.
+      if (allocated(state%temperature)) is_in_mode = any(abs(state%temperature(:, :, k)) > 0.0_wp)
+      if (allocated(state%taken)) is_in_mode = is_in_mode .or. any(abs(state%taken(:, :, k)) > 0.0_wp)
+   end function is_free_in_mode
+
+   !> Whether a mode is that of the axis, which alone has in-situ stress
+   pure logical function is_axis(mode)
+      !> The mode
       type(mode_type), intent(in) :: mode
 
-      is_in_mode = same_mode(mode, mode_type(0, family_symmetric))
-      if (allocated(state%temperature)) &
-         is_in_mode = is_in_mode .or. any(abs(state%temperature(:, :, k)) > 0.0_wp)
-      if (allocated(state%taken)) &
-         is_in_mode = is_in_mode .or. any(abs(state%taken(:, :, k)) > 0.0_wp)
-   end function is_in_mode
+      is_axis = same_mode(mode, mode_type(0, family_symmetric))
+   end function is_axis
 
    !> Let plastic strain stress the solids
    pure subroutine take_plastic_strain(taken, state)
@@ -135,7 +147,7 @@ contains
       allocate (force, mold=still)
       call solid_force(model, initial, k, mode, still, force)
       stress = elastic_joint_stress(joint_points, joint_jump(joint_points, still))
-      if (same_mode(mode, mode_type(0, family_symmetric))) then
+      if (is_axis(mode)) then
          stress = stress + in_situ_joint_stress(model, joint_points, factor)
       end if
       force = force + joint_force(joint_points, mode%harmonic, stress, size(still, 2))
@@ -144,6 +156,28 @@ contains
 
    !> Add the external forces of one mode: on edges, nodal circles and masses
    subroutine add_external(model, mode, factor, force)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> Factors of the load cases
+      real(wp), intent(in) :: factor(:)
+      !> Forces on components, shape (3, nodes)
+      real(wp), intent(inout) :: force(:, :)
+
+      integer :: k
+
+      call add_lines(model, mode, factor, force)
+      do k = 1, size(model%body_loads)
+         associate (load => model%body_loads(k))
+            if (.not. same_mode(load%mode, mode)) cycle
+            call add_mass_force(model, load, factor(load%case), force)
+         end associate
+      end do
+   end subroutine add_external
+
+   !> Add the external forces of one mode on edges and nodal circles
+   subroutine add_lines(model, mode, factor, force)
       !> The job
       type(model_type), intent(in) :: model
       !> The mode
@@ -167,13 +201,7 @@ contains
             force(:, load%node) = force(:, load%node) + factor(load%case)*load%force
          end associate
       end do
-      do k = 1, size(model%body_loads)
-         associate (load => model%body_loads(k))
-            if (.not. same_mode(load%mode, mode)) cycle
-            call add_mass_force(model, load, factor(load%case), force)
-         end associate
-      end do
-   end subroutine add_external
+   end subroutine add_lines
 
    !> Displacements of held components in one mode. At the pole a lateral
    !> displacement is u = -w in harmonic 1, and higher harmonics have none
@@ -217,44 +245,6 @@ contains
          end do
       end associate
    end function prescribed_displacement
-
-   !> In-situ stress of the bodies on the planes of their joints, of the mean of
-   !> both sides where both have one: a card that says zero is no stress
-   pure function in_situ_joint_stress(model, points, factor) result(stress)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Joint points
-      type(model_joint_point_type), intent(in) :: points(:)
-      !> Factors of the load cases
-      real(wp), intent(in) :: factor(:)
-      !> tau_xi, sigma, tau_theta, shape (3, points)
-      real(wp) :: stress(3, size(points))
-
-      type(initial_stress_type), allocatable :: states(:)
-      real(wp) :: sum_of(4)
-      integer :: k, side, n_sides
-
-      stress = 0.0_wp
-      if (size(model%initial_stresses) == 0) return
-      states = scaled_stresses(model%initial_stresses, factor)
-      do k = 1, size(points)
-         n_sides = 0
-         sum_of = 0.0_wp
-         do side = 1, 2
-            associate (body => model%mesh%element_body(points(k)%elements(side)), &
-                       material => model%mesh%element_material(points(k)%elements(side)))
-               if (any(covers(states, body, material) .and. is_stressed(model%initial_stresses))) &
-                  n_sides = n_sides + 1
-               sum_of = sum_of + stress_before(states, body, material, points(k)%position(2))
-            end associate
-         end do
-         if (n_sides == 0) cycle
-         associate (s => sum_of/n_sides, c => points(k)%cosine, d => points(k)%sine)
-            stress(1, k) = c*d*(s(2) - s(1)) + (c**2 - d**2)*s(4)
-            stress(2, k) = d**2*s(1) + c**2*s(2) - 2.0_wp*c*d*s(4)
-         end associate
-      end do
-   end function in_situ_joint_stress
 
    !> Temperatures and in-situ stresses of a combination
    subroutine new_initial_state(model, modes, factor, state)

@@ -1,7 +1,7 @@
 !> State of the joint points on all planes
 module axijoint_joints_field
    use axijoint_assembly_force, only : elastic_joint_stress, joint_jump
-   use axijoint_assembly_loading, only : in_situ_joint_stress
+   use axijoint_assembly_unit_loads, only : in_situ_joint_stress
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : joint_law_type, memory_type, trial_stress, admit, renew, &
       state_of, loses_at_opening, &

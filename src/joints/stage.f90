@@ -204,7 +204,7 @@ contains
       !> The loads
       type(loading_type), intent(out) :: loading
 
-      call new_loading(self%model, self%joint_points, self%supports, self%equations%modes, &
+      call new_loading(self%model, self%joint_points, self%supports, self%equations%modes, self%equations%unit_loads, &
                        combination_type(self%combination%label, case_factor), loading)
    end subroutine put_on_nodes
 

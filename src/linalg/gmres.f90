@@ -2,7 +2,7 @@
 !> 1986) for an operator known by its products
 module axijoint_linalg_gmres
    use axijoint_base_kinds, only : wp
-   use axijoint_linalg_lapack, only : matrix_vector, transposed_vector
+   use axijoint_linalg_lapack, only : daxpy, ddot
    implicit none
    private
    public :: operator_type, gmres
@@ -13,6 +13,11 @@ module axijoint_linalg_gmres
       !> Its product with a vector
       procedure(apply_interface), deferred :: apply
    end type operator_type
+
+   !> A vector of the basis
+   type :: vector_type
+      real(wp), allocatable :: values(:)
+   end type vector_type
 
    abstract interface
       !> Product with a vector
@@ -46,7 +51,8 @@ contains
       !> |b - a x| / |b| reached
       real(wp), intent(out) :: reduction
 
-      real(wp), allocatable :: basis(:, :), h(:, :)
+      type(vector_type) :: basis(most + 1)
+      real(wp), allocatable :: h(:, :)
       real(wp) :: cosine(most), sine(most), g(most + 1), size_b, t
       integer :: j, i
 
@@ -55,14 +61,15 @@ contains
       reduction = 0.0_wp
       size_b = norm2(b)
       if (.not. size_b > 0.0_wp) return
-      allocate (basis(size(b), most + 1), h(most + 1, most))  ! as far as they are used they are set
+      allocate (h(most + 1, most))  ! as far as it is used it is set
       g = 0.0_wp
       g(1) = size_b
-      basis(:, 1) = b/size_b
+      basis(1)%values = b/size_b
       do j = 1, most
-         call a%apply(basis(:, j), basis(:, j + 1))
+         allocate (basis(j + 1)%values(size(b)))
+         call a%apply(basis(j)%values, basis(j + 1)%values)
          n_products = j
-         call orthogonalize(basis(:, :j), basis(:, j + 1), h(:j + 1, j))
+         call orthogonalize(basis(:j), basis(j + 1)%values, h(:j + 1, j))
          do i = 1, j - 1  ! the rotations so far
             t = cosine(i)*h(i, j) + sine(i)*h(i + 1, j)
             h(i + 1, j) = cosine(i)*h(i + 1, j) - sine(i)*h(i, j)
@@ -83,37 +90,29 @@ contains
       end do
       do j = n_products, 1, -1  ! back-substitution
          g(j) = (g(j) - dot_product(h(j, j + 1:n_products), g(j + 1:n_products)))/h(j, j)
+         call daxpy(size(x), g(j), basis(j)%values, 1, x, 1)
       end do
-      if (n_products > 0) call matrix_vector(basis(:, :n_products), g, x)
    end subroutine gmres
 
-   !> Make a vector orthogonal to a basis, and of length one. Once is enough where that leaves most of
-   !> it, twice always (Daniel, Gragg, Kaufman and Stewart, Math. Comp. 30, 1976)
+   !> Make a vector orthogonal to a basis, one vector after the other, and of length one: what rounding leaves
+   !> of them does the solution no harm (Paige, Rozloznik and Strakos, SIAM J. Matrix Anal. Appl. 28, 2006)
    subroutine orthogonalize(basis, v, h)
       !> The basis
-      real(wp), intent(in), contiguous :: basis(:, :)
+      type(vector_type), intent(in) :: basis(:)
       !> The vector
       real(wp), intent(inout), contiguous :: v(:)
       !> Its components along the basis, and its length
       real(wp), intent(out) :: h(:)
 
-      !> The square of what is left, over that before, that is most of it
-      real(wp), parameter :: most = 0.5_wp
-      real(wp) :: part(size(basis, 2)), along(size(v)), before, left
-      integer :: pass
+      integer :: i
 
-      h(:) = 0.0_wp
-      before = dot_product(v, v)
-      do pass = 1, 2
-         call transposed_vector(basis, v, part)
-         call matrix_vector(basis, part, along)
-         v = v - along
-         h(:size(part)) = h(:size(part)) + part
-         left = dot_product(v, v)
-         if (left > most*before) exit
+      do i = 1, size(basis)
+         h(i) = ddot(size(v), basis(i)%values, 1, v, 1)
+         call daxpy(size(v), -h(i), basis(i)%values, 1, v, 1)
       end do
-      h(size(h)) = sqrt(left)
-      if (h(size(h)) > 0.0_wp) v = v/h(size(h))
+      i = size(h)
+      h(i) = sqrt(ddot(size(v), v, 1, v, 1))
+      if (h(i) > 0.0_wp) v = v/h(i)
    end subroutine orthogonalize
 
 end module axijoint_linalg_gmres

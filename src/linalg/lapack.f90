@@ -4,11 +4,11 @@ module axijoint_linalg_lapack
    use axijoint_base_kinds, only : wp, sp
    implicit none
    private
-   public :: band_cholesky, dpbtrs, dtrsm, dgemm, dgemv, dsyrk, dpotrf
+   public :: band_cholesky, dpbtrs, dtrsm, dgemm, dgemv, dsyrk, dpotrf, ddot, daxpy
    public :: cholesky, inverse_from_cholesky, symmetric_eigen, &
       use_one_blas_thread
    public :: product_rate
-   public :: matrix_vector, single_symmetric_vector, transposed_vector, matrix_sparse_vector
+   public :: matrix_vector, single_symmetric_vector, matrix_sparse_vector
    public :: least_squares, invert, singular_values
 
    interface
@@ -86,6 +86,19 @@ module axijoint_linalg_lapack
          real(wp), intent(in) :: alpha, beta, a(lda, *), x(*)
          real(wp), intent(inout) :: y(*)
       end subroutine dgemv
+      !> x^T y
+      pure real(wp) function ddot(n, x, incx, y, incy)
+         import :: wp
+         integer, intent(in) :: n, incx, incy
+         real(wp), intent(in) :: x(*), y(*)
+      end function ddot
+      !> y := alpha x + y
+      pure subroutine daxpy(n, alpha, x, incx, y, incy)
+         import :: wp
+         integer, intent(in) :: n, incx, incy
+         real(wp), intent(in) :: alpha, x(*)
+         real(wp), intent(inout) :: y(*)
+      end subroutine daxpy
       !> y = alpha a x + beta y with a symmetric matrix in single precision
       subroutine ssymv(uplo, n, alpha, a, lda, x, incx, beta, y, incy)
          import :: sp
@@ -219,18 +232,6 @@ contains
       y(:size(a, 1)) = 0.0_sp
       call ssymv('U', size(a, 1), 1.0_sp, a, max(1, size(a, 1)), x, 1, 1.0_sp, y, 1)
    end subroutine single_symmetric_vector
-
-   !> Product of the transpose of a matrix and a vector
-   subroutine transposed_vector(a, x, y)
-      !> The matrix, shape (m, n)
-      real(wp), intent(in), contiguous :: a(:, :)
-      !> The vector, m values in any shape
-      real(wp), intent(in) :: x(*)
-      !> The product, n values in any shape
-      real(wp), intent(inout) :: y(*)
-
-      call dgemv('T', size(a, 1), size(a, 2), 1.0_wp, a, max(1, size(a, 1)), x, 1, 0.0_wp, y, 1)
-   end subroutine transposed_vector
 
    !> Product of a matrix and a vector with long runs of zeros, whose columns are not read
    subroutine matrix_sparse_vector(a, x, y)

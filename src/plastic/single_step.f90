@@ -120,7 +120,7 @@ contains
       call new_bodies(model, (model%materials%yield), bodies)
       call pose(model, equations, condensed, bodies, problem, history)
       field = new_body_field(equations, bodies, problem%planes)
-      call new_loading(model, joint_points, supports, equations%modes, &
+      call new_loading(model, joint_points, supports, equations%modes, equations%unit_loads, &
          combination_type(0, loads%given), loading)
       call take_load(model, problem, loading, load)
       call note_in_situ(problem, load, field)
@@ -130,7 +130,7 @@ contains
       field%unknowns = from_nodes(equations, start)
       field%begun = field%unknowns
       if (allocated(loads%steered)) then
-         call new_loading(model, joint_points, supports, equations%modes, &
+         call new_loading(model, joint_points, supports, equations%modes, equations%unit_loads, &
             combination_type(0, loads%steered), direction)
          call steer(problem, to_vector(equations, direction%right))
          problem%steering%factor = loads%factor

@@ -148,12 +148,12 @@ def environment(program, folder):
     set stays"""
     if not sys.platform.startswith('linux'):
         return []
-    names = ('OMP_WAIT_POLICY', 'OPENBLAS_NUM_THREADS', 'OPENBLAS_CORETYPE')
+    names = ('OMP_WAIT_POLICY', 'GOMP_SPINCOUNT', 'OPENBLAS_NUM_THREADS', 'OPENBLAS_CORETYPE')
     bare = {name: value for name, value in program.environment.items() if name not in names}
     script = os.path.join(HERE, '..', '..', 'scripts', 'environment')
     faults, library = [], preload('told_environment')
     for given, words in [({'OMP_WAIT_POLICY': 'ACTIVE', 'OPENBLAS_CORETYPE': 'HASWELL'}, ['--version']),
-                         ({'OPENBLAS_NUM_THREADS': ''}, ['--version']), ({}, ['--version']), ({}, ['run', 'missing.dat'])]:
+                         ({'OPENBLAS_NUM_THREADS': '', 'GOMP_SPINCOUNT': '7'}, ['--version']), ({}, ['--version']), ({}, ['run', 'missing.dat'])]:
         printed = subprocess.run(['bash', '-c', f'. "{script}"; env'], env=bare | given, text=True,
                                  capture_output=True, check=True).stdout
         wanted = sorted(line for line in printed.split('\n') if line.split('=')[0] in names)

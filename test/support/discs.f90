@@ -153,7 +153,7 @@ contains
       type(loading_type) :: loading
 
       call new_loading(structure%model, structure%joint_points, structure%support_points, &
-         structure%modes, &
+         structure%modes, structure%equations%unit_loads, &
                        combination_type(label=1, factor=[factor]), loading)
       call put_loads(structure%equations, structure%condensed, loading, structure%scene%loads)
    end subroutine load_by

@@ -69,7 +69,7 @@ contains
       if (allocated(error)) error stop 'singular'
       call new_bodies(model, laws, yielding%bodies)
       call new_loading(model, new_joint_points(model), new_support_points(model), modes, &
-                       combination_type(1, [1.0_wp]), yielding%loading)
+                       yielding%equations%unit_loads, combination_type(1, [1.0_wp]), yielding%loading)
       yielding%problem%equations => yielding%equations
       yielding%problem%bodies => yielding%bodies
       yielding%problem%planes = body_planes(modes, n_planes)

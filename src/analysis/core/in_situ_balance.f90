@@ -7,7 +7,7 @@ module axijoint_analysis_core_in_situ_balance
       larger_misfit
    use axijoint_analysis_core_in_situ_boundaries, only : add_boundaries
    use axijoint_assembly_force, only : add_edge_load, joint_force
-   use axijoint_assembly_loading, only : in_situ_joint_stress
+   use axijoint_assembly_unit_loads, only : in_situ_joint_stress
    use axijoint_assembly_rigid_motion, only : solid_parts
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : memory_type, admit_stress, trial_stress, eta

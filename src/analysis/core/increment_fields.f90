@@ -232,7 +232,7 @@ contains
       if (allocated(state%bodies%place)) then
          call stress_plastic_strain(model, state, solved%loading)
          call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
-                          combination_type(0, state%case_factor), loads)  ! what errors are held against
+                          structure%equations%unit_loads, combination_type(0, state%case_factor), loads)  ! what errors are held against
          call recover_fields(model, structure, solved%loading, loads, field, results)
       else
          call recover_fields(model, structure, solved%loading, solved%loading, field, results)
@@ -257,7 +257,7 @@ contains
       if (allocated(state%bodies%place)) taken = on_all_points(state%bodies%place, &
          state%bodies%carried, n_points(model))
       call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
-                       combination_type(0, state%case_factor), loading, taken)
+                       structure%equations%unit_loads, combination_type(0, state%case_factor), loading, taken)
    end subroutine load_plastic_strain
 
    !> Put the plastic strain of the state itself in the place of that which displacements follow

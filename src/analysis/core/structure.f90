@@ -14,6 +14,7 @@ module axijoint_analysis_core_structure
    use axijoint_assembly_pattern, only : node_graph
    use axijoint_assembly_stiffness, only : least_elements
    use axijoint_assembly_support, only : support_point_type, new_support_points
+   use axijoint_assembly_unit_loads, only : new_unit_loads
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_memory, only : require_memory
@@ -273,6 +274,7 @@ contains
       !> The structure
       type(structure_type), intent(inout) :: structure
 
+      call new_unit_loads(model, structure%joint_points, structure%equations%unit_loads)
       if (structure%estimated) call take_fine_model(model, structure%fine)
       structure%sections = cut_sections(model%mesh, model%cuts)
    end subroutine take_loads_of

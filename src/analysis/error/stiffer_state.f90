@@ -155,7 +155,7 @@ contains
          if (allocated(history%failure) .or. .not. history%verdict%converged) return
       else
          call new_loading(stiffer, structure%joint_points, structure%support_points, &
-            structure%modes, &
+            structure%modes, structure%equations%unit_loads, &
                           combination_type(combination%label, &
                           final_factors(stiffer, combination)), history%loading)
          allocate (history%field%excess(3, 0, size(structure%modes)))
