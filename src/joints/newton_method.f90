@@ -36,8 +36,8 @@ module axijoint_joints_newton_method
    !> Tolerance of the linear solution far from equilibrium, with very stiff joints, the ratio from
    !> which on it is near, the least tolerance there, and the part of the step's tolerance that is
    !> left to it
-   real(wp), parameter :: loose = 1.0e-3_wp, closer = 1.0e-4_wp, near = 1.0e-2_wp, &
-      strict = 1.0e-9_wp, part = 0.01_wp
+   real(wp), parameter :: loose = 1.0e-2_wp, closer = 1.0e-4_wp, near = 1.0e-2_wp, &
+      strict = 1.0e-9_wp, part = 0.1_wp
    !> Where a law that jumps has no state, cohesion fades with opening: first over tensions as large
    !> as it, then over a part of that whenever there is equilibrium, in small steps where these get no
    !> farther, and last. It may be wider where iterations do not get there, but not more
