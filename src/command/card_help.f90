@@ -4,7 +4,7 @@ module axijoint_command_card_help
    use axijoint_base_text, only : upper
    use axijoint_command_card_list, only : cards_json
    use axijoint_command_unknown_word, only : unknown
-   use axijoint_deck_registry, only : all_sections, without_readers
+   use axijoint_deck_registry, only : all_sections
    use axijoint_deck_text_reference, only : index_text, index_table, section_text, section_table
    use axijoint_deck_text_section, only : section_type, section_named, names_of, &
       keyword_length
@@ -26,7 +26,7 @@ contains
       !> Unknown card or option
       type(error_type), allocatable, intent(out) :: error
 
-      type(section_type), allocatable :: sections(:)
+      type(section_type), pointer :: sections(:)
       character(len=:), allocatable :: name
       logical :: markdown, json
       integer :: k
@@ -52,7 +52,7 @@ contains
             name = upper(trim(names(k)))
          end if
       end do
-      sections = without_readers(all_sections())
+      sections => all_sections()
       if (len(name) == 0) then
          text = index_text(sections)
          if (markdown) text = index_table(sections)
@@ -74,7 +74,7 @@ contains
       !> The names
       character(len=keyword_length), allocatable :: names(:)
 
-      names = names_of(without_readers(all_sections()))
+      names = names_of(all_sections())
    end function names_of_cards
 
 end module axijoint_command_card_help

@@ -92,7 +92,8 @@ contains
       end do
       command%options%directory = '.'
       command%name = 'print'
-      command%text = overview(topics)
+      command%text = ''
+      if (size(words) == 0) command%text = overview(topics)
       if (size(words) == 0) return
 
       select case (words(1)%text)
@@ -101,6 +102,7 @@ contains
       case ('compare')
          call read_compare_words(words(2:), topics, command)
       case ('help', '--help', '-h')
+         command%text = overview(topics)
          call read_help_words(words(2:), topics, command, error)
       case ('--version')
          command%text = program_name//' '//program_version

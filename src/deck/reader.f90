@@ -13,7 +13,7 @@ module axijoint_deck_reader
    use axijoint_deck_gmsh_joints, only : lay_group_joints
    use axijoint_deck_gmsh_solids, only : draft_gmsh
    use axijoint_deck_job_card, only : cards_of
-   use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_job, stage_properties, &
+   use axijoint_deck_job_deck, only : deck_type, reader_type, stage_job, stage_properties, &
       stage_elements, stage_blocks, stage_faces, stage_joints, stage_loads, stage_requests
    use axijoint_deck_job_moves, only : take_moves
    use axijoint_deck_job_supports, only : gather_supported_faces
@@ -24,7 +24,7 @@ module axijoint_deck_reader
    use axijoint_deck_mesh_edges, only : edge_table_type, new_edge_table, check_edges
    use axijoint_deck_mesh_places, only : group_places, new_point_tree, point_tree_type, same_place
    use axijoint_deck_property_properties, only : properties_type, new_properties
-   use axijoint_deck_registry, only : all_sections, without_readers
+   use axijoint_deck_registry, only : all_sections, all_readers
    use axijoint_deck_section_case, only : warn_of_lacking_loads
    use axijoint_deck_section_chains, only : lay_chains
    use axijoint_deck_section_combine, only : keyword_combine
@@ -108,9 +108,9 @@ contains
 
       sections%complete = .false.
       if (is_another(mesh)) then
-         call read_source(path, without_readers(all_sections()), source, diagnostics, bytes, mesh)
+         call read_source(path, all_sections(), source, diagnostics, bytes, mesh)
       else
-         call read_source(path, without_readers(all_sections()), source, diagnostics, bytes)
+         call read_source(path, all_sections(), source, diagnostics, bytes)
       end if
       if (source%n_cards > 0) call read_sections(source, sections, diagnostics)
    end subroutine open_deck
@@ -141,9 +141,9 @@ contains
       type(refinement_type), intent(in), optional :: refinement
 
       type(deck_type), target :: deck
-      type(read_section_type), pointer :: sections(:)
+      type(reader_type), pointer :: readers(:)
 
-      sections => all_sections()
+      readers => all_readers()
       deck%sections = entries
       deck%source => source
       deck%model => model
@@ -155,11 +155,11 @@ contains
          if (allocated(refinement%strips)) deck%strips = refinement%strips
       end if
 
-      call read_stage(deck, sections, stage_job)
-      call read_stage(deck, sections, stage_properties)
-      call make_mesh(deck, sections, kept)
-      call make_loads(deck, sections)
-      call read_stage(deck, sections, stage_requests)
+      call read_stage(deck, readers, stage_job)
+      call read_stage(deck, readers, stage_properties)
+      call make_mesh(deck, readers, kept)
+      call make_loads(deck, readers)
+      call read_stage(deck, readers, stage_requests)
       call place_requests(deck)
       if (diagnostics%n_errors > 0) return
       call take_model(deck%draft, deck%properties, model)
@@ -172,11 +172,11 @@ contains
    end subroutine make_model
 
    !> Make nodes, elements, faces and joints, or take those that are kept
-   subroutine make_mesh(deck, sections, kept)
+   subroutine make_mesh(deck, readers, kept)
       !> The deck
       type(deck_type), intent(inout), target :: deck
-      !> All sections
-      type(read_section_type), intent(in) :: sections(:)
+      !> Readers of all sections
+      type(reader_type), intent(in) :: readers(:)
       !> The mesh, if it is to be taken or kept
       type(kept_mesh_type), intent(inout), optional :: kept
 
@@ -188,8 +188,8 @@ contains
             return
          end if
       end if
-      call make_solids(deck, sections)
-      call make_faces_and_joints(deck, sections)
+      call make_solids(deck, readers)
+      call make_faces_and_joints(deck, readers)
       if (.not. present(kept) .or. deck%diagnostics%n_errors > 0) return
       kept%draft = deck%draft
       kept%edges = deck%edges
@@ -197,35 +197,34 @@ contains
    end subroutine make_mesh
 
    !> Read the sections of a stage, in the order of the registry
-   subroutine read_stage(deck, sections, stage)
+   subroutine read_stage(deck, readers, stage)
       !> The deck
       type(deck_type), intent(inout), target :: deck
-      !> All sections
-      type(read_section_type), intent(in) :: sections(:)
+      !> Readers of all sections
+      type(reader_type), intent(in) :: readers(:)
       !> One of the `stage_` parameters
       integer, intent(in) :: stage
 
       integer :: k
 
-      do k = 1, size(sections)
-         if (sections(k)%stage == stage .and. associated(sections(k)%read)) &
-            call sections(k)%read(deck)
+      do k = 1, size(readers)
+         if (readers(k)%stage == stage .and. associated(readers(k)%read)) call readers(k)%read(deck)
       end do
    end subroutine read_stage
 
    !> Make nodes and elements, and check their shape
-   subroutine make_solids(deck, sections)
+   subroutine make_solids(deck, readers)
       !> The deck
       type(deck_type), intent(inout), target :: deck
-      !> All sections
-      type(read_section_type), intent(in) :: sections(:)
+      !> Readers of all sections
+      type(reader_type), intent(in) :: readers(:)
 
-      call read_stage(deck, sections, stage_elements)
+      call read_stage(deck, readers, stage_elements)
       associate (draft => deck%draft, diagnostics => deck%diagnostics)
          call draft_gmsh(cards_of(deck, keyword_groups), deck%source, deck%import, draft, &
             diagnostics)
          call sort_nodes_and_elements(draft)
-         call read_stage(deck, sections, stage_blocks)
+         call read_stage(deck, readers, stage_blocks)
          call snap_to_axis(draft, diagnostics)
          call check_elements(draft, diagnostics)
          if (draft%n_elements == 0 .and. draft%elements_complete) then
@@ -239,17 +238,17 @@ contains
 
    !> Make faces and joints. What depends on neighbours is judged only if no card
    !> of the mesh is lost: else every gap would be reported again
-   subroutine make_faces_and_joints(deck, sections)
+   subroutine make_faces_and_joints(deck, readers)
       !> The deck
       type(deck_type), intent(inout), target :: deck
-      !> All sections
-      type(read_section_type), intent(in) :: sections(:)
+      !> Readers of all sections
+      type(reader_type), intent(in) :: readers(:)
 
       logical :: tiles
 
-      call read_stage(deck, sections, stage_faces)
+      call read_stage(deck, readers, stage_faces)
       call number_group_faces(cards_of(deck, keyword_groups), deck%import, deck%draft)
-      call read_stage(deck, sections, stage_joints)
+      call read_stage(deck, readers, stage_joints)
       call find_neighbours(deck, tiles)
       if (.not. allocated(deck%group)) then
          deck%draft%faces%good = .false.
@@ -322,16 +321,16 @@ contains
    end subroutine find_neighbours
 
    !> Read harmonics, supports and loads, and make the loads of the job
-   subroutine make_loads(deck, sections)
+   subroutine make_loads(deck, readers)
       !> The deck
       type(deck_type), intent(inout), target :: deck
-      !> All sections
-      type(read_section_type), intent(in) :: sections(:)
+      !> Readers of all sections
+      type(reader_type), intent(in) :: readers(:)
 
       type(table_type), pointer :: combinations
 
       deck%loads = new_load_lists(deck%draft%n_nodes)
-      call read_stage(deck, sections, stage_loads)
+      call read_stage(deck, readers, stage_loads)
       call refer_increments(deck)
       if (deck%diagnostics%n_errors == 0) then
          combinations => table_of(deck%sections, keyword_combine)

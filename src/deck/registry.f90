@@ -1,7 +1,7 @@
 !> All sections that a deck may have. A section stands in a file of `deck/section`, with its fields
 !> and its reader; here it is put on the list
 module axijoint_deck_registry
-   use axijoint_deck_job_deck, only : read_section_type
+   use axijoint_deck_job_deck, only : read_section_type, reader_type
    use axijoint_deck_section_blocks, only : blocks_section
    use axijoint_deck_section_case, only : case_section
    use axijoint_deck_section_chains, only : chains_section
@@ -53,17 +53,18 @@ module axijoint_deck_registry
    use axijoint_deck_text_section, only : section_type
    implicit none
    private
-   public :: all_sections, without_readers
+   public :: all_sections, all_readers
 
-   !> The sections, made when they are first asked for: the same for any deck
-   type(read_section_type), allocatable, target, save :: known(:)
+   !> The sections and their readers, made when they are first asked for: the same for any deck
+   type(section_type), allocatable, target, save :: known(:)
+   type(reader_type), allocatable, target, save :: readers(:)
 
 contains
 
-   !> The sections. Those of one stage are read in this order, and all are listed in it
+   !> The sections: what their cards look like
    function all_sections() result(sections)
       !> The sections; not to be changed
-      type(read_section_type), pointer :: sections(:)
+      type(section_type), pointer :: sections(:)
 
       !$omp critical (axijoint_sections)
       if (.not. allocated(known)) call make_known()
@@ -71,12 +72,22 @@ contains
       sections => known
    end function all_sections
 
+   !> Their readers. Those of one stage are called in this order
+   function all_readers() result(section_readers)
+      !> The readers, one a section; not to be changed
+      type(reader_type), pointer :: section_readers(:)
+
+      associate (made => all_sections())
+         section_readers => readers(:size(made))
+      end associate
+   end function all_readers
+
    !> Make the list
    subroutine make_known()
       integer :: n
 
       n = 0
-      allocate (known(50))
+      allocate (known(50), readers(50))
       call add(title_section())
       call add(control_section())
       call add(increments_section())
@@ -136,25 +147,12 @@ contains
          type(read_section_type), intent(in) :: section
 
          n = n + 1
-         known(n) = section
+         known(n) = section%section_type
+         readers(n)%stage = section%stage
+         readers(n)%read => section%read
          if (.not. allocated(known(n)%fields)) allocate (known(n)%fields(0))
       end subroutine add
 
    end subroutine make_known
-
-   !> What cards look like, for those who read or describe any sections
-   pure function without_readers(sections) result(described)
-      !> The sections
-      type(read_section_type), intent(in) :: sections(:)
-      !> The same without their readers
-      type(section_type), allocatable :: described(:)
-
-      integer :: k
-
-      allocate (described(size(sections)))
-      do k = 1, size(sections)
-         described(k) = sections(k)%section_type
-      end do
-   end function without_readers
 
 end module axijoint_deck_registry

@@ -14,7 +14,7 @@ module axijoint_linalg_gmres
       procedure(apply_interface), deferred :: apply
    end type operator_type
 
-   !> A vector of the basis
+   !> A vector of the basis, or a column of the small triangle
    type :: vector_type
       real(wp), allocatable :: values(:)
    end type vector_type
@@ -51,8 +51,7 @@ contains
       !> |b - a x| / |b| reached
       real(wp), intent(out) :: reduction
 
-      type(vector_type) :: basis(most + 1)
-      real(wp), allocatable :: h(:, :)
+      type(vector_type) :: basis(most + 1), h(most)
       real(wp) :: cosine(most), sine(most), g(most + 1), size_b, t
       integer :: j, i
 
@@ -61,35 +60,37 @@ contains
       reduction = 0.0_wp
       size_b = norm2(b)
       if (.not. size_b > 0.0_wp) return
-      allocate (h(most + 1, most))  ! as far as it is used it is set
       g = 0.0_wp
       g(1) = size_b
       basis(1)%values = b/size_b
       do j = 1, most
-         allocate (basis(j + 1)%values(size(b)))
+         allocate (basis(j + 1)%values(size(b)), h(j)%values(j + 1))
          call a%apply(basis(j)%values, basis(j + 1)%values)
          n_products = j
-         call orthogonalize(basis(:j), basis(j + 1)%values, h(:j + 1, j))
-         do i = 1, j - 1  ! the rotations so far
-            t = cosine(i)*h(i, j) + sine(i)*h(i + 1, j)
-            h(i + 1, j) = cosine(i)*h(i + 1, j) - sine(i)*h(i, j)
-            h(i, j) = t
-         end do
-         t = hypot(h(j, j), h(j + 1, j))
-         if (.not. t > tiny(t)) then  ! the operator is singular on this space
-            n_products = j - 1
-            exit
-         end if
-         cosine(j) = h(j, j)/t
-         sine(j) = h(j + 1, j)/t
-         h(j, j) = t
+         call orthogonalize(basis(:j), basis(j + 1)%values, h(j)%values)
+         associate (column => h(j)%values)
+            do i = 1, j - 1  ! the rotations so far
+               t = cosine(i)*column(i) + sine(i)*column(i + 1)
+               column(i + 1) = cosine(i)*column(i + 1) - sine(i)*column(i)
+               column(i) = t
+            end do
+            t = hypot(column(j), column(j + 1))
+            if (.not. t > tiny(t)) then  ! the operator is singular on this space
+               n_products = j - 1
+               exit
+            end if
+            cosine(j) = column(j)/t
+            sine(j) = column(j + 1)/t
+            column(j) = t
+         end associate
          g(j + 1) = -sine(j)*g(j)
          g(j) = cosine(j)*g(j)
          reduction = abs(g(j + 1))/size_b
          if (reduction <= tolerance) exit
       end do
       do j = n_products, 1, -1  ! back-substitution
-         g(j) = (g(j) - dot_product(h(j, j + 1:n_products), g(j + 1:n_products)))/h(j, j)
+         g(j) = g(j)/h(j)%values(j)
+         g(:j - 1) = g(:j - 1) - g(j)*h(j)%values(:j - 1)
          call daxpy(size(x), g(j), basis(j)%values, 1, x, 1)
       end do
    end subroutine gmres

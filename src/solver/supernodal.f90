@@ -128,13 +128,14 @@ contains
       !> 0; 1 if there is no memory
       integer(c_int32_t), intent(out) :: code
 
+      integer(i8) :: most
       integer :: stat
 
       code = 0
       if (allocated(room%update)) return
+      most = min(int(at%most_rows, i8)**2, max(int(largest_update, i8), few_columns*int(at%most_rows, i8)))
       call let_fail(.true.)
-      allocate (room%place(0:at%n), room%target(0:at%most_rows), &
-         room%update(0:max(largest_update, few_columns*at%most_rows) - 1), stat=stat)
+      allocate (room%place(0:at%n), room%target(0:at%most_rows), room%update(0:most - 1), stat=stat)
       call let_fail(.false.)
       code = merge(0_c_int32_t, 1_c_int32_t, stat == 0)
    end subroutine make_room

@@ -13,10 +13,10 @@ module axijoint_study_rows
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : timer_type
    use axijoint_base_progress, only : progress_type
-   use axijoint_deck_job_deck, only : read_section_type, stage_properties, stage_loads, &
+   use axijoint_deck_job_deck, only : reader_type, stage_properties, stage_loads, &
       stage_requests
    use axijoint_deck_reader, only : make_model, kept_mesh_type
-   use axijoint_deck_registry, only : all_sections
+   use axijoint_deck_registry, only : all_readers
    use axijoint_deck_text_diagnostics, only : diagnostics_type, render
    use axijoint_deck_text_field, only : kind_real
    use axijoint_deck_text_sections, only : sections_type
@@ -109,14 +109,14 @@ contains
       !> Shape (columns)
       logical, allocatable, intent(out) :: keeps_mesh(:), keeps_structure(:)
 
-      type(read_section_type), pointer :: sections(:)
+      type(reader_type), pointer :: readers(:)
       integer :: k, stage
 
       allocate (keeps_mesh(size(table%columns)), keeps_structure(size(table%columns)))
-      sections => all_sections()
+      readers => all_readers()
       do k = 1, size(table%columns)
          associate (column => table%columns(k))
-            stage = sections(column%section)%stage
+            stage = readers(column%section)%stage
             keeps_mesh(k) = any(stage == [stage_loads, stage_requests]) .or. &
                source%sections(column%section)%name == 'INCREMENTS' .or. &  ! not CONTROL, which has rules of elements
                (stage == stage_properties .and. column%kind%kind == kind_real)

@@ -17,7 +17,7 @@ module axijoint_deck_job_deck
    use axijoint_model_strips, only : strip_type
    implicit none
    private
-   public :: deck_type, read_section_type
+   public :: deck_type, read_section_type, reader_type
    public :: stage_job, stage_properties, stage_elements, stage_blocks, stage_faces, stage_joints, &
       stage_loads, stage_requests, n_stages
 
@@ -68,9 +68,17 @@ module axijoint_deck_job_deck
    type, extends(section_type) :: read_section_type
       !> When it is read, one of the `stage_` parameters
       integer :: stage = stage_requests
-      !> Reads its entries; null if the section is read with another or by the source reader
+      !> Reads its entries
       procedure(section_reader), pointer, nopass :: read => null()
    end type read_section_type
+
+   !> The reader of a section
+   type :: reader_type
+      !> When the section is read, one of the `stage_` parameters
+      integer :: stage = stage_requests
+      !> Reads its entries; null if the section is read with another or by the source reader
+      procedure(section_reader), pointer, nopass :: read => null()
+   end type reader_type
 
    abstract interface
       !> Read the entries of a section into the deck

@@ -30,6 +30,9 @@ module axijoint_deck_text_sections
       logical :: complete = .true.
    end type sections_type
 
+   !> An entry without fields
+   type(field_type), target, save :: no_fields(0)
+
 contains
 
    !> Sort and read all cards
@@ -48,7 +51,7 @@ contains
       allocate (n_cards(0:size(source%sections)), source=0)
       allocate (sections%tables(size(source%sections)))
       sections%names = source%sections%name
-      sections%none = new_table([field_type ::], 0)
+      sections%none = new_table(no_fields, 0)
       sections%complete = source%complete
       call find_owners(source, owner, sections%complete, diagnostics)
       call check_repeated(source, diagnostics)
@@ -253,6 +256,7 @@ contains
       type(diagnostics_type), intent(inout) :: diagnostics
 
       type(table_type) :: table
+      type(field_type), allocatable, target :: fields(:)
       integer :: card
 
       allocate (sections%empty(0))
@@ -261,7 +265,8 @@ contains
          associate (section => source%cards(card)%keyword)
             if (any(form_of(source, card) == [0, form_include, form_file])) cycle
             if (.not. starts_with_letter(source, card)) cycle  ! reported already
-            table = new_table(keyword_fields(source%sections(section)), 1)
+            fields = keyword_fields(source%sections(section))
+            table = new_table(fields, 1)
             call read_entry(table, source, [card], diagnostics)
             if (source%sections(section)%form /= form_entries) cycle
             if (.not. table%given(2, 1)) then

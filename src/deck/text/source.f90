@@ -43,8 +43,8 @@ module axijoint_deck_text_source
 
    !> A deck with its included files spliced in; every physical line is kept
    type :: source_type
-      !> Sections that it may have
-      type(section_type), allocatable :: sections(:)
+      !> Sections that it may have: those of the list itself, for they are large
+      type(section_type), pointer :: sections(:) => null()
       !> Number of cards in `cards`
       integer :: n_cards = 0
       !> The cards in the order in which they are read, at least n_cards

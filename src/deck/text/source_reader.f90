@@ -19,8 +19,8 @@ contains
    subroutine read_source(path, sections, source, diagnostics, bytes, mesh)
       !> The deck
       character(len=*), intent(in) :: path
-      !> Sections that it may have
-      type(section_type), intent(in) :: sections(:)
+      !> Sections that it may have, which live as long as the source
+      type(section_type), intent(in), target :: sections(:)
       !> Its cards
       type(source_type), intent(inout) :: source
       !> Messages
@@ -32,7 +32,7 @@ contains
 
       character(len=:), allocatable :: text
 
-      source%sections = sections
+      source%sections => sections
       if (present(mesh)) source%other_mesh = mesh
       if (.not. present(bytes)) then
          call splice_file(source, path, 0, 0, 0, 0, 0, diagnostics)

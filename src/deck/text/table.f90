@@ -17,8 +17,8 @@ module axijoint_deck_text_table
 
    !> Entries of a section
    type :: table_type
-      !> Fields of an entry
-      type(field_type), allocatable :: fields(:)
+      !> Fields of an entry: those of the section itself, for they are large
+      type(field_type), pointer :: fields(:) => null()
       !> Number of entries
       integer :: n = 0
       !> Cards of each entry, shape (cards, entries)
@@ -34,15 +34,15 @@ module axijoint_deck_text_table
 contains
 
    !> A table without entries
-   pure function new_table(fields, most) result(table)
-      !> Fields of an entry
-      type(field_type), intent(in) :: fields(:)
+   function new_table(fields, most) result(table)
+      !> Fields of an entry, which live as long as the table
+      type(field_type), intent(in), target :: fields(:)
       !> Most entries
       integer, intent(in) :: most
       !> The table
       type(table_type) :: table
 
-      table%fields = fields
+      table%fields => fields
       allocate (table%cards(max(1, maxval(fields%card)), most), source=0)
       allocate (table%values(size(fields), most), source=0.0_wp)
       allocate (table%given(size(fields), most), source=.false.)
@@ -88,7 +88,7 @@ contains
       !> The card
       integer, intent(in) :: card
       !> Fields of the entry
-      type(field_type), intent(in) :: fields(:)
+      type(field_type), intent(in), target :: fields(:)
       !> Which of the entry's cards it is
       integer, intent(in) :: k
 
