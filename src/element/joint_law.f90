@@ -274,7 +274,7 @@ contains
       real(wp), dimension(3) :: direction, slip_by, l_by
       integer, parameter :: shear(2) = [xi, theta]
 
-      resultant = norm2(trial(shear))
+      resultant = sqrt(trial(xi)**2 + trial(theta)**2)
       if (resultant <= max(0.0_wp, cohesion - trial(eta)*friction)) return
       direction = trial/resultant
       direction(eta) = 0.0_wp
@@ -347,7 +347,7 @@ contains
       if (present(memory)) past = memory
       call strength(law, past, cohesion, friction)
       shear = max(abs(stress(xi)), abs(stress(theta)))
-      if (law%slip == slip_resultant) shear = norm2(stress([xi, theta]))
+      if (law%slip == slip_resultant) shear = sqrt(stress(xi)**2 + stress(theta)**2)
       yield = cohesion - min(stress(eta), 0.0_wp)*friction
       if (abs(stress(eta)) <= small .and. shear <= small .and. jump(eta) + law%gap > 0.0_wp) then
          state = state_open

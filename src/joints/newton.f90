@@ -19,7 +19,7 @@ module axijoint_joints_newton
    use axijoint_joints_scene, only : scene_type, views
    implicit none
    private
-   public :: newton_type, step_bounds_type, see, linearize, newton_step, at_points, newton_view, bold
+   public :: newton_type, step_bounds_type, see, linearize, newton_step, newton_view, bold
 
    !> Stiffness k h/E of joints that the laws see at most at a time
    real(wp), parameter :: newton_view = 10.0_wp
@@ -37,13 +37,10 @@ module axijoint_joints_newton
    !> there first, in parts of the stiffness of the bodies
    real(wp), parameter :: near = 0.1_wp, damping = 0.1_wp
 
-   !> Laws of all points, linear about an iterate: P changes by `by_jump` times the
-   !> change of the jumps, and by `rest`
+   !> Laws of all points, linear about an iterate: the excess stress k d - P changes by the slopes of the linear
+   !> system times the change of the jumps, and by -`rest`; the right side of the system is what is not transferred of
+   !> k d - P - `rest`
    type, extends(linear_type) :: newton_type
-      !> Derivatives of P by the jumps, shape (3, 3, points, planes); those of the excess stress
-      !> k d - P are the slopes of the linear system, and its right side is what is not transferred
-      !> of k d - P - `rest`
-      real(wp), allocatable :: by_jump(:, :, :, :)
       !> Change of P at the same jumps, shape (3, points, planes)
       real(wp), allocatable :: rest(:, :, :)
       !> Size of what is missing to the solution, in P and in e
@@ -72,21 +69,23 @@ module axijoint_joints_newton
 
 contains
 
-   !> Products of the matrices of all points and planes with their vectors
-   pure function at_points(matrix, vector) result(product)
-      !> Matrices, shape (3, 3, points, planes), and vectors, shape (3, points, planes)
-      real(wp), intent(in) :: matrix(:, :, :, :), vector(:, :, :)
-      !> Products, same shape
-      real(wp) :: product(3, size(vector, 2), size(vector, 3))
+   !> Change of P that linear laws make of that of the jumps: k d less the excess stress
+   pure function change_of_stress(condensed, slope, jump) result(change)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Slopes, shape (3, 3, points, planes), and changes of the jumps, shape (3, points, planes)
+      real(wp), intent(in) :: slope(:, :, :, :), jump(:, :, :)
+      !> The change, same shape
+      real(wp) :: change(3, size(jump, 2), size(jump, 3))
 
       integer :: j, k
 
-      do j = 1, size(vector, 3)
-         do k = 1, size(vector, 2)
-            product(:, k, j) = matmul(matrix(:, :, k, j), vector(:, k, j))
+      do j = 1, size(jump, 3)
+         do k = 1, size(jump, 2)
+            change(:, k, j) = condensed%points(k)%base*jump(:, k, j) - matmul(slope(:, :, k, j), jump(:, k, j))
          end do
       end do
-   end function at_points
+   end function change_of_stress
 
    !> Let the laws see the jumps of an iterate, and linearize them there
    subroutine see(condensed, scene, far, field, residual, newton)
@@ -139,8 +138,7 @@ contains
       identity = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], &
          [3, 3])
       if (.not. allocated(newton%slope)) then
-         allocate (newton%by_jump(3, 3, size(field%jump, 2), size(field%jump, 3)))
-         allocate (newton%slope, mold=newton%by_jump)
+         allocate (newton%slope(3, 3, size(field%jump, 2), size(field%jump, 3)))
          allocate (newton%rest, mold=field%jump)
       end if
       allocate (left, missing, mold=field%jump)
@@ -160,8 +158,7 @@ contains
                   tangent = view(k)/limit(k)*matmul(inverse, tangent)
                end if
                do i = 1, 3
-                  newton%by_jump(:, i, k, j) = limit(k)*field%share*tangent(:, i)*law%stiffness(i)
-                  newton%slope(:, i, k, j) = -newton%by_jump(:, i, k, j)
+                  newton%slope(:, i, k, j) = -limit(k)*field%share*tangent(:, i)*law%stiffness(i)
                   newton%slope(i, i, k, j) = newton%slope(i, i, k, j) + point%base(i)
                end do
                left(:, k, j) = point%base*(field%jump(:, k, j) - field%moved(:, k, j)) + &
@@ -326,7 +323,7 @@ contains
       call solve(condensed, scene, newton%linear_type, bounds%tolerance, change, amplitude, &
          newton%gathering)
       jump = synthesize(scene%planes, amplitude)
-      change_carried = newton%rest + at_points(newton%by_jump, jump)
+      change_carried = newton%rest + change_of_stress(condensed, newton%slope, jump)
       start = field%excess
       carried = field%carried
       begun = field%jump

@@ -114,7 +114,6 @@ contains
       call timer%push(phase_assemble)
       if (structure%estimated) call form_fine_level(model, structure)
       if (allocated(structure%singular)) call judge_points(model%mesh, structure)
-      structure%sections = cut_sections(model%mesh, model%cuts)
       call timer%pop()
       call timer%push(phase_joints)
       call condense(model, structure, progress, error)
@@ -134,7 +133,8 @@ contains
       if (present(estimated)) structure%estimated = structure%estimated .and. estimated
    end subroutine expect_estimates
 
-   !> Plan the equations, and lay out what estimates of errors need: neither waits for the other
+   !> Plan the equations, lay out what estimates of errors need, and find the sections at the cuts: none waits for the
+   !> others
    subroutine plan_levels(model, structure, progress, error)
       !> The job
       type(model_type), intent(in) :: model
@@ -160,6 +160,9 @@ contains
          structure%fine%seconds = (omp_get_wtime() - start)/n_threads
          !$omp end task
       end if
+      !$omp task default(shared)
+      structure%sections = cut_sections(model%mesh, model%cuts)
+      !$omp end task
       call plan_systems(model, structure, progress, error)
       !$omp end master
       !$omp end parallel
