@@ -31,7 +31,7 @@ module axijoint_deck_text_field
    integer, parameter :: real_width = 10
 
    !> Most words to choose from, and letters of the longest
-   integer, parameter :: most_words = 16, word_length = 12
+   integer, parameter :: most_words = 40, word_length = 12
 
    !> One field of the cards of a section
    type :: field_type
