@@ -19,7 +19,7 @@ module axijoint_joints_newton
    use axijoint_joints_scene, only : scene_type, views
    implicit none
    private
-   public :: newton_type, step_bounds_type, see, linearize, newton_step, newton_view, bold
+   public :: newton_type, step_bounds_type, see, linearize, newton_step, at_points, newton_view, bold
 
    !> Stiffness k h/E of joints that the laws see at most at a time
    real(wp), parameter :: newton_view = 10.0_wp
@@ -69,6 +69,22 @@ module axijoint_joints_newton
 
 contains
 
+   !> Products of the matrices of all points and planes with their vectors
+   pure function at_points(matrix, vector) result(product)
+      !> Matrices, shape (3, 3, points, planes), and vectors, shape (3, points, planes)
+      real(wp), intent(in) :: matrix(:, :, :, :), vector(:, :, :)
+      !> Products, same shape
+      real(wp) :: product(3, size(vector, 2), size(vector, 3))
+
+      integer :: j, k
+
+      do j = 1, size(vector, 3)
+         do k = 1, size(vector, 2)
+            product(:, k, j) = matmul(matrix(:, :, k, j), vector(:, k, j))
+         end do
+      end do
+   end function at_points
+
    !> Change of P that linear laws make of that of the jumps: k d less the excess stress
    pure function change_of_stress(condensed, slope, jump) result(change)
       !> The condensed structure
@@ -80,9 +96,10 @@ contains
 
       integer :: j, k
 
+      change = -at_points(slope, jump)
       do j = 1, size(jump, 3)
          do k = 1, size(jump, 2)
-            change(:, k, j) = condensed%points(k)%base*jump(:, k, j) - matmul(slope(:, :, k, j), jump(:, k, j))
+            change(:, k, j) = change(:, k, j) + condensed%points(k)%base*jump(:, k, j)
          end do
       end do
    end function change_of_stress

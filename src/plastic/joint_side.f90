@@ -10,7 +10,7 @@ module axijoint_plastic_joint_side
    use axijoint_joints_field, only : joint_field_type, commit_field
    use axijoint_joints_loads, only : put_work
    use axijoint_joints_method, only : method_type, control_type, verdict_type
-   use axijoint_joints_newton, only : newton_type, linearize
+   use axijoint_joints_newton, only : newton_type, linearize, at_points
    use axijoint_joints_newton_system, only : linear_type, solve
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_planes, only : synthesize, analyse
@@ -249,21 +249,5 @@ contains
       if (.not. side%method%accumulates) call commit_field(side%scene%laws, side%field)
       side%before = side%field
    end subroutine commit_joints
-
-   !> Products of the matrices of all points and planes with their vectors
-   pure function at_points(matrix, vector) result(product)
-      !> Matrices, shape (3, 3, points, planes), and vectors, shape (3, points, planes)
-      real(wp), intent(in) :: matrix(:, :, :, :), vector(:, :, :)
-      !> Products, same shape
-      real(wp) :: product(3, size(vector, 2), size(vector, 3))
-
-      integer :: j, k
-
-      do j = 1, size(vector, 3)
-         do k = 1, size(vector, 2)
-            product(:, k, j) = matmul(matrix(:, :, k, j), vector(:, k, j))
-         end do
-      end do
-   end function at_points
 
 end module axijoint_plastic_joint_side
