@@ -37,7 +37,7 @@ static int has_avx512(void)
 /* In place of the system's function: what is set, if empty, stays */
 char *getenv(const char *name)
 {
-   static char passive[] = "PASSIVE", turns[] = "4000", one[] = "1", skylake[] = "SKYLAKEX";
+   static char passive[] = "PASSIVE", turns[] = "1000", one[] = "1", skylake[] = "SKYLAKEX";
    char *value = value_set(name);
    if (value) return value;
    if (strcmp(name, "OMP_WAIT_POLICY") == 0) return passive;
