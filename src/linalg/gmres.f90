@@ -95,8 +95,9 @@ contains
       end do
    end subroutine gmres
 
-   !> Make a vector orthogonal to a basis, one vector after the other, and of length one: what rounding leaves
-   !> of them does the solution no harm (Paige, Rozloznik and Strakos, SIAM J. Matrix Anal. Appl. 28, 2006)
+   !> Make a vector orthogonal to a basis, one vector after the other, and of length one. What rounding leaves of them
+   !> does the solution no harm (Paige, Rozloznik and Strakos, SIAM J. Matrix Anal. Appl. 28, 2006) unless the operator
+   !> is next to singular: so once is enough where that leaves enough of the vector, else it is done twice
    subroutine orthogonalize(basis, v, h)
       !> The basis
       type(vector_type), intent(in) :: basis(:)
@@ -105,15 +106,24 @@ contains
       !> Its components along the basis, and its length
       real(wp), intent(out) :: h(:)
 
-      integer :: i
+      !> The square of what is left, over that before, that is enough
+      real(wp), parameter :: enough = 0.1_wp
+      real(wp) :: before, left, part
+      integer :: i, pass
 
-      do i = 1, size(basis)
-         h(i) = ddot(size(v), basis(i)%values, 1, v, 1)
-         call daxpy(size(v), -h(i), basis(i)%values, 1, v, 1)
+      h(:) = 0.0_wp
+      before = ddot(size(v), v, 1, v, 1)
+      do pass = 1, 2
+         do i = 1, size(basis)
+            part = ddot(size(v), basis(i)%values, 1, v, 1)
+            call daxpy(size(v), -part, basis(i)%values, 1, v, 1)
+            h(i) = h(i) + part
+         end do
+         left = ddot(size(v), v, 1, v, 1)
+         if (left > enough*before) exit
       end do
-      i = size(h)
-      h(i) = sqrt(ddot(size(v), v, 1, v, 1))
-      if (h(i) > 0.0_wp) v = v/h(i)
+      h(size(h)) = sqrt(left)
+      if (left > 0.0_wp) v = v/h(size(h))
    end subroutine orthogonalize
 
 end module axijoint_linalg_gmres
