@@ -35,9 +35,9 @@ module axijoint_joints_newton_method
    real(wp), parameter :: first_leak = 1.0e-2_wp, leak_factor = 1.0e-2_wp, last_leak = 1.0e-8_wp
    !> Tolerance of the linear solution far from equilibrium, with very stiff joints, the ratio from
    !> which on it is near, the least tolerance there, and the part of the step's tolerance that is
-   !> left to it
+   !> left to it, with very stiff joints
    real(wp), parameter :: loose = 1.0e-2_wp, closer = 1.0e-4_wp, near = 1.0e-2_wp, &
-      strict = 1.0e-9_wp, part = 0.1_wp
+      strict = 1.0e-9_wp, part = 0.1_wp, smaller_part = 0.01_wp
    !> Where a law that jumps has no state, cohesion fades with opening: first over tensions as large
    !> as it, then over a part of that whenever there is equilibrium, in small steps where these get no
    !> farther, and last. It may be wider where iterations do not get there, but not more
@@ -504,7 +504,7 @@ contains
          ! near to equilibrium, so exactly that one step can reach the tolerance
          if (ratio < near) then
             bounds%tolerance = min(bounds%tolerance, &
-               max(strict, part*tolerance/max(tiny(ratio), ratio)))
+               max(strict, merge(smaller_part, part, condensed%proportion > very_stiff)*tolerance/max(tiny(ratio), ratio)))
          end if
          bounds%largest = course%watch%largest
          if (field%leak > 0.0_wp) then
