@@ -21,8 +21,8 @@ module axijoint_estimate_peak
 
    !> What iterations of joints load of the program; what the libraries of the output add for swept bodies and
    !> joints, parts of which are in memory, and for each number of these bodies [byte]; measured
-   integer(i8), parameter :: yielding_bytes = 1700000_i8, swept_bytes = 4500000_i8, &
-      swept_joint_bytes = 5500000_i8, swept_number_bytes = 8_i8
+   integer(i8), parameter :: yielding_bytes = 300000_i8, swept_bytes = 4500000_i8, &
+      swept_joint_bytes = 3500000_i8, swept_number_bytes = 8_i8
 
 contains
 

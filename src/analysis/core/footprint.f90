@@ -24,7 +24,7 @@ module axijoint_analysis_core_footprint
    !> Bytes of a real
    integer(i8), parameter :: real_bytes = storage_size(1.0_wp)/8
    !> Numbers of a joint point on a plane: jumps, stresses, states, slip, slopes, and copies
-   integer(i8), parameter :: plane_numbers = 100
+   integer(i8), parameter :: plane_numbers = 91
    !> Planes round the whole circle take so many halves of those of half of it, as measured
    integer(i8), parameter :: around = 5
    !> Planes on which the estimates of errors find joints again, times so many
