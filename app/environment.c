@@ -1,11 +1,10 @@
 /* The environment of the numerical libraries: threads that wait leave their processor to others, but not for the
-   few microseconds between the products of an iteration, since waking them takes longer than that; threads are for harmonics and not for the matrices inside one, and OpenBLAS 0.3.21 takes newer
-   AMD processors for Haswell, whose kernels leave their AVX-512 units idle. The libraries ask for
-   these variables when they are loaded, before any code of the program; but what stands in the
-   program itself goes before the same names in the system's library, for all libraries that are
-   loaded. So they ask here, and are told what is right where the user has set nothing. This file is a part
-   of programs only, never of the library. scripts/environment sets the same for programs that are not
-   this one. */
+   few microseconds between the products of an iteration, since waking them takes longer than that; threads are for
+   harmonics and not for the matrices inside one, and OpenBLAS 0.3.21 takes newer AMD processors for Haswell, whose
+   kernels leave their AVX-512 units idle. The libraries ask for these variables when they are loaded, before any code of
+   the program; but what stands in the program itself goes before the same names in the system's library, for all
+   libraries that are loaded. So they ask here, and are told what is right where the user has set nothing. This file is a
+   part of programs only, never of the library. scripts/environment sets the same for programs that are not this one. */
 #define _GNU_SOURCE
 #include <fcntl.h>
 #include <string.h>

@@ -153,7 +153,8 @@ def environment(program, folder):
     script = os.path.join(HERE, '..', '..', 'scripts', 'environment')
     faults, library = [], preload('told_environment')
     for given, words in [({'OMP_WAIT_POLICY': 'ACTIVE', 'OPENBLAS_CORETYPE': 'HASWELL'}, ['--version']),
-                         ({'OPENBLAS_NUM_THREADS': '', 'GOMP_SPINCOUNT': '7'}, ['--version']), ({}, ['--version']), ({}, ['run', 'missing.dat'])]:
+                         ({'OPENBLAS_NUM_THREADS': '', 'GOMP_SPINCOUNT': '7'}, ['--version']), ({}, ['--version']),
+                         ({}, ['run', 'missing.dat'])]:
         printed = subprocess.run(['bash', '-c', f'. "{script}"; env'], env=bare | given, text=True,
                                  capture_output=True, check=True).stdout
         wanted = sorted(line for line in printed.split('\n') if line.split('=')[0] in names)

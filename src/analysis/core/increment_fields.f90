@@ -231,8 +231,9 @@ contains
          field)
       if (allocated(state%bodies%place)) then
          call stress_plastic_strain(model, state, solved%loading)
+         ! what errors are held against
          call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
-                          structure%equations%unit_loads, combination_type(0, state%case_factor), loads)  ! what errors are held against
+                          structure%equations%unit_loads, combination_type(0, state%case_factor), loads)
          call recover_fields(model, structure, solved%loading, loads, field, results)
       else
          call recover_fields(model, structure, solved%loading, solved%loading, field, results)
