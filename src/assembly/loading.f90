@@ -52,7 +52,7 @@ contains
       real(wp), intent(in), allocatable, optional :: taken(:, :, :)
 
       real(wp), allocatable :: still(:, :)
-      integer :: i, k
+      integer :: k
 
       associate (n => n_nodes(model%mesh))
          allocate (loading%external(3, n, size(modes)), source=0.0_wp)
@@ -60,13 +60,7 @@ contains
       end associate
       loading%case_factor = combination%factor
       do k = 1, size(modes)
-         call add_lines(model, modes(k), combination%factor, loading%external(:, :, k))
-         do i = 1, size(model%body_loads)
-            associate (load => model%body_loads(i))
-               if (same_mode(load%mode, modes(k))) loading%external(:, :, k) = loading%external(:, :, k) &
-                  + combination%factor(load%case)*unit_loads%mass(:, :, i)
-            end associate
-         end do
+         call add_external(model, modes(k), combination%factor, loading%external(:, :, k), unit_loads)
       end do
       if (size(model%prescribed) > 0) then
          allocate (loading%held, mold=loading%external)
@@ -155,7 +149,7 @@ contains
    end function still_force
 
    !> Add the external forces of one mode: on edges, nodal circles and masses
-   subroutine add_external(model, mode, factor, force)
+   subroutine add_external(model, mode, factor, force, unit_loads)
       !> The job
       type(model_type), intent(in) :: model
       !> The mode
@@ -164,28 +158,8 @@ contains
       real(wp), intent(in) :: factor(:)
       !> Forces on components, shape (3, nodes)
       real(wp), intent(inout) :: force(:, :)
-
-      integer :: k
-
-      call add_lines(model, mode, factor, force)
-      do k = 1, size(model%body_loads)
-         associate (load => model%body_loads(k))
-            if (.not. same_mode(load%mode, mode)) cycle
-            call add_mass_force(model, load, factor(load%case), force)
-         end associate
-      end do
-   end subroutine add_external
-
-   !> Add the external forces of one mode on edges and nodal circles
-   subroutine add_lines(model, mode, factor, force)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The mode
-      type(mode_type), intent(in) :: mode
-      !> Factors of the load cases
-      real(wp), intent(in) :: factor(:)
-      !> Forces on components, shape (3, nodes)
-      real(wp), intent(inout) :: force(:, :)
+      !> Forces of masses under a factor of one, if they are known
+      type(unit_loads_type), intent(in), optional :: unit_loads
 
       integer :: k
 
@@ -201,7 +175,17 @@ contains
             force(:, load%node) = force(:, load%node) + factor(load%case)*load%force
          end associate
       end do
-   end subroutine add_lines
+      do k = 1, size(model%body_loads)
+         associate (load => model%body_loads(k))
+            if (.not. same_mode(load%mode, mode)) cycle
+            if (present(unit_loads)) then
+               force = force + factor(load%case)*unit_loads%mass(:, :, k)
+            else
+               call add_mass_force(model, load, factor(load%case), force)
+            end if
+         end associate
+      end do
+   end subroutine add_external
 
    !> Displacements of held components in one mode. At the pole a lateral
    !> displacement is u = -w in harmonic 1, and higher harmonics have none
