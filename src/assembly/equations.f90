@@ -26,7 +26,7 @@ module axijoint_assembly_equations
       correct_system, expand_mode
 
    !> With fewer equations in all, threads cost more than they save
-   integer, parameter :: least_equations = 5000
+   integer, parameter :: least_equations = 1500
    !> Rate of matrix products that solvers are chosen by [operations/second]
    real(wp), parameter :: nominal_rate = 5.0e10_wp
    !> Time of an operation of condensing to joints [second]

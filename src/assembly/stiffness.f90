@@ -25,7 +25,7 @@ module axijoint_assembly_stiffness
    public :: assemble_parts, any_harmonic, n_parts, least_elements
 
    !> Fewer elements are not worth waking the threads for
-   integer, parameter :: least_elements = 1000
+   integer, parameter :: least_elements = 50
    !> A class of more than one harmonic
    integer, parameter :: any_harmonic = -1
 

@@ -17,6 +17,7 @@ module axijoint_joints_condensed
    use axijoint_joints_floating, only : floating_motion_type, new_floating_motions
    use axijoint_joints_residual, only : measure_type, new_measure
    use axijoint_joints_rows, only : jump_rows
+   use axijoint_linalg_lapack, only : complete
    use axijoint_model_joint_points, only : model_joint_point_type, stiffness_ratio
    use axijoint_model_model, only : model_type, can_yield_at
    implicit none
@@ -29,8 +30,8 @@ module axijoint_joints_condensed
 
    !> Flexibility of one harmonic
    type :: flexibility_type
-      !> Jumps that unit amplitudes of excess stress give: N K_m^-1 N^T c_m w, for all points of
-      !> component 1, 2, 3, shape (points components, points components)
+      !> Jumps that unit amplitudes of stress give, over the weights w of their points: N K_m^-1 N^T c_m, symmetric, for
+      !> all points of component 1, 2, 3, shape (points components, points components)
       real(wp), allocatable :: matrix(:, :)
    end type flexibility_type
 
@@ -118,7 +119,7 @@ contains
          if (.not. allocated(condensed%flexibilities(s)%matrix)) cycle
          do k = 1, size(condensed%points)
             associate (rows => k + [(i*size(condensed%points), i=0, 2)])
-               condensed%own(:, :, k, s) = condensed%flexibilities(s)%matrix(rows, rows)
+               condensed%own(:, :, k, s) = condensed%points(k)%weight*condensed%flexibilities(s)%matrix(rows, rows)
             end associate
          end do
       end do
@@ -176,7 +177,7 @@ contains
       integer, intent(in) :: s
       !> Joint points
       type(model_joint_point_type), intent(in) :: points(:)
-      !> N K^-1 N^T c_m w
+      !> N K^-1 N^T c_m
       real(wp), allocatable, intent(out) :: matrix(:, :)
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
@@ -197,15 +198,15 @@ contains
          do l = first(column), first(column + 1) - 1
             half = half + factor(l)*inverse(:, from(l))
          end do
-         half = circle_integral(equations%systems(s)%harmonic) &
-            *points(1 + mod(column - 1, size(points)))%weight*half
-         do row = 1, size(matrix, 1)
+         half = circle_integral(equations%systems(s)%harmonic)*half
+         do row = column, size(matrix, 1)
             matrix(row, column) = 0.0_wp
             do l = first(row), first(row + 1) - 1
                matrix(row, column) = matrix(row, column) + factor(l)*half(from(l))
             end do
          end do
       end do
+      call complete(matrix)
 
    contains
 

@@ -49,6 +49,12 @@ module axijoint_joints_newton
       type(gathering_type) :: gathering
    end type newton_type
 
+   !> What a step changes of the state of the joints
+   type :: iterate_type
+      !> As in the state
+      real(wp), allocatable :: excess(:, :, :), carried(:, :, :), jump(:, :, :)
+   end type iterate_type
+
    !> What bounds a step
    type :: step_bounds_type
       !> Residual ratio of the iterate
@@ -85,21 +91,29 @@ contains
       end do
    end function at_points
 
-   !> Change of P that linear laws make of that of the jumps: k d less the excess stress
-   pure function change_of_stress(condensed, slope, jump) result(change)
+   !> Change of P that linear laws make of that of the jumps: k d less the excess stress, and what they miss already
+   pure function change_of_stress(condensed, newton, jump) result(change)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
-      !> Slopes, shape (3, 3, points, planes), and changes of the jumps, shape (3, points, planes)
-      real(wp), intent(in) :: slope(:, :, :, :), jump(:, :, :)
+      !> Laws
+      type(newton_type), intent(in) :: newton
+      !> Changes of the jumps, shape (3, points, planes)
+      real(wp), intent(in) :: jump(:, :, :)
       !> The change, same shape
       real(wp) :: change(3, size(jump, 2), size(jump, 3))
 
+      real(wp) :: base(3, size(jump, 2))
       integer :: j, k
 
-      change = -at_points(slope, jump)
+      do k = 1, size(jump, 2)
+         base(:, k) = condensed%points(k)%base
+      end do
       do j = 1, size(jump, 3)
          do k = 1, size(jump, 2)
-            change(:, k, j) = change(:, k, j) + condensed%points(k)%base*jump(:, k, j)
+            associate (slope => newton%slope(:, :, k, j), d => jump(:, k, j))
+               change(:, k, j) = newton%rest(:, k, j) + base(:, k)*d &
+                  - slope(:, 1)*d(1) - slope(:, 2)*d(2) - slope(:, 3)*d(3)
+            end associate
          end do
       end do
    end function change_of_stress
@@ -279,20 +293,20 @@ contains
       !> Whether a step was made; otherwise nothing changed
       logical, intent(out) :: made
 
-      type(joint_field_type) :: start, reached
+      type(iterate_type) :: start, reached
       real(wp) :: least
       logical :: falls
 
-      start = field
-      call step_along(condensed, scene, bounds, newton, field, residual, made, falls)
+      start = iterate_type(field%excess, field%carried, field%jump)
+      call step_along(condensed, scene, bounds, start, newton, field, residual, made, falls)
       if (bounds%damping > 0.0_wp) then
          bounds%damping = merge(bounds%damping/widening, 0.0_wp, made .and. falls)
       else if (made .and. .not. falls .and. bounds%far < near) then
-         reached = field
+         reached = iterate_type(field%excess, field%carried, field%jump)
          least = newton%merit
          call go_to(start)
          bounds%damping = damping/max(1.0_wp, condensed%proportion)
-         call step_along(condensed, scene, bounds, newton, field, residual, made, falls)
+         call step_along(condensed, scene, bounds, start, newton, field, residual, made, falls)
          if (.not. (made .and. newton%merit < least)) then
             bounds%damping = 0.0_wp
             call go_to(reached)
@@ -306,9 +320,11 @@ contains
       !> Back to an iterate
       subroutine go_to(iterate)
          !> The iterate
-         type(joint_field_type), intent(in) :: iterate
+         type(iterate_type), intent(in) :: iterate
 
-         field = iterate
+         field%excess = iterate%excess
+         field%carried = iterate%carried
+         field%jump = iterate%jump
          call see(condensed, scene, bounds%far, field, residual, newton)
       end subroutine go_to
 
@@ -316,13 +332,15 @@ contains
 
    !> One step by a linear solution, shortened until what is missing is not much more, but not below
    !> a part of it
-   subroutine step_along(condensed, scene, bounds, newton, field, residual, made, falls)
+   subroutine step_along(condensed, scene, bounds, start, newton, field, residual, made, falls)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> What bounds the step
       type(step_bounds_type), intent(inout) :: bounds
+      !> The iterate
+      type(iterate_type), intent(in) :: start
       !> Laws about the iterate; about the new one on return
       type(newton_type), intent(inout) :: newton
       !> State of the joints
@@ -332,18 +350,14 @@ contains
       !> Whether the jumps are a state, and whether not much more is missing than before
       logical, intent(out) :: made, falls
 
-      real(wp), allocatable :: start(:, :, :), carried(:, :, :), begun(:, :, :), change(:, :, :), &
-         amplitude(:, :, :), change_carried(:, :, :), jump(:, :, :)
+      real(wp), allocatable :: change(:, :, :), amplitude(:, :, :), change_carried(:, :, :), jump(:, :, :)
       real(wp) :: length, before, least
 
       newton%kept = newton%kept*(1.0_wp - bounds%damping)
       call solve(condensed, scene, newton%linear_type, bounds%tolerance, change, amplitude, &
          newton%gathering)
       jump = synthesize(scene%planes, amplitude)
-      change_carried = newton%rest + change_of_stress(condensed, newton%slope, jump)
-      start = field%excess
-      carried = field%carried
-      begun = field%jump
+      change_carried = change_of_stress(condensed, newton, jump)
       before = newton%merit
       length = 1.0_wp
       if (maxval(abs(jump)) > bounds%radius) then
@@ -353,9 +367,9 @@ contains
       bounds%n_astray = merge(bounds%n_astray + 1, 0, length < astray)
       least = shortest*length
       do
-         field%excess = start + length*change
-         field%carried = carried + length*change_carried
-         field%jump = begun + length*jump
+         field%excess = start%excess + length*change
+         field%carried = start%carried + length*change_carried
+         field%jump = start%jump + length*jump
          call see(condensed, scene, bounds%far, field, residual, newton)
          made = maxval(abs(field%jump)) <= bounds%largest
          falls = newton%merit < merge(bold, bounds%more, bounds%damping > 0.0_wp)*before

@@ -7,17 +7,18 @@
 !> solves. Its arrays lie component by component, so that all products are those of matrices. It
 !> reads flexibilities most of the time, and few digits of them are enough: where they are more than
 !> the processor keeps at hand they are gathered in single precision, and what a solution leaves is
-!> found with all digits, and solved for again. They are symmetric but for the weights of the points,
-!> so that half of them is enough, too. From one solution to the next much the same points move: what
+!> found with all digits, and solved for again. They are symmetric, so that half of them is enough, too.
+!> From one solution to the next much the same points move: what
 !> was gathered is kept while it serves
 module axijoint_joints_newton_system
    use axijoint_base_kinds, only : wp, sp
    use axijoint_joints_condensed, only : condensed_type, flexibility_type
-   use axijoint_joints_planes, only : sum_modes, find_modes
+   use axijoint_joints_planes, only : sum_modes, find_modes, by_halves
    use axijoint_joints_point_blocks, only : point_blocks_type, new_point_blocks, precondition
    use axijoint_joints_scene, only : scene_type, jumps, tell_jumps
    use axijoint_linalg_gmres, only : operator_type, gmres
-   use axijoint_linalg_lapack, only : matrix_vector, single_symmetric_vector
+   use axijoint_linalg_lapack, only : matrix_vector
+   use axijoint_linalg_symmetric_single, only : symmetric_single_type, make_room, put_column, symmetric_product
    implicit none
    private
    public :: linear_type, gathering_type, solve
@@ -34,7 +35,9 @@ module axijoint_joints_newton_system
    !> Numbers of flexibilities that a processor keeps at hand
    real(wp), parameter :: at_hand = 1.0e5_wp
    !> Numbers of flexibilities from which on threads are worth their start
-   real(wp), parameter :: worth_threads = 3.0e5_wp
+   real(wp), parameter :: worth_threads = 1.0e5_wp
+   !> Points whose sums over modes and planes are found at a time, whatever the number of threads
+   integer, parameter :: points_at_a_time = 32
    !> What is gathered serves fewer points if it is of so many times as many at most
    real(wp), parameter :: still_serves = 1.25_wp
 
@@ -54,10 +57,9 @@ module axijoint_joints_newton_system
 
    !> Flexibility of the points that move
    type :: gathered_type
-      !> As that of all points, or the upper triangle of it over the weights of its columns, which is
-      !> symmetric, in single precision; neither on ranks that do not have it
+      !> As that of all points, or in single precision; neither on ranks that do not have it
       real(wp), allocatable :: double(:, :)
-      real(sp), allocatable :: single(:, :)
+      type(symmetric_single_type), allocatable :: single
       !> What single precision counts in
       real(wp) :: unit = 0.0_wp
    end type gathered_type
@@ -71,8 +73,9 @@ module axijoint_joints_newton_system
       logical :: double = .false.
       !> One a system
       type(gathered_type), allocatable :: flexibilities(:)
-      !> Weights over the largest, of all points of component 1, 2, 3
+      !> Weights over the largest, of all points of component 1, 2, 3, and that
       real(wp), allocatable :: weight(:)
+      real(wp) :: largest = 0.0_wp
    end type gathering_type
 
    !> I - A E' S F of the points that move
@@ -165,14 +168,14 @@ contains
       !> Shape (points)
       logical :: moves(size(slope, 3))
 
-      real(wp) :: least
+      real(wp) :: least(size(slope, 3))
       integer :: j, k
 
-      do k = 1, size(moves)
-         least = rounding*maxval(condensed%points(k)%base)
-         moves(k) = .false.
-         do j = 1, size(slope, 4)
-            if (.not. moves(k)) moves(k) = any(abs(slope(:, :, k, j)) > least)
+      least = [(rounding*maxval(condensed%points(k)%base), k=1, size(least))]
+      moves = .false.
+      do j = 1, size(slope, 4)
+         do k = 1, size(moves)
+            if (.not. moves(k)) moves(k) = maxval(abs(slope(:, :, k, j))) > least(k)
          end do
       end do
    end function moving
@@ -202,8 +205,8 @@ contains
       gathering%double = double
       gathering%points = pack([(k, k=1, size(moves))], moves)
       associate (points => gathering%points, weight => condensed%points%weight)
-         gathering%weight = [weight(points), weight(points), weight(points)]
-         gathering%weight = gathering%weight/max(tiny(1.0_wp), maxval(weight(points)))
+         gathering%largest = max(tiny(1.0_wp), maxval(weight(points)))
+         gathering%weight = [weight(points), weight(points), weight(points)]/gathering%largest
       end associate
       if (allocated(gathering%flexibilities)) deallocate (gathering%flexibilities)
       allocate (gathering%flexibilities(size(condensed%flexibilities)))
@@ -216,8 +219,7 @@ contains
                gathering%flexibilities(s)%double = whole([points, n + points, 2*n + points], &
                   [points, n + points, 2*n + points])
             else
-               call gather_single(whole, [points, n + points, 2*n + points], gathering%weight, &
-                  gathering%flexibilities(s))
+               call gather_single(whole, [points, n + points, 2*n + points], gathering%flexibilities(s))
             end if
          end associate
       end do
@@ -251,47 +253,41 @@ contains
    end function n_numbers
 
    !> Gather the flexibility of some points in single precision
-   subroutine gather_single(whole, place, weight, gathered)
+   subroutine gather_single(whole, place, gathered)
       !> Flexibility of all points
       real(wp), intent(in), contiguous :: whole(:, :)
-      !> Places of these in it, and their weights
+      !> Places of these in it, ascending
       integer, intent(in) :: place(:)
-      real(wp), intent(in) :: weight(:)
       !> Their flexibility
       type(gathered_type), intent(inout) :: gathered
 
       real(wp) :: scale
+      real(sp) :: column(size(place))
       logical :: starts(size(place))
       integer, allocatable :: first(:), last(:), shift(:)
       integer :: i, j, k
 
       gathered%unit = tiny(1.0_wp)
       do j = 1, size(place)
-         if (weight(j) > 0.0_wp) gathered%unit = max(gathered%unit, &
-            abs(whole(place(j), place(j)))/weight(j))
+         gathered%unit = max(gathered%unit, abs(whole(place(j), place(j))))
       end do
       gathered%unit = 2.0_wp**exponent(gathered%unit)  ! in a range that single precision has
+      scale = 1.0_wp/gathered%unit
       starts = .true.
       starts(2:) = place(2:) /= place(:size(place) - 1) + 1
       first = pack([(i, i=1, size(place))], starts)
       last = [first(2:) - 1, size(place)]
       shift = place(first) - first
-      allocate (gathered%single(size(place), size(place)))
+      allocate (gathered%single)
+      call make_room(gathered%single, size(place))
       do j = 1, size(place)
-         if (.not. weight(j) > 0.0_wp) then  ! a point on the axis: its row is known by the others
-            do i = 1, j
-               gathered%single(i, j) = 0.0_sp
-               if (weight(i) > 0.0_wp) gathered%single(i, j) = &
-                  real(whole(place(j), place(i))/(weight(i)*gathered%unit), sp)
-            end do
-            cycle
-         end if
-         scale = 1.0_wp/(weight(j)*gathered%unit)
          do k = 1, size(first)  ! neighbours are copied together
+            if (first(k) > j) exit
             do i = first(k), min(last(k), j)
-               gathered%single(i, j) = real(scale*whole(i + shift(k), place(j)), sp)
+               column(i) = real(scale*whole(i + shift(k), place(j)), sp)
             end do
          end do
+         call put_column(gathered%single, j, column(:j))
       end do
    end subroutine gather_single
 
@@ -386,7 +382,8 @@ contains
       end do
    end subroutine add
 
-   !> A E' S: excess stress that the laws make of jumps
+   !> A E' S: excess stress that the laws make of jumps. Threads of the region that it is called in share the points,
+   !> unless modes are summed by halves, whose threads share them there
    subroutine find_excess(self, n, jump, excess)
       !> The operator
       type(derivative_type), intent(in) :: self
@@ -396,21 +393,43 @@ contains
       real(wp), intent(in) :: jump(n, 3, *)
       real(wp), intent(inout) :: excess(n, 3, *)
 
+      integer :: k, n_parts
+
+      n_parts = merge(1, (n + points_at_a_time - 1)/points_at_a_time, by_halves(self%scene%planes))
+      !$omp do schedule(static)
+      do k = 1, n_parts
+         associate (first => (k - 1)*n/n_parts + 1, last => k*n/n_parts)
+            call find_part(self, first, last, n, jump(first, 1, 1), excess(first, 1, 1))
+         end associate
+      end do
+      !$omp end do
+   end subroutine find_excess
+
+   !> Excess stress of some points
+   subroutine find_part(self, first, last, n, jump, excess)
+      !> The operator
+      type(derivative_type), intent(in) :: self
+      !> The first and the last of them, and the number of all
+      integer, intent(in) :: first, last, n
+      !> Amplitudes of jumps and excess stress from the first on, shape (points, 3, modes)
+      real(wp), intent(in) :: jump(n, 3, *)
+      real(wp), intent(inout) :: excess(n, 3, *)
+
       real(wp), allocatable :: on_planes(:, :, :), stress(:, :, :)
       integer :: i, j, l
 
-      allocate (on_planes(n, 3, size(self%slope, 4)), stress(n, 3, size(self%slope, 4)))
-      call sum_modes(self%scene%planes, n, jump, on_planes)
+      allocate (on_planes(last - first + 1, 3, size(self%slope, 4)), stress(last - first + 1, 3, size(self%slope, 4)))
+      call sum_modes(self%scene%planes, last - first + 1, n, jump, on_planes)
       do j = 1, size(stress, 3)
          do i = 1, 3
-            stress(:, i, j) = self%slope(:, i, 1, j)*on_planes(:, 1, j)
+            stress(:, i, j) = self%slope(first:last, i, 1, j)*on_planes(:, 1, j)
             do l = 2, 3
-               stress(:, i, j) = stress(:, i, j) + self%slope(:, i, l, j)*on_planes(:, l, j)
+               stress(:, i, j) = stress(:, i, j) + self%slope(first:last, i, l, j)*on_planes(:, l, j)
             end do
          end do
       end do
-      call find_modes(self%scene%planes, n, stress, excess)
-   end subroutine find_excess
+      call find_modes(self%scene%planes, last - first + 1, n, stress, excess)
+   end subroutine find_part
 
    !> Product with amplitudes of excess stress
    subroutine apply(self, x, y)
@@ -426,48 +445,50 @@ contains
 
       n = size(self%slope, 1)
       allocate (jump(n, 3, size(self%scene%system)), excess(n, 3, size(self%scene%system)))
-      !$omp parallel do schedule(static, 1) if (n_numbers(self%condensed, n) > worth_threads)
+      !$omp parallel if (n_numbers(self%condensed, n) > worth_threads)
+      !$omp do schedule(static, 1)
       do k = 1, size(jump, 3)
-         associate (flexibility => self%gathering%flexibilities(self%scene%system(k)), &
-                    scale => self%scene%scale(k))
-            if (allocated(flexibility%single)) then
-               call single_product(flexibility, 3*n, scale, self%gathering%weight, &
-                  x(3*n*(k - 1) + 1:3*n*k), jump(:, :, k))
-            else if (allocated(flexibility%double)) then
-               call matrix_vector(flexibility%double, x(3*n*(k - 1) + 1:3*n*k), jump(:, :, k))
-               jump(:, :, k) = scale*jump(:, :, k)
-            end if
-         end associate
+         call flex(self%gathering%flexibilities(self%scene%system(k)), 3*n, self%gathering%weight, &
+            self%scene%scale(k)*self%gathering%largest, x(3*n*(k - 1) + 1:3*n*k), jump(:, :, k))
       end do
-      !$omp end parallel do
-      if (self%condensed%shared) call tell_jumps(self%condensed, self%scene, jump)
-      if (allocated(self%given_jump)) &
-         jump = jump - sum(self%given_share*reshape(x, shape(jump)))*self%given_jump
-      call find_excess(self, n, jump, excess)
+      !$omp end do
+      if (self%condensed%shared .or. allocated(self%given_jump)) then
+         !$omp master
+         if (self%condensed%shared) call tell_jumps(self%condensed, self%scene, jump)
+         if (allocated(self%given_jump)) &
+            jump = jump - sum(self%given_share*reshape(x, shape(jump)))*self%given_jump
+         !$omp end master
+         !$omp barrier
+      end if
+      if (.not. by_halves(self%scene%planes)) call find_excess(self, n, jump, excess)
+      !$omp end parallel
+      if (by_halves(self%scene%planes)) call find_excess(self, n, jump, excess)
       excess = reshape(x, shape(excess)) - excess
       if (allocated(self%blocks)) call precondition(self%blocks, excess)
       y = reshape(excess, [size(y)])
    end subroutine apply
 
-   !> Product of a flexibility in single precision
-   subroutine single_product(flexibility, n, scale, weight, excess, jump)
+   !> Product of a flexibility, if it is there
+   subroutine flex(flexibility, n, weight, scale, excess, jump)
       !> The flexibility
       type(gathered_type), intent(in) :: flexibility
       !> Its size
       integer, intent(in) :: n
-      !> Factor of the product
-      real(wp), intent(in) :: scale
-      !> Weights of the points
-      real(wp), intent(in) :: weight(n)
+      !> Weights of the points, and a factor of the product
+      real(wp), intent(in) :: weight(n), scale
       !> Amplitudes of excess stress and jumps
       real(wp), intent(in) :: excess(n)
       real(wp), intent(inout) :: jump(n)
 
-      real(sp) :: x(n), y(n)
+      real(sp) :: y(n)
 
-      x = real(weight*excess, sp)
-      call single_symmetric_vector(flexibility%single, x, y)
-      jump = scale*flexibility%unit*y
-   end subroutine single_product
+      if (allocated(flexibility%single)) then
+         call symmetric_product(flexibility%single, real(weight*excess, sp), y)
+         jump = scale*flexibility%unit*y
+      else if (allocated(flexibility%double)) then
+         call matrix_vector(flexibility%double, weight*excess, jump)
+         jump = scale*jump
+      end if
+   end subroutine flex
 
 end module axijoint_joints_newton_system

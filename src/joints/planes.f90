@@ -9,7 +9,7 @@ module axijoint_joints_planes
    use axijoint_model_modes, only : greatest_divisor
    implicit none
    private
-   public :: planes_type, new_planes, new_view, synthesize, analyse, sum_modes, find_modes, on_all, &
+   public :: planes_type, new_planes, new_view, synthesize, analyse, sum_modes, find_modes, by_halves, on_all, &
       plane_weights, mode_on_planes, mode_from_planes
 
    !> Planes and the matrices between them and the modes
@@ -250,7 +250,7 @@ contains
 
       real(wp) :: by_component(size(total, 2), size(total, 1), size(total, 3))
 
-      call sum_modes(planes, size(total, 2), turned(amplitude), by_component)
+      call sum_modes(planes, size(total, 2), size(total, 2), turned(amplitude), by_component)
       total = turned(by_component)
    end function synthesize
 
@@ -265,7 +265,7 @@ contains
 
       real(wp) :: by_component(size(amplitude, 2), size(amplitude, 1), size(amplitude, 3))
 
-      call find_modes(planes, size(total, 2), turned(total), by_component)
+      call find_modes(planes, size(total, 2), size(total, 2), turned(total), by_component)
       amplitude = turned(by_component)
    end function analyse
 
@@ -326,52 +326,59 @@ contains
       end do
    end function turned
 
-   !> Sums of the modes on every plane, of values that lie together component by component
-   subroutine sum_modes(planes, n, amplitude, total)
+   !> Whether sums are found by halves, which threads share by themselves
+   pure logical function by_halves(planes)
       !> The planes
       type(planes_type), intent(in) :: planes
-      !> Number of points
-      integer, intent(in) :: n
+
+      by_halves = allocated(planes%halves)
+   end function by_halves
+
+   !> Sums of the modes on every plane, of values that lie together component by component
+   subroutine sum_modes(planes, n, lead, amplitude, total)
+      !> The planes
+      type(planes_type), intent(in) :: planes
+      !> Number of points, and of those that amplitudes are there for
+      integer, intent(in) :: n, lead
       !> Amplitudes, shape (points, components, modes)
-      real(wp), intent(in) :: amplitude(n, size(planes%odd), *)
+      real(wp), intent(in) :: amplitude(lead, size(planes%odd), *)
       !> Sums, shape (points, components, planes)
       real(wp), intent(inout) :: total(n, size(planes%odd), *)
 
       if (allocated(planes%halves)) then
-         call sum_by_halves(planes, n, size(planes%meridional, 1), amplitude, total)
+         call sum_by_halves(planes, n, lead, size(planes%meridional, 1), amplitude, total)
       else
-         call multiply(planes%odd, n, amplitude, planes%meridional, planes%circumferential, total)
+         call multiply(planes%odd, n, lead, amplitude, planes%meridional, planes%circumferential, n, total)
       end if
    end subroutine sum_modes
 
    !> Amplitudes of values that are known on the planes and lie together component by component
-   subroutine find_modes(planes, n, total, amplitude)
+   subroutine find_modes(planes, n, lead, total, amplitude)
       !> The planes, made by `new_planes`
       type(planes_type), intent(in) :: planes
-      !> Number of points
-      integer, intent(in) :: n
+      !> Number of points, and of those that amplitudes are there for
+      integer, intent(in) :: n, lead
       !> Values, shape (points, components, planes)
       real(wp), intent(in) :: total(n, size(planes%odd), *)
       !> Amplitudes, shape (points, components, modes)
-      real(wp), intent(inout) :: amplitude(n, size(planes%odd), *)
+      real(wp), intent(inout) :: amplitude(lead, size(planes%odd), *)
 
       if (allocated(planes%halves)) then
-         call find_by_halves(planes, n, size(planes%meridional, 1), total, amplitude)
+         call find_by_halves(planes, n, lead, size(planes%meridional, 1), total, amplitude)
       else
-         call multiply(planes%odd, n, total, planes%meridional_back, planes%circumferential_back, &
-            amplitude)
+         call multiply(planes%odd, n, n, total, planes%meridional_back, planes%circumferential_back, lead, amplitude)
       end if
    end subroutine find_modes
 
    !> Sums on every plane by halves. So many points at a time, whatever the number of threads: results
    !> do not depend on that
-   subroutine sum_by_halves(planes, n, n_modes, amplitude, total)
+   subroutine sum_by_halves(planes, n, lead, n_modes, amplitude, total)
       !> The planes
       type(planes_type), intent(in) :: planes
-      !> Numbers of points and modes
-      integer, intent(in) :: n, n_modes
+      !> Numbers of points, of those that amplitudes are there for, and of modes
+      integer, intent(in) :: n, lead, n_modes
       !> Amplitudes, shape (points, components, modes)
-      real(wp), intent(in) :: amplitude(n, size(planes%odd), n_modes)
+      real(wp), intent(in) :: amplitude(lead, size(planes%odd), n_modes)
       !> Sums, shape (points, components, planes)
       real(wp), intent(inout) :: total(n, size(planes%odd), size(planes%angle))
 
@@ -406,15 +413,15 @@ contains
    end subroutine sum_by_halves
 
    !> Amplitudes by halves
-   subroutine find_by_halves(planes, n, n_modes, total, amplitude)
+   subroutine find_by_halves(planes, n, lead, n_modes, total, amplitude)
       !> The planes, made by `new_planes`
       type(planes_type), intent(in) :: planes
-      !> Numbers of points and modes
-      integer, intent(in) :: n, n_modes
+      !> Numbers of points, of those that amplitudes are there for, and of modes
+      integer, intent(in) :: n, lead, n_modes
       !> Values, shape (points, components, planes)
       real(wp), intent(in) :: total(n, size(planes%odd), size(planes%angle))
       !> Amplitudes, shape (points, components, modes)
-      real(wp), intent(inout) :: amplitude(n, size(planes%odd), n_modes)
+      real(wp), intent(inout) :: amplitude(lead, size(planes%odd), n_modes)
 
       real(wp), allocatable :: part(:, :), even(:, :), odd(:, :)
       integer :: first, last, i, j, turn, half
@@ -451,31 +458,42 @@ contains
    end subroutine find_by_halves
 
    !> Products of each component with the matrix of those that are even or odd
-   subroutine multiply(is_odd, n, values, even, odd, product)
+   subroutine multiply(is_odd, n, lead, values, even, odd, lead_product, product)
       !> Whether a component is odd in a symmetric mode
       logical, intent(in) :: is_odd(:)
-      !> Number of points
-      integer, intent(in) :: n
+      !> Number of points, and of those that values are there for
+      integer, intent(in) :: n, lead
       !> Shape (points, components, k)
-      real(wp), intent(in) :: values(n, size(is_odd), *)
+      real(wp), intent(in) :: values(lead, size(is_odd), *)
       !> Shape (k, m)
       real(wp), intent(in), contiguous :: even(:, :), odd(:, :)
+      !> Number of points that products are there for
+      integer, intent(in) :: lead_product
       !> Shape (points, components, m)
-      real(wp), intent(inout) :: product(n, size(is_odd), *)
+      real(wp), intent(inout) :: product(lead_product, size(is_odd), *)
 
-      integer :: i, step
+      integer :: i
 
       if (n == 0) return
-      step = n*size(is_odd)
       do i = 1, size(is_odd)
          if (is_odd(i)) then
-            call dgemm('N', 'N', n, size(odd, 2), size(odd, 1), 1.0_wp, values(1, i, 1), step, &
-               odd, size(odd, 1), 0.0_wp, product(1, i, 1), step)
+            call one(odd)
          else
-            call dgemm('N', 'N', n, size(even, 2), size(even, 1), 1.0_wp, values(1, i, 1), step, &
-               even, size(even, 1), 0.0_wp, product(1, i, 1), step)
+            call one(even)
          end if
       end do
+
+   contains
+
+      !> Product of component i
+      subroutine one(factor)
+         !> Its matrix
+         real(wp), intent(in), contiguous :: factor(:, :)
+
+         call dgemm('N', 'N', n, size(factor, 2), size(factor, 1), 1.0_wp, values(1, i, 1), lead*size(is_odd), &
+            factor, size(factor, 1), 0.0_wp, product(1, i, 1), lead_product*size(is_odd))
+      end subroutine one
+
    end subroutine multiply
 
 end module axijoint_joints_planes

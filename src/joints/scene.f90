@@ -9,7 +9,7 @@ module axijoint_joints_scene
    use axijoint_joints_field, only : joint_field_type, admit_jump
    use axijoint_joints_loads, only : joint_loads_type, new_joint_loads
    use axijoint_joints_planes, only : planes_type, new_planes, synthesize, analyse
-   use axijoint_linalg_lapack, only : invert, matrix_sparse_vector
+   use axijoint_linalg_lapack, only : invert, matrix_sparse_vector, symmetric_vector
    use axijoint_model_model, only : model_type
    implicit none
    private
@@ -93,13 +93,15 @@ contains
       !> Amplitudes of the jumps, same shape
       real(wp) :: jump(size(excess, 1), size(excess, 2), size(excess, 3))
 
+      real(wp) :: weight(size(condensed%points))
       integer :: k
 
+      weight = condensed%points%weight
       !$omp parallel do schedule(static, 1) if (size(excess, 2) >= worth_points)
       do k = 1, size(excess, 3)
          associate (flexibility => condensed%flexibilities(scene%system(k)))
             if (.not. allocated(flexibility%matrix)) cycle
-            jump(:, :, k) = scene%scale(k)*flexed(flexibility, excess(:, :, k))
+            jump(:, :, k) = scene%scale(k)*flexed(flexibility, weight, excess(:, :, k))
          end associate
       end do
       !$omp end parallel do
@@ -136,20 +138,30 @@ contains
       end associate
    end subroutine tell_jumps
 
-   !> Product of a flexibility and excess stress
-   function flexed(flexibility, excess) result(jump)
+   !> Product of a flexibility and excess stress. Where most is zero only the columns of the rest are read, else half of
+   !> the matrix
+   function flexed(flexibility, weight, excess) result(jump)
       !> The flexibility
       type(flexibility_type), intent(in) :: flexibility
+      !> Weights of the points
+      real(wp), intent(in) :: weight(:)
       !> Amplitudes, shape (components, points)
       real(wp), intent(in) :: excess(:, :)
       !> Amplitudes of the jumps, same shape
       real(wp) :: jump(size(excess, 1), size(excess, 2))
 
-      real(wp) :: by_component(size(excess)), product(size(excess))
+      real(wp), dimension(size(excess, 2), size(excess, 1)) :: force, moved
+      integer :: i
 
-      by_component = reshape(transpose(excess), [size(excess)])
-      call matrix_sparse_vector(flexibility%matrix, by_component, product)
-      jump = transpose(reshape(product, [size(excess, 2), size(excess, 1)]))
+      do i = 1, size(excess, 1)
+         force(:, i) = weight*excess(i, :)
+      end do
+      if (2*count(abs(force) > 0.0_wp) > size(force)) then
+         call symmetric_vector(flexibility%matrix, force, moved)
+      else
+         call matrix_sparse_vector(flexibility%matrix, size(force), force, moved)
+      end if
+      jump = transpose(moved)
    end function flexed
 
    !> Jumps of one mode from excess stress
@@ -166,7 +178,7 @@ contains
       real(wp) :: jump(size(excess, 1), size(excess, 2))
 
       associate (flexibility => condensed%flexibilities(scene%system(mode)))
-         if (allocated(flexibility%matrix)) jump = flexed(flexibility, excess)
+         if (allocated(flexibility%matrix)) jump = flexed(flexibility, condensed%points%weight, excess)
       end associate
       if (condensed%shared) call condensed%team%broadcast(jump, size(jump, kind=i8), &
          rank_of(condensed, scene%system(mode)))

@@ -1,14 +1,14 @@
 !> The LAPACK routines in use, with sizes taken from the arrays
 module axijoint_linalg_lapack
    use, intrinsic :: iso_c_binding, only : c_int
-   use axijoint_base_kinds, only : wp, sp
+   use axijoint_base_kinds, only : wp
    implicit none
    private
    public :: band_cholesky, dpbtrs, dtrsm, dgemm, dgemv, dsyrk, dpotrf, ddot, daxpy
    public :: cholesky, inverse_from_cholesky, symmetric_eigen, &
       use_one_blas_thread
    public :: product_rate
-   public :: matrix_vector, single_symmetric_vector, matrix_sparse_vector
+   public :: matrix_vector, symmetric_vector, matrix_sparse_vector, complete
    public :: least_squares, invert, singular_values
 
    interface
@@ -99,14 +99,14 @@ module axijoint_linalg_lapack
          real(wp), intent(in) :: alpha, x(*)
          real(wp), intent(inout) :: y(*)
       end subroutine daxpy
-      !> y = alpha a x + beta y with a symmetric matrix in single precision
-      subroutine ssymv(uplo, n, alpha, a, lda, x, incx, beta, y, incy)
-         import :: sp
+      !> y = alpha a x + beta y with a symmetric matrix
+      subroutine dsymv(uplo, n, alpha, a, lda, x, incx, beta, y, incy)
+         import :: wp
          character, intent(in) :: uplo
          integer, intent(in) :: n, lda, incx, incy
-         real(sp), intent(in) :: alpha, beta, a(lda, *), x(*)
-         real(sp), intent(inout) :: y(*)
-      end subroutine ssymv
+         real(wp), intent(in) :: alpha, beta, a(lda, *), x(*)
+         real(wp), intent(inout) :: y(*)
+      end subroutine dsymv
       !> Least squares with a rank-revealing factorization
       subroutine dgelsy(m, n, nrhs, a, lda, b, ldb, jpvt, rcond, rank, work, lwork, info)
          import :: wp
@@ -220,39 +220,59 @@ contains
       call dgemv('N', size(a, 1), size(a, 2), 1.0_wp, a, max(1, size(a, 1)), x, 1, 0.0_wp, y, 1)
    end subroutine matrix_vector
 
-   !> Product of a symmetric matrix and a vector in single precision
-   subroutine single_symmetric_vector(a, x, y)
-      !> The matrix, shape (n, n); below its diagonal nothing is read
-      real(sp), intent(in), contiguous :: a(:, :)
-      !> The vector, n values
-      real(sp), intent(in) :: x(*)
-      !> The product, n values
-      real(sp), intent(out) :: y(*)
+   !> Product of a symmetric matrix and a vector
+   subroutine symmetric_vector(a, x, y)
+      !> The matrix, shape (n, n); above its diagonal nothing is read
+      real(wp), intent(in), contiguous :: a(:, :)
+      !> The vector and the product, n values in any shape
+      real(wp), intent(in) :: x(*)
+      real(wp), intent(inout) :: y(*)
 
-      y(:size(a, 1)) = 0.0_sp
-      call ssymv('U', size(a, 1), 1.0_sp, a, max(1, size(a, 1)), x, 1, 1.0_sp, y, 1)
-   end subroutine single_symmetric_vector
+      y(:size(a, 1)) = 0.0_wp
+      call dsymv('L', size(a, 1), 1.0_wp, a, max(1, size(a, 1)), x, 1, 1.0_wp, y, 1)
+   end subroutine symmetric_vector
+
+   !> The upper triangle of a symmetric matrix, tile by tile, which the cache holds
+   subroutine complete(matrix)
+      !> The matrix, its lower triangle there
+      real(wp), intent(inout) :: matrix(:, :)
+
+      integer, parameter :: side = 64
+      integer :: first, row, i, j
+
+      do first = 1, size(matrix, 2), side
+         do row = first, size(matrix, 1), side
+            do j = first, min(first + side - 1, size(matrix, 2))
+               do i = max(row, j + 1), min(row + side - 1, size(matrix, 1))
+                  matrix(j, i) = matrix(i, j)
+               end do
+            end do
+         end do
+      end do
+   end subroutine complete
 
    !> Product of a matrix and a vector with long runs of zeros, whose columns are not read
-   subroutine matrix_sparse_vector(a, x, y)
+   subroutine matrix_sparse_vector(a, n, x, y)
       !> The matrix, shape (m, n)
       real(wp), intent(in), contiguous :: a(:, :)
-      !> The vector, shape (n)
-      real(wp), intent(in), contiguous :: x(:)
-      !> The product, shape (m)
-      real(wp), intent(out), contiguous :: y(:)
+      !> Its columns
+      integer, intent(in) :: n
+      !> The vector, n values in any shape
+      real(wp), intent(in) :: x(n)
+      !> The product, m values in any shape
+      real(wp), intent(inout) :: y(*)
 
       !> Zeros that end a run of others
       integer, parameter :: enough = 6
       integer :: first, last, next
 
-      y = 0.0_wp
+      y(:size(a, 1)) = 0.0_wp
       first = next_one(1)
-      do while (first <= size(x))
+      do while (first <= n)
          last = first
          do
             next = next_one(last + 1)
-            if (next > min(size(x), last + enough)) exit
+            if (next > min(n, last + enough)) exit
             last = next
          end do
          call dgemv('N', size(a, 1), last - first + 1, 1.0_wp, a(:, first:last), size(a, 1), &
@@ -267,7 +287,7 @@ contains
          !> The place
          integer, intent(in) :: from
 
-         do place = from, size(x)
+         do place = from, n
             if (abs(x(place)) > 0.0_wp) return
          end do
       end function next_one

@@ -28,7 +28,7 @@ module axijoint_output_increments
    !> larger meshes the harmonics are shared
    integer, parameter :: most_nodes = 20000
    !> Increments whose displacements are found at once, so that a factor is read once for all of them
-   integer, parameter :: at_once = 4
+   integer, parameter :: at_once = 8
 
 contains
 
@@ -71,7 +71,7 @@ contains
             call show_progress(job%progress, 'fields of increment '//to_text(shown(first))//' of '//to_text(last))
             call solve_increments(model, structure, shown(first:first + n - 1), results, solved(:n), error)
             if (allocated(error)) exit
-            !$omp parallel do ordered schedule(static, 1) if (n > 1)
+            !$omp parallel do ordered schedule(dynamic) if (n > 1)
             do k = 1, n
                call find(shown(first + k - 1), solved(k))
             end do

@@ -5,6 +5,7 @@ module axijoint_solver_sparse
    use axijoint_base_error, only : error_type, memory_error
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_text, only : to_text
+   use axijoint_linalg_lapack, only : complete
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    use axijoint_order_orders, only : least_fill
    use axijoint_solver_entry, only : solver_entry_type, cost_type
@@ -240,25 +241,6 @@ contains
       call complete(inverse)
       call arrange(inverse, place)
    end subroutine inverse_block
-
-   !> The upper triangle of a symmetric matrix, tile by tile, which the cache holds
-   subroutine complete(matrix)
-      !> The matrix, its lower triangle there
-      real(wp), intent(inout) :: matrix(:, :)
-
-      integer, parameter :: side = 64
-      integer :: first, row, i, j
-
-      do first = 1, size(matrix, 2), side
-         do row = first, size(matrix, 1), side
-            do j = first, min(first + side - 1, size(matrix, 2))
-               do i = max(row, j + 1), min(row + side - 1, size(matrix, 1))
-                  matrix(j, i) = matrix(i, j)
-               end do
-            end do
-         end do
-      end do
-   end subroutine complete
 
    !> Bring rows and columns of a matrix to their places, without another as large
    subroutine arrange(matrix, place)

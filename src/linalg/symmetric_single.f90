@@ -1,0 +1,115 @@
+!> Symmetric matrices in single precision that are multiplied with many vectors: half of one is kept, laid out for
+!> that
+module axijoint_linalg_symmetric_single
+   use, intrinsic :: iso_c_binding, only : c_float, c_int, c_intptr_t, c_loc, c_long
+   use axijoint_base_kinds, only : sp, i8
+   implicit none
+   private
+   public :: symmetric_single_type, make_room, put_column, symmetric_product
+
+   !> Rows are a multiple of these and columns of those; bytes that what is read at once begins at a multiple of
+   integer, parameter :: rows_together = 16, columns_together = 8
+   integer(c_intptr_t), parameter :: alignment = 64
+
+   !> The matrix
+   type :: symmetric_single_type
+      private
+      !> Its size, numbers of a column, and where the first column begins
+      integer :: n = 0, lead = 0
+      integer(i8) :: first = 1
+      !> Columns to the diagonal, that halved, and zeros
+      real(sp), allocatable :: values(:)
+   end type symmetric_single_type
+
+   interface
+      !> y = a x, by so many rows at once at most
+      pure subroutine c_product(most, n, a, lead, x, y) bind(c, name="axijoint_symmetric_product")
+         import :: c_int, c_long, c_float
+         integer(c_int), value :: most, n
+         integer(c_long), value :: lead
+         real(c_float), intent(in) :: a(*), x(*)
+         real(c_float), intent(inout) :: y(*)
+      end subroutine c_product
+   end interface
+
+contains
+
+   !> Room for a matrix, all columns of which are to be put
+   subroutine make_room(matrix, n)
+      !> The matrix
+      type(symmetric_single_type), intent(inout), target :: matrix
+      !> Its size
+      integer, intent(in) :: n
+
+      integer :: j, n_columns
+
+      matrix%n = n
+      matrix%lead = multiple(n, rows_together)
+      n_columns = multiple(n, columns_together)
+      if (allocated(matrix%values)) deallocate (matrix%values)
+      allocate (matrix%values(int(matrix%lead, i8)*n_columns + alignment))
+      matrix%first = 1 + modulo(-transfer(c_loc(matrix%values), 0_c_intptr_t), alignment)/(storage_size(0.0_sp)/8)
+      do j = n + 1, n_columns
+         matrix%values(start(matrix, j):start(matrix, j) + matrix%lead - 1) = 0.0_sp
+      end do
+   end subroutine make_room
+
+   !> Put a column
+   pure subroutine put_column(matrix, j, values)
+      !> The matrix, with room
+      type(symmetric_single_type), intent(inout) :: matrix
+      !> Place of the column
+      integer, intent(in) :: j
+      !> Its numbers from the first row to the diagonal
+      real(sp), intent(in) :: values(:)
+
+      integer :: last
+
+      last = min(matrix%lead, multiple(multiple(j, columns_together), rows_together))  ! row that is read
+      associate (from => start(matrix, j))
+         matrix%values(from:from + j - 2) = values(:j - 1)
+         matrix%values(from + j - 1) = 0.5_sp*values(j)
+         matrix%values(from + j:from + last - 1) = 0.0_sp
+      end associate
+   end subroutine put_column
+
+   !> Product with a vector
+   pure subroutine symmetric_product(matrix, x, y, at_once)
+      !> The matrix
+      type(symmetric_single_type), intent(in) :: matrix
+      !> The vector, and the product
+      real(sp), intent(in) :: x(:)
+      real(sp), intent(out) :: y(:)
+      !> Rows that are taken at once at most; as many as the processor takes if absent
+      integer, intent(in), optional :: at_once
+
+      integer :: most
+      real(sp) :: whole_x(matrix%lead), whole_y(matrix%lead)
+
+      most = rows_together
+      if (present(at_once)) most = at_once
+      whole_x(:matrix%n) = x
+      whole_x(matrix%n + 1:) = 0.0_sp
+      call c_product(most, matrix%n, matrix%values(matrix%first:), int(matrix%lead, c_long), whole_x, whole_y)
+      y = whole_y(:matrix%n)
+   end subroutine symmetric_product
+
+   !> Where a column begins
+   pure integer(i8) function start(matrix, j)
+      !> The matrix
+      type(symmetric_single_type), intent(in) :: matrix
+      !> Its place
+      integer, intent(in) :: j
+
+      start = matrix%first + int(matrix%lead, i8)*(j - 1)
+   end function start
+
+   !> The next multiple
+   pure integer function multiple(n, of)
+      !> Any number, and what it is to be a multiple of
+      integer, intent(in) :: n, of
+
+      multiple = (n + of - 1)/of*of
+   end function multiple
+
+end module axijoint_linalg_symmetric_single
