@@ -420,6 +420,7 @@ contains
 
       allocate (on_planes(last - first + 1, 3, size(self%slope, 4)), stress(last - first + 1, 3, size(self%slope, 4)))
       call sum_modes(self%scene%planes, last - first + 1, n, jump, on_planes)
+      !$omp parallel do private(i, l) if (by_halves(self%scene%planes))
       do j = 1, size(stress, 3)
          do i = 1, 3
             stress(:, i, j) = self%slope(first:last, i, 1, j)*on_planes(:, 1, j)
@@ -428,6 +429,7 @@ contains
             end do
          end do
       end do
+      !$omp end parallel do
       call find_modes(self%scene%planes, last - first + 1, n, stress, excess)
    end subroutine find_part
 

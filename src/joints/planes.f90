@@ -42,7 +42,7 @@ module axijoint_joints_planes
    logical, parameter :: joint_components(3) = [.false., .false., .true.]
    !> Points that are summed at a time by halves, and numbers of sums from which on threads are worth
    !> their start
-   integer, parameter :: points_at_a_time = 64, worth_threads = 100000
+   integer, parameter :: points_at_a_time = 32, worth_threads = 15000
 
 contains
 
