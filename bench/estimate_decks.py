@@ -80,6 +80,7 @@ def fitted():
     decks["footing_2"] = finer(inputs("gallery/footing"), 2), []
     decks["stiff_4"] = finer(inputs("case3_stiff_joint_balanced"), 4), []
     decks["case1_24"] = with_harmonics(turned(inputs("case1_balanced")), 24, 97), []
+    decks["caisson_48"] = with_harmonics(inputs("gallery/caisson"), 48, 193), []
     decks["shaft_vtk"] = inputs("gallery/lined_shaft"), ["--vtk"]
     decks["pipe_vtk"] = inputs("gallery/pipe"), ["--vtk"]
     decks["flange_vtk"] = inputs("gallery/flange"), ["--vtk"]
@@ -104,6 +105,7 @@ def shown():
             "chimney": (inputs("chimney"), []),
             "block": (inputs("block"), []),
             "harmonics": (with_harmonics(turned(inputs("first")), 32, 129), []),
+            "monopile_64": (with_harmonics(inputs("monopile"), 64, 257), []),
             "first_vtk": (finer(inputs("first"), 3), ["--vtk"])}
 
 

@@ -3,6 +3,7 @@ module axijoint_estimate_joint_work
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_base_kinds, only : wp
    use axijoint_estimate_terms, only : n_terms, laws, sums, flexibility
+   use axijoint_joints_half_sums, only : worth_halves
    use axijoint_joints_planes, only : planes_type, new_planes
    use axijoint_model_joint_proportion, only : proportion_type, joint_proportions, side_of, &
       side_sensible
@@ -22,6 +23,8 @@ module axijoint_estimate_joint_work
    !> Their linear solutions need few digits: products of one of these iterations, over those of an
    !> iteration of an increment
    real(wp), parameter :: rough = 0.4_wp
+   !> What is left of the products of sums that are found by halves
+   real(wp), parameter :: by_halves = 0.35_wp
    !> Planes for these, times so many
    integer, parameter :: more_planes = 4
 
@@ -71,7 +74,8 @@ contains
          integer, intent(in) :: n_planes, n_modes
 
          work(laws) = work(laws) + n*jumps*n_planes
-         work(sums) = work(sums) + share*n*jumps*n_planes*n_modes
+         work(sums) = work(sums) + merge(by_halves, 1.0_wp, worth_halves(n_modes, n_planes)) &
+            *share*n*jumps*n_planes*n_modes
          work(flexibility) = work(flexibility) + share*n*jumps**2*n_modes
       end subroutine iterate
 
