@@ -119,6 +119,7 @@ contains
                         results%states(last)%increment)) &
                call append_increment(model, structure, results, i, now, series)
             call put_history(arrays, model, results, i, now, fields)
+            call arrays%to_disk()
             call put_bodies(bodies, now)
             call put_surfaces(surfaces, model, structure, results%states(i), now)
             call put_old_listing(old_listing, model, results, i, now)

@@ -59,6 +59,8 @@ module axijoint_output_file_hdf5
       generic :: append => append_reals, append_longs, append_bytes
       procedure, private :: append_reals, append_longs, append_bytes
       procedure :: end
+      !> Let what is written so far go to the disk meanwhile
+      procedure :: to_disk
       !> Hand all to the system, close, open again as a check; it goes to the disk meanwhile
       procedure :: finish
       !> Bytes of the finished file
@@ -352,6 +354,14 @@ contains
       call write_attribute(self%file, object, name, h5t_ieee_f64le, h5t_native_double, &
          c_loc(value), self%failure)
    end subroutine real_attribute
+
+   !> Let what the system was handed go to the disk, so that little is left to wait for in the end
+   subroutine to_disk(self)
+      !> The file
+      class(hdf5_file_type), intent(in) :: self
+
+      if (.not. self%failure%failed) call start_sync(temporary_path(self%path))
+   end subroutine to_disk
 
    !> Extents of an array. Some compilers give an empty array of assumed rank
    !> the extent -1.
