@@ -382,8 +382,7 @@ contains
       end do
    end subroutine add
 
-   !> A E' S: excess stress that the laws make of jumps. Threads of the region that it is called in share the points,
-   !> unless modes are summed by halves, whose threads share them there
+   !> A E' S: excess stress that the laws make of jumps
    subroutine find_excess(self, n, jump, excess)
       !> The operator
       type(derivative_type), intent(in) :: self
@@ -393,33 +392,41 @@ contains
       real(wp), intent(in) :: jump(n, 3, *)
       real(wp), intent(inout) :: excess(n, 3, *)
 
-      integer :: k, n_parts
+      integer :: k
 
-      n_parts = merge(1, (n + points_at_a_time - 1)/points_at_a_time, by_halves(self%scene%planes))
-      !$omp do schedule(static)
-      do k = 1, n_parts
-         associate (first => (k - 1)*n/n_parts + 1, last => k*n/n_parts)
-            call find_part(self, first, last, n, jump(first, 1, 1), excess(first, 1, 1))
-         end associate
+      do k = 1, n_parts(self, n)
+         call find_part(self, k, n, jump, excess)
       end do
-      !$omp end do
    end subroutine find_excess
 
-   !> Excess stress of some points
-   subroutine find_part(self, first, last, n, jump, excess)
+   !> Parts in which the excess stress of points is found: one if modes are summed by halves, whose threads share the
+   !> points there
+   pure integer function n_parts(self, n)
       !> The operator
       type(derivative_type), intent(in) :: self
-      !> The first and the last of them, and the number of all
-      integer, intent(in) :: first, last, n
-      !> Amplitudes of jumps and excess stress from the first on, shape (points, 3, modes)
+      !> Number of points
+      integer, intent(in) :: n
+
+      n_parts = merge(1, (n + points_at_a_time - 1)/points_at_a_time, by_halves(self%scene%planes))
+   end function n_parts
+
+   !> Excess stress of a part of the points
+   subroutine find_part(self, part, n, jump, excess)
+      !> The operator
+      type(derivative_type), intent(in) :: self
+      !> The part, and the number of all points
+      integer, intent(in) :: part, n
+      !> Amplitudes of jumps and excess stress, shape (points, 3, modes)
       real(wp), intent(in) :: jump(n, 3, *)
       real(wp), intent(inout) :: excess(n, 3, *)
 
       real(wp), allocatable :: on_planes(:, :, :), stress(:, :, :)
-      integer :: i, j, l
+      integer :: i, j, l, first, last
 
+      first = (part - 1)*n/n_parts(self, n) + 1
+      last = part*n/n_parts(self, n)
       allocate (on_planes(last - first + 1, 3, size(self%slope, 4)), stress(last - first + 1, 3, size(self%slope, 4)))
-      call sum_modes(self%scene%planes, last - first + 1, n, jump, on_planes)
+      call sum_modes(self%scene%planes, last - first + 1, n, jump(first, 1, 1), on_planes)
       !$omp parallel do private(i, l) if (by_halves(self%scene%planes))
       do j = 1, size(stress, 3)
          do i = 1, 3
@@ -430,7 +437,7 @@ contains
          end do
       end do
       !$omp end parallel do
-      call find_modes(self%scene%planes, last - first + 1, n, stress, excess)
+      call find_modes(self%scene%planes, last - first + 1, n, stress, excess(first, 1, 1))
    end subroutine find_part
 
    !> Product with amplitudes of excess stress
@@ -443,9 +450,11 @@ contains
       real(wp), intent(out), contiguous :: y(:)
 
       real(wp), allocatable :: jump(:, :, :), excess(:, :, :)
+      logical :: by_parts
       integer :: k, n
 
       n = size(self%slope, 1)
+      by_parts = n_parts(self, n) > 1
       allocate (jump(n, 3, size(self%scene%system)), excess(n, 3, size(self%scene%system)))
       !$omp parallel if (n_numbers(self%condensed, n) > worth_threads)
       !$omp do schedule(static, 1)
@@ -462,9 +471,15 @@ contains
          !$omp end master
          !$omp barrier
       end if
-      if (.not. by_halves(self%scene%planes)) call find_excess(self, n, jump, excess)
+      if (by_parts) then
+         !$omp do schedule(static)
+         do k = 1, n_parts(self, n)
+            call find_part(self, k, n, jump, excess)
+         end do
+         !$omp end do
+      end if
       !$omp end parallel
-      if (by_halves(self%scene%planes)) call find_excess(self, n, jump, excess)
+      if (.not. by_parts) call find_excess(self, n, jump, excess)
       excess = reshape(x, shape(excess)) - excess
       if (allocated(self%blocks)) call precondition(self%blocks, excess)
       y = reshape(excess, [size(y)])

@@ -177,8 +177,11 @@ contains
       !> Amplitudes of the jumps, same shape
       real(wp) :: jump(size(excess, 1), size(excess, 2))
 
+      real(wp) :: weight(size(condensed%points))
+
+      weight = condensed%points%weight
       associate (flexibility => condensed%flexibilities(scene%system(mode)))
-         if (allocated(flexibility%matrix)) jump = flexed(flexibility, condensed%points%weight, excess)
+         if (allocated(flexibility%matrix)) jump = flexed(flexibility, weight, excess)
       end associate
       if (condensed%shared) call condensed%team%broadcast(jump, size(jump, kind=i8), &
          rank_of(condensed, scene%system(mode)))
