@@ -10,6 +10,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import time
 
 import estimate_decks
 
@@ -152,7 +153,7 @@ def text(args):
 
 def start(args):
     """What the start costs: the smallest deck beside the program that does nothing, one that only loads its libraries, and an empty
-    one; least and median milliseconds of a processor"""
+    one; least and median milliseconds of a processor, and by the clock"""
     with tempfile.TemporaryDirectory() as folder:
         source, empty, loads = (os.path.join(folder, name) for name in ("empty.c", "empty", "loads"))
         with open(source, "w", encoding="utf-8") as file:
@@ -163,7 +164,7 @@ def start(args):
                                                                   text=True).stdout))
         subprocess.run(["gcc", source, "-o", empty], check=True)
         subprocess.run(["gcc", source, "-o", loads, "-Wl,--no-as-needed", *(paths[name] for name in needed if name in paths)], check=True)
-        print(f"start: {len(paths)} libraries; milliseconds of a processor, least and median of {6*args.rounds}")
+        print(f"start: {len(paths)} libraries; milliseconds of a processor, least and median of {6*args.rounds}, and by the clock")
         deck = os.path.join(HERE, "..", "inputs", "first.dat")
         commands = (("an empty program", [empty]), ("that loads the libraries", [loads]),
                     ("axijoint --version", [args.axijoint, "--version"]),
@@ -171,12 +172,12 @@ def start(args):
         times = [[] for _ in commands]
         for _ in range(6*args.rounds):
             for (_, words), found in zip(commands, times):
-                before = resource.getrusage(resource.RUSAGE_CHILDREN)
+                before, begun = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
                 subprocess.run(words, check=True, stdout=subprocess.DEVNULL)
-                after = resource.getrusage(resource.RUSAGE_CHILDREN)
-                found.append(1e3*(after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime))
+                ended, after = time.perf_counter(), resource.getrusage(resource.RUSAGE_CHILDREN)
+                found.append((1e3*(after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime), 1e3*(ended - begun)))
         for (what, _), found in zip(commands, times):
-            print(f"  {what:26} {min(found):6.1f} {statistics.median(found):6.1f}")
+            print(f"  {what:26}" + "  ".join(f" {min(one):6.1f} {statistics.median(one):6.1f}" for one in zip(*found)))
         with open(os.path.join(folder, "first.json"), encoding="utf-8") as file:
             phases = json.load(file)["seconds"]
         print("  its phases by the clock:    " + ", ".join(f"{name} {1e3*phases[name]:.1f}" for name in PHASES))
