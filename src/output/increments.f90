@@ -6,6 +6,7 @@ module axijoint_output_increments
    use axijoint_analysis_core_series, only : series_type, new_series, append_increment
    use axijoint_analysis_core_solution, only : solved_state_type
    use axijoint_base_error, only : error_type
+   use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : show_progress
    use axijoint_base_text, only : to_text
    use axijoint_base_timer, only : phase_recover
@@ -27,8 +28,10 @@ module axijoint_output_increments
    !> Nodes up to which a thread finds the fields of an increment by itself: its stack is small. Of
    !> larger meshes the harmonics are shared
    integer, parameter :: most_nodes = 20000
-   !> Increments whose displacements are found at once, so that a factor is read once for all of them
-   integer, parameter :: at_once = 8
+   !> Increments whose displacements are found at once, so that a factor is read once for all of them: at least, and as
+   !> many more as have so many numbers
+   integer, parameter :: least_at_once = 4, most_at_once = 8
+   real(wp), parameter :: numbers_at_once = 4.0e6_wp
 
 contains
 
@@ -65,7 +68,7 @@ contains
                             states(last)%increment), i=1, last)]))
          call job%timer%push(phase_recover)
          shown = pack([(i, i=1, last - 1)], [(is_shown(model, states(i), states(last)), i=1, last - 1)])
-         allocate (solved(merge(at_once, 1, by_threads())))
+         allocate (solved(merge(at_once(), 1, by_threads())))
          do first = 1, size(shown), size(solved)
             n = min(size(solved), size(shown) - first + 1)
             call show_progress(job%progress, 'fields of increment '//to_text(shown(first))//' of '//to_text(last))
@@ -91,6 +94,11 @@ contains
          if (size(shown) < 2) return  ! no structure may be there
          by_threads = job%structure%equations%team%size == 1 .and. n_nodes(job%model%mesh) <= most_nodes
       end function by_threads
+
+      !> Increments whose displacements are found at once
+      pure integer function at_once()
+         at_once = max(least_at_once, min(most_at_once, int(numbers_at_once/size(results%displacement))))
+      end function at_once
 
       !> Find the fields of an increment, and hand them to the files when its turn comes
       subroutine find(i, solved)

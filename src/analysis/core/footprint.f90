@@ -47,7 +47,7 @@ module axijoint_analysis_core_footprint
 
    !> Bytes
    type :: footprint_type
-      !> Mesh and what is numbered on it, which stand once the equations are planned
+      !> Mesh and what is numbered on it, with forces under a factor of one, which stand once the equations are planned
       integer(i8) :: mesh = 0
       !> Loads and displacements, which stand while the equations are solved
       integer(i8) :: loads = 0
@@ -90,7 +90,7 @@ contains
 
       references = element_references(model%mesh)
       nodes = n_nodes(model%mesh)
-      footprint%mesh = mesh_bytes*nodes
+      footprint%mesh = mesh_bytes*nodes + 3*nodes*real_bytes*unit_loads(model)
       ! displacements, two kinds of loads twice, errors of nodes
       footprint%loads = 21*nodes*n_modes*real_bytes
       if (estimated) then
@@ -123,6 +123,21 @@ contains
       footprint%joint_work = real_bytes*unknowns**2  ! the inverse
       if (jumps == 0) footprint%joint_work = 0
    end function data_footprint
+
+   !> Loads whose forces are found once: on masses, and cases with in-situ stress
+   pure integer function unit_loads(model)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      integer :: k
+
+      unit_loads = size(model%body_loads)
+      do k = 1, size(model%initial_stresses)
+         associate (cases => model%initial_stresses%case)
+            if (.not. any(cases(:k - 1) == cases(k))) unit_loads = unit_loads + 1
+         end associate
+      end do
+   end function unit_loads
 
    !> Add the memory of bodies that yield. The finer mesh of their estimated errors is not counted: it is
    !> left out where it does not fit
