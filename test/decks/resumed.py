@@ -108,10 +108,11 @@ class Runs:
 
     def state(self, output):
         """How far a state is, in words; empty if there is none"""
-        path = os.path.join(self.folder, output, 'job.state')
-        if not os.path.exists(path):
+        try:
+            content = read_bytes(os.path.join(self.folder, output, 'job.state'))
+        except FileNotFoundError:  # a run that came to its end takes it away
             return ''
-        return re.search(rb'\nplace (.*)\n', read_bytes(path)).group(1).decode()
+        return re.search(rb'\nplace (.*)\n', content).group(1).decode()
 
 
 def increments_of(place):
