@@ -159,7 +159,7 @@ contains
       if (2*count(abs(force) > 0.0_wp) > size(force)) then
          call symmetric_vector(flexibility%matrix, force, moved)
       else
-         call matrix_sparse_vector(flexibility%matrix, size(force), force, moved)
+         call matrix_sparse_vector(flexibility%matrix, force, moved)
       end if
       jump = transpose(moved)
    end function flexed

@@ -252,13 +252,11 @@ contains
    end subroutine complete
 
    !> Product of a matrix and a vector with long runs of zeros, whose columns are not read
-   subroutine matrix_sparse_vector(a, n, x, y)
+   subroutine matrix_sparse_vector(a, x, y)
       !> The matrix, shape (m, n)
       real(wp), intent(in), contiguous :: a(:, :)
-      !> Its columns
-      integer, intent(in) :: n
       !> The vector, n values in any shape
-      real(wp), intent(in) :: x(n)
+      real(wp), intent(in) :: x(size(a, 2))
       !> The product, m values in any shape
       real(wp), intent(inout) :: y(*)
 
@@ -268,11 +266,11 @@ contains
 
       y(:size(a, 1)) = 0.0_wp
       first = next_one(1)
-      do while (first <= n)
+      do while (first <= size(x))
          last = first
          do
             next = next_one(last + 1)
-            if (next > min(n, last + enough)) exit
+            if (next > min(size(x), last + enough)) exit
             last = next
          end do
          call dgemv('N', size(a, 1), last - first + 1, 1.0_wp, a(:, first:last), size(a, 1), &
@@ -287,7 +285,7 @@ contains
          !> The place
          integer, intent(in) :: from
 
-         do place = from, n
+         do place = from, size(x)
             if (abs(x(place)) > 0.0_wp) return
          end do
       end function next_one

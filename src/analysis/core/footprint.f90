@@ -114,7 +114,7 @@ contains
                                      + plane_numbers*jumps/3*max(planes, int(n_modes, i8)) &
                                      + jumps*n_modes*min(newton_vectors, jumps*n_modes))
       if (size(model%increments) > 1) then
-         ! jumps, stresses and states are kept; one earlier increment at a time is solved again
+         ! jumps, stresses and states are kept; earlier increments are solved again, some at a time
          footprint%joints = footprint%joints + real_bytes*(size(model%increments, kind=i8) - 1) &
             *jumps/3*(7*model%n_planes + 6*n_modes)
          footprint%stresses = 2*footprint%stresses + footprint%loads
