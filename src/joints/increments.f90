@@ -3,6 +3,7 @@ module axijoint_joints_increments
    use omp_lib, only : omp_get_wtime
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_factors, only : report_failure
+   use axijoint_assembly_loading, only : loading_type
    use axijoint_assembly_support, only : support_point_type
    use axijoint_base_error, only : fatal_error, exit_deck
    use axijoint_base_kinds, only : wp
@@ -17,7 +18,8 @@ module axijoint_joints_increments
                                        note_residual
    use axijoint_joints_keeper, only : keeper_type
    use axijoint_joints_load_steps, only : step_type
-   use axijoint_joints_loads, only : put_loads, answer_type
+   use axijoint_joints_loads, only : put_loads, answer_type, case_answers_type, new_case_answers, is_known, learn_case, &
+      put_sum
    use axijoint_joints_method, only : method_type, control_type, verdict_type
    use axijoint_joints_methods, only : other_loop, second_opinion
    use axijoint_joints_path, only : iteration_type
@@ -35,6 +37,8 @@ module axijoint_joints_increments
    type, extends(stage_type) :: joint_stage_type
       !> The last answer of the elastic structure to loads, if it is kept
       type(answer_type), pointer :: answer => null()
+      !> What load cases do, if there are fewer of them than increments
+      type(case_answers_type), allocatable :: cases
    contains
       !> Put the loads of a step on and iterate
       procedure :: try => try_step
@@ -81,6 +85,8 @@ contains
       stage%supports => supports
       stage%combination => combination
       if (present(answer)) stage%answer => answer
+      if (count(abs(combination%factor) > 0.0_wp) < size(model%increments)) &
+         stage%cases = new_case_answers(condensed, size(combination%factor))
       call new_history(model, condensed, history)
       if (history%method%accumulates .and. .not. all(cuts_back(history%scene%laws))) then
          call fatal_error(history%failure, exit_deck, &
@@ -173,14 +179,17 @@ contains
    !> Load the structure
    subroutine put(stage, step, history)
       !> What the increments act on
-      type(joint_stage_type), intent(in) :: stage
+      type(joint_stage_type), intent(inout) :: stage
       !> Loads
       type(step_type), intent(in) :: step
       !> The history
       type(history_type), intent(inout) :: history
 
       call stage%put_on_nodes(step%case_factor, history%loading)
-      if (associated(stage%answer)) then
+      if (allocated(stage%cases)) then
+         call learn_cases(stage, step)
+         call put_sum(stage%condensed, stage%cases, history%loading, history%scene%loads)
+      else if (associated(stage%answer)) then
          call put_loads(stage%equations, stage%condensed, history%loading, history%scene%loads, &
             stage%answer)
       else
@@ -191,6 +200,26 @@ contains
       call report_failure(stage%equations, stage%model, history%failure)
       call set_initial_stress(stage%model, stage%condensed%points, step%case_factor, history%field)
    end subroutine put
+
+   !> Learn what the load cases of a step do, as far as that is not known
+   subroutine learn_cases(stage, step)
+      !> What the increments act on
+      type(joint_stage_type), intent(inout) :: stage
+      !> Loads
+      type(step_type), intent(in) :: step
+
+      type(loading_type) :: loading
+      real(wp) :: factor(size(step%case_factor))
+      integer :: k
+
+      do k = 1, size(factor)
+         if (is_known(stage%cases, k) .or. .not. abs(step%case_factor(k)) > 0.0_wp) cycle
+         factor = 0.0_wp
+         factor(k) = 1.0_wp
+         call stage%put_on_nodes(factor, loading)
+         call learn_case(stage%equations, stage%condensed, loading, k, stage%cases)
+      end do
+   end subroutine learn_cases
 
    !> Whether there is nothing to try about the last step: it is in equilibrium, or as near as
    !> numbers go, or ended for another reason, or was of a loop that does no more than end

@@ -13,6 +13,7 @@ module axijoint_joints_loads
    implicit none
    private
    public :: joint_loads_type, new_joint_loads, put_loads, put_work, answer_type
+   public :: case_answers_type, new_case_answers, is_known, learn_case, put_sum
 
    !> Loads as the joint points see them
    type :: joint_loads_type
@@ -36,6 +37,16 @@ module axijoint_joints_loads
       !> Jumps, and largest displacements, as above
       real(wp), allocatable :: free(:, :, :), largest(:)
    end type answer_type
+
+   !> What load cases do, each by itself under a factor of one, joints elastic: the loads of all increments are sums of
+   !> that. Cases become known as they are learnt
+   type :: case_answers_type
+      private
+      !> Shape (cases)
+      logical, allocatable :: known(:)
+      !> Jumps, shape (components, points, modes, cases), and largest displacements, shape (modes, cases)
+      real(wp), allocatable :: free(:, :, :, :), largest(:, :)
+   end type case_answers_type
 
 contains
 
@@ -82,6 +93,78 @@ contains
       end if
       call put_work(condensed%floating, loading%external, loads)
    end subroutine put_loads
+
+   !> No case is known so far
+   pure function new_case_answers(condensed, n_cases) result(cases)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Number of load cases
+      integer, intent(in) :: n_cases
+      !> What they do
+      type(case_answers_type) :: cases
+
+      associate (n => size(condensed%points), n_modes => size(condensed%modes))
+         allocate (cases%known(n_cases), source=.false.)
+         allocate (cases%free(3, n, n_modes, n_cases), cases%largest(n_modes, n_cases), source=0.0_wp)
+      end associate
+   end function new_case_answers
+
+   !> Whether a case is known
+   pure logical function is_known(cases, case)
+      !> What cases do
+      type(case_answers_type), intent(in) :: cases
+      !> The case
+      integer, intent(in) :: case
+
+      is_known = cases%known(case)
+   end function is_known
+
+   !> Learn what a case does
+   subroutine learn_case(equations, condensed, loading, case, cases)
+      !> Equations of all modes, assembled; systems that cannot be factored are marked there
+      type(equations_type), intent(inout) :: equations
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Loads of the case under a factor of one
+      type(loading_type), intent(in) :: loading
+      !> The case
+      integer, intent(in) :: case
+      !> What cases do
+      type(case_answers_type), intent(inout) :: cases
+
+      type(joint_loads_type) :: loads
+
+      loads = new_joint_loads(condensed)
+      call put_jumps(equations, condensed%points, loading, loads)
+      cases%free(:, :, :, case) = loads%free
+      cases%largest(:, case) = loads%largest
+      cases%known(case) = .true.
+   end subroutine learn_case
+
+   !> Load the condensed structure by a sum of cases that are known. The largest displacement is what it is at most
+   pure subroutine put_sum(condensed, cases, loading, loads)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> What cases do
+      type(case_answers_type), intent(in) :: cases
+      !> The loads on its nodes
+      type(loading_type), intent(in) :: loading
+      !> The loads
+      type(joint_loads_type), intent(inout) :: loads
+
+      integer :: k
+
+      loads%free = 0.0_wp
+      loads%largest = 0.0_wp
+      do k = 1, size(cases%known)
+         associate (factor => loading%case_factor(k))
+            if (.not. abs(factor) > 0.0_wp) cycle
+            loads%free = loads%free + factor*cases%free(:, :, :, k)
+            loads%largest = loads%largest + abs(factor)*cases%largest(:, k)
+         end associate
+      end do
+      call put_work(condensed%floating, loading%external, loads)
+   end subroutine put_sum
 
    !> Jumps from loads, joints elastic
    subroutine put_jumps(equations, points, loading, loads)

@@ -208,14 +208,14 @@ contains
          gathering%largest = max(tiny(1.0_wp), maxval(weight(points)))
          gathering%weight = [weight(points), weight(points), weight(points)]/gathering%largest
       end associate
-      if (allocated(gathering%flexibilities)) deallocate (gathering%flexibilities)
-      allocate (gathering%flexibilities(size(condensed%flexibilities)))
+      if (.not. allocated(gathering%flexibilities)) allocate (gathering%flexibilities(size(condensed%flexibilities)))
       !$omp parallel do schedule(static, 1) if (n_numbers(condensed, count(moves)) > worth_threads)
       do s = 1, size(condensed%flexibilities)
          if (.not. allocated(condensed%flexibilities(s)%matrix)) cycle
          associate (whole => condensed%flexibilities(s)%matrix, points => gathering%points, &
                     n => size(condensed%points))
             if (double) then
+               if (allocated(gathering%flexibilities(s)%single)) deallocate (gathering%flexibilities(s)%single)
                gathering%flexibilities(s)%double = whole([points, n + points, 2*n + points], &
                   [points, n + points, 2*n + points])
             else
@@ -278,7 +278,7 @@ contains
       first = pack([(i, i=1, size(place))], starts)
       last = [first(2:) - 1, size(place)]
       shift = place(first) - first
-      allocate (gathered%single)
+      if (.not. allocated(gathered%single)) allocate (gathered%single)
       call make_room(gathered%single, size(place))
       do j = 1, size(place)
          do k = 1, size(first)  ! neighbours are copied together

@@ -39,10 +39,11 @@ typedef float sixteen __attribute__((vector_size(64), aligned(4)));
 
 /* The product by a number of rows at once, for processors that have what `processor` says */
 #define PRODUCT(name, processor, vector, add)                                                        \
-   processor static void name(int n, const float *a, long lead, const float *restrict x, float *restrict y) \
+   processor static void name(int n, const float *a, const float *restrict x, float *restrict y)     \
    {                                                                                                 \
+      const float *column = a;                                                                       \
       for (int first = 0; first < n; first += columns) {                                             \
-         const float *column = a + first * lead;                                                     \
+         const long lead = (first / aligned_rows + 1) * (long)aligned_rows;                          \
          vector sum[columns], at[columns];                                                           \
          _Pragma("GCC unroll 8") for (int c = 0; c < columns; ++c) {                                 \
             sum[c] = (vector){0};                                                                    \
@@ -60,6 +61,7 @@ typedef float sixteen __attribute__((vector_size(64), aligned(4)));
             *(vector *)(y + row) = even + odd;                                                       \
          }                                                                                           \
          add(sum, y + first);                                                                        \
+         column += columns * lead;                                                                   \
       }                                                                                              \
    }
 
@@ -69,23 +71,23 @@ PRODUCT(by_eight, __attribute__((target("avx2,fma"))), eight, ADD_EIGHT)
 #endif
 PRODUCT(by_four, , four, ADD_FOUR)
 
-/* y = a x. Of a there are the columns, `lead` numbers each, to the diagonal, which is halved; zeros below it. Rows are a
- * multiple of sixteen, columns one of eight: zeros in a and x beyond n, room in y. Not more than `most` rows are taken
- * at once. */
-void axijoint_symmetric_product(int most, int n, const float *a, long lead, const float *x, float *y)
+/* y = a x. Of a there are the columns to the diagonal, which is halved, in groups of eight one after the other: columns
+ * of a group have the rows to the last of its diagonals, and zeros on to a multiple of sixteen. Columns are a multiple of
+ * eight: zeros in a and x beyond n, room in y. Not more than `most` rows are taken at once. */
+void axijoint_symmetric_product(int most, int n, const float *a, const float *x, float *y)
 {
    memset(y, 0, sizeof(float) * (size_t)((n + aligned_rows - 1) / aligned_rows * aligned_rows));
 #if defined(__x86_64__)
    if (most >= 16 && __builtin_cpu_supports("avx512f")) {
-      by_sixteen(n, a, lead, x, y);
+      by_sixteen(n, a, x, y);
       return;
    }
    if (most >= 8 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
-      by_eight(n, a, lead, x, y);
+      by_eight(n, a, x, y);
       return;
    }
 #else
    (void)most;
 #endif
-   by_four(n, a, lead, x, y);
+   by_four(n, a, x, y);
 }

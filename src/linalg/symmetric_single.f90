@@ -1,7 +1,7 @@
 !> Symmetric matrices in single precision that are multiplied with many vectors: half of one is kept, laid out for
 !> that
 module axijoint_linalg_symmetric_single
-   use, intrinsic :: iso_c_binding, only : c_float, c_int, c_intptr_t, c_loc, c_long
+   use, intrinsic :: iso_c_binding, only : c_float, c_int, c_intptr_t, c_loc
    use axijoint_base_kinds, only : sp, i8
    implicit none
    private
@@ -14,19 +14,18 @@ module axijoint_linalg_symmetric_single
    !> The matrix
    type :: symmetric_single_type
       private
-      !> Its size, numbers of a column, and where the first column begins
-      integer :: n = 0, lead = 0
+      !> Its size, and where its first column begins
+      integer :: n = 0
       integer(i8) :: first = 1
-      !> Columns to the diagonal, that halved, and zeros
+      !> Columns to the diagonal, that halved, and zeros, in groups of so many as are taken together
       real(sp), allocatable :: values(:)
    end type symmetric_single_type
 
    interface
       !> y = a x, by so many rows at once at most
-      pure subroutine c_product(most, n, a, lead, x, y) bind(c, name="axijoint_symmetric_product")
-         import :: c_int, c_long, c_float
+      pure subroutine c_product(most, n, a, x, y) bind(c, name="axijoint_symmetric_product")
+         import :: c_int, c_float
          integer(c_int), value :: most, n
-         integer(c_long), value :: lead
          real(c_float), intent(in) :: a(*), x(*)
          real(c_float), intent(inout) :: y(*)
       end subroutine c_product
@@ -34,23 +33,28 @@ module axijoint_linalg_symmetric_single
 
 contains
 
-   !> Room for a matrix, all columns of which are to be put
+   !> Room for a matrix, all columns of which are to be put; that of a matrix before it, if it is large enough
    subroutine make_room(matrix, n)
       !> The matrix
       type(symmetric_single_type), intent(inout), target :: matrix
       !> Its size
       integer, intent(in) :: n
 
+      integer(i8) :: needed
       integer :: j, n_columns
 
       matrix%n = n
-      matrix%lead = multiple(n, rows_together)
       n_columns = multiple(n, columns_together)
-      if (allocated(matrix%values)) deallocate (matrix%values)
-      allocate (matrix%values(int(matrix%lead, i8)*n_columns + alignment))
+      needed = start(n_columns + 1) + alignment
+      if (allocated(matrix%values)) then
+         if (size(matrix%values, kind=i8) < needed) deallocate (matrix%values)
+      end if
+      if (.not. allocated(matrix%values)) allocate (matrix%values(needed))
       matrix%first = 1 + modulo(-transfer(c_loc(matrix%values), 0_c_intptr_t), alignment)/(storage_size(0.0_sp)/8)
       do j = n + 1, n_columns
-         matrix%values(start(matrix, j):start(matrix, j) + matrix%lead - 1) = 0.0_sp
+         associate (from => matrix%first + start(j))
+            matrix%values(from:from + rows_of(j) - 1) = 0.0_sp
+         end associate
       end do
    end subroutine make_room
 
@@ -63,13 +67,10 @@ contains
       !> Its numbers from the first row to the diagonal
       real(sp), intent(in) :: values(:)
 
-      integer :: last
-
-      last = min(matrix%lead, multiple(multiple(j, columns_together), rows_together))  ! row that is read
-      associate (from => start(matrix, j))
+      associate (from => matrix%first + start(j))
          matrix%values(from:from + j - 2) = values(:j - 1)
          matrix%values(from + j - 1) = 0.5_sp*values(j)
-         matrix%values(from + j:from + last - 1) = 0.0_sp
+         matrix%values(from + j:from + rows_of(j) - 1) = 0.0_sp
       end associate
    end subroutine put_column
 
@@ -84,25 +85,37 @@ contains
       integer, intent(in), optional :: at_once
 
       integer :: most
-      real(sp) :: whole_x(matrix%lead), whole_y(matrix%lead)
+      real(sp), dimension(multiple(matrix%n, rows_together)) :: whole_x, whole_y
 
       most = rows_together
       if (present(at_once)) most = at_once
       whole_x(:matrix%n) = x
       whole_x(matrix%n + 1:) = 0.0_sp
-      call c_product(most, matrix%n, matrix%values(matrix%first:), int(matrix%lead, c_long), whole_x, whole_y)
+      call c_product(most, matrix%n, matrix%values(matrix%first:), whole_x, whole_y)
       y = whole_y(:matrix%n)
    end subroutine symmetric_product
 
-   !> Where a column begins
-   pure integer(i8) function start(matrix, j)
-      !> The matrix
-      type(symmetric_single_type), intent(in) :: matrix
+   !> Numbers before a column
+   pure integer(i8) function start(j)
       !> Its place
       integer, intent(in) :: j
 
-      start = matrix%first + int(matrix%lead, i8)*(j - 1)
+      integer(i8) :: twos, groups
+
+      ! groups of eight columns have 16, 16, 32, 32, 48, ... rows
+      groups = (j - 1)/columns_together
+      twos = groups/2
+      start = columns_together*rows_together*(twos + 1)*(twos + modulo(groups, 2_i8)) &
+         + modulo(j - 1, columns_together)*int(rows_of(j), i8)
    end function start
+
+   !> Rows of a column: zeros are put from its diagonal on
+   pure integer function rows_of(j)
+      !> Its place
+      integer, intent(in) :: j
+
+      rows_of = multiple(multiple(j, columns_together), rows_together)
+   end function rows_of
 
    !> The next multiple
    pure integer function multiple(n, of)
