@@ -67,26 +67,56 @@ contains
       if (allocated(self%room)) bytes = self%room(:self%used)
    end function bytes
 
-   !> Append bytes; the room grows by doubling
+   !> Append bytes
    subroutine add(self, piece)
       !> The writer
       class(writer_type), intent(inout) :: self
       !> The bytes
       character(len=*), intent(in) :: piece
 
+      call make_room(self, len(piece, i8))
+      self%room(self%used + 1:self%used + len(piece, i8)) = piece
+      self%used = self%used + len(piece, i8)
+   end subroutine add
+
+   !> Append the bytes of reals, some at a time: of all at once there would be copies
+   subroutine add_reals(writer, n, values)
+      !> The writer
+      class(writer_type), intent(inout) :: writer
+      !> How many
+      integer(i8), intent(in) :: n
+      !> The reals
+      real(wp), intent(in) :: values(n)
+
+      integer(i8), parameter :: at_once = 512
+      character(len=at_once*real_bytes) :: piece
+      integer(i8) :: i, last
+
+      call make_room(writer, n*real_bytes)
+      do i = 1, n, at_once
+         last = min(n, i + at_once - 1)
+         piece = transfer(values(i:last), piece)
+         call writer%add(piece(:real_bytes*(last - i + 1)))
+      end do
+   end subroutine add_reals
+
+   !> Make room for more bytes; it grows by doubling
+   subroutine make_room(writer, n)
+      !> The writer
+      class(writer_type), intent(inout) :: writer
+      !> How many more
+      integer(i8), intent(in) :: n
+
       character(len=:), allocatable :: larger
       integer(i8) :: needed
 
-      if (.not. allocated(self%room)) allocate (character(len=4096) :: self%room)
-      needed = self%used + len(piece, i8)
-      if (needed > len(self%room, i8)) then
-         allocate (character(len=2*needed) :: larger)
-         larger(:self%used) = self%room(:self%used)
-         call move_alloc(larger, self%room)
-      end if
-      self%room(self%used + 1:needed) = piece
-      self%used = needed
-   end subroutine add
+      if (.not. allocated(writer%room)) allocate (character(len=4096) :: writer%room)
+      needed = writer%used + n
+      if (needed <= len(writer%room, i8)) return
+      allocate (character(len=2*needed) :: larger)
+      larger(:writer%used) = writer%room(:writer%used)
+      call move_alloc(larger, writer%room)
+   end subroutine make_room
 
    !> Take bytes; zeros if there are too few
    function take(self, count) result(piece)
@@ -337,7 +367,7 @@ contains
          return
       end if
       call self%put_shape(.true., shape(values))
-      call self%add(transfer(values, repeat(' ', real_bytes*size(values))))
+      call add_reals(self, size(values, kind=i8), values)
    end subroutine put_reals_1
 
    !> Take an array of reals
@@ -369,7 +399,7 @@ contains
          return
       end if
       call self%put_shape(.true., shape(values))
-      call self%add(transfer(values, repeat(' ', real_bytes*size(values))))
+      call add_reals(self, size(values, kind=i8), values)
    end subroutine put_reals_2
 
    !> Take an array of reals
@@ -401,7 +431,7 @@ contains
          return
       end if
       call self%put_shape(.true., shape(values))
-      call self%add(transfer(values, repeat(' ', real_bytes*size(values))))
+      call add_reals(self, size(values, kind=i8), values)
    end subroutine put_reals_3
 
    !> Take an array of reals

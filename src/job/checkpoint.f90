@@ -17,8 +17,8 @@ module axijoint_job_checkpoint
    !> Interval for: as often as that costs no more than the share below of the time of the run
    real(wp), parameter :: whenever_cheap = -1.0_wp
    real(wp), parameter :: cheap_share = 0.01_wp
-   !> Time that writing takes before it was measured [second]
-   real(wp), parameter :: expected_time = 0.02_wp
+   !> Time that writing takes before it was measured, and that making bytes does [second]
+   real(wp), parameter :: expected_time = 0.02_wp, expected_noting = 0.01_wp
 
    !> How far one combination is
    type :: part_type
@@ -56,7 +56,7 @@ module axijoint_job_checkpoint
       real(wp), private :: cost = expected_time
       !> When a history was made bytes of last [tick], and how long that took [second]
       integer(i8), private :: noted = 0
-      real(wp), private :: noting = 0.0_wp
+      real(wp), private :: noting = expected_noting
    contains
       procedure :: restore
       procedure :: keep
@@ -105,6 +105,7 @@ contains
          self%parts(k)%digest = ''
       end do
       call system_clock(self%last)
+      self%noted = self%last
    end subroutine begin
 
    !> Bring a history to where it was kept
@@ -131,7 +132,7 @@ contains
    end subroutine restore
 
    !> A step came to equilibrium. Where that share of the time would not do for noting every step,
-   !> some are left out, unless all are asked for
+   !> some are left out, those of the first second at least, unless all are asked for
    subroutine keep(self, history)
       !> The state
       class(checkpoint_type), intent(inout) :: self

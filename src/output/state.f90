@@ -223,7 +223,7 @@ contains
          call unlink_path(join_path(job%options%directory, job_name(job%deck)//stop_ending), errno)
          call job%checkpoint%flush()
       end if
-      text = cause//' before anything was done'
+      text = cause//' before anything was kept'
       if (allocated(job%checkpoint%failure)) then
          text = cause//'; the state cannot be kept: '//job%checkpoint%failure
       else if (job%checkpoint%there) then

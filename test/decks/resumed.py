@@ -245,7 +245,7 @@ def while_reading(program, folder):
         time.sleep(0.1)
         _, err = process.communicate(input_deck('first.dat').split('\n', 1)[1], timeout=60)
     return expected('exit code', 75, process.returncode) + expected('files', [], os.listdir(folder)) + expected(
-        'message', 'axijoint: stdin: stopped by SIGTERM before anything was done\n', err)
+        'message', 'axijoint: stdin: stopped by SIGTERM before anything was kept\n', err)
 
 
 def stop_file(program, folder):
