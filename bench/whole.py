@@ -51,41 +51,58 @@ HISTORIES = {f"monopile, {n} times": lambda n=n: (monopile(n), monopile(n, True)
 class Run:
     """A job that is run some times: medians of its times, and what its summary says"""
 
-    def __init__(self, program, text, rounds, workers=None):
-        environment = os.environ | ({"OMP_NUM_THREADS": str(workers)} if workers else {})
-        times, clocks, phases, writing = [], [], [], []
-        with tempfile.TemporaryDirectory() as folder:
-            deck = os.path.join(folder, "job.dat")
-            with open(deck, "w", encoding="utf-8") as file:
-                file.write(text)
-            for _ in range(rounds):
-                before = resource.getrusage(resource.RUSAGE_CHILDREN)
-                done = subprocess.run([program, "run", deck, "-o", folder, "--quiet"], check=False, capture_output=True, text=True,
-                                      env=environment)
-                after = resource.getrusage(resource.RUSAGE_CHILDREN)
-                if done.returncode:
-                    raise SystemExit(f"exit code {done.returncode}: {done.stderr}")
-                with open(deck[:-4] + ".json", encoding="utf-8") as file:
-                    self.summary = json.load(file)
-                with open(deck[:-4] + ".lis", encoding="utf-8") as file:
-                    listing = file.read()
-                writing.append(float(re.findall(r"^  write +\S+ +(\S+)", listing, re.MULTILINE)[-1]))
-                times.append(after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime)
-                clocks.append(self.summary["seconds"]["total"])
-                phases.append([*(self.summary["seconds"][name] for name in PHASES), self.summary["increment_seconds"],
-                               sum(self.summary["error_seconds"].values())])
-        self.listing, self.writing = len(listing), min(writing)  # bytes; processor seconds until the listing ends
-        self.processor, self.clock = statistics.median(times), statistics.median(clocks)
-        *self.phases, self.increments, self.estimates = (statistics.median(column) for column in zip(*phases))
+    def __init__(self, program, text, workers=None):
+        self.program = program
+        self.environment = os.environ | ({"OMP_NUM_THREADS": str(workers)} if workers else {})
+        self.folder = tempfile.TemporaryDirectory()
+        self.deck = os.path.join(self.folder.name, "job.dat")
+        self.times, self.clocks, self.parts, self.writings = [], [], [], []
+        with open(self.deck, "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def once(self):
+        """Run it once more"""
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        done = subprocess.run([self.program, "run", self.deck, "-o", self.folder.name, "--quiet"], check=False, capture_output=True,
+                              text=True, env=self.environment)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        if done.returncode:
+            raise SystemExit(f"exit code {done.returncode}: {done.stderr}")
+        with open(self.deck[:-4] + ".json", encoding="utf-8") as file:
+            self.summary = json.load(file)
+        with open(self.deck[:-4] + ".lis", encoding="utf-8") as file:
+            listing = file.read()
+        self.listing = len(listing)  # bytes
+        self.writings.append(float(re.findall(r"^  write +\S+ +(\S+)", listing, re.MULTILINE)[-1]))
+        self.times.append(after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime)
+        self.clocks.append(self.summary["seconds"]["total"])
+        self.parts.append([*(self.summary["seconds"][name] for name in PHASES), self.summary["increment_seconds"],
+                           sum(self.summary["error_seconds"].values())])
+
+    def finish(self):
+        """Find the medians"""
+        self.folder.cleanup()
+        self.writing = min(self.writings)  # processor seconds until the listing ends
+        self.processor, self.clock = statistics.median(self.times), statistics.median(self.clocks)
+        *self.phases, self.increments, self.estimates = (statistics.median(column) for column in zip(*self.parts))
         self.unknowns = self.summary["unknowns"]
         errors = self.summary.get("errors") or {}
         total = errors.get("sum", {}) if isinstance(errors, dict) else {}
         self.error = 100*(total.get("displacement") or 0.0)
         self.iterations = self.summary["iterations"]
+        return self
 
     def needed(self):
         """Seconds of assembling, with orders and analysis, factorization and solution, without estimates of errors"""
         return sum(self.phases[1:4]) - self.estimates
+
+
+def by_turns(rounds, *runs):
+    """Run jobs one after the other, again and again: what a machine does meanwhile meets all of them"""
+    for _ in range(rounds):
+        for run in runs:
+            run.once()
+    return [run.finish() for run in runs]
 
 
 def processor():
@@ -133,7 +150,7 @@ def whole(args):
     for job, make in JOBS.items():
         if args.quick and job in ("linear 300k", "linear 1M", "case 3, 8 times") or not args.full and job == "linear 1M":
             continue
-        run = Run(args.axijoint, make(), args.rounds)
+        run, = by_turns(args.rounds, Run(args.axijoint, make()))
         rows.append((job, run))
         print(f"{job:16} {run.unknowns:9} {run.clock:8.3f} {run.processor:9.3f} "
               + " ".join(f"{100*part/run.clock:7.1f}%" for part in run.phases)
@@ -146,7 +163,8 @@ def whole(args):
 def text(args):
     """Numbers to text: bytes of the listing over processor seconds of writing it, all tables less none"""
     job = linear(50, 67)
-    runs = [(Run(args.axijoint, job.replace("END\n", f"PRINT\n    TABLES{rows:>10}\nEND\n"), args.rounds)) for rows in ("ALL", "NONE")]
+    runs = by_turns(args.rounds, *(Run(args.axijoint, job.replace("END\n", f"PRINT\n    TABLES{rows:>10}\nEND\n"))
+                                   for rows in ("ALL", "NONE")))
     bytes_more, seconds_more = (getattr(runs[0], name) - getattr(runs[1], name) for name in ("listing", "writing"))
     print(f"tables as text: {bytes_more/1e6:.1f} MB in {seconds_more:.3f} s, {bytes_more/1e6/max(seconds_more, 1e-9):.0f} MB/s")
 
@@ -185,20 +203,23 @@ def start(args):
 
 def history(args):
     """Histories with joints beside their elastic analyses in the same harmonics: the seconds of the increments over those of
-    the elastic analysis without estimates of errors; and two threads beside one, by the clock"""
+    the elastic analysis, without its estimates of errors and with them; and two threads beside one, by the clock"""
     head()
-    print("increments over elastic analysis: bar 1; two threads: bar 1.7 times as fast")
+    print("increments over elastic analysis, without and with its estimates: bar 1; two threads: bar 1.7 times as fast")
     print(f"{'job':18} {'unknowns':>9} {'iterations':>10} {'seconds':>8} {'increments':>10} {'estimates':>9} {'elastic':>8} "
-          f"{'increments/elastic':>18} {'whole/elastic':>13} {'two threads':>11}  estimated error")
+          f"{'increments/elastic':>18} {'with estimates':>14} {'whole/elastic':>13} {'two threads':>11}  estimated error")
     rows = []
     for job, make in HISTORIES.items():
         if args.quick and job != "monopile, 1 times":
             continue
-        (run, elastic), two = (Run(args.axijoint, text, args.rounds, 1) for text in make()), Run(args.axijoint, make()[0], args.rounds, 2)
+        text, elastic_text = make()
+        run, elastic, two = by_turns(args.rounds, Run(args.axijoint, text, 1), Run(args.axijoint, elastic_text, 1),
+                                     Run(args.axijoint, text, 2))
         rows.append((job, run if threads() == "1" else two))
         alone = elastic.clock - elastic.estimates
         print(f"{job:18} {run.unknowns:9} {run.iterations:10} {run.clock:8.3f} {run.increments:10.3f} {run.estimates:9.3f} {alone:8.3f} "
-              f"{run.increments/alone:18.2f} {run.clock/elastic.clock:13.2f} {run.clock/two.clock:11.2f}  {run.error:.3g} %", flush=True)
+              f"{run.increments/alone:18.2f} {run.increments/elastic.clock:14.2f} {run.clock/elastic.clock:13.2f} "
+              f"{run.clock/two.clock:11.2f}  {run.error:.3g} %", flush=True)
     return rows
 
 
@@ -217,7 +238,7 @@ def check(args):
         if job not in last or args.quick and float(last[job]["processor_seconds"]) > 3.0:
             continue
         text = make()
-        run = Run(args.axijoint, text if isinstance(text, str) else text[0], args.rounds)
+        run, = by_turns(args.rounds, Run(args.axijoint, text if isinstance(text, str) else text[0]))
         before = last[job]
         print(f"{job:18} {run.processor:9.3f} {float(before['processor_seconds']):8.3f} "
               f"{run.processor/float(before['processor_seconds']):6.2f}  {run.error:.3g} %, {before['error_percent']} %  {before['commit']}",

@@ -92,7 +92,7 @@ contains
    end function at_points
 
    !> Change of P that linear laws make of that of the jumps: k d less the excess stress, and what they miss already
-   pure function change_of_stress(condensed, newton, jump) result(change)
+   subroutine change_of_stress(condensed, newton, jump, change)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws
@@ -100,7 +100,7 @@ contains
       !> Changes of the jumps, shape (3, points, planes)
       real(wp), intent(in) :: jump(:, :, :)
       !> The change, same shape
-      real(wp) :: change(3, size(jump, 2), size(jump, 3))
+      real(wp), intent(out) :: change(:, :, :)
 
       real(wp) :: base(3, size(jump, 2))
       integer :: j, k
@@ -108,6 +108,7 @@ contains
       do k = 1, size(jump, 2)
          base(:, k) = condensed%points(k)%base
       end do
+      !$omp parallel do private(k) if (size(jump) >= worth_threads)
       do j = 1, size(jump, 3)
          do k = 1, size(jump, 2)
             associate (slope => newton%slope(:, :, k, j), d => jump(:, k, j))
@@ -116,7 +117,28 @@ contains
             end associate
          end do
       end do
-   end function change_of_stress
+      !$omp end parallel do
+   end subroutine change_of_stress
+
+   !> Values a part of a change away from others
+   subroutine go(from, length, change, to)
+      !> The others, shape (3, points, planes)
+      real(wp), intent(in) :: from(:, :, :)
+      !> The part
+      real(wp), intent(in) :: length
+      !> The change, same shape
+      real(wp), intent(in) :: change(:, :, :)
+      !> The values, same shape
+      real(wp), intent(out) :: to(:, :, :)
+
+      integer :: j
+
+      !$omp parallel do if (size(to) >= worth_threads)
+      do j = 1, size(to, 3)
+         to(:, :, j) = from(:, :, j) + length*change(:, :, j)
+      end do
+      !$omp end parallel do
+   end subroutine go
 
    !> Let the laws see the jumps of an iterate, and linearize them there
    subroutine see(condensed, scene, far, field, residual, newton)
@@ -357,7 +379,8 @@ contains
       call solve(condensed, scene, newton%linear_type, bounds%tolerance, change, amplitude, &
          newton%gathering)
       jump = synthesize(scene%planes, amplitude)
-      change_carried = change_of_stress(condensed, newton, jump)
+      allocate (change_carried, mold=jump)
+      call change_of_stress(condensed, newton, jump, change_carried)
       before = newton%merit
       length = 1.0_wp
       if (maxval(abs(jump)) > bounds%radius) then
@@ -368,8 +391,8 @@ contains
       least = shortest*length
       do
          field%excess = start%excess + length*change
-         field%carried = start%carried + length*change_carried
-         field%jump = start%jump + length*jump
+         call go(start%carried, length, change_carried, field%carried)
+         call go(start%jump, length, jump, field%jump)
          call see(condensed, scene, bounds%far, field, residual, newton)
          made = maxval(abs(field%jump)) <= bounds%largest
          falls = newton%merit < merge(bold, bounds%more, bounds%damping > 0.0_wp)*before

@@ -78,6 +78,13 @@ module axijoint_joints_newton_system
       real(wp) :: largest = 0.0_wp
    end type gathering_type
 
+   !> Memory that products take
+   type :: room_type
+      !> Jumps, shape (points, 3, modes), and the two parts of flexibilities that they are sums of, shape
+      !> (3 points, parts, modes)
+      real(wp), allocatable :: jump(:, :, :), parts(:, :, :)
+   end type room_type
+
    !> I - A E' S F of the points that move
    type, extends(operator_type) :: derivative_type
       !> The structure, modes and planes
@@ -94,6 +101,7 @@ module axijoint_joints_newton_system
       real(wp), allocatable :: given_jump(:, :, :), given_share(:, :, :)
       !> Inverses of what points do to themselves, where laws are stiff
       type(point_blocks_type), allocatable :: blocks
+      type(room_type), pointer :: room => null()
    contains
       !> Product with amplitudes of excess stress
       procedure :: apply
@@ -118,6 +126,7 @@ contains
 
       type(derivative_type) :: derivative
       type(gathering_type), target :: gathering
+      type(room_type), target :: room
       real(wp), allocatable :: right(:, :, :), left(:, :, :), x(:)
       integer, allocatable :: points(:)
       logical :: moves(size(linear%slope, 3))
@@ -142,6 +151,9 @@ contains
       if (any(abs(change) > 0.0_wp)) jump = jumps(condensed, scene, change, free=.false.)
       if (size(points) == 0) return
       call new_derivative(condensed, scene, linear, points, derivative)
+      allocate (room%jump(size(points), 3, size(scene%system)))
+      allocate (room%parts(3*size(points), 2, size(scene%system)), source=0.0_wp)  ! those of other ranks stay
+      derivative%room => room
       right = by_component(linear%residual, points)
       if (allocated(derivative%blocks)) call precondition(derivative%blocks, right)
       enough = tolerance*hypot(norm2(change), norm2(right))
@@ -410,6 +422,16 @@ contains
       n_parts = merge(1, (n + points_at_a_time - 1)/points_at_a_time, by_halves(self%scene%planes))
    end function n_parts
 
+   !> Last point of a part
+   pure integer function last_of(self, part, n)
+      !> The operator
+      type(derivative_type), intent(in) :: self
+      !> The part, and the number of all points
+      integer, intent(in) :: part, n
+
+      last_of = part*n/n_parts(self, n)
+   end function last_of
+
    !> Excess stress of a part of the points
    subroutine find_part(self, part, n, jump, excess)
       !> The operator
@@ -423,8 +445,8 @@ contains
       real(wp), allocatable :: on_planes(:, :, :), stress(:, :, :)
       integer :: i, j, l, first, last
 
-      first = (part - 1)*n/n_parts(self, n) + 1
-      last = part*n/n_parts(self, n)
+      first = last_of(self, part - 1, n) + 1
+      last = last_of(self, part, n)
       allocate (on_planes(last - first + 1, 3, size(self%slope, 4)), stress(last - first + 1, 3, size(self%slope, 4)))
       call sum_modes(self%scene%planes, last - first + 1, n, jump(first, 1, 1), on_planes)
       !$omp parallel do private(i, l) if (by_halves(self%scene%planes))
@@ -449,50 +471,73 @@ contains
       !> The product
       real(wp), intent(out), contiguous :: y(:)
 
-      real(wp), allocatable :: jump(:, :, :), excess(:, :, :)
-      logical :: by_parts
-      integer :: k, n
-
-      n = size(self%slope, 1)
-      by_parts = n_parts(self, n) > 1
-      allocate (jump(n, 3, size(self%scene%system)), excess(n, 3, size(self%scene%system)))
-      !$omp parallel if (n_numbers(self%condensed, n) > worth_threads)
-      !$omp do schedule(static, 1)
-      do k = 1, size(jump, 3)
-         call flex(self%gathering%flexibilities(self%scene%system(k)), 3*n, self%gathering%weight, &
-            self%scene%scale(k)*self%gathering%largest, x(3*n*(k - 1) + 1:3*n*k), jump(:, :, k))
-      end do
-      !$omp end do
-      if (self%condensed%shared .or. allocated(self%given_jump)) then
-         !$omp master
-         if (self%condensed%shared) call tell_jumps(self%condensed, self%scene, jump)
-         if (allocated(self%given_jump)) &
-            jump = jump - sum(self%given_share*reshape(x, shape(jump)))*self%given_jump
-         !$omp end master
-         !$omp barrier
-      end if
-      if (by_parts) then
-         !$omp do schedule(static)
-         do k = 1, n_parts(self, n)
-            call find_part(self, k, n, jump, excess)
-         end do
-         !$omp end do
-      end if
-      !$omp end parallel
-      if (.not. by_parts) call find_excess(self, n, jump, excess)
-      excess = reshape(x, shape(excess)) - excess
-      if (allocated(self%blocks)) call precondition(self%blocks, excess)
-      y = reshape(excess, [size(y)])
+      call act(self, size(self%slope, 1), size(self%scene%system), x, y)
    end subroutine apply
 
-   !> Product of a flexibility, if it is there
-   subroutine flex(flexibility, n, weight, scale, excess, jump)
+   !> The same by points, components and modes. Flexibilities are halved among threads, whatever the number of these
+   subroutine act(self, n, n_modes, x, y)
+      !> The operator
+      class(derivative_type), intent(in) :: self
+      !> Numbers of points and modes
+      integer, intent(in) :: n, n_modes
+      !> Amplitudes of excess stress, and the product
+      real(wp), intent(in) :: x(n, 3, n_modes)
+      real(wp), intent(inout) :: y(n, 3, n_modes)
+
+      logical :: by_parts
+      integer :: k, part
+
+      by_parts = n_parts(self, n) > 1
+      associate (jump => self%room%jump, parts => self%room%parts, gathering => self%gathering, scene => self%scene)
+         !$omp parallel if (n_numbers(self%condensed, n) > worth_threads)
+         !$omp do schedule(static, 1) collapse(2)
+         do k = 1, n_modes
+            do part = 1, 2
+               call flex(gathering%flexibilities(scene%system(k)), 3*n, gathering%weight, part, x(:, :, k), parts(:, part, k))
+            end do
+         end do
+         !$omp end do
+         !$omp do schedule(static)
+         do k = 1, n_modes
+            jump(:, :, k) = scene%scale(k)*gathering%largest*reshape(parts(:, 1, k) + parts(:, 2, k), [n, 3])
+         end do
+         !$omp end do
+         if (self%condensed%shared .or. allocated(self%given_jump)) then
+            !$omp master
+            if (self%condensed%shared) call tell_jumps(self%condensed, self%scene, jump)
+            if (allocated(self%given_jump)) jump = jump - sum(self%given_share*x)*self%given_jump
+            !$omp end master
+            !$omp barrier
+         end if
+         if (by_parts) then
+            !$omp do schedule(static)
+            do k = 1, n_parts(self, n)
+               call find_part(self, k, n, jump, y)
+               associate (first => last_of(self, k - 1, n) + 1, last => last_of(self, k, n))
+                  y(first:last, :, :) = x(first:last, :, :) - y(first:last, :, :)
+               end associate
+            end do
+            !$omp end do
+         end if
+         !$omp end parallel
+         if (.not. by_parts) then
+            call find_excess(self, n, jump, y)
+            y = x - y
+         end if
+      end associate
+      if (allocated(self%blocks)) call precondition(self%blocks, y)
+   end subroutine act
+
+   !> One of two parts of the product of a flexibility, if it is there
+   subroutine flex(flexibility, n, weight, part, excess, jump)
       !> The flexibility
       type(gathered_type), intent(in) :: flexibility
       !> Its size
       integer, intent(in) :: n
-      !> Weights of the points, and a factor of the product
-      real(wp), intent(in) :: weight(n), scale
+      !> Weights of the points
+      real(wp), intent(in) :: weight(n)
+      !> Which part, 1 or 2
+      integer, intent(in) :: part
       !> Amplitudes of excess stress and jumps
       real(wp), intent(in) :: excess(n)
       real(wp), intent(inout) :: jump(n)
@@ -500,11 +545,12 @@ contains
       real(sp) :: y(n)
 
       if (allocated(flexibility%single)) then
-         call symmetric_product(flexibility%single, real(weight*excess, sp), y)
-         jump = scale*flexibility%unit*y
+         call symmetric_product(flexibility%single, real(weight*excess, sp), y, part=part)
+         jump = flexibility%unit*y
       else if (allocated(flexibility%double)) then
-         call matrix_vector(flexibility%double, weight*excess, jump)
-         jump = scale*jump
+         associate (first => 1 + (part - 1)*(n/2), last => merge(n/2, n, part == 1))
+            call matrix_vector(flexibility%double(:, first:last), weight(first:last)*excess(first:last), jump)
+         end associate
       end if
    end subroutine flex
 

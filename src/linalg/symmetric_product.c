@@ -39,10 +39,10 @@ typedef float sixteen __attribute__((vector_size(64), aligned(4)));
 
 /* The product by a number of rows at once, for processors that have what `processor` says */
 #define PRODUCT(name, processor, vector, add)                                                        \
-   processor static void name(int n, const float *a, const float *restrict x, float *restrict y)     \
+   processor static void name(int from, int to, const float *a, const float *restrict x, float *restrict y) \
    {                                                                                                 \
       const float *column = a;                                                                       \
-      for (int first = 0; first < n; first += columns) {                                             \
+      for (int first = from; first < to; first += columns) {                                         \
          const long lead = (first / aligned_rows + 1) * (long)aligned_rows;                          \
          vector sum[columns], at[columns];                                                           \
          _Pragma("GCC unroll 8") for (int c = 0; c < columns; ++c) {                                 \
@@ -71,23 +71,24 @@ PRODUCT(by_eight, __attribute__((target("avx2,fma"))), eight, ADD_EIGHT)
 #endif
 PRODUCT(by_four, , four, ADD_FOUR)
 
-/* y = a x. Of a there are the columns to the diagonal, which is halved, in groups of eight one after the other: columns
- * of a group have the rows to the last of its diagonals, and zeros on to a multiple of sixteen. Columns are a multiple of
- * eight: zeros in a and x beyond n, room in y. Not more than `most` rows are taken at once. */
-void axijoint_symmetric_product(int most, int n, const float *a, const float *x, float *y)
+/* What columns from `from`, a multiple of sixteen, to `to` and what mirrors them give to y = a x. There are the columns
+ * to the diagonal, which is halved, in groups of eight one after the other: columns of a group have the rows to the last
+ * of its diagonals, and zeros on to a multiple of sixteen. Zeros in a and x, and room in y, to a multiple of that beyond
+ * `to`. Not more than `most` rows are taken at once. */
+void axijoint_symmetric_product(int most, int from, int to, const float *a, const float *x, float *y)
 {
-   memset(y, 0, sizeof(float) * (size_t)((n + aligned_rows - 1) / aligned_rows * aligned_rows));
+   memset(y, 0, sizeof(float) * (size_t)((to + aligned_rows - 1) / aligned_rows * aligned_rows));
 #if defined(__x86_64__)
    if (most >= 16 && __builtin_cpu_supports("avx512f")) {
-      by_sixteen(n, a, x, y);
+      by_sixteen(from, to, a, x, y);
       return;
    }
    if (most >= 8 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
-      by_eight(n, a, x, y);
+      by_eight(from, to, a, x, y);
       return;
    }
 #else
    (void)most;
 #endif
-   by_four(n, a, x, y);
+   by_four(from, to, a, x, y);
 }

@@ -22,10 +22,10 @@ module axijoint_linalg_symmetric_single
    end type symmetric_single_type
 
    interface
-      !> y = a x, by so many rows at once at most
-      pure subroutine c_product(most, n, a, x, y) bind(c, name="axijoint_symmetric_product")
+      !> What some columns and what mirrors them give to y = a x, by so many rows at once at most
+      pure subroutine c_product(most, from, to, a, x, y) bind(c, name="axijoint_symmetric_product")
          import :: c_int, c_float
-         integer(c_int), value :: most, n
+         integer(c_int), value :: most, from, to
          real(c_float), intent(in) :: a(*), x(*)
          real(c_float), intent(inout) :: y(*)
       end subroutine c_product
@@ -74,8 +74,8 @@ contains
       end associate
    end subroutine put_column
 
-   !> Product with a vector
-   pure subroutine symmetric_product(matrix, x, y, at_once)
+   !> Product with a vector, or one of two parts of it that take as long as each other and whose sum it is
+   pure subroutine symmetric_product(matrix, x, y, at_once, part)
       !> The matrix
       type(symmetric_single_type), intent(in) :: matrix
       !> The vector, and the product
@@ -83,16 +83,27 @@ contains
       real(sp), intent(out) :: y(:)
       !> Rows that are taken at once at most; as many as the processor takes if absent
       integer, intent(in), optional :: at_once
+      !> 1 or 2
+      integer, intent(in), optional :: part
 
-      integer :: most
+      integer :: most, from, to
       real(sp), dimension(multiple(matrix%n, rows_together)) :: whole_x, whole_y
 
       most = rows_together
       if (present(at_once)) most = at_once
+      from = 0
+      to = matrix%n
+      if (present(part)) then
+         associate (middle => nint(sqrt(0.5)*matrix%n)/rows_together*rows_together)
+            if (part == 1) to = middle
+            if (part == 2) from = middle
+         end associate
+      end if
       whole_x(:matrix%n) = x
       whole_x(matrix%n + 1:) = 0.0_sp
-      call c_product(most, matrix%n, matrix%values(matrix%first:), whole_x, whole_y)
-      y = whole_y(:matrix%n)
+      call c_product(most, from, to, matrix%values(matrix%first + start(from + 1):), whole_x, whole_y)
+      y(:to) = whole_y(:to)
+      y(to + 1:) = 0.0_sp
    end subroutine symmetric_product
 
    !> Numbers before a column

@@ -155,19 +155,20 @@ contains
       !> The sines; 1 beyond the number of points
       real(wp) :: sine(most_points)
 
-      real(wp) :: jacobian(2, 2)
-      integer :: i
+      real(wp) :: a(2), b(2), lengths(2)
+      integer :: i, k
 
       sine = 1.0_wp
       do i = 1, sample%n
-         jacobian = matmul(x, transpose(sample%derivative(:, :size(x, 2), i)))
-         associate (a => jacobian(:, 1), b => jacobian(:, 2))
-            if (norm2(a) > 0.0_wp .and. norm2(b) > 0.0_wp) then
-               sine(i) = (a(1)/norm2(a))*(b(2)/norm2(b)) - (a(2)/norm2(a))*(b(1)/norm2(b))
-            else
-               sine(i) = 0.0_wp
-            end if
-         end associate
+         a = 0.0_wp
+         b = 0.0_wp
+         do k = 1, size(x, 2)
+            a = a + sample%derivative(1, k, i)*x(:, k)
+            b = b + sample%derivative(2, k, i)*x(:, k)
+         end do
+         lengths = [hypot(a(1), a(2)), hypot(b(1), b(2))]
+         sine(i) = 0.0_wp
+         if (all(lengths > 0.0_wp)) sine(i) = (a(1)/lengths(1))*(b(2)/lengths(2)) - (a(2)/lengths(1))*(b(1)/lengths(2))
       end do
    end function sines
 

@@ -8,6 +8,8 @@ module axijoint_deck_mesh_places
 
    !> Distance of points at the same place, in extents of the model
    real(wp), parameter, public :: same_place = 1.0e-9_wp
+   !> Points of a part that is not halved
+   integer, parameter :: few = 8
 
    !> Points in the plane, halved again and again across the longer side of what is left: in turn
    !> across r and z, points of a narrow strip would lie on both sides of most cuts
@@ -15,7 +17,7 @@ module axijoint_deck_mesh_places
       private
       !> The points, shape (2, points)
       real(wp), allocatable :: position(:, :)
-      !> Their indices: the middle one of each part divides it
+      !> Their indices: the middle one of each part divides it, down to parts of few points
       integer, allocatable :: order(:)
       !> Axis across which the part with the middle point here is halved, 1 for r and 2 for z
       integer, allocatable :: axis(:)
@@ -112,7 +114,7 @@ contains
       real(wp) :: extent(2)
       integer :: middle, i
 
-      if (size(order) < 2) return
+      if (size(order) <= few) return
       middle = (size(order) + 1)/2
       do i = 1, 2
          extent(i) = maxval(position(i, order)) - minval(position(i, order))
@@ -195,16 +197,18 @@ contains
       !> How many
       integer, intent(inout) :: n_found
 
-      integer :: middle
+      integer :: middle, k
       real(wp) :: offset(2)
 
-      if (size(order) == 0 .or. n_found == size(found)) return
+      if (size(order) <= few) then
+         do k = 1, size(order)
+            call collect_one(order(k), place - position(:, order(k)), distance, found, n_found)
+         end do
+         return
+      end if
       middle = (size(order) + 1)/2
       offset = place - position(:, order(middle))
-      if (norm2(offset) <= distance) then
-         n_found = n_found + 1
-         found(n_found) = order(middle)
-      end if
+      call collect_one(order(middle), offset, distance, found, n_found)
       if (offset(axis(middle)) <= distance) then
          call collect(position, order(:middle - 1), axis(:middle - 1), place, distance, found, &
             n_found)
@@ -214,5 +218,24 @@ contains
             n_found)
       end if
    end subroutine collect
+
+   !> Collect a point if it is within a distance and there is room
+   pure subroutine collect_one(point, offset, distance, found, n_found)
+      !> Its index
+      integer, intent(in) :: point
+      !> Way from it to the place
+      real(wp), intent(in) :: offset(2)
+      !> Largest distance
+      real(wp), intent(in) :: distance
+      !> Indices found
+      integer, intent(inout) :: found(:)
+      !> How many
+      integer, intent(inout) :: n_found
+
+      if (any(abs(offset) > distance) .or. n_found == size(found)) return
+      if (norm2(offset) > distance) return
+      n_found = n_found + 1
+      found(n_found) = point
+   end subroutine collect_one
 
 end module axijoint_deck_mesh_places
