@@ -7,6 +7,7 @@
    part of programs only, never of the library. scripts/environment sets the same for programs that are not this one. */
 #define _GNU_SOURCE
 #include <fcntl.h>
+#include <stdint.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -55,8 +56,19 @@ static void occupy_standard_files(int argc, char **argv, char **environment)
       if (fcntl(file, F_GETFD) == -1) open("/dev/null", file == 0 ? O_WRONLY : O_RDONLY);
 }
 
+/* Large pages begin at multiples of their size, the heap anywhere: so it begins a little before one, by what the
+   constructors of libraries take. Without this a small job fetches half of its memory in small pages */
+static void place_heap(int argc, char **argv, char **environment)
+{
+   enum { large_page = 2 << 20, taken_at_start = 192 << 10 };
+   (void)argc, (void)argv, (void)environment;
+   const uintptr_t end = (uintptr_t)sbrk(0);
+   const uintptr_t begin = (end + taken_at_start + large_page - 1) / large_page * large_page - taken_at_start;
+   sbrk((intptr_t)(begin - end));
+}
+
 /* .preinit_array runs before the constructors of all libraries */
 __attribute__((section(".preinit_array"), used))
-static void (*const at_start)(int, char **, char **) = occupy_standard_files;
+static void (*const at_start[])(int, char **, char **) = {occupy_standard_files, place_heap};
 
 #endif
