@@ -6,9 +6,8 @@
 module axijoint_assembly_node_blocks
    use omp_lib, only : omp_get_max_threads
    use axijoint_assembly_support, only : support_point_type, support_stiffness
-   use axijoint_assembly_element_stiffness, only : integrands_type, new_integrands, &
-      element_blocks, &
-      max_unknowns, max_blocks
+   use axijoint_assembly_element_stiffness, only : integrands_type, new_integrands, max_unknowns, max_blocks
+   use axijoint_assembly_repeated_elements, only : shapes_type, find_shapes, integrated_type, new_integrated, find_blocks
    use axijoint_assembly_stiffness, only : least_elements
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_large_pages, only : use_large_pages, zero_large_pages
@@ -127,15 +126,17 @@ contains
       type(model_joint_point_type), intent(in) :: joint_points(:)
       type(support_point_type), intent(in) :: support_points(:)
 
+      type(shapes_type) :: shapes
       integer :: k, n, n_ranges
 
       allocate (blocks%parts(block_size, size(blocks%column, kind=i8)))
       call zero_large_pages(blocks%parts)
+      call find_shapes(model%mesh, shapes)
       n = size(blocks%place)
       n_ranges = merge(omp_get_max_threads(), 1, n_elements(model%mesh) > least_elements)
       !$omp parallel do schedule(static, 1) if (n_ranges > 1)
       do k = 1, n_ranges
-         call assemble_rows(blocks, model, joint_points, support_points, 1 + range_end(n, k - 1, n_ranges), &
+         call assemble_rows(blocks, model, shapes, joint_points, support_points, 1 + range_end(n, k - 1, n_ranges), &
             range_end(n, k, n_ranges))
       end do
       !$omp end parallel do
@@ -158,11 +159,13 @@ contains
    end subroutine tell_blocks
 
    !> Add to a range of rows
-   subroutine assemble_rows(blocks, model, joint_points, support_points, from, to)
+   subroutine assemble_rows(blocks, model, shapes, joint_points, support_points, from, to)
       !> The blocks
       type(node_blocks_type), intent(inout) :: blocks
       !> The job
       type(model_type), intent(in) :: model
+      !> Shapes of its elements
+      type(shapes_type), intent(in) :: shapes
       !> Points of all joints, and of all springs
       type(model_joint_point_type), intent(in) :: joint_points(:)
       type(support_point_type), intent(in) :: support_points(:)
@@ -170,16 +173,18 @@ contains
       integer, intent(in) :: from, to
 
       type(integrands_type) :: integrands
+      type(integrated_type) :: integrated
       real(wp) :: local(2, 3, 3, max_blocks), matrix(max_unknowns, max_unknowns)
-      integer :: k, n
+      integer :: k, n, place
 
       integrands = new_integrands(model)
+      call new_integrated(shapes, integrated)
       do k = 1, n_elements(model%mesh)
          n = model%mesh%element_size(k)
          associate (nodes => model%mesh%element_nodes(:n, k))
             if (.not. any(blocks%place(nodes) >= from .and. blocks%place(nodes) <= to)) cycle
-            call element_blocks(model, integrands, k, local)
-            call scatter(blocks, nodes, local, from, to)
+            call find_blocks(model, integrands, shapes, k, integrated, place)
+            call scatter(blocks, nodes, integrated%blocks(:, :, :, :, place), from, to)
          end associate
       end do
       do k = 1, size(joint_points)
