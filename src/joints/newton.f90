@@ -178,44 +178,32 @@ contains
       !> that it leaves to transfer, shape (3, points, modes)
       real(wp), intent(out), optional :: stress(:, :, :), residual(:, :, :)
 
-      real(wp) :: admitted(3), tangent(3, 3), inverse(3, 3), identity(3, 3)
+      real(wp) :: admitted(3), tangent(3, 3)
       real(wp) :: view(size(condensed%points)), limit(size(condensed%points))
       real(wp), allocatable :: left(:, :, :), missing(:, :, :)
-      integer :: i, j, k
+      integer :: j, k
 
       view = views(condensed, scene, field)
       limit = [(min(1.0_wp, steepest(far)/max(tiny(1.0_wp), &
          field%share*condensed%points(k)%proportion)), k=1, size(limit))]
       newton%stiff = [(any(field%share*scene%laws(k)%stiffness &
                            > condensed%points(k)%base), k=1, size(condensed%points))]
-      identity = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], &
-         [3, 3])
       if (.not. allocated(newton%slope)) then
          allocate (newton%slope(3, 3, size(field%jump, 2), size(field%jump, 3)))
          allocate (newton%rest, mold=field%jump)
       end if
       allocate (left, missing, mold=field%jump)
-      !$omp parallel do private(i, k, admitted, tangent, inverse) if &
-      !$omp (size(field%jump) >= worth_threads)
+      !$omp parallel do private(k, admitted, tangent) if (size(field%jump) >= worth_threads)
       do j = 1, size(field%jump, 3)
          do k = 1, size(field%jump, 2)
-            associate (point => condensed%points(k), law => scene%laws(k))
+            associate (base => condensed%points(k)%base, law => scene%laws(k))
                call admit(law, field%memory(k, j), seen_by_law(law, k, j, view(k), field), &
                   admitted, tangent, view(k)*field%fading)
                if (present(stress)) stress(:, k, j) = admitted
                missing(:, k, j) = admitted - field%carried(:, k, j)
-               newton%rest(:, k, j) = missing(:, k, j)
-               if (abs(view(k) - limit(k)) > 0.0_wp) then
-                  inverse = inverse_of(identity - (1.0_wp - view(k)/limit(k))*tangent)
-                  newton%rest(:, k, j) = matmul(inverse, missing(:, k, j))
-                  tangent = view(k)/limit(k)*matmul(inverse, tangent)
-               end if
-               do i = 1, 3
-                  newton%slope(:, i, k, j) = -limit(k)*field%share*tangent(:, i)*law%stiffness(i)
-                  newton%slope(i, i, k, j) = newton%slope(i, i, k, j) + point%base(i)
-               end do
-               left(:, k, j) = point%base*(field%jump(:, k, j) - field%moved(:, k, j)) + &
-                  field%initial(:, k) - admitted
+               call see_at_once(view(k)/limit(k), missing(:, k, j), tangent, newton%rest(:, k, j))
+               call find_slope(base, limit(k)*field%share*law%stiffness, tangent, newton%slope(:, :, k, j))
+               left(:, k, j) = base*(field%jump(:, k, j) - field%moved(:, k, j)) + field%initial(:, k) - admitted
             end associate
          end do
       end do
@@ -233,6 +221,57 @@ contains
          newton%rounding = rounding*maxval(abs(field%stress))
       end if
    end subroutine linearize
+
+   !> What a law that sees a part of the way from the stress carried to that of the jump makes of all that it is to see
+   !> at once: with its tangent T and the part v, (I - (1 - v) T)^-1 times what is missing, and v (I - (1 - v) T)^-1 T
+   pure subroutine see_at_once(part, missing, tangent, rest)
+      !> The part, over that which is to be seen
+      real(wp), intent(in) :: part
+      !> What is missing
+      real(wp), intent(in) :: missing(3)
+      !> The tangent
+      real(wp), intent(inout) :: tangent(3, 3)
+      !> What comes of that which is missing
+      real(wp), intent(out) :: rest(3)
+
+      real(wp) :: matrix(3, 3), inverse(3, 3)
+      integer :: i
+
+      rest = missing
+      if (.not. abs(part - 1.0_wp) > 0.0_wp) return
+      if (tangent(1, 1) + tangent(2, 2) + tangent(3, 3) >= 3.0_wp) then  ! the point holds: T = I
+         rest = missing/part
+         return
+      end if
+      if (.not. any(abs(tangent) > 0.0_wp)) return  ! it is open
+      matrix = -(1.0_wp - part)*tangent
+      do i = 1, 3
+         matrix(i, i) = matrix(i, i) + 1.0_wp
+      end do
+      inverse = inverse_of(matrix)
+      rest = inverse(:, 1)*missing(1) + inverse(:, 2)*missing(2) + inverse(:, 3)*missing(3)
+      matrix = tangent
+      do i = 1, 3
+         tangent(:, i) = part*(inverse(:, 1)*matrix(1, i) + inverse(:, 2)*matrix(2, i) + inverse(:, 3)*matrix(3, i))
+      end do
+   end subroutine see_at_once
+
+   !> Derivatives of the excess stress k d - P by the jumps
+   pure subroutine find_slope(base, stiffness, tangent, slope)
+      !> k, and the stiffness of the law as far as it is seen
+      real(wp), intent(in) :: base(3), stiffness(3)
+      !> Derivatives of P by what the law makes of the jumps
+      real(wp), intent(in) :: tangent(3, 3)
+      !> The derivatives
+      real(wp), intent(out) :: slope(3, 3)
+
+      integer :: i
+
+      do i = 1, 3
+         slope(:, i) = -stiffness(i)*tangent(:, i)
+         slope(i, i) = slope(i, i) + base(i)
+      end do
+   end subroutine find_slope
 
    !> Stiffness k h/E above which laws are linearized as if they had no more: far from equilibrium a
    !> stiff law predicts stresses that the next iterate does not see; near to it, what such a
@@ -258,24 +297,11 @@ contains
       real(wp) :: inverse(3, 3)
 
       associate (a => matrix)
-         inverse(1, :) = cross(a(:, 2), a(:, 3))
-         inverse(2, :) = cross(a(:, 3), a(:, 1))
-         inverse(3, :) = cross(a(:, 1), a(:, 2))
-         inverse = inverse/dot_product(a(:, 1), inverse(1, :))
+         inverse(1, :) = [a(2, 2)*a(3, 3) - a(3, 2)*a(2, 3), a(3, 2)*a(1, 3) - a(1, 2)*a(3, 3), a(1, 2)*a(2, 3) - a(2, 2)*a(1, 3)]
+         inverse(2, :) = [a(2, 3)*a(3, 1) - a(3, 3)*a(2, 1), a(3, 3)*a(1, 1) - a(1, 3)*a(3, 1), a(1, 3)*a(2, 1) - a(2, 3)*a(1, 1)]
+         inverse(3, :) = [a(2, 1)*a(3, 2) - a(3, 1)*a(2, 2), a(3, 1)*a(1, 2) - a(1, 1)*a(3, 2), a(1, 1)*a(2, 2) - a(2, 1)*a(1, 2)]
+         inverse = inverse/(a(1, 1)*inverse(1, 1) + a(2, 1)*inverse(1, 2) + a(3, 1)*inverse(1, 3))
       end associate
-
-   contains
-
-      !> Vector product
-      pure function cross(a, b) result(c)
-         !> Factors
-         real(wp), intent(in) :: a(3), b(3)
-         !> The product
-         real(wp) :: c(3)
-
-         c = a([2, 3, 1])*b([3, 1, 2]) - a([3, 1, 2])*b([2, 3, 1])
-      end function cross
-
    end function inverse_of
 
    !> Size of what is missing, by the areas of the points

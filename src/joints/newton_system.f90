@@ -443,24 +443,36 @@ contains
       real(wp), intent(inout) :: excess(n, 3, *)
 
       real(wp), allocatable :: on_planes(:, :, :), stress(:, :, :)
-      integer :: i, j, l, first, last
+      integer :: j, first, last
 
       first = last_of(self, part - 1, n) + 1
       last = last_of(self, part, n)
       allocate (on_planes(last - first + 1, 3, size(self%slope, 4)), stress(last - first + 1, 3, size(self%slope, 4)))
       call sum_modes(self%scene%planes, last - first + 1, n, jump(first, 1, 1), on_planes)
-      !$omp parallel do private(i, l) if (by_halves(self%scene%planes))
+      !$omp parallel do if (by_halves(self%scene%planes))
       do j = 1, size(stress, 3)
-         do i = 1, 3
-            stress(:, i, j) = self%slope(first:last, i, 1, j)*on_planes(:, 1, j)
-            do l = 2, 3
-               stress(:, i, j) = stress(:, i, j) + self%slope(first:last, i, l, j)*on_planes(:, l, j)
-            end do
-         end do
+         call multiply(last - first + 1, n, self%slope(first, 1, 1, j), on_planes(:, :, j), stress(:, :, j))
       end do
       !$omp end parallel do
       call find_modes(self%scene%planes, last - first + 1, n, stress, excess(first, 1, 1))
    end subroutine find_part
+
+   !> Products of the slopes of points with their jumps on a plane
+   pure subroutine multiply(n, lead, slope, jump, stress)
+      !> Number of points, and of those that slopes are there for
+      integer, intent(in) :: n, lead
+      !> Slopes
+      real(wp), intent(in) :: slope(lead, 3, *)
+      !> Jumps, and the stresses that they make
+      real(wp), intent(in) :: jump(n, 3)
+      real(wp), intent(out) :: stress(n, 3)
+
+      integer :: i
+
+      do i = 1, 3
+         stress(:, i) = slope(:n, i, 1)*jump(:, 1) + slope(:n, i, 2)*jump(:, 2) + slope(:n, i, 3)*jump(:, 3)
+      end do
+   end subroutine multiply
 
    !> Product with amplitudes of excess stress
    subroutine apply(self, x, y)
