@@ -10,7 +10,7 @@ module axijoint_assembly_repeated_elements
    private
    public :: shapes_type, find_shapes, integrated_type, new_integrated, find_blocks
 
-   !> Difference of coordinates that are alike, over the largest: what rounding leaves
+   !> Difference of coordinates that are alike, over the largest of the mesh: what rounding leaves of them
    real(wp), parameter :: rounding = 8.0_wp*epsilon(1.0_wp)
    !> Size of the table in which shapes are looked up, and what brings them to different places there
    integer, parameter :: table_size = 1024

@@ -18,8 +18,7 @@ module axijoint_joints_increments
                                        note_residual
    use axijoint_joints_keeper, only : keeper_type
    use axijoint_joints_load_steps, only : step_type
-   use axijoint_joints_loads, only : put_loads, answer_type, case_answers_type, new_case_answers, is_known, learn_case, &
-      put_sum
+   use axijoint_joints_loads, only : put_loads, answer_type, case_answer_type, is_known, learn_case, put_sum
    use axijoint_joints_method, only : method_type, control_type, verdict_type
    use axijoint_joints_methods, only : other_loop, second_opinion
    use axijoint_joints_path, only : iteration_type
@@ -37,8 +36,8 @@ module axijoint_joints_increments
    type, extends(stage_type) :: joint_stage_type
       !> The last answer of the elastic structure to loads, if it is kept
       type(answer_type), pointer :: answer => null()
-      !> What load cases do, if there are fewer of them than increments
-      type(case_answers_type), allocatable :: cases
+      !> What load cases do, if fewer of them act than there are increments, shape (cases)
+      type(case_answer_type), allocatable :: cases(:)
    contains
       !> Put the loads of a step on and iterate
       procedure :: try => try_step
@@ -86,7 +85,7 @@ contains
       stage%combination => combination
       if (present(answer)) stage%answer => answer
       if (count(abs(combination%factor) > 0.0_wp) < size(model%increments)) &
-         stage%cases = new_case_answers(condensed, size(combination%factor))
+         allocate (stage%cases(size(combination%factor)))
       call new_history(model, condensed, history)
       if (history%method%accumulates .and. .not. all(cuts_back(history%scene%laws))) then
          call fatal_error(history%failure, exit_deck, &
@@ -213,11 +212,11 @@ contains
       integer :: k
 
       do k = 1, size(factor)
-         if (is_known(stage%cases, k) .or. .not. abs(step%case_factor(k)) > 0.0_wp) cycle
+         if (is_known(stage%cases(k)) .or. .not. abs(step%case_factor(k)) > 0.0_wp) cycle
          factor = 0.0_wp
          factor(k) = 1.0_wp
          call stage%put_on_nodes(factor, loading)
-         call learn_case(stage%equations, stage%condensed, loading, k, stage%cases)
+         call learn_case(stage%equations, stage%condensed, loading, stage%cases(k))
       end do
    end subroutine learn_cases
 

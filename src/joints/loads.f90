@@ -13,7 +13,7 @@ module axijoint_joints_loads
    implicit none
    private
    public :: joint_loads_type, new_joint_loads, put_loads, put_work, answer_type
-   public :: case_answers_type, new_case_answers, is_known, learn_case, put_sum
+   public :: case_answer_type, is_known, learn_case, put_sum
 
    !> Loads as the joint points see them
    type :: joint_loads_type
@@ -38,15 +38,20 @@ module axijoint_joints_loads
       real(wp), allocatable :: free(:, :, :), largest(:)
    end type answer_type
 
-   !> What load cases do, each by itself under a factor of one, joints elastic: the loads of all increments are sums of
-   !> that. Cases become known as they are learnt
-   type :: case_answers_type
+   !> Displacements of a mode; not allocated where nothing loads it
+   type :: displacement_type
+      !> Shape (3, nodes)
+      real(wp), allocatable :: values(:, :)
+   end type displacement_type
+
+   !> What a load case does by itself under a factor of one, joints elastic: loads of increments are sums of such.
+   !> Nothing is allocated until it is learnt
+   type :: case_answer_type
       private
-      !> Shape (cases)
-      logical, allocatable :: known(:)
-      !> Jumps, shape (components, points, modes, cases), and largest displacements, shape (modes, cases)
-      real(wp), allocatable :: free(:, :, :, :), largest(:, :)
-   end type case_answers_type
+      !> Jumps, shape (components, points, modes), and displacements of the modes of this rank, shape (modes)
+      real(wp), allocatable :: free(:, :, :)
+      type(displacement_type), allocatable :: displacements(:)
+   end type case_answer_type
 
 contains
 
@@ -94,80 +99,69 @@ contains
       call put_work(condensed%floating, loading%external, loads)
    end subroutine put_loads
 
-   !> No case is known so far
-   pure function new_case_answers(condensed, n_cases) result(cases)
-      !> The condensed structure
-      type(condensed_type), intent(in) :: condensed
-      !> Number of load cases
-      integer, intent(in) :: n_cases
-      !> What they do
-      type(case_answers_type) :: cases
+   !> Whether it is known what a case does
+   pure logical function is_known(answer)
+      !> What it does
+      type(case_answer_type), intent(in) :: answer
 
-      associate (n => size(condensed%points), n_modes => size(condensed%modes))
-         allocate (cases%known(n_cases), source=.false.)
-         allocate (cases%free(3, n, n_modes, n_cases), cases%largest(n_modes, n_cases), source=0.0_wp)
-      end associate
-   end function new_case_answers
-
-   !> Whether a case is known
-   pure logical function is_known(cases, case)
-      !> What cases do
-      type(case_answers_type), intent(in) :: cases
-      !> The case
-      integer, intent(in) :: case
-
-      is_known = cases%known(case)
+      is_known = allocated(answer%free)
    end function is_known
 
    !> Learn what a case does
-   subroutine learn_case(equations, condensed, loading, case, cases)
+   subroutine learn_case(equations, condensed, loading, answer)
       !> Equations of all modes, assembled; systems that cannot be factored are marked there
       type(equations_type), intent(inout) :: equations
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Loads of the case under a factor of one
       type(loading_type), intent(in) :: loading
-      !> The case
-      integer, intent(in) :: case
-      !> What cases do
-      type(case_answers_type), intent(inout) :: cases
+      !> What it does
+      type(case_answer_type), intent(out) :: answer
 
       type(joint_loads_type) :: loads
 
       loads = new_joint_loads(condensed)
-      call put_jumps(equations, condensed%points, loading, loads)
-      cases%free(:, :, :, case) = loads%free
-      cases%largest(:, case) = loads%largest
-      cases%known(case) = .true.
+      allocate (answer%displacements(size(condensed%modes)))
+      call put_jumps(equations, condensed%points, loading, loads, answer%displacements)
+      call move_alloc(loads%free, answer%free)
    end subroutine learn_case
 
-   !> Load the condensed structure by a sum of cases that are known. The largest displacement is what it is at most
-   pure subroutine put_sum(condensed, cases, loading, loads)
+   !> Load the condensed structure by a sum of cases that are known
+   subroutine put_sum(condensed, answers, loading, loads)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
-      !> What cases do
-      type(case_answers_type), intent(in) :: cases
+      !> What cases do; those with a factor are known
+      type(case_answer_type), intent(in) :: answers(:)
       !> The loads on its nodes
       type(loading_type), intent(in) :: loading
       !> The loads
       type(joint_loads_type), intent(inout) :: loads
 
-      integer :: k
+      real(wp), allocatable :: displacement(:, :)
+      integer :: k, mode
 
       loads%free = 0.0_wp
-      loads%largest = 0.0_wp
-      do k = 1, size(cases%known)
-         associate (factor => loading%case_factor(k))
-            if (.not. abs(factor) > 0.0_wp) cycle
-            loads%free = loads%free + factor*cases%free(:, :, :, k)
-            loads%largest = loads%largest + abs(factor)*cases%largest(:, k)
-         end associate
+      do k = 1, size(answers)
+         if (abs(loading%case_factor(k)) > 0.0_wp) loads%free = loads%free + loading%case_factor(k)*answers(k)%free
       end do
+      loads%largest = 0.0_wp
+      allocate (displacement, mold=loading%external(:, :, 1))
+      do mode = 1, size(loads%largest)
+         displacement = 0.0_wp
+         do k = 1, size(answers)
+            if (.not. abs(loading%case_factor(k)) > 0.0_wp) cycle
+            associate (own => answers(k)%displacements(mode))
+               if (allocated(own%values)) displacement = displacement + loading%case_factor(k)*own%values
+            end associate
+         end do
+         loads%largest(mode) = maxval(abs(displacement))
+      end do
+      call condensed%team%gather(loads%largest, size(loads%largest, kind=i8), condensed%last_mode)
       call put_work(condensed%floating, loading%external, loads)
    end subroutine put_sum
 
    !> Jumps from loads, joints elastic
-   subroutine put_jumps(equations, points, loading, loads)
+   subroutine put_jumps(equations, points, loading, loads, displacements)
       !> Equations of all modes, assembled; systems that cannot be factored are marked there
       type(equations_type), intent(inout) :: equations
       !> Joint points
@@ -176,6 +170,8 @@ contains
       type(loading_type), intent(in) :: loading
       !> Takes the jumps
       type(joint_loads_type), intent(inout) :: loads
+      !> Displacements of the modes of this rank that are loaded, shape (modes)
+      type(displacement_type), intent(inout), optional :: displacements(:)
 
       real(wp), allocatable :: displacement(:, :)  ! threads have small stacks
       type(workspace_type), allocatable :: spaces(:)
@@ -196,6 +192,7 @@ contains
             loads%largest(k) = maxval(abs(displacement))
             loads%free(:, :, k) = 0.0_wp
             if (loads%largest(k) > 0.0_wp) loads%free(:, :, k) = joint_jump(points, displacement)
+            if (present(displacements) .and. loads%largest(k) > 0.0_wp) displacements(k)%values = displacement
          end do
          call release_factor(equations, s, spaces(own()))
       end do

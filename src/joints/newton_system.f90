@@ -231,6 +231,7 @@ contains
                gathering%flexibilities(s)%double = whole([points, n + points, 2*n + points], &
                   [points, n + points, 2*n + points])
             else
+               if (allocated(gathering%flexibilities(s)%double)) deallocate (gathering%flexibilities(s)%double)
                call gather_single(whole, [points, n + points, 2*n + points], gathering%flexibilities(s))
             end if
          end associate

@@ -117,12 +117,27 @@ contains
          ! jumps, stresses and states are kept; earlier increments are solved again, some at a time
          footprint%joints = footprint%joints + real_bytes*(size(model%increments, kind=i8) - 1) &
             *jumps/3*(7*model%n_planes + 6*n_modes)
+         if (jumps > 0) footprint%joints = footprint%joints + real_bytes*acting_cases(model)*(jumps*n_modes + 3*nodes)
          footprint%stresses = 2*footprint%stresses + footprint%loads
       end if
       if (bodies_yield(model)) call add_bodies(model, references, modes, footprint)
       footprint%joint_work = real_bytes*unknowns**2  ! the inverse
       if (jumps == 0) footprint%joint_work = 0
    end function data_footprint
+
+   !> Load cases that the answers to are kept, each of one mode as a rule: where fewer act than there are increments
+   pure integer function acting_cases(model)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      integer :: k
+
+      acting_cases = 0
+      do k = 1, size(model%combinations)
+         acting_cases = max(acting_cases, count(abs(model%combinations(k)%factor) > 0.0_wp))
+      end do
+      if (acting_cases >= size(model%increments)) acting_cases = 0
+   end function acting_cases
 
    !> Loads whose forces are found once: on masses, and cases with in-situ stress
    pure integer function unit_loads(model)

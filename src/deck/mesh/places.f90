@@ -200,6 +200,7 @@ contains
       integer :: middle, k
       real(wp) :: offset(2)
 
+      if (n_found == size(found)) return
       if (size(order) <= few) then
          do k = 1, size(order)
             call collect_one(order(k), place - position(:, order(k)), distance, found, n_found)
@@ -232,8 +233,8 @@ contains
       !> How many
       integer, intent(inout) :: n_found
 
-      if (any(abs(offset) > distance) .or. n_found == size(found)) return
-      if (norm2(offset) > distance) return
+      if (.not. all(abs(offset) <= distance) .or. n_found == size(found)) return
+      if (.not. norm2(offset) <= distance) return
       n_found = n_found + 1
       found(n_found) = point
    end subroutine collect_one
