@@ -66,7 +66,7 @@ def draw_section(result, section, options=Options()):
     for one in axes.flat[len(shown):]:
         one.remove()
     names = [style.degrees(theta) for theta in section.theta]
-    figure.legend(axes[0, 0].get_lines()[:len(names)], names, loc="outside upper right", ncols=len(names))
+    style.legend(figure, "upper right", axes[0, 0].get_lines()[:len(names)], names, ncols=len(names))
     number = "" if section.number is None else f"section {section.number}: "
     figure.suptitle(style.heading(result, options, f"{number}from r = {section.first[0]:g}, "
                                   f"z = {section.first[1]:g} to r = {section.last[0]:g}, "

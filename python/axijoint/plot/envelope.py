@@ -42,7 +42,7 @@ def draw_envelope(envelope, options=Options()):
         one.set_ylabel(f"factor of case {envelope.cases[j]}")
         one.set_aspect("equal")
         one.grid(True, lw=0.3)
-    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    style.legend(figure, "lower center", *axes[0, 0].get_legend_handles_labels(), ncols=3)
     figure.suptitle(options.title or f"{envelope.path.name.removesuffix('.envelope.h5')}: what joints carry")
     return figure
 

@@ -203,7 +203,7 @@ def draw_profile(result, options):
             one.set_xlim(-1, 1)
         style.scaled(one, "x")
     axes[0].set_ylabel(units.of_length("$z$"))
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, title="increment")
+    style.legend(figure, "lower center", *axes[0].get_legend_handles_labels(), ncols=3, title="increment")
     figure.suptitle(options.title if options.title is not None else
                     f"Body {body} on its cuts at {style.degrees(options.angle)}: the part above on that below; "
                     "moment and rotation lean it that way, tension is positive", fontsize=8)

@@ -71,7 +71,7 @@ def draw(result, options, interface):
         one.set_xticks(np.radians(np.arange(0, 360, 45)))
         one.tick_params(axis="both", pad=-1, labelsize=6.5)
         one.grid(lw=0.4, color="0.85")
-    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    style.legend(figure, "lower center", *axes[0, 0].get_legend_handles_labels(), ncols=4)
     figure.suptitle(options.title if options.title is not None else
                     f"Pressure (−σ) {units.label('', units.stress).strip()} in the joints: "
                     f"{joints.words(result, interface)}{'; 0 where they pull' if pulled else ''}", fontsize=8)

@@ -42,8 +42,8 @@ def draw_points(result, options):
         one.axvline(0, color="0.7", lw=0.5, zorder=0)
         style.scaled(one, "x")
     style.scaled(axes[0], "y")
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center",
-                  ncols=min(3, len(history.point_names)))
+    style.legend(figure, "lower center", *axes[0].get_legend_handles_labels(),
+                 ncols=min(3, len(history.point_names)))
     figure.suptitle(options.title if options.title is not None
                     else f"Load and displacement at {style.degrees(theta)}; numbers: increments")
     return figure

@@ -59,7 +59,7 @@ def draw_curves(study, options=Options()):
         style.scaled(one, "y")
     axes[-1, 0].set_xlabel(against)
     if 1 < len(curves) <= MOST_CURVES:
-        figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside right upper")
+        style.legend(figure, "right upper", *axes[0, 0].get_legend_handles_labels())
     _heading(figure, study, options)
     return figure
 
@@ -107,7 +107,7 @@ def draw_histogram(study, options=Options()):
         style.scaled(one, "x")
         one.xaxis.set_major_locator(style.matplotlib.ticker.MaxNLocator(4))
     axes[0, 0].set_ylabel("rows")
-    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside upper right", ncols=2)
+    style.legend(figure, "upper right", *axes[0, 0].get_legend_handles_labels(), ncols=2)
     _heading(figure, study, options, cross="")
     return figure
 

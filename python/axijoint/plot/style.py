@@ -62,6 +62,20 @@ def styled(draw):
     return drawn
 
 
+def legend(figure, place, *handles, **named):
+    """A legend outside the axes: "upper right", "lower center" or "right upper". Matplotlib 3.6 has no such places: there
+    the axes leave room for it."""
+    if matplotlib.__version_info__ >= (3, 7):
+        figure.legend(*handles, loc=f"outside {place}", **named)
+        return
+    shown = figure.legend(*handles, loc={"right upper": "upper right"}.get(place, place), **named)
+    box = shown.get_window_extent(figure.canvas.get_renderer()).transformed(figure.transFigure.inverted())
+    width, height = min(0.5, 1.1*box.width), min(0.5, 1.1*box.height)
+    rooms = {"upper right": (0.0, 0.0, 1.0, 1.0 - height), "lower center": (0.0, height, 1.0, 1.0 - height),
+             "right upper": (0.0, 0.0, 1.0 - width, 1.0)}
+    figure.get_layout_engine().set(rect=rooms[place])
+
+
 def curve(k):
     """Colour, dashes and marker of curve k; a style sheet with colours of its own brings them."""
     colour, dashes, marker = CURVES[k % len(CURVES)]
