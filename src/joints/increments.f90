@@ -257,9 +257,8 @@ contains
          history%peak = history%loading
       end if
       stress = elastic_stress(condensed, history%scene, history%field)
-      call set_reference(condensed%measure, history%peak_norm, stress - history%balanced, &
-         increment%tolerance, &
-                         history%scene%loads%reference)
+      call set_reference(condensed%measure, history%peak_norm, stress - history%balanced, history%balanced, &
+         increment%tolerance, history%scene%loads%reference)
       history%control = control_type(increment%tolerance, increment%max_iterations, &
                                      iteration_type(increment=number, load_factor=load_factor))
       if (size(history%path) > 0) then

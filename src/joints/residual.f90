@@ -146,30 +146,41 @@ contains
 
    !> Set what the residuals of an increment are held against: the forces that its joints would
    !> carry of its load if they held, part by part in the harmonics that this load has, and of all
-   !> harmonics in the others
-   subroutine set_reference(measure, loads, elastic, tolerance, reference)
+   !> harmonics in the others. Beside what they would carry before it, too, little is rounding: an
+   !> increment that moves all parts together loads no joint
+   subroutine set_reference(measure, loads, elastic, before, tolerance, reference)
       !> The measure
       type(measure_type), intent(in) :: measure
       !> Norm of the largest loads so far (Psi_f)
       real(wp), intent(in) :: loads
       !> Change of the joint stress by the increment if all joints held, shape (3, points, modes)
       real(wp), intent(in) :: elastic(:, :, :)
+      !> The joint stress before it if all had held, same shape
+      real(wp), intent(in) :: before(:, :, :)
       !> Tolerance on the ratio
       real(wp), intent(in) :: tolerance
       !> The reference
       type(reference_type), intent(inout) :: reference
 
-      real(wp) :: of_part(size(measure%part_node)), least
+      real(wp), dimension(size(measure%part_node)) :: of_part, acting, least_forces
+      real(wp) :: least
       integer :: k
 
       reference%loads = loads
       reference%forces = sqrt(squares(measure, elastic))
       of_part = sqrt(sum(reference%forces**2, 2))
+      acting = sqrt(sum(squares(measure, before), 2))
+      if (norm2(of_part) <= resolution*norm2(acting)) then
+         reference%forces = 0.0_wp
+         return
+      end if
       least = resolution/max(resolution, tolerance)
-      of_part = max(of_part, least*maxval([0.0_wp, of_part]))
+      acting = max(of_part, acting)
+      least_forces = least*max(acting, least*maxval([0.0_wp, acting]))
+      of_part = max(of_part, least*maxval([0.0_wp, of_part]), least_forces)
       do k = 1, size(measure%integral)
          associate (forces => reference%forces(:, k))
-            forces = merge(max(forces, least*of_part), of_part, forces > 0.0_wp)
+            forces = merge(max(forces, least_forces), of_part, forces > 0.0_wp)
          end associate
       end do
    end subroutine set_reference

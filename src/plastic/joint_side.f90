@@ -165,7 +165,7 @@ contains
                if (.not. side%pushed(k)) change(:, :, k) = 0.0_wp
             end do
          end if
-         call set_reference(side%condensed%measure, norm, change, side%control%tolerance, &
+         call set_reference(side%condensed%measure, norm, change, side%balanced, side%control%tolerance, &
             side%scene%loads%reference)
          side%begun = .true.
       end if

@@ -162,6 +162,27 @@ def no_false_mechanism(program, folder):
     return close('head', heads[1], heads[0], 0.05*abs(heads[1]))
 
 
+def settled(program, folder):
+    """Ground that goes down as a whole takes all with it: an increment that loads no joint but by rounding is in
+    equilibrium at once, and changes no stress"""
+    stays = scenes.soil_pile('Stays', [(1, 1), (1, 2)], gravity=1.0, tolerance=1e-9).replace('6, 111\n7, 111', '6, 111\n7, 101')
+    summary, before = solved(program, folder, 'stays', stays)
+    faults = []
+    for down in (1e-3, 0.1):
+        goes = (stays.replace('FIXEDFACES\n6, 111', 'FIXEDFACES\n6, 101')
+                .replace('COMBINE\n1, 1, 1, 2, 1', f'CASE\n3, settling\nMOVEDFACES\n6, 0, , {-down}\nCOMBINE\n1, 1, 1, 2, 1, 3, 1')
+                .replace('1, 1E-09, , 2', '1, 1E-09, , 2\n1, 1E-09, , 3'))
+        more, after = solved(program, folder, 'goes', goes)
+        faults += expected('few iterations', True, more['iterations'] <= summary['iterations'] + 5)
+        largest = max(abs(row['v']) for row in before['m = 0'])
+        faults += close(f'v, down by {down:g}', 0.0, max(abs(a['v'] - down - b['v']) for a, b in zip(before['m = 0'], after['m = 0'])),
+                        1e-6*(largest + down))
+        largest = max(abs(row['sigma']) for row in before['joints'])
+        faults += close(f'sigma, down by {down:g}', 0.0, max(abs(a['sigma'] - b['sigma']) for a, b in
+                                                             zip(before['joints'], after['joints'])), 1e-6*largest)
+    return faults
+
+
 def open_everywhere(program, folder):
     """A gap that never closes is as good as no joint"""
     steps = [(1, 1), (1, 2)]
@@ -295,7 +316,7 @@ def tests(program):
                                        + [20 if number == 3 else 60])]
             + [test(f'inputs/hard/{name}', hard_input, name, text) for name, text in scenes.hard_inputs().items()]
             + [test('cohesion fades', fading), test('three-fold', three_fold), test('slide exactly', sliding_exactly), test('gaps close', gapping), test('slip stays', slip_stays),
-               test('stress of the ground', ground_stress), test('stress of the ground doubted', ground_doubted), test('open everywhere', open_everywhere),
+               test('stress of the ground', ground_stress), test('stress of the ground doubted', ground_doubted), test('open everywhere', open_everywhere), test('settles as a whole', settled),
                test('slides up', slides_up),
                test('gap and transfer', gap_and_transfer),
                test('no false mechanism', no_false_mechanism)])
