@@ -101,6 +101,7 @@ module axijoint_joints_newton_system
       real(wp), allocatable :: given_jump(:, :, :), given_share(:, :, :)
       !> Inverses of what points do to themselves, where laws are stiff
       type(point_blocks_type), allocatable :: blocks
+      !> Memory of its products
       type(room_type), pointer :: room => null()
    contains
       !> Product with amplitudes of excess stress

@@ -125,7 +125,7 @@ contains
       if (jumps == 0) footprint%joint_work = 0
    end function data_footprint
 
-   !> Load cases that the answers to are kept, each of one mode as a rule: where fewer act than there are increments
+   !> Number of load cases whose answers are kept, each of one mode as a rule: where fewer act than there are increments
    pure integer function acting_cases(model)
       !> The job
       type(model_type), intent(in) :: model
