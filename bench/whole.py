@@ -12,6 +12,7 @@ import sys
 import tempfile
 import time
 
+import bounds
 import estimate_decks
 
 HERE = os.path.dirname(os.path.realpath(__file__))
@@ -73,6 +74,7 @@ class Run:
         with open(self.deck[:-4] + ".lis", encoding="utf-8") as file:
             listing = file.read()
         self.listing = len(listing)  # bytes
+        self.written = sum(os.path.getsize(self.deck[:-4] + ending) for ending in (".lis", ".json", ".h5"))
         self.writings.append(float(re.findall(r"^  write +\S+ +(\S+)", listing, re.MULTILINE)[-1]))
         self.times.append(after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime)
         self.clocks.append(self.summary["seconds"]["total"])
@@ -146,15 +148,22 @@ def whole(args):
     head()
     print(f"{'job':16} {'unknowns':>9} {'seconds':>8} {'processor':>9} " + " ".join(f"{name:>8}" for name in PHASES)
           + "  estimates  whole/needed  estimated error")
-    rows = []
+    rows, shares = [], []
+    machine = bounds.Machine(args.axijoint, threads())
     for job, make in JOBS.items():
         if args.quick and job in ("linear 300k", "linear 1M", "case 3, 8 times") or not args.full and job == "linear 1M":
             continue
         run, = by_turns(args.rounds, Run(args.axijoint, make()))
         rows.append((job, run))
+        shares.append((job, run, *bounds.least_seconds(args.axijoint, make(), run, machine)))
         print(f"{job:16} {run.unknowns:9} {run.clock:8.3f} {run.processor:9.3f} "
               + " ".join(f"{100*part/run.clock:7.1f}%" for part in run.phases)
               + f"  {100*run.estimates/run.clock:8.1f}%  {run.clock/max(run.needed(), 1e-9):12.2f}  {run.error:.3g} %", flush=True)
+    print(f"bounds of these shares: {machine}")
+    print(f"{'job':16} {'':27} " + " ".join(f"{name:>8}" for name in PHASES) + "   sum  fresh memory")
+    for job, run, least, touching in shares:
+        print(f"{job:16} {'':27} " + " ".join(f"{100*least[name]/run.clock:7.1f}%" for name in PHASES)
+              + f"  {100*sum(least.values())/run.clock:3.0f}%  {100*touching/run.clock:11.0f}%")
     text(args)
     start(args)
     return rows

@@ -22,7 +22,7 @@ module axijoint_assembly_equations
    private
    public :: equations_type, system_type, plan_equations, assemble_equations
    public :: solve_mode, solve_system, find_unbalanced, on_equations
-   public :: own_modes, plan_solver, worth_threads, planned_seconds, condensing_operations, &
+   public :: own_modes, plan_solver, worth_threads, planned_seconds, factoring_operations, condensing_operations, &
       correct_system, expand_mode
 
    !> With fewer equations in all, threads cost more than they save
@@ -147,6 +147,19 @@ contains
       seconds = planned_seconds(equations, kept=.true.) &
          + seconds_of_operation*condensing_operations(equations, condensed)
    end function seconds_in_all
+
+   !> Operations that factoring all systems once takes
+   pure real(wp) function factoring_operations(equations) result(n)
+      !> The equations, planned
+      type(equations_type), intent(in) :: equations
+
+      integer :: s
+
+      n = 0.0_wp
+      do s = 1, size(equations%systems)
+         n = n + equations%plans(equations%systems(s)%class)%solver%operations
+      end do
+   end function factoring_operations
 
    !> Operations that condensing all systems to some nodes takes
    real(wp) function condensing_operations(equations, condensed) result(n)

@@ -161,7 +161,7 @@ contains
       write (output_unit, format_count) 'product_rate', machine%product_rate, &
          reference%product_rate, 'text_rate', machine%text_rate, reference%text_rate, &
          'iterations', forecast%iterations, 0.0_wp, &
-         'factors', real(forecast%n_factors, wp), 0.0_wp, &
+         'factors', real(forecast%n_factors, wp), 0.0_wp, 'operations', forecast%operations, 0.0_wp, &
          'memory', forecast%memory/megabyte, 0.0_wp, 'disk', forecast%disk/megabyte, 0.0_wp
    end subroutine print_counts
 

@@ -1,6 +1,7 @@
 !> What a run of a deck will take: seconds by phase, memory, disk
 module axijoint_estimate_forecast
    use axijoint_analysis_core_structure, only : structure_type, expect_estimates, plan_structure
+   use axijoint_assembly_equations, only : factoring_operations
    use axijoint_base_error, only : error_type, exit_memory
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_progress, only : progress_type
@@ -32,6 +33,8 @@ module axijoint_estimate_forecast
       real(wp) :: apart = 0.0_wp
       !> Iterations of all increments and combinations
       real(wp) :: iterations = 0.0_wp
+      !> Floating-point operations of one factorization of all systems
+      real(wp) :: operations = 0.0_wp
       !> Bytes at the peak, and on the disk
       integer(i8) :: memory = 0
       real(wp) :: disk = 0.0_wp
@@ -101,6 +104,7 @@ contains
       end associate
       associate (equations => structure%equations)
          forecast%n_workers = equations%n_workers
+         forecast%operations = factoring_operations(equations)
          forecast%n_factors = equations%n_kept + &
             min(equations%n_workers, size(equations%systems) - equations%n_kept)
       end associate
