@@ -4,21 +4,20 @@
 !>
 !> A point whose laws are elastic on all planes takes its r at once, for its row is that of I. What
 !> remains is a system of the points that slip, open or close, often a few of many, which GMRES
-!> solves. Its arrays lie component by component, so that all products are those of matrices. It
-!> reads flexibilities most of the time, and few digits of them are enough: where they are more than
-!> the processor keeps at hand they are gathered in single precision, and what a solution leaves is
-!> found with all digits, and solved for again. They are symmetric, so that half of them is enough, too.
-!> From one solution to the next much the same points move: what
-!> was gathered is kept while it serves
+!> solves. Its arrays lie component by component, so that all products are those of matrices. Where few
+!> digits are gathered (`gathered_flexibility`), products are in single precision, and what a solution leaves
+!> is found with all digits, and solved for again
 module axijoint_joints_newton_system
    use axijoint_base_kinds, only : wp, sp
-   use axijoint_joints_condensed, only : condensed_type, flexibility_type
+   use axijoint_joints_condensed, only : condensed_type
+   use axijoint_joints_gathered_flexibility, only : gathered_type, gathering_type, gather_moving, is_worth_threads
+   use axijoint_joints_plane_product, only : put_slopes, multiply_group, n_groups, points_together
    use axijoint_joints_planes, only : sum_modes, find_modes, by_halves
    use axijoint_joints_point_blocks, only : point_blocks_type, new_point_blocks, precondition
    use axijoint_joints_scene, only : scene_type, jumps, tell_jumps
    use axijoint_linalg_gmres, only : operator_type, gmres
    use axijoint_linalg_lapack, only : matrix_vector
-   use axijoint_linalg_symmetric_single, only : symmetric_single_type, make_room, put_column, symmetric_product
+   use axijoint_linalg_symmetric_single, only : symmetric_product
    implicit none
    private
    public :: linear_type, gathering_type, solve
@@ -32,14 +31,8 @@ module axijoint_joints_newton_system
    !> one before, and most of them
    real(wp), parameter :: single_tolerance = 1.0e-4_wp, worth_more = 0.5_wp
    integer, parameter :: most_solutions = 6
-   !> Numbers of flexibilities that a processor keeps at hand
-   real(wp), parameter :: at_hand = 1.0e5_wp
-   !> Numbers of flexibilities from which on threads are worth their start
-   real(wp), parameter :: worth_threads = 1.0e5_wp
    !> Points whose sums over modes and planes are found at a time, whatever the number of threads
    integer, parameter :: points_at_a_time = 32
-   !> What is gathered serves fewer points if it is of so many times as many at most
-   real(wp), parameter :: still_serves = 1.25_wp
 
    !> What is solved
    type :: linear_type
@@ -55,34 +48,13 @@ module axijoint_joints_newton_system
       logical, allocatable :: stiff(:)
    end type linear_type
 
-   !> Flexibility of the points that move
-   type :: gathered_type
-      !> As that of all points, or in single precision; neither on ranks that do not have it
-      real(wp), allocatable :: double(:, :)
-      type(symmetric_single_type), allocatable :: single
-      !> What single precision counts in
-      real(wp) :: unit = 0.0_wp
-   end type gathered_type
-
-   !> Flexibilities of some points, which serve while no others move
-   type :: gathering_type
-      private
-      !> The points; not allocated if nothing is gathered yet
-      integer, allocatable :: points(:)
-      !> Whether all digits are
-      logical :: double = .false.
-      !> One a system
-      type(gathered_type), allocatable :: flexibilities(:)
-      !> Weights over the largest, of all points of component 1, 2, 3, and that
-      real(wp), allocatable :: weight(:)
-      real(wp) :: largest = 0.0_wp
-   end type gathering_type
-
    !> Memory that products take
    type :: room_type
       !> Jumps, shape (points, 3, modes), and the two parts of flexibilities that they are sums of, shape
       !> (3 points, parts, modes)
       real(wp), allocatable :: jump(:, :, :), parts(:, :, :)
+      !> The same parts in single precision
+      real(sp), allocatable :: few_digits(:, :, :)
    end type room_type
 
    !> I - A E' S F of the points that move
@@ -101,6 +73,10 @@ module axijoint_joints_newton_system
       real(wp), allocatable :: given_jump(:, :, :), given_share(:, :, :)
       !> Inverses of what points do to themselves, where laws are stiff
       type(point_blocks_type), allocatable :: blocks
+      !> In single precision: the largest slope, and what flexibilities in their units are multiplied by so that they give
+      !> jumps times that, shape (modes)
+      real(wp) :: largest = 0.0_wp
+      real(wp), allocatable :: scale(:)
       !> Memory of its products
       type(room_type), pointer :: room => null()
    contains
@@ -136,10 +112,10 @@ contains
 
       moves = moving(condensed, linear%slope)
       if (present(kept)) then
-         call gather_moving(condensed, linear, moves, kept)
+         call gather_moving(condensed, linear%stiff, moves, kept)
          derivative%gathering => kept
       else
-         call gather_moving(condensed, linear, moves, gathering)
+         call gather_moving(condensed, linear%stiff, moves, gathering)
          derivative%gathering => gathering
       end if
       points = pack([(k, k=1, size(moves))], moves)
@@ -152,8 +128,7 @@ contains
       if (any(abs(change) > 0.0_wp)) jump = jumps(condensed, scene, change, free=.false.)
       if (size(points) == 0) return
       call new_derivative(condensed, scene, linear, points, derivative)
-      allocate (room%jump(size(points), 3, size(scene%system)))
-      allocate (room%parts(3*size(points), 2, size(scene%system)), source=0.0_wp)  ! those of other ranks stay
+      call make_room(derivative%gathering%double, size(points), size(scene%system), room)
       derivative%room => room
       right = by_component(linear%residual, points)
       if (allocated(derivative%blocks)) call precondition(derivative%blocks, right)
@@ -171,6 +146,23 @@ contains
          jump = jumps(condensed, scene, change, free=.false.)
       end do
    end subroutine solve
+
+   !> Memory for products
+   subroutine make_room(double, n, n_modes, room)
+      !> Whether these are in double precision
+      logical, intent(in) :: double
+      !> Points that move, and modes
+      integer, intent(in) :: n, n_modes
+      !> The memory
+      type(room_type), intent(out) :: room
+
+      allocate (room%jump(n, 3, n_modes))
+      if (double) then
+         allocate (room%parts(3*n, 2, n_modes), source=0.0_wp)  ! those of other ranks stay
+      else
+         allocate (room%few_digits(3*n, 2, n_modes), source=0.0_sp)
+      end if
+   end subroutine make_room
 
    !> Points whose excess stress changes with the jumps, on any plane
    pure function moving(condensed, slope) result(moves)
@@ -192,118 +184,6 @@ contains
          end do
       end do
    end function moving
-
-   !> Gather the flexibilities of the points that move, if what is gathered does not serve. If it is
-   !> of more points, these count as moving: they take what they are asked for and change nothing
-   subroutine gather_moving(condensed, linear, moves, gathering)
-      !> The condensed structure
-      type(condensed_type), intent(in) :: condensed
-      !> Which points are stiff
-      type(linear_type), intent(in) :: linear
-      !> Points that move; then those that are gathered
-      logical, intent(inout) :: moves(:)
-      !> What is gathered
-      type(gathering_type), intent(inout) :: gathering
-
-      logical :: double
-      integer :: k, s
-
-      if (.not. any(moves)) return
-      double = any(linear%stiff .and. moves) .or. n_numbers(condensed, count(moves)) <= at_hand
-      if (serves(gathering, moves, double)) then
-         moves = .false.
-         moves(gathering%points) = .true.
-         return
-      end if
-      gathering%double = double
-      gathering%points = pack([(k, k=1, size(moves))], moves)
-      associate (points => gathering%points, weight => condensed%points%weight)
-         gathering%largest = max(tiny(1.0_wp), maxval(weight(points)))
-         gathering%weight = [weight(points), weight(points), weight(points)]/gathering%largest
-      end associate
-      if (.not. allocated(gathering%flexibilities)) allocate (gathering%flexibilities(size(condensed%flexibilities)))
-      !$omp parallel do schedule(static, 1) if (n_numbers(condensed, count(moves)) > worth_threads)
-      do s = 1, size(condensed%flexibilities)
-         if (.not. allocated(condensed%flexibilities(s)%matrix)) cycle
-         associate (whole => condensed%flexibilities(s)%matrix, points => gathering%points, &
-                    n => size(condensed%points))
-            if (double) then
-               if (allocated(gathering%flexibilities(s)%single)) deallocate (gathering%flexibilities(s)%single)
-               gathering%flexibilities(s)%double = whole([points, n + points, 2*n + points], &
-                  [points, n + points, 2*n + points])
-            else
-               if (allocated(gathering%flexibilities(s)%double)) deallocate (gathering%flexibilities(s)%double)
-               call gather_single(whole, [points, n + points, 2*n + points], gathering%flexibilities(s))
-            end if
-         end associate
-      end do
-      !$omp end parallel do
-   end subroutine gather_moving
-
-   !> Whether what is gathered serves
-   pure logical function serves(gathering, moves, double)
-      !> What is gathered
-      type(gathering_type), intent(in) :: gathering
-      !> Points that move
-      logical, intent(in) :: moves(:)
-      !> Whether all digits are wanted
-      logical, intent(in) :: double
-
-      serves = .false.
-      if (.not. allocated(gathering%points)) return
-      serves = (gathering%double .eqv. double) .and. &
-         count(moves(gathering%points)) == count(moves) .and. &
-         size(gathering%points) <= still_serves*count(moves)
-   end function serves
-
-   !> Numbers of the flexibilities of some points
-   pure real(wp) function n_numbers(condensed, n)
-      !> The condensed structure
-      type(condensed_type), intent(in) :: condensed
-      !> How many points
-      integer, intent(in) :: n
-
-      n_numbers = 9.0_wp*real(n, wp)**2*size(condensed%flexibilities)
-   end function n_numbers
-
-   !> Gather the flexibility of some points in single precision
-   subroutine gather_single(whole, place, gathered)
-      !> Flexibility of all points
-      real(wp), intent(in), contiguous :: whole(:, :)
-      !> Places of these in it, ascending
-      integer, intent(in) :: place(:)
-      !> Their flexibility
-      type(gathered_type), intent(inout) :: gathered
-
-      real(wp) :: scale
-      real(sp) :: column(size(place))
-      logical :: starts(size(place))
-      integer, allocatable :: first(:), last(:), shift(:)
-      integer :: i, j, k
-
-      gathered%unit = tiny(1.0_wp)
-      do j = 1, size(place)
-         gathered%unit = max(gathered%unit, abs(whole(place(j), place(j))))
-      end do
-      gathered%unit = 2.0_wp**exponent(gathered%unit)  ! in a range that single precision has
-      scale = 1.0_wp/gathered%unit
-      starts = .true.
-      starts(2:) = place(2:) /= place(:size(place) - 1) + 1
-      first = pack([(i, i=1, size(place))], starts)
-      last = [first(2:) - 1, size(place)]
-      shift = place(first) - first
-      if (.not. allocated(gathered%single)) allocate (gathered%single)
-      call make_room(gathered%single, size(place))
-      do j = 1, size(place)
-         do k = 1, size(first)  ! neighbours are copied together
-            if (first(k) > j) exit
-            do i = first(k), min(last(k), j)
-               column(i) = real(scale*whole(i + shift(k), place(j)), sp)
-            end do
-         end do
-         call put_column(gathered%single, j, column(:j))
-      end do
-   end subroutine gather_single
 
    !> What the points that move do to each other
    subroutine new_derivative(condensed, scene, linear, points, derivative)
@@ -337,7 +217,12 @@ contains
          call new_point_blocks(condensed, scene, linear%slope, linear%kept, points, linear%stiff, &
             derivative%blocks)
       end if
-      derivative%least_left = merge(0.0_wp, single_tolerance, derivative%gathering%double)
+      if (derivative%gathering%double) return
+      derivative%least_left = single_tolerance
+      call put_slopes(derivative%gathering%product, scene%planes, derivative%slope, derivative%largest)
+      associate (gathering => derivative%gathering)
+         derivative%scale = derivative%largest*gathering%largest*gathering%flexibilities(scene%system)%unit*scene%scale
+      end associate
    end subroutine new_derivative
 
    !> What a change leaves of the right side of the points that move
@@ -485,7 +370,11 @@ contains
       !> The product
       real(wp), intent(out), contiguous :: y(:)
 
-      call act(self, size(self%slope, 1), size(self%scene%system), x, y)
+      if (self%gathering%double) then
+         call act(self, size(self%slope, 1), size(self%scene%system), x, y)
+      else
+         call act_by_few_digits(self, size(self%slope, 1), size(self%scene%system), x, y)
+      end if
    end subroutine apply
 
    !> The same by points, components and modes. Flexibilities are halved among threads, whatever the number of these
@@ -503,7 +392,7 @@ contains
 
       by_parts = n_parts(self, n) > 1
       associate (jump => self%room%jump, parts => self%room%parts, gathering => self%gathering, scene => self%scene)
-         !$omp parallel if (n_numbers(self%condensed, n) > worth_threads)
+         !$omp parallel if (is_worth_threads(self%condensed, n))
          !$omp do schedule(static, 1) collapse(2)
          do k = 1, n_modes
             do part = 1, 2
@@ -518,8 +407,7 @@ contains
          !$omp end do
          if (self%condensed%shared .or. allocated(self%given_jump)) then
             !$omp master
-            if (self%condensed%shared) call tell_jumps(self%condensed, self%scene, jump)
-            if (allocated(self%given_jump)) jump = jump - sum(self%given_share*x)*self%given_jump
+            call complete_jumps(self, x, jump)
             !$omp end master
             !$omp barrier
          end if
@@ -542,6 +430,68 @@ contains
       if (allocated(self%blocks)) call precondition(self%blocks, y)
    end subroutine act
 
+   !> The same in single precision
+   subroutine act_by_few_digits(self, n, n_modes, x, y)
+      !> The operator
+      class(derivative_type), intent(in) :: self
+      !> Numbers of points and modes
+      integer, intent(in) :: n, n_modes
+      !> Amplitudes of excess stress, and the product
+      real(wp), intent(in) :: x(n, 3, n_modes)
+      real(wp), intent(inout) :: y(n, 3, n_modes)
+
+      integer :: first, k, last, part
+
+      associate (parts => self%room%few_digits, gathering => self%gathering, jump => self%gathering%product%jump, &
+                 excess => self%gathering%product%excess)
+         !$omp parallel private(first, last) if (is_worth_threads(self%condensed, n))
+         !$omp do schedule(static, 1) collapse(2)
+         do k = 1, n_modes
+            do part = 1, 2
+               associate (flexibility => gathering%flexibilities(self%scene%system(k)))
+                  if (allocated(flexibility%single)) call symmetric_product(flexibility%single, &
+                     real(gathering%weight*reshape(x(:, :, k), [3*n]), sp), parts(:, part, k), part=part)
+               end associate
+            end do
+         end do
+         !$omp end do
+         !$omp do schedule(static)
+         do k = 1, n_modes
+            jump(:n, :, k) = real(self%scale(k), sp)*reshape(parts(:, 1, k) + parts(:, 2, k), [n, 3])
+         end do
+         !$omp end do
+         if (self%condensed%shared .or. allocated(self%given_jump)) then
+            !$omp master
+            self%room%jump = real(jump(:n, :, :), wp)/self%largest
+            call complete_jumps(self, x, self%room%jump)
+            jump(:n, :, :) = real(self%largest*self%room%jump, sp)
+            !$omp end master
+            !$omp barrier
+         end if
+         !$omp do schedule(static)
+         do k = 1, n_groups(n)
+            first = (k - 1)*points_together + 1
+            last = min(n, k*points_together)
+            call multiply_group(gathering%product, k)
+            y(first:last, :, :) = x(first:last, :, :) - excess(first:last, :, :)
+         end do
+         !$omp end do
+         !$omp end parallel
+      end associate
+   end subroutine act_by_few_digits
+
+   !> What other ranks know of jumps, and the load whose work is given
+   subroutine complete_jumps(self, x, jump)
+      !> The operator
+      class(derivative_type), intent(in) :: self
+      !> Amplitudes of excess stress, and the jumps that flexibilities make of it, shape (points, 3, modes)
+      real(wp), intent(in) :: x(:, :, :)
+      real(wp), intent(inout), contiguous :: jump(:, :, :)
+
+      if (self%condensed%shared) call tell_jumps(self%condensed, self%scene, jump)
+      if (allocated(self%given_jump)) jump = jump - sum(self%given_share*x)*self%given_jump
+   end subroutine complete_jumps
+
    !> One of two parts of the product of a flexibility, if it is there
    subroutine flex(flexibility, n, weight, part, excess, jump)
       !> The flexibility
@@ -556,16 +506,10 @@ contains
       real(wp), intent(in) :: excess(n)
       real(wp), intent(inout) :: jump(n)
 
-      real(sp) :: y(n)
-
-      if (allocated(flexibility%single)) then
-         call symmetric_product(flexibility%single, real(weight*excess, sp), y, part=part)
-         jump = flexibility%unit*y
-      else if (allocated(flexibility%double)) then
-         associate (first => 1 + (part - 1)*(n/2), last => merge(n/2, n, part == 1))
-            call matrix_vector(flexibility%double(:, first:last), weight(first:last)*excess(first:last), jump)
-         end associate
-      end if
+      if (.not. allocated(flexibility%double)) return
+      associate (first => 1 + (part - 1)*(n/2), last => merge(n/2, n, part == 1))
+         call matrix_vector(flexibility%double(:, first:last), weight(first:last)*excess(first:last), jump)
+      end associate
    end subroutine flex
 
 end module axijoint_joints_newton_system
