@@ -200,7 +200,7 @@ contains
       call look_again(condensed, scene, 1.0_wp, field, course)
       call approach(condensed, scene, .true., course%begun, field, course%residual, moved)
       course%start = field
-      course%watch = new_watch(scene, field)
+      course%watch = new_watch(condensed, scene, field, course%residual)
       course%bounds%radius = first_radius*course%watch%largest/runaway
       if (moved) call linearize(condensed, scene, 1.0_wp, field, course%newton)
       call find_mechanism(condensed, scene, field, .false., verdict%mechanism)

@@ -61,7 +61,7 @@ contains
       begun = field%jump
       call self%evaluate(condensed, scene, field, residual)
       call approach(condensed, scene, .true., begun, field, residual, moved)
-      watch = new_watch(scene, field)
+      watch = new_watch(condensed, scene, field, residual)
       memory = new_anderson(size(residual), self%depth)
       moves = self%depth == 0
       do

@@ -55,7 +55,7 @@ contains
 
       allocate (residual, mold=field%excess)
       call self%evaluate(condensed, scene, field, residual)  ! steps 1 to 4
-      watch = new_watch(scene, field)
+      watch = new_watch(condensed, scene, field, residual)
       do
          ! step 5, Eq. 17
          call note(watch, condensed, scene, control%now, self%accumulates, residual, field, verdict)

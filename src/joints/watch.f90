@@ -8,15 +8,15 @@ module axijoint_joints_watch
    use axijoint_joints_method, only : verdict_type
    use axijoint_joints_path, only : iteration_type, append
    use axijoint_joints_residual, only : strictest
-   use axijoint_joints_scene, only : scene_type
+   use axijoint_joints_scene, only : scene_type, jumps
    implicit none
    private
    public :: watch_type, new_watch, note, end_watch, runaway
 
    !> Iterations in which a point that changes its state counts as restless
    integer, parameter :: recent = 12
-   !> Jumps so many times larger than the displacements with elastic joints are no
-   !> state. (The jumps of an elastic joint are no measure: they vanish if it is stiff.)
+   !> Jumps so many times larger than the displacements with elastic joints, and than those by what these joints do not
+   !> carry, are no state. (The jumps of an elastic joint are no measure: they vanish if it is stiff.)
    real(wp), parameter :: runaway = 1.0e5_wp
 
    !> What is remembered
@@ -36,17 +36,22 @@ module axijoint_joints_watch
 contains
 
    !> Nothing seen yet
-   function new_watch(scene, field) result(watch)
+   function new_watch(condensed, scene, field, residual) result(watch)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> State of the joints
       type(joint_field_type), intent(in) :: field
+      !> Excess stress that is not transferred yet, shape (3, points, modes): what it moves is as large as a state, too, where
+      !> loads alone move nothing, as weight does in ground whose stress balances it
+      real(wp), intent(in) :: residual(:, :, :)
       !> The watch
       type(watch_type) :: watch
 
       allocate (watch%steps(0))
       watch%largest = runaway*maxval([tiny(1.0_wp), scene%loads%largest, abs(scene%loads%free), &
-         abs(field%jump)])
+         abs(field%jump), abs(jumps(condensed, scene, residual, free=.false.))])
       watch%before = field%state
       watch%changed = 0*field%state
    end function new_watch

@@ -175,6 +175,18 @@ def no_false_mechanism(program, folder):
     return faults
 
 
+def slips_under_own_stress(program, folder):
+    """Loads that move nothing as long as joints hold are no measure of what is a state: ground whose joint cannot hold
+    comes to rest where a pressure that vanishes leaves it"""
+    faults, found = [], []
+    for method, pressure in (('NEWTON', 0.0), ('ANDERSON', 0.0), ('NEWTON', 1e-6)):
+        summary, tables = solved(program, folder, 'ground', scenes.slipping_ground(pressure, method))
+        faults += expected('points that slip', summary['joint_states']['slip'], sum(summary['joint_states'].values()))
+        found.append(at(tables['m = 0'], 2.0, 0.0)['u'])
+    return (faults + close('ANDERSON', found[0], found[1], 1e-6*abs(found[0]))
+            + close('a small pressure', found[0], found[2], 1e-3*abs(found[0])))
+
+
 def settled(program, folder):
     """Ground that goes down as a whole takes all with it: an increment that loads no joint but by rounding is in
     equilibrium at once, and changes no stress"""
@@ -329,7 +341,7 @@ def tests(program):
                                        + [20 if number == 3 else 60])]
             + [test(f'inputs/hard/{name}', hard_input, name, text) for name, text in scenes.hard_inputs().items()]
             + [test('cohesion fades', fading), test('three-fold', three_fold), test('slide exactly', sliding_exactly), test('gaps close', gapping), test('slip stays', slip_stays),
-               test('stress of the ground', ground_stress), test('stress of the ground doubted', ground_doubted), test('open everywhere', open_everywhere), test('settles as a whole', settled),
+               test('stress of the ground', ground_stress), test('stress of the ground doubted', ground_doubted), test('open everywhere', open_everywhere), test('settles as a whole', settled), test('slips under its own stress', slips_under_own_stress),
                test('slides up', slides_up),
                test('gap and transfer', gap_and_transfer),
                test('no false mechanism', no_false_mechanism)])

@@ -371,6 +371,22 @@ def soil_pile(title, increments, *, friction=25.0, cohesion=0.0, gravity=0.0, de
     return deck.add('INCREMENTS', *((float(f), tolerance, None, case) for f, case in increments)).text()
 
 
+def slipping_ground(pressure=0.0, method='NEWTON'):
+    """Ground with an inclined joint: its stress (K0 = 0.2) balances its weight, but the joint carries too little shear for
+    that. Weight, and pressure on the inner part"""
+    deck = Deck('Ground with an inclined joint', 0, 9, method)
+    deck.add('MATERIALS', (1, 200.0, 0.3, 0.002), (2, 200.0, 0.3, 0.002))
+    deck.law(1, (1e3, 1e3, 1e3), 0.0, 30.0).details(1, slip='RESULTANT')
+    deck.block(1, 1, 8, 3, 8, 0, -4, 1, -4, 2, 0, 0, 0).block(2, 2, 8, 5, 8, 1, -4, 6, -4, 6, 0, 2, 0)
+    deck.faces((1, 1, 1, -4, 2, 0), (2, 2, 1, -4, 2, 0), (3, 1, 0, -4, 1, -4), (4, 2, 1, -4, 6, -4), (5, 2, 6, -4, 6, 0),
+               (6, 1, 0, 0, 2, 0))
+    deck.add('INTERFACES', (1, 1, 2)).add('FIXEDFACES', (3, '010'), (4, '010'), (5, '100'))
+    deck.add('CASE', (1, 'weight')).add('GRAVITY', (-10.0,)).add('INSITU', (1, 0.0, 0.02, 0.2), (2, 0.0, 0.02, 0.2))
+    if pressure:
+        deck.add('PRESSURES', (6, 0, pressure))
+    return deck.add('INCREMENTS', (1.0, 1e-8, None, 1)).text()
+
+
 def monopile(method='NEWTON', ring=True, unload=True):
     """A steel monopile in two layers of ground: its weight and K0 = 0.5, then wind in four steps, which press its head
     against a guide ring with a clearance of 1 mm, and let go in two steps"""
