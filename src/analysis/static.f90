@@ -198,6 +198,7 @@ contains
       if (estimates) &
          call compare_loops(model, structure%condensed, history, results%other_loop, other)
       results%path = history%path
+      results%strayed = history%strayed
       results%exchanged(1) = history%exchanged
       results%increment_seconds = history%seconds
       results%tolerance = model%increments(size(model%increments))%tolerance

@@ -42,8 +42,9 @@ module axijoint_joints_history
       type(scene_type) :: scene
       !> State of the joints that can yield: the last
       type(joint_field_type) :: field
-      !> How the last step ended
+      !> How the last step ended, and whether sweeps ran away from a state that Newton's method finds
       type(verdict_type) :: verdict
+      logical :: strayed = .false.
       !> Load steps in equilibrium in which cohesion fades over an opening, for the law has no state
       !> without that
       integer :: n_faded = 0

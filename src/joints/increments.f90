@@ -20,7 +20,7 @@ module axijoint_joints_increments
    use axijoint_joints_load_steps, only : step_type
    use axijoint_joints_loads, only : put_loads, answer_type, case_answer_type, is_known, learn_case, put_sum
    use axijoint_joints_method, only : method_type, control_type, verdict_type
-   use axijoint_joints_methods, only : other_loop, second_opinion
+   use axijoint_joints_methods, only : other_loop, second_opinion, is_newton
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_residual, only : load_norm, ratio, set_reference
    use axijoint_joints_scene, only : elastic_stress
@@ -116,7 +116,8 @@ contains
    end subroutine try_step
 
    !> A step is left without equilibrium. If nothing resists, an iterate says nothing: another
-   !> method is asked, and if it knows no better, the state before is shown
+   !> method is asked, and if it knows no better, the state before is shown. Sweeps do not go on from what Newton's method
+   !> finds, for they would run away again and again: the user is told
    subroutine give_up(self, step, before, history)
       !> What the increments act on
       class(joint_stage_type), intent(inout) :: self
@@ -128,15 +129,22 @@ contains
       type(history_type), intent(inout) :: history
 
       class(method_type), allocatable :: second
+      type(history_type), allocatable :: asked
 
       if (ends(history)) return
       if (.not. allocated(history%runaway) .and. .not. allocated(history%motion)) return
       if (.not. history%verdict%mechanism%loaded) call second_opinion(history%method, second)
       if (allocated(second)) then
-         history%field = before
-         call put(self, step, history)
-         call balance(self, second, step, history)
-         if (history%verdict%converged .or. allocated(history%failure)) return
+         allocate (asked, source=history)
+         asked%field = before
+         call put(self, step, asked)
+         call balance(self, second, step, asked)
+         if (allocated(asked%failure) .or. asked%verdict%converged .and. is_newton(history%method)) then
+            history = asked
+            return
+         end if
+         history%strayed = asked%verdict%converged
+         if (history%strayed) call forget_failure(history)
       end if
       history%field = before  ! what ran away is no state to show
       call put(self, history%at, history)

@@ -7,7 +7,7 @@ module axijoint_joints_methods
    use axijoint_model_model, only : method_newton, method_total, method_anderson, method_transfer
    implicit none
    private
-   public :: new_method, other_loop, second_opinion
+   public :: new_method, other_loop, second_opinion, is_newton
 
    !> Sweeps that Anderson's mix remembers
    integer, parameter :: depth = 10
@@ -44,8 +44,8 @@ contains
       other = new_method(merge(method_newton, method_transfer, method%accumulates))
    end function other_loop
 
-   !> The method to ask where one runs away: Newton's may where there is a state, and it is no
-   !> mechanism if the mix finds one; not allocated if there is none to ask
+   !> The method to ask where one runs away: Newton's may where there is a state, and sweeps over stiff joints often
+   !> do, and it is no mechanism if the other finds one; not allocated if there is none to ask
    subroutine second_opinion(method, second)
       !> A method
       class(method_type), intent(in) :: method
@@ -55,7 +55,22 @@ contains
       select type (method)
       type is (newton_method_type)
          allocate (second, source=new_method(method_anderson))
+      type is (total_type)
+         allocate (second, source=new_method(method_newton))
       end select
    end subroutine second_opinion
+
+   !> Whether a method is Newton's
+   pure logical function is_newton(method)
+      !> A method
+      class(method_type), intent(in) :: method
+
+      select type (method)
+      type is (newton_method_type)
+         is_newton = .true.
+      class default
+         is_newton = .false.
+      end select
+   end function is_newton
 
 end module axijoint_joints_methods

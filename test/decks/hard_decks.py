@@ -175,6 +175,16 @@ def no_false_mechanism(program, folder):
     return faults
 
 
+def strays(program, folder):
+    """Sweeps that run away from a state that Newton's method finds tell of that, not of a mechanism"""
+    summary, _ = solved(program, folder, 'plug', scenes.stiff_plug())
+    faults = expected('status', 'converged', summary['status'])
+    summary, _ = solved(program, folder, 'plug', scenes.stiff_plug('ANDERSON'), code=3)
+    words = ' '.join(summary['messages'])
+    return (faults + expected('NEWTON named', True, 'a state that NEWTON finds' in words)
+            + expected('a mechanism', False, 'mechanism' in words or 'no equilibrium beyond' in words))
+
+
 def slips_under_own_stress(program, folder):
     """Loads that move nothing as long as joints hold are no measure of what is a state: ground whose joint cannot hold
     comes to rest where a pressure that vanishes leaves it"""
@@ -341,7 +351,7 @@ def tests(program):
                                        + [20 if number == 3 else 60])]
             + [test(f'inputs/hard/{name}', hard_input, name, text) for name, text in scenes.hard_inputs().items()]
             + [test('cohesion fades', fading), test('three-fold', three_fold), test('slide exactly', sliding_exactly), test('gaps close', gapping), test('slip stays', slip_stays),
-               test('stress of the ground', ground_stress), test('stress of the ground doubted', ground_doubted), test('open everywhere', open_everywhere), test('settles as a whole', settled), test('slips under its own stress', slips_under_own_stress),
+               test('stress of the ground', ground_stress), test('stress of the ground doubted', ground_doubted), test('open everywhere', open_everywhere), test('settles as a whole', settled), test('slips under its own stress', slips_under_own_stress), test('strays', strays),
                test('slides up', slides_up),
                test('gap and transfer', gap_and_transfer),
                test('no false mechanism', no_false_mechanism)])

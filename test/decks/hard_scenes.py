@@ -371,6 +371,20 @@ def soil_pile(title, increments, *, friction=25.0, cohesion=0.0, gravity=0.0, de
     return deck.add('INCREMENTS', *((float(f), tolerance, None, case) for f, case in increments)).text()
 
 
+def stiff_plug(method='NEWTON'):
+    """A plug in soft ground by joints without friction thousands of times as stiff, pressed in: sweeps over such joints run
+    away, Newton's steps do not"""
+    deck = Deck('A plug on stiff joints', 4, 17, method)
+    deck.add('MATERIALS', (1, 2.27e4, 0.2), (2, 13.7, 0.3))
+    deck.law(1, (242500.0,)*3, rule='LOBATTO').details(1).law(2, (10500.0,)*3, rule='LOBATTO').details(2)
+    deck.block(1, 1, 3, 2, 2, 0, 0, 0.5, 0.5).block(1, 1, 3, 2, 4, 0, -2, 0.5, 0).block(2, 2, 3, 3, 4, 0.5, -2, 3, 0)
+    deck.block(2, 2, 3, 3, 2, 0.5, -3, 3, -2).block(2, 2, 3, 2, 2, 0, -3, 0.5, -2)
+    deck.faces((1, 1, 0, 0.5, 0.5, 0.5), (2, 1, 0.5, -2, 0.5, 0), (3, 2, 0.5, -2, 0.5, 0), (4, 1, 0, -2, 0.5, -2),
+               (5, 2, 0, -2, 0.5, -2), (6, 2, 0, -3, 3, -3), (7, 2, 3, -3, 3, 0))
+    deck.add('INTERFACES', (1, 2, 3), (2, 4, 5)).add('FIXEDFACES', (6, '111'), (7, '111'))
+    return deck.resultants((1, 'AXIAL', -0.1)).add('INCREMENTS', (1.0, 1e-7, 20000)).text()
+
+
 def slipping_ground(pressure=0.0, method='NEWTON'):
     """Ground with an inclined joint: its stress (K0 = 0.2) balances its weight, but the joint carries too little shear for
     that. Weight, and pressure on the inner part"""

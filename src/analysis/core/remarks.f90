@@ -95,6 +95,10 @@ contains
          return
       end if
       if (results%converged .or. allocated(results%mechanism)) return
+      if (history%strayed) then
+         call add(remarks, 'the iterations run away from a state that NEWTON finds: name that method in CONTROL')
+         return
+      end if
       if (results%unsettled > 0.0_wp) then
          call add(remarks, 'forces are balanced to the tolerance, but the iterations leave '// &
             'displacements or joint '// &

@@ -152,6 +152,8 @@ module axijoint_analysis_core_results
       real(wp) :: other_loop = -1.0_wp
       !> The mechanism that ended the job, in words; allocated if there was one
       character(len=:), allocatable :: mechanism
+      !> Whether sweeps ran away from a state that Newton's method finds: the results are of the last equilibrium then, too
+      logical :: strayed = .false.
       !> Number of the load combination; 0 if there is one only
       integer :: combination = 0
       !> Modes that were solved, ascending

@@ -151,10 +151,10 @@ contains
       if (.not. results%converged .and. size(results%path) == 0) then
          text = mark_not_converged//" linear job: its equations are ill-conditioned; residual "// &
             "ratio "//ratio//", tolerance "//tolerance
-      else if (allocated(results%mechanism)) then
-         text = mark_not_converged//" after "//to_text(size(results%path))// &
-            " iterations: a mechanism; results are those of the last equilibrium, residual "// &
-            "ratio "//ratio
+      else if (allocated(results%mechanism) .or. results%strayed) then
+         text = mark_not_converged//" after "//to_text(size(results%path))//" iterations: "// &
+            merge("they run away", "a mechanism  ", results%strayed)
+         text = trim(text)//"; results are those of the last equilibrium, residual ratio "//ratio
       else if (.not. results%converged .and. results%residual_ratio <= results%tolerance .and. &
                results%mismatch <= results%tolerance) then
          text = mark_not_converged//" forces are balanced (residual ratio "//ratio// &
