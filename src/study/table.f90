@@ -176,11 +176,20 @@ contains
          associate (first => places(k)%first, last => places(k)%last)
             call read_name(line, first, last, upper(text(first:last)), deck, entries, columns(k), &
                diagnostics)
-            if (any(columns(:k - 1)%name == columns(k)%name .and. columns(k)%name /= '')) &
+            if (any(same_field(columns(:k - 1), columns(k)))) &
                call add_error(diagnostics, line, first, last, 'this column is there before')
          end associate
       end do
    end subroutine read_head
+
+   !> Whether two columns are of one field, whatever they call it
+   elemental logical function same_field(one, other)
+      !> The columns
+      type(column_type), intent(in) :: one, other
+
+      same_field = one%field > 0 .and. one%section == other%section .and. one%entry == other%entry &
+         .and. one%field == other%field
+   end function same_field
 
    !> Read the name of a column: `SECTION NUMBER FIELD`, the number left out where a section has one
    !> entry, or one of `own_names`
@@ -199,6 +208,7 @@ contains
       type(diagnostics_type), intent(inout) :: diagnostics
 
       character(len=:), allocatable :: section, rest
+      logical, allocatable :: fits(:)
 
       column%name = name
       column%field = findloc(own_names, name, 1)
@@ -219,13 +229,17 @@ contains
       end if
       associate (kind => deck%sections(column%section), table => entries%tables(column%section))
          call take_entry(kind%numbered, table, rest, column%entry)
-         column%field = field_of(kind%fields, rest)
+         fits = fields_of(kind%fields, rest)
+         if (count(fits) == 1) column%field = findloc(fits, .true., 1)
          if (column%entry == 0) then
             call add_error(diagnostics, line, first, last, 'the deck has no such card of '// &
                section, found=name, allowed=choice_of_entries(section, kind%numbered, table))
+         else if (count(fits) > 1) then
+            call add_error(diagnostics, line, first, last, 'several fields of '//section// &
+               ' have this name', found=rest, allowed=names_of_fields(pack(kind%fields, fits)))
          else if (column%field == 0) then
             call add_error(diagnostics, line, first, last, 'no field of '//section// &
-               ' has this name, or several have', found=rest, allowed=names_of_fields(kind%fields))
+               ' has this name', found=rest, allowed=names_of_fields(kind%fields))
          else
             column%kind = kind%fields(column%field)
             if (column%kind%kind == kind_text) &
@@ -305,32 +319,38 @@ contains
       end if
    end function choice_of_entries
 
-   !> Field of a name: its symbol, its name, or a name with the words
-   pure integer function field_of(fields, name) result(place)
+   !> Fields that a column may mean: those of the name, else of the symbol, else with the words in
+   !> their names. Where the names of all of these begin with that of one, it is this one: `planes`
+   !> is the number of planes, not the number of planes for bodies
+   pure function fields_of(fields, name) result(fits)
       !> Fields of the section
       type(field_type), intent(in) :: fields(:)
       !> What the column says, in capitals
       character(len=*), intent(in) :: name
+      !> Whether it may mean each
+      logical :: fits(size(fields))
 
-      integer :: k, n
+      integer :: k
 
-      place = 0
+      fits = .false.
       if (len(name) == 0) return
       do k = 1, size(fields)
-         if (name == upper(short_name(fields(k))) .or. name == upper(trim(fields(k)%name))) &
-            place = k
-         if (name == upper(trim(fields(k)%symbol)) .and. fields(k)%symbol /= 'x' &
-             .and. place == 0) place = k
+         fits(k) = name == upper(short_name(fields(k))) .or. name == upper(trim(fields(k)%name))
       end do
-      if (place > 0) return
-      n = 0
+      if (any(fits)) return
       do k = 1, size(fields)
-         if (index(' '//upper(trim(fields(k)%name))//' ', ' '//name//' ') == 0) cycle
-         place = k
-         n = n + 1
+         fits(k) = name == upper(trim(fields(k)%symbol)) .and. fields(k)%symbol /= 'x'
       end do
-      if (n /= 1) place = 0
-   end function field_of
+      if (any(fits)) return
+      do k = 1, size(fields)
+         fits(k) = index(' '//upper(trim(fields(k)%name))//' ', ' '//name//' ') > 0
+      end do
+      do k = 1, size(fields)
+         if (.not. fits(k) .or. any(fits .and. index(fields%name, trim(fields(k)%name)) /= 1)) cycle
+         fits = .false.
+         fits(k) = .true.
+      end do
+   end function fields_of
 
    !> Name of a field without its article
    pure function short_name(field) result(name)

@@ -164,6 +164,17 @@ def controls(program, folder):
     return faults + expected('rows, all different', (8, 8), (len(rows), len(found)))
 
 
+def planes(program, folder):
+    """`planes` are those of joints, though bodies have planes, too: each row is that of a run by itself"""
+    text, counts = input_deck('case3_balanced.dat'), ('9', '17')
+    rows, faults = study(program, folder, 'CONTROL planes\n' + ';'.join(counts) + '\n', write(folder, 'planes.dat', text))
+    for row, count in zip(rows, counts):
+        one = write(folder, 'one.dat', changed(text, 'CONTROL', 0, 6, 10, count))
+        faults += program.run('run', one, '-o', folder, '--quiet', folder=folder).ended_with(0)
+        faults += compared(row, json.loads(read_text(os.path.join(folder, 'one.json'))), f'{count} planes')
+    return faults + expected('rows, all different', (2, 2), (len(rows), len({row['largest_displacement'] for row in rows})))
+
+
 def yielding(program, folder):
     """A body that yields in every other row, with estimates of errors, which it has none of: elastic rows have theirs"""
     text = input_deck('first.dat').replace('\nLAWS', '\n    2     3.0E4      0.17\nYIELD\n    2     MISES       1.0\nLAWS', 1)
@@ -359,6 +370,10 @@ FAULTS = (
     ('LAWS 1 PHI, SAMPLES\nNORMAL 30 2, 0\n', 'the number of SAMPLES is too small', '1 to 999999999'),
     ('LAWS 1 PHI, SAMPLES\nNORMAL 60 20, 500\n', 'a value is drawn that the card does not take', 'TRUNCATED'),
     ('LAWS 1 PHI, LAWS 1 phi\n1, 2\n', 'this column is there before', ''),
+    ('LAWS 1 friction angle, LAWS 1 PHI\n20, 0\n', 'this column is there before'),
+    ('BLOCKS 2 ratio\n1\n', 'several fields of BLOCKS have this name', 'ratio along 1-2 (ratio), ratio along 2-3 (ratio)'),
+    ('FACES 1 r\n1\n', 'several fields of FACES have this name', 'allowed: '),
+    ('CONTROL bodies\n1\n', 'several fields of CONTROL have this name', 'number of planes for bodies'),
     ('LAWS 1 law\nELASTI\n', 'the law is not an integer', ''),
     ('LAWS 1 kind of law\nELASTI\n', 'is unknown', 'did you mean ELASTIC?'),
     ('LAWS 1 PHI\n', 'the table has no rows', 'the first line names what varies'),
@@ -481,6 +496,7 @@ def tests(program):
              for deck in VARIED]
     return found + [
         Test('studies/controls', lambda folder: controls(program, folder)),
+        Test('studies/planes', lambda folder: planes(program, folder)),
         Test('studies/yielding', lambda folder: yielding(program, folder)),
         Test('studies/order and parts', lambda folder: order_does_not_matter(program, folder)),
         Test('studies/processes', lambda folder: processes(program, folder)),
