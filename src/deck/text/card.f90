@@ -38,7 +38,7 @@ contains
       type(diagnostics_type), intent(inout) :: diagnostics
 
       character(len=:), allocatable :: content
-      logical :: free
+      logical :: free, cut
       integer :: width
 
       content = card_content(source, card)
@@ -50,7 +50,8 @@ contains
          return
       end if
       width = merge(free_width, card_width, free)
-      if (len(content) > width) then
+      cut = len(content) > width
+      if (cut) then
          call add_error(diagnostics, card, width + 1, len(content), &
                         'there is text beyond column '//to_text(width), &
                         found=trim(adjustl(content(width + 1:))), &
@@ -67,6 +68,8 @@ contains
       else
          call divide_fixed(card, content, fields, slots, diagnostics)
       end if
+      ! what would be there stands in the text that was cut off, in part or as a whole
+      if (cut .and. free) where (slots%last >= len(content)) slots%whole = .false.
    end subroutine divide_card
 
    !> Report a comment of another program behind the values, and cut it off. A text may hold

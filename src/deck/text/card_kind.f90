@@ -4,9 +4,9 @@ module axijoint_deck_text_card_kind
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, count_again
    use axijoint_deck_text_foreign, only : comment_mark, heading_mark, heading_word
    use axijoint_deck_text_section, only : section_type, section_named, names_of, first_words, &
-      keyword_length
+      keyword_length, form_include, form_file
    use axijoint_deck_text_source, only : source_type, card_content, card_text, card_data, &
-      card_keyword, card_ignored, tab
+      card_keyword, card_ignored, form_of, tab
    use axijoint_deck_text_strange_byte, only : report_strange_byte
    implicit none
    private
@@ -175,7 +175,8 @@ contains
                      allowed=allowed, mend=mend)
    end subroutine report_heading
 
-   !> Report an unknown keyword and go on as if the likeliest had been written
+   !> Report an unknown keyword and go on as if the likeliest had been written. A word that
+   !> entries of the open section begin with, and a second one, lack no more than a blank before them
    subroutine report_keyword(source, card, word, diagnostics)
       !> The deck
       type(source_type), intent(inout) :: source
@@ -187,8 +188,17 @@ contains
       type(diagnostics_type), intent(inout) :: diagnostics
 
       character(len=:), allocatable :: mend
-      integer :: meant
+      integer :: meant, open
 
+      open = open_section(source, card)
+      if (any(first_words(source%sections(max(1, open):open)) == upper(word)) .and. &
+          .not. counts_entries(card_content(source, card), word)) then
+         source%cards(card)%kind = card_data
+         call add_error(diagnostics, card, 1, len(word), 'this keyword is unknown', found=word, &
+                        mend='put a blank before '//word//', which begins an entry of '// &
+                        trim(source%sections(open)%name))
+         return
+      end if
       meant = nearest_word(word, names_of(source%sections))
       source%cards(card)%keyword = meant
       mend = 'write one of these keywords from column 1'
@@ -197,6 +207,32 @@ contains
       call add_error(diagnostics, card, 1, len(word), 'this keyword is unknown', &
                      found=word, allowed=all_names(source%sections), mend=mend)
    end subroutine report_keyword
+
+   !> Whether no more than a number follows a word, as behind a keyword
+   pure logical function counts_entries(content, word)
+      !> The card without its comment, and its first word
+      character(len=*), intent(in) :: content, word
+
+      counts_entries = verify(content(len(word) + 1:), ' ,0123456789'//tab) == 0
+   end function counts_entries
+
+   !> Section that a card would belong to if it were no keyword card; 0 if there is none
+   pure integer function open_section(source, card) result(section)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> The card
+      integer, intent(in) :: card
+
+      integer :: k
+
+      section = 0
+      do k = card - 1, 1, -1
+         if (source%cards(k)%kind /= card_keyword) cycle
+         if (any(form_of(source, k) == [form_include, form_file])) cycle
+         section = source%cards(k)%keyword
+         return
+      end do
+   end function open_section
 
    !> All keywords as a text
    pure function all_names(sections) result(text)
