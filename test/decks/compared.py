@@ -322,6 +322,11 @@ PAIRS = (
      'A slip'),
     ('a table skipped', identity, lambda t: value_at(t, JOINTS, 1, 11, 'stick'), SAME, ('--skip', 'joints'),
      'not compared, as asked: joints'),
+    ('a name to skip that neither has', identity, identity, UNREADABLE, ('--skip', 'joints', '--skip', 'jounts'),
+     "unknown quantity, column or table 'jounts'; did you mean joints?"),
+    ('a name with a tolerance that neither has', identity, identity, UNREADABLE, ('--tolerance', 'u=1E-3', '--tolerance', 'joints=1'),
+     "unknown quantity or column 'joints'"),
+    ('a quantity that neither has', identity, identity, SAME, ('--skip', 'moment', '--tolerance', 'jump=1E-3'), '0 differ'),
     ('not converged in one', identity, lambda t: t.replace('\nstatus  converged in', (
         '\nstatus  *** NOT CONVERGED *** residual')), DIFFERENT, (), 'B not_converged'),
     ('w of the other sign', identity, minus_w, DIFFERENT, (), 'differ'),
