@@ -1,7 +1,11 @@
 !> From an old deck to one of axijoint that gives the same answer
 module axijoint_legacy_convert
    use axijoint_base_kinds, only : wp, degree
-   use axijoint_base_text, only : to_text
+   use axijoint_base_text, only : to_text, upper
+   use axijoint_deck_registry, only : all_sections
+   use axijoint_deck_text_diagnostics, only : add_error
+   use axijoint_deck_text_section, only : names_of, keyword_length
+   use axijoint_deck_text_source, only : card_text
    use axijoint_legacy_cards, only : cards_type, open_cards, warn
    use axijoint_legacy_check, only : check_old_deck
    use axijoint_legacy_deck, only : old_deck_type, read_old_deck, tresca, mises, mohr, drucker
@@ -32,10 +36,35 @@ contains
 
       text = ''
       call open_cards(path, bytes, dialect, cards)
+      if (is_own(cards)) then
+         call add_error(cards%diagnostics, 0, 0, 0, 'this is a deck of axijoint already', &
+            mend='axijoint run DECK solves it as it is')
+         return
+      end if
       call read_old_deck(cards, deck)
       if (cards%diagnostics%n_errors == 0) call check_old_deck(deck, cards)
       if (cards%diagnostics%n_errors == 0) call write_deck(path, deck, cards, text)
    end subroutine convert_deck
+
+   !> Whether a deck is one of axijoint: more of its cards begin with keywords than the two titles of
+   !> an old deck may
+   logical function is_own(cards)
+      !> Its cards
+      type(cards_type), intent(in) :: cards
+
+      integer, parameter :: n_titles = 2
+      character(len=keyword_length), allocatable :: keywords(:)
+      character(len=:), allocatable :: text
+      integer :: card, n
+
+      keywords = names_of(all_sections())
+      n = 0
+      do card = 1, cards%source%n_cards
+         text = upper(card_text(cards%source, card))
+         if (any(keywords == text(:scan(text//' ', ' ,') - 1))) n = n + 1
+      end do
+      is_own = n > n_titles
+   end function is_own
 
    !> Whether a text may be an old deck: its second line is eleven integers
    pure logical function looks_old(bytes)

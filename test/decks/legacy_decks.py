@@ -159,6 +159,10 @@ def old_error(program, folder, number, line, columns, text):
     return faults if re.search(place, ran.err) else faults + [f'expected {place}\n{ran.err[:1500]}']
 
 
+# All that is said of a deck of our own
+OWN = 'first.dat: error: this is a deck of axijoint already\n  mend:    axijoint run DECK solves it as it is\n1 error, 0 warnings'
+
+
 def refused(program, folder):
     """Plane stress and strain, a deck that ends too early, values in wrong columns, unknown programs and formats"""
     faults = []
@@ -171,11 +175,12 @@ def refused(program, folder):
     for text, options, words in cases:
         ran = program.run('check', *FLAG, *options, write(folder, 'bad.dat', text))
         faults += ran.ended_with(2) + ([] if words in ran.err else [f'expected {words}\n{ran.err[:800]}'])
-    path = write(folder, 'good.dat', deck)
+    path, own = write(folder, 'good.dat', deck), os.path.join(INPUTS, 'first.dat')
     for words, found in ((('check', path), 'axijoint run --legacy owen-hinton DECK solves it'),
                          (('check', '--legacy', 'adina', path), 'owen-hinton'),
                          (('check', '--format', 'x.fmt', path), '--format goes with --legacy'),
-                         (('convert', path), 'use: axijoint convert OLD NEW')):
+                         (('convert', path), 'use: axijoint convert OLD NEW'),
+                         (('convert', own, os.path.join(folder, 'new.dat')), OWN), (('check', *FLAG, own), OWN)):
         ran = program.run(*words)
         faults += ran.ended_with(2) + ([] if found in ran.err else [f'expected {found}\n{ran.err[:800]}'])
     return faults
