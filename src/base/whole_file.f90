@@ -5,7 +5,7 @@ module axijoint_base_whole_file
    implicit none
    private
    public :: write_new_file, read_whole_file, first_bytes, file_size, link_path, names_in
-   public :: knows_no_links, is_there, is_not_there
+   public :: knows_no_links, is_there, is_not_there, is_too_long
 
    interface
       !> Make a file of some bytes; whole_file_shim.c
@@ -56,6 +56,11 @@ module axijoint_base_whole_file
          integer(c_int), value :: cause
          integer(c_int) :: c_is_not_there
       end function c_is_not_there
+      function c_is_too_long(cause) bind(c, name='axijoint_is_too_long')
+         import :: c_int
+         integer(c_int), value :: cause
+         integer(c_int) :: c_is_too_long
+      end function c_is_too_long
 
       !> Names in a folder; whole_file_shim.c
       function c_names_in(folder, first, last, names, room) bind(c, name='axijoint_names_in')
@@ -167,6 +172,14 @@ contains
 
       is_not_there = c_is_not_there(int(errno, c_int)) /= 0
    end function is_not_there
+
+   !> Whether an error is that a name, or a path, is longer than the system allows
+   logical function is_too_long(errno)
+      !> The error
+      integer, intent(in) :: errno
+
+      is_too_long = c_is_too_long(int(errno, c_int)) /= 0
+   end function is_too_long
 
    !> Names in a folder that begin and end with some letters, each followed by a line feed; none if
    !> it cannot be read

@@ -72,9 +72,10 @@ int axijoint_knows_no_links(int cause)
           cause == EMLINK;
 }
 
-/* Whether a cause says that there is such a name, or none, already. */
+/* Whether a cause says that there is such a name, or none, already; or that it is too long. */
 int axijoint_is_there(int cause) { return cause == EEXIST; }
 int axijoint_is_not_there(int cause) { return cause == ENOENT; }
+int axijoint_is_too_long(int cause) { return cause == ENAMETOOLONG; }
 
 /* Names in a folder that begin and end with some letters, each followed by a line feed: the number
    of bytes, of which no more are given than there is room for; -errno if it cannot be read. */

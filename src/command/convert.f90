@@ -1,13 +1,15 @@
 !> `axijoint convert`: a deck of an older program, written anew
 module axijoint_command_convert
    use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
-   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck
+   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_io
+   use axijoint_base_system, only : path_kind, path_absent, same_file
    use axijoint_command_line, only : command_type
    use axijoint_command_run, only : print_error
    use axijoint_deck_text_diagnostics, only : render
    use axijoint_deck_text_file_bytes, only : read_bytes
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_translate, only : translate_deck
+   use axijoint_output_file_pending, only : check_name
    use axijoint_output_file_text, only : text_file_type
    implicit none
    private
@@ -19,29 +21,17 @@ contains
    subroutine convert_old(command, exit_code)
       !> The old deck, the new one, formats
       type(command_type), intent(in) :: command
-      !> 0; 2 if the old deck has errors; 5 if the new one cannot be written
+      !> 0; 2 if the old deck has errors; 5 if the name of the new one is taken, or it cannot be written
       integer, intent(out) :: exit_code
 
       type(error_type), allocatable :: error
-      type(cards_type) :: cards
-      type(text_file_type) :: file
-      character(len=:), allocatable :: bytes, failure, text, messages
+      character(len=:), allocatable :: text
 
       exit_code = exit_ok
       associate (old => command%decks(1)%text, new => command%decks(2)%text)
-         call read_bytes(old, bytes, failure)
-         if (len(failure) > 0) then
-            call fatal_error(error, exit_deck, old//': error: '//failure)
-         else
-            call translate_deck(old, bytes, command%options%legacy, cards, text)
-            messages = render(cards%diagnostics, cards%source)
-            if (cards%diagnostics%n_errors > 0) then
-               call fatal_error(error, exit_deck, messages)
-            else
-               if (len(messages) > 0) write (error_unit, '(a)') messages
-               call write_new(new, text, file, error)
-            end if
-         end if
+         call check_new(old, new, error)
+         if (.not. allocated(error)) call translate(old, command, text, error)
+         if (.not. allocated(error)) call write_new(new, text, error)
          if (allocated(error)) then
             call print_error('', error)
             exit_code = error%code
@@ -51,14 +41,61 @@ contains
       end associate
    end subroutine convert_old
 
+   !> Nothing is overwritten, least of all the old deck
+   subroutine check_new(old, new, error)
+      !> Paths of the decks
+      character(len=*), intent(in) :: old, new
+      !> The name of the new one is taken
+      type(error_type), allocatable, intent(out) :: error
+
+      if (same_file(old, new)) then
+         call fatal_error(error, exit_io, new//' is the old deck itself'//new_line('a')// &
+            'mend: another name for the new deck')
+         return
+      end if
+      call check_name(new, 'choose another name for the new deck', error)
+      if (allocated(error)) return
+      if (path_kind(new) == path_absent) return
+      call fatal_error(error, exit_io, new//' is there already'//new_line('a')// &
+         'mend: remove it, or choose another name for the new deck')
+   end subroutine check_new
+
+   !> Read the old deck and write it anew in memory; what it means here is told
+   subroutine translate(old, command, text, error)
+      !> Path of the old deck
+      character(len=*), intent(in) :: old
+      !> Formats
+      type(command_type), intent(in) :: command
+      !> The new deck
+      character(len=:), allocatable, intent(out) :: text
+      !> Errors of the old deck
+      type(error_type), allocatable, intent(out) :: error
+
+      type(cards_type) :: cards
+      character(len=:), allocatable :: bytes, failure, messages
+
+      call read_bytes(old, bytes, failure)
+      if (len(failure) > 0) then
+         call fatal_error(error, exit_deck, old//': error: '//failure)
+         return
+      end if
+      call translate_deck(old, bytes, command%options%legacy, cards, text)
+      messages = render(cards%diagnostics, cards%source)
+      if (cards%diagnostics%n_errors > 0) then
+         call fatal_error(error, exit_deck, messages)
+      else if (len(messages) > 0) then
+         write (error_unit, '(a)') messages
+      end if
+   end subroutine translate
+
    !> Write the new deck: it is there when it is complete
-   subroutine write_new(path, text, file, error)
+   subroutine write_new(path, text, error)
       !> Its path, and what it says
       character(len=*), intent(in) :: path, text
-      !> The file
-      type(text_file_type), intent(inout) :: file
       !> It cannot be written
       type(error_type), allocatable, intent(out) :: error
+
+      type(text_file_type) :: file
 
       call file%open(path, error)
       if (allocated(error)) return

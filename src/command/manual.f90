@@ -104,8 +104,8 @@ contains
          'Hinton''s program are known by their headings.', compare_options(), &
          '0 same; 1 different; 2 a file that cannot be read, or usage.')
       topics(7) = topic_type('convert', 'OLD NEW', 'write a deck of another program anew', &
-         'Reads OLD and writes NEW, a deck with comments: from a deck of the axisymmetric '// &
-         'plasticity program of Owen and Hinton one that gives the same results as run --legacy '// &
+         'Reads OLD and writes NEW, a deck with comments, which must not be there before: from a '// &
+         'deck of the axisymmetric plasticity program of Owen and Hinton one that gives the same results as run --legacy '// &
          'owen-hinton OLD; from a deck of NASTRAN for solids of revolution in harmonics (AXIC), or '// &
          'an input file of Abaqus or CalculiX with CAX elements, what can be said. What is '// &
          'understood in another way or not translated is told line by line.', [formats], &

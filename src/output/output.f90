@@ -7,8 +7,8 @@ module axijoint_output_output
    use axijoint_base_last_words, only : note_lock, forget_lock
    use axijoint_base_lock, only : lock_type, take_lock, release_lock
    use axijoint_base_process, only : host_name
-   use axijoint_base_system, only : process_id, path_kind, is_directory, same_file, path_absent, path_file, &
-      path_directory, path_link, error_text, make_directories
+   use axijoint_base_system, only : process_id, path_kind, is_directory, same_file, path_absent, error_text, &
+      make_directories
    use axijoint_base_team, only : team_type, take_team
    use axijoint_base_text, only : count_of
    use axijoint_deck_text_source, only : source_type, card_file
@@ -19,7 +19,7 @@ module axijoint_output_output
    use axijoint_output_file_hdf5, only : hdf5_file_type
    use axijoint_output_file_names, only : endings, file_arrays, file_listing, file_summary, &
       file_bodies, file_joints, file_old_listing, files_of, final_path, journal_ending, lock_ending
-   use axijoint_output_file_pending, only : join_path
+   use axijoint_output_file_pending, only : join_path, check_name
    use axijoint_output_file_run, only : run_type, new_run, exit_code_of
    use axijoint_output_file_set, only : commit_set
    use axijoint_output_file_text, only : text_file_type
@@ -404,8 +404,7 @@ contains
       call release_lock(lock)
    end subroutine write_error_summary
 
-   !> The final names are free or regular files: a link might lead anywhere,
-   !> and a directory or device cannot be replaced
+   !> The final names are free or of regular files
    subroutine check_names(directory, name, files, error)
       !> Directory of the files
       character(len=*), intent(in) :: directory
@@ -416,19 +415,12 @@ contains
       !> The name that is taken
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: found
-      integer :: i, kind
+      integer :: i
 
       do i = 1, size(files)
-         kind = path_kind(final_path(directory, name, files(i)))
-         if (kind == path_absent .or. kind == path_file) cycle
-         found = "is neither a file nor free"
-         if (kind == path_link) found = "is a symbolic link"
-         if (kind == path_directory) found = "is a directory"
-         if (kind < 0) found = "cannot be reached: "//error_text(-kind)
-         call fatal_error(error, exit_io, final_path(directory, name, files(i))//" "//found// &
-            new_line("a")//"mend: move it away, or choose another directory with -o")
-         return
+         call check_name(final_path(directory, name, files(i)), &
+            "move it away, or choose another directory with -o", error)
+         if (allocated(error)) return
       end do
    end subroutine check_names
 

@@ -5,7 +5,7 @@ module axijoint_study_parts
    use axijoint_base_system, only : path_kind, path_absent, unlink_path
    use axijoint_base_text, only : to_text
    use axijoint_base_whole_file, only : names_in
-   use axijoint_output_file_names, only : lock_ending
+   use axijoint_output_file_names, only : lock_ending, rows_ending
    use axijoint_output_file_pending, only : join_path
    use axijoint_study_journal, only : read_journal
    use axijoint_study_rows, only : row_type
@@ -26,9 +26,6 @@ module axijoint_study_parts
 
    !> All rows, by one process
    type(part_type), parameter :: whole = part_type(0, 0)
-
-   !> Ending of a journal
-   character(len=*), parameter :: rows_ending = '.rows'
 
 contains
 

@@ -5,8 +5,8 @@ module axijoint_study_undertaking
    use axijoint_base_stop, only : heed_file
    use axijoint_base_system, only : make_directories, unlink_path
    use axijoint_output_claim, only : claim_type, claim_names, release_output
-   use axijoint_output_file_names, only : journal_ending, table_ending
-   use axijoint_output_file_pending, only : join_path, io_error
+   use axijoint_output_file_names, only : endings, file_arrays, journal_ending, table_ending, rows_ending
+   use axijoint_output_file_pending, only : join_path, io_error, check_name
    use axijoint_output_file_set, only : commit_set
    implicit none
    private
@@ -42,7 +42,7 @@ contains
       type(undertaking_type), intent(out) :: undertaking
       !> What was found and done, a line each; may be empty
       character(len=:), allocatable, intent(out) :: notes
-      !> Another process has the name, or something cannot be written
+      !> Another process has the name, what has it is no file, or something cannot be written
       type(error_type), allocatable, intent(out) :: error
 
       integer :: errno
@@ -57,11 +57,35 @@ contains
          call io_error(error, 'make', directory, errno)
          return
       end if
+      call check_names(undertaking, error)
+      if (.not. allocated(error)) call check_place(join_path(directory, trim(claimed(1)))//rows_ending, error)
+      if (allocated(error)) return
       call claim_names(directory, claimed, purpose, undertaking%claim, notes, error)
       if (allocated(error)) return
       call unlink_path(undertaking%stop_file, errno)  ! of an earlier one
       call heed_file(undertaking%stop_file)
    end subroutine begin_undertaking
+
+   !> What the table and the HDF5 file replace is a regular file, or nothing
+   subroutine check_names(undertaking, error)
+      !> What is under way
+      type(undertaking_type), intent(in) :: undertaking
+      !> A name is taken
+      type(error_type), allocatable, intent(out) :: error
+
+      call check_place(undertaking%stem//table_ending, error)
+      if (.not. allocated(error)) call check_place(undertaking%stem//trim(endings(file_arrays)), error)
+   end subroutine check_names
+
+   !> The same for one file
+   subroutine check_place(path, error)
+      !> Its path
+      character(len=*), intent(in) :: path
+      !> The name is taken
+      type(error_type), allocatable, intent(out) :: error
+
+      call check_name(path, 'move it away, or choose another directory with -o', error)
+   end subroutine check_place
 
    !> Give the name back; an end before its time says how to go on
    subroutine end_undertaking(undertaking, error)
@@ -87,13 +111,16 @@ contains
       type(undertaking_type), intent(in) :: undertaking
       !> Whether the files must stay for the next run
       logical, intent(out) :: halfway
-      !> A name could not be given
+      !> A name is taken, or could not be given
       type(error_type), allocatable, intent(out) :: error
 
       character(len=len(undertaking%name) + len(table_ending)) :: names(2)
 
-      names(1) = undertaking%name//'.h5'
+      names(1) = undertaking%name//trim(endings(file_arrays))
       names(2) = undertaking%name//table_ending
+      halfway = .false.
+      call check_names(undertaking, error)
+      if (allocated(error)) return
       call commit_set(undertaking%directory, undertaking%name//journal_ending, names, halfway, &
          error)
    end subroutine commit_pair

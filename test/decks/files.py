@@ -84,6 +84,18 @@ def occupied(program, folder, make):
     return faults
 
 
+def long_name(program, folder):
+    """A name that leaves no room for the endings of results: what to do is a shorter one, not more room on the disk"""
+    faults = []
+    for length in (245, 251):  # the last one leaves none for the ending itself
+        deck = write(folder, length*'n', read_text(FIRST))
+        ran = program.run('run', deck, '-o', folder)
+        faults += ran.ended_with(5)
+        if 'mend: a shorter name, or a shorter path' not in ran.err or 'make room' in ran.err:
+            faults.append(f'{length} letters: {ran.err[-400:]}')
+    return faults
+
+
 def deck_named_like_a_result(program, folder):
     """A deck is not overwritten by its own results, nor is a file that it includes"""
     faults = []
@@ -198,6 +210,7 @@ def tests(program):
     functions = {
         'no directory': missing, 'no directory can be made': not_made, 'a file for a directory': is_file,
         'read-only directory': read_only, 'file size limit': file_size_limit,
+        'long name': long_name,
         'a deck named like a result': deck_named_like_a_result,
         'full disk': full_disk, 'memory limit': memory, 'stack limit': stack,
         'output that is lost': lost_output,

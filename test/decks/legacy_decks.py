@@ -186,6 +186,27 @@ def refused(program, folder):
     return faults
 
 
+def nothing_overwritten(program, folder):
+    """The new deck takes a name that is free: not the old deck's, by whatever path, nor that of anything else"""
+    text, faults = scenes.DECKS['cylinder.dat'], []
+    old, other = write(folder, 'old.dat', text), write(folder, 'other.dat', 'mine')
+    places = {name: os.path.join(folder, name) for name in ('hard', 'soft', 'pipe', 'folder', 'loose')}
+    os.link(old, places['hard'])
+    os.symlink(old, places['soft'])
+    os.symlink('nowhere', places['loose'])
+    os.mkfifo(places['pipe'])
+    os.mkdir(places['folder'])
+    before = {name: os.lstat(place).st_ino for name, place in places.items()}
+    for new, words in ((old, 'is the old deck itself'), (places['hard'], 'is the old deck itself'),
+                       (places['soft'], 'is the old deck itself'), (other, 'is there already'), (places['loose'], 'is a symbolic link'),
+                       (places['pipe'], 'is neither a file nor free'), (places['folder'], 'is a directory')):
+        ran = program.run('convert', old, new)
+        faults += ran.ended_with(5) + ([] if f'{new} {words}' in ran.err and 'mend: ' in ran.err else [f'{words}\n{ran.err}'])
+    after = {name: os.lstat(place).st_ino for name, place in places.items()}
+    return (faults + expected('files', before, after) + expected('what they say', (text, 'mine'), (read_text(old), read_text(other)))
+            + expected('names', 7, len(os.listdir(folder))))
+
+
 def dialect(program, folder):
     """Elements and properties in other columns, described by a file of formats"""
     lines = scenes.DECKS['cylinder.dat'].split('\n')
@@ -234,7 +255,7 @@ def tests(program):
         return Test(f'legacy: {name}', lambda folder: function(program, folder, *arguments))
 
     return ([test(name.__name__.replace('_', ' '), name) for name in
-             (cylinder, cylinder_mohr, sphere, plate, footing, column, traps, refused, offered, dialect, dialect_error)]
+             (cylinder, cylinder_mohr, sphere, plate, footing, column, traps, refused, nothing_overwritten, offered, dialect, dialect_error)]
             + [test(f'converted, {name}', converted, name) for name in scenes.DECKS]
             + [test(f'error {number}, line {line}', old_error, number, line, columns, text)
                for number, line, columns, text in ERRORS])

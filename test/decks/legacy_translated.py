@@ -12,6 +12,8 @@ from support import INPUTS, Test, read_text, write
 def translated(program, folder, name, text):
     """Convert and solve: what was told, the new deck, summary, tables of the listing"""
     new = os.path.join(folder, 'new.dat')
+    if os.path.exists(new):
+        os.remove(new)
     ran = program.run('convert', write(folder, name, text), new)
     faults = ran.ended_with(0)
     if faults:

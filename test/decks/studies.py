@@ -396,6 +396,22 @@ def wrong_tables(program, folder):
     return faults + expected('files', [], left)
 
 
+def taken_names(program, folder):
+    """What is no file is not replaced by a file of a study or an envelope, nor written to"""
+    faults, deck = [], write(folder, 'block.dat', input_deck('block.dat'))
+    table = write(folder, 'rows.csv', 'LAWS 1 PHI\n30\n')
+    for name in ('rows.study.csv', 'rows.study.h5', 'rows.study.rows', 'block.envelope.csv', 'block.envelope.h5', 'block.envelope.rows'):
+        path = os.path.join(folder, name)
+        os.mkfifo(path)
+        words = ('study', table, deck) if 'study' in name else ('envelope', deck, '--cases', '2')
+        ran = program.run(*words, '-o', folder, '--quiet', folder=folder, time_limit=60)
+        faults += [f'{name}: {fault}' for fault in ran.ended_with(5)]
+        if f'{name} is neither a file nor free' not in ran.err:
+            faults.append(f'{name}: {ran.err}')
+        os.remove(path)
+    return faults + expected('files', ['block.dat', 'rows.csv'], sorted(os.listdir(folder)))
+
+
 def bad_rows(program, folder):
     """Values that a deck cannot have together: the row says so, the others are solved"""
     table = 'MATERIALS 1 E, LAWS 1 kind of law, LAWS 1 phi\n2E4,,\n2E4,ELASTIC,20\n1E4,,\n'
@@ -501,6 +517,7 @@ def tests(program):
         Test('studies/order and parts', lambda folder: order_does_not_matter(program, folder)),
         Test('studies/processes', lambda folder: processes(program, folder)),
         Test('studies/wrong tables', lambda folder: wrong_tables(program, folder)),
+        Test('studies/taken names', lambda folder: taken_names(program, folder)),
         Test('studies/bad rows', lambda folder: bad_rows(program, folder)),
         Test('studies/samples', lambda folder: samples(program, folder)),
         Test('studies/arrays', lambda folder: arrays(program, folder)),

@@ -7,15 +7,16 @@ module axijoint_output_file_names
    private
    public :: endings, file_arrays, file_listing, file_summary, file_bodies, file_joints, &
       file_old_listing
-   public :: files_of, final_path, journal_ending, lock_ending, state_ending, table_ending
+   public :: files_of, final_path, journal_ending, lock_ending, state_ending, table_ending, &
+      rows_ending
 
    !> Endings of the files
    character(len=16), parameter :: endings(6) = [character(len=16) :: &
       ".h5", ".lis", ".json", ".vtkhdf", ".joints.vtkhdf", ".owen-hinton.lis"]
    integer, parameter :: file_arrays = 1, file_listing = 2, file_summary = 3, file_bodies = 4, &
       file_joints = 5, file_old_listing = 6
-   !> Ending of the table of a study
-   character(len=*), parameter :: table_ending = ".csv"
+   !> Endings of the table of a study, and of the journal of its rows
+   character(len=*), parameter :: table_ending = ".csv", rows_ending = ".rows"
    !> Endings of what is there only while a run is under way, or was not ended: who writes these
    !> files, which of them are about to get their names, how far it is
    character(len=*), parameter :: lock_ending = ".lock", journal_ending = ".commit", &

@@ -3,11 +3,13 @@
 module axijoint_output_file_pending
    use axijoint_base_error, only : error_type, fatal_error, exit_io
    use axijoint_base_process, only : host_name
-   use axijoint_base_system, only : process_id, rename_path, sync_path, unlink_path, error_text
+   use axijoint_base_system, only : process_id, path_kind, path_absent, path_file, path_directory, path_link, &
+      rename_path, sync_path, unlink_path, error_text
    use axijoint_base_text, only : to_text
+   use axijoint_base_whole_file, only : is_too_long
    implicit none
    private
-   public :: temporary_path, backup_path, publish, discard, sync_file, sync_names, join_path, io_error
+   public :: temporary_path, backup_path, publish, discard, sync_file, sync_names, join_path, io_error, check_name
 
 contains
 
@@ -103,6 +105,32 @@ contains
       end if
    end function join_path
 
+   !> A final name is free or of a regular file: a link might lead anywhere, and a directory or a
+   !> device cannot be replaced
+   subroutine check_name(path, mend, error)
+      !> The path
+      character(len=*), intent(in) :: path
+      !> What to do if it is taken
+      character(len=*), intent(in) :: mend
+      !> The name is taken
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: found
+      integer :: kind
+
+      kind = path_kind(path)
+      if (kind == path_absent .or. kind == path_file) return
+      found = "is neither a file nor free"
+      if (kind == path_link) found = "is a symbolic link"
+      if (kind == path_directory) found = "is a directory"
+      if (kind < 0) found = "cannot be reached: "//error_text(-kind)
+      if (is_too_long(-kind)) then
+         call io_error(error, "write", path, -kind)
+         return
+      end if
+      call fatal_error(error, exit_io, path//" "//found//new_line("a")//"mend: "//mend)
+   end subroutine check_name
+
    !> Make the error of a file that could not be written
    subroutine io_error(error, action, path, errno)
       !> The new error
@@ -114,13 +142,15 @@ contains
       !> The system's error, zero if it is not known
       integer, intent(in) :: errno
 
-      character(len=:), allocatable :: cause
+      character(len=:), allocatable :: cause, mend
 
       cause = "the system gives no cause"
       if (errno /= 0) cause = error_text(errno)
+      mend = "make room and allow writing there, or choose another directory with -o; "// &
+         "an earlier file of this name is left as it was"
+      if (is_too_long(errno)) mend = "a shorter name, or a shorter path: endings are added to it"
       call fatal_error(error, exit_io, "cannot "//action//" "//path//": "//cause//new_line("a")// &
-         "mend: make room and allow writing there, or choose another directory with -o; "// &
-         "an earlier file of this name is left as it was")
+         "mend: "//mend)
    end subroutine io_error
 
 end module axijoint_output_file_pending
