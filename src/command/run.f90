@@ -142,6 +142,7 @@ contains
 
       if (job%model%error_goal%wanted) then
          call refine_to_goal(job, results, error)
+         if (.not. allocated(error)) call warn_of_target(deck_name(job%deck), results)
          do k = 1, size(job%model%combinations)
             if (allocated(error)) exit
             call write_combination(job, results(k), quiet, exit_code, error)
@@ -163,6 +164,23 @@ contains
          call note_written(job, k, exit_code_of(results(1)))
       end do
    end subroutine solve_and_write
+
+   !> Warn that the rounds of refinement did not meet the target of the error: all combinations have
+   !> the same
+   subroutine warn_of_target(deck, results)
+      !> The deck
+      character(len=*), intent(in) :: deck
+      !> Results of the combinations
+      type(results_type), intent(in) :: results(:)
+
+      integer :: k
+
+      do k = 1, size(results)
+         if (.not. allocated(results(k)%missed)) cycle
+         call tell(deck//': warning: '//results(k)%missed)
+         return
+      end do
+   end subroutine warn_of_target
 
    !> Tell what is no result
    subroutine tell(notes)

@@ -1,6 +1,7 @@
 """ERROR: rounds of refinement, and what they leave of the true error"""
 import json
 import os
+import re
 
 import hard_scenes as scenes
 from hard_decks import at, close, solved
@@ -156,6 +157,21 @@ def limits(program, folder):
     return faults
 
 
+def told(program, folder):
+    """A target that is not met is a warning, once, whatever is shown besides; one that is met is none"""
+    faults = []
+    missed = FACING.replace('2, DISPL', '0.001, DISPL, 2').replace('TRACTIONS', 'CASE\n1\nTRACTIONS').replace(
+        'ERROR', 'COMBINE\n1, 1, 1\n2, 1, 2\nERROR')
+    for name, text, times in (('missed', FACING.replace('2, DISPL', '0.001, DISPL, 2'), 1), ('combined', missed, 1),
+                              ('met', FACING.replace('2, DISPL', '90, DISPL'), 0)):
+        for options in ((), ('--quiet',)):
+            ran = program.run('run', write(folder, f'{name}.dat', text), '-o', folder, *options)
+            faults += ran.ended_with(0)
+            said = len(re.findall(rf'{name}\.dat: warning: the error target of \S+ % was not met in 2 rounds: so many rounds are allowed', ran.err))
+            faults += expected(f'{name}, {options}: warnings', times, said)
+    return faults
+
+
 def shared_room(program, folder):
     """Where not all unknowns are allowed that the target takes, mesh and harmonics both get some, and the error falls"""
     deck = with_goal(read_text(os.path.join(INPUTS, 'monopile.dat')), 1.0, 8, 40000)
@@ -206,7 +222,7 @@ def tests(program):
     return ([test('disc', disc), test("the paper's loop", paper_method), test('centroid', centroid), test('blocks that face others', facing),
              test('graded', graded), test('graded blocks conform', conforming),
              test('other divisions', other_divisions),
-             test('limits', limits), test('shared room', shared_room), test('options', swept),
+             test('limits', limits), test('told', told), test('shared room', shared_room), test('options', swept),
              test('loads of a combination', loads_of_combinations)]
             + [test('memory', back_again)]
             + [test(f'case {number}, {nodes} nodes', case, number, nodes, refined)

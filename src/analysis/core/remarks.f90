@@ -6,7 +6,7 @@ module axijoint_analysis_core_remarks
    use axijoint_analysis_core_results, only : results_type, remark_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_base_kinds, only : wp, degree
-   use axijoint_base_text, only : to_text
+   use axijoint_base_text, only : to_text, count_of
    use axijoint_element_joint_law, only : joint_law_type, opening_reversible, eta
    use axijoint_joints_field, only : joint_field_type, n_across_gaps, n_fading
    use axijoint_joints_history, only : history_type
@@ -298,9 +298,9 @@ contains
          else
             why = 'its mesh is neither of BLOCKS nor of a mesh file alone, or cards call nodes by number'
          end if
-         call add(results%remarks, 'the error target of '//to_text(100.0_wp*goal%target)// &
-            ' % was not met in '// &
-                  to_text(size(results%rounds))//' rounds: '//why)
+         results%missed = 'the error target of '//to_text(100.0_wp*goal%target)//' % was not met in '// &
+            count_of(size(results%rounds), 'round')//': '//why
+         call add(results%remarks, results%missed)
       end associate
    end subroutine remark_on_goal
 

@@ -267,6 +267,8 @@ module axijoint_analysis_core_results
       type(singular_place_type), allocatable :: singular(:)
       !> Rounds of refinement; allocated if the job has a target
       type(round_type), allocatable :: rounds(:)
+      !> That and why they did not meet the target, in words; not allocated if they met it
+      character(len=:), allocatable :: missed
       !> What stiffer joints would change: of soft laws, of stiff laws; none if all are sensible
       type(stiffer_type), allocatable :: stiffer(:)
       !> What was not modelled because it is zero or like something else
