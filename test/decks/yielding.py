@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import os
+import re
 
 import listing
 from support import Test, expected, read_text, write
@@ -93,8 +94,18 @@ def collapse(folder, program):
         faults.append(f'reached {reached}, tried {tried}')
     if not any('no equilibrium beyond the load factor' in text for text in summary['messages']):
         faults.append(f'no word of it: {summary["messages"]}')
+    if not re.search(r'; at the load factor \S+ the last step moved it (more than )?\d{2,} times as far as if all were elastic; results are '
+                     r'those at \d', ' '.join(summary['messages'])):
+        faults.append(f'no word of how far it moved: {summary["messages"]}')
     loads = [row['load_factor'] for row in summary['increments']]
     return faults + expected('curve', True, loads == sorted(loads) and len(loads) > 3)
+
+
+def few_iterations(folder, program):
+    """Too few iterations: a step that moved hardly farther than if all were elastic is told without a multiple"""
+    deck = cylinder((1.0, 0.2, 0.1)).replace('0.1, 1E-8\nEND', '0.1, 1E-8, 1\nEND')
+    words = ' '.join(run(program, folder, deck, (3, 4))['messages'])
+    return [] if re.search(r'\); the last step was to the load factor 1\.\d+; results are those at 1\.2\b', words) else [words]
 
 
 def unloading(folder, program):
@@ -714,7 +725,7 @@ def tests(program):
     def made(name, check):
         return Test(f'yielding/{name}', lambda folder: check(folder, program))
 
-    return [made('thick cylinder', pressure_displacement), made('collapse', collapse), made('past the limit', past_the_limit),
+    return [made('thick cylinder', pressure_displacement), made('collapse', collapse), made('few iterations', few_iterations), made('past the limit', past_the_limit),
             made('methods', methods), made('unloading', unloading),
             made('strength with depth', strength_with_depth),
             made('strong enough', strong_is_elastic), made('other units', other_units),

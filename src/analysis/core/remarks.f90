@@ -11,6 +11,7 @@ module axijoint_analysis_core_remarks
    use axijoint_joints_field, only : joint_field_type, n_across_gaps, n_fading
    use axijoint_joints_history, only : history_type
    use axijoint_joints_path, only : iteration_type
+   use axijoint_joints_watch, only : runaway
    use axijoint_model_model, only : model_type, bodies_yield
    use axijoint_model_request, only : goal_names, refinement_type
    implicit none
@@ -119,6 +120,11 @@ contains
             'not: rounding; '// &
                   'a tolerance of '//to_text(10.0_wp*max(results%residual_ratio, &
                   results%mismatch))//' can be reached')
+         return
+      end if
+      if (history%verdict%ran_away) then
+         call add(remarks, 'the iterations run away: joints move more than '//to_text(runaway)// &
+            ' times as far as elastic joints')
          return
       end if
       if (.not. history%verdict%stalled) then

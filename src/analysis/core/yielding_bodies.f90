@@ -23,8 +23,8 @@ module axijoint_analysis_core_yielding_bodies
 
    !> Bodies that move so many times farther than elastic ones, and are out of balance, give way
    real(wp), parameter :: gave_way = 100.0_wp
-   !> Larger multiples are not told
-   real(wp), parameter :: most_told = 1.0e6_wp
+   !> Smaller multiples, and larger ones, are not told
+   real(wp), parameter :: least_told = 2.0_wp, most_told = 1.0e6_wp
 
 contains
 
@@ -122,11 +122,26 @@ contains
       was = ' was found'
       if (bodies%growth >= gave_way .or. bodies%verdict%ran_away) was = ''
       text = 'no equilibrium'//was//' beyond the load factor '//to_text(history%reached)// &
-         ': '//motion_text(model%mesh, results%modes, results%failing)//', at '// &
-         to_text(bodies%tried)//' '//to_text(nint(min(bodies%growth, most_told)))// &
-         ' times as far as if all were elastic'
+         ': '//motion_text(model%mesh, results%modes, results%failing)
+      if (bodies%growth >= least_told) then
+         text = text//'; at the load factor '//to_text(bodies%tried)//' the last step moved it '// &
+            times_text(bodies%growth)//' as far as if all were elastic'
+      else
+         text = text//'; the last step was to the load factor '//to_text(bodies%tried)
+      end if
       if (bodies%verdict%joints_failed) text = text//', and joints came to no equilibrium'
-      text = text//'; results are those there'
+      text = text//'; results are those at '//to_text(history%reached)
    end function failure_text
+
+   !> A multiple in words
+   function times_text(growth) result(text)
+      !> The multiple
+      real(wp), intent(in) :: growth
+      !> Such as '120 times'
+      character(len=:), allocatable :: text
+
+      text = to_text(nint(min(growth, most_told)))//' times'
+      if (growth > most_told) text = 'more than '//text
+   end function times_text
 
 end module axijoint_analysis_core_yielding_bodies
