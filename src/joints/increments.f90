@@ -23,7 +23,7 @@ module axijoint_joints_increments
    use axijoint_joints_methods, only : other_loop, second_opinion, is_newton
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_residual, only : load_norm, ratio, set_reference
-   use axijoint_joints_scene, only : elastic_stress
+   use axijoint_joints_scene, only : elastic_stress, rounded_stress
    use axijoint_joints_stage, only : stage_type, apply_increments
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type, increment_type
@@ -266,7 +266,7 @@ contains
       end if
       stress = elastic_stress(condensed, history%scene, history%field)
       call set_reference(condensed%measure, history%peak_norm, stress - history%balanced, history%balanced, &
-         increment%tolerance, history%scene%loads%reference)
+         rounded_stress(condensed, history%scene), increment%tolerance, history%scene%loads%reference)
       history%control = control_type(increment%tolerance, increment%max_iterations, &
                                      iteration_type(increment=number, load_factor=load_factor))
       if (size(history%path) > 0) then

@@ -148,7 +148,7 @@ contains
    !> carry of its load if they held, part by part in the harmonics that this load has, and of all
    !> harmonics in the others. Beside what they would carry before it, too, little is rounding: an
    !> increment that moves all parts together loads no joint
-   subroutine set_reference(measure, loads, elastic, before, tolerance, reference)
+   subroutine set_reference(measure, loads, elastic, before, rounding, tolerance, reference)
       !> The measure
       type(measure_type), intent(in) :: measure
       !> Norm of the largest loads so far (Psi_f)
@@ -157,12 +157,14 @@ contains
       real(wp), intent(in) :: elastic(:, :, :)
       !> The joint stress before it if all had held, same shape
       real(wp), intent(in) :: before(:, :, :)
+      !> Joint stress that is rounding of the displacements, same shape
+      real(wp), intent(in) :: rounding(:, :, :)
       !> Tolerance on the ratio
       real(wp), intent(in) :: tolerance
       !> The reference
       type(reference_type), intent(inout) :: reference
 
-      real(wp), dimension(size(measure%part_node)) :: of_part, acting, least_forces
+      real(wp), dimension(size(measure%part_node)) :: of_part, acting, of_rounding, least_forces
       real(wp) :: least
       integer :: k
 
@@ -170,13 +172,14 @@ contains
       reference%forces = sqrt(squares(measure, elastic))
       of_part = sqrt(sum(reference%forces**2, 2))
       acting = sqrt(sum(squares(measure, before), 2))
-      if (norm2(of_part) <= resolution*norm2(acting)) then
+      of_rounding = sqrt(sum(squares(measure, rounding), 2))
+      if (norm2(of_part) <= max(resolution*norm2(acting), norm2(of_rounding))) then
          reference%forces = 0.0_wp
          return
       end if
       least = resolution/max(resolution, tolerance)
       acting = max(of_part, acting)
-      least_forces = least*max(acting, least*maxval([0.0_wp, acting]))
+      least_forces = max(least*max(acting, least*maxval([0.0_wp, acting])), of_rounding/max(resolution, tolerance))
       of_part = max(of_part, least*maxval([0.0_wp, of_part]), least_forces)
       do k = 1, size(measure%integral)
          associate (forces => reference%forces(:, k))

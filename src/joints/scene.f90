@@ -14,7 +14,7 @@ module axijoint_joints_scene
    implicit none
    private
    public :: scene_type, given_work_type, new_scene, find_jumps, jumps, tell_jumps, jumps_of_mode, &
-      own_flexibility, evaluate, views, mismatch_of, elastic_stress
+      own_flexibility, evaluate, views, mismatch_of, elastic_stress, rounded_stress
    public :: motion_of, multiples_of_motions, stand_where_they_are
 
    !> Stiffness k h/E of joints that a state is judged by
@@ -414,5 +414,27 @@ contains
          end if
       end do
    end function elastic_stress
+
+   !> Joint stress that rounding of the displacements makes, if all joints hold: where all moves together, jumps are differences
+   !> of numbers that are next to the same
+   function rounded_stress(condensed, scene) result(stress)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> Amplitudes, shape (3, points, modes)
+      real(wp), allocatable :: stress(:, :, :)
+
+      !> What solutions and differences leave, over the displacements
+      real(wp), parameter :: rounding = 128.0_wp*epsilon(1.0_wp)
+      integer :: k, p
+
+      allocate (stress, mold=scene%loads%free)
+      do k = 1, size(stress, 3)
+         do p = 1, size(stress, 2)
+            stress(:, p, k) = rounding*condensed%points(p)%base*scene%loads%largest(k)
+         end do
+      end do
+   end function rounded_stress
 
 end module axijoint_joints_scene

@@ -15,7 +15,7 @@ module axijoint_plastic_joint_side
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_planes, only : synthesize, analyse
    use axijoint_joints_residual, only : set_reference
-   use axijoint_joints_scene, only : scene_type, given_work_type, elastic_stress
+   use axijoint_joints_scene, only : scene_type, given_work_type, elastic_stress, rounded_stress
    use axijoint_plastic_elastic, only : to_vector, to_nodes, from_nodes
    implicit none
    private
@@ -165,8 +165,8 @@ contains
                if (.not. side%pushed(k)) change(:, :, k) = 0.0_wp
             end do
          end if
-         call set_reference(side%condensed%measure, norm, change, side%balanced, side%control%tolerance, &
-            side%scene%loads%reference)
+         call set_reference(side%condensed%measure, norm, change, side%balanced, &
+            rounded_stress(side%condensed, side%scene), side%control%tolerance, side%scene%loads%reference)
          side%begun = .true.
       end if
       allocate (path(0))
