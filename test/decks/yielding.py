@@ -92,7 +92,7 @@ def collapse(folder, program):
     faults = off('collapse', reached, COLLAPSE, 1e-3) + off('beyond it', tried, COLLAPSE, 1e-3)
     if not reached < tried:
         faults.append(f'reached {reached}, tried {tried}')
-    if not any('no equilibrium beyond the load factor' in text for text in summary['messages']):
+    if not any('no equilibrium was found beyond the load factor' in text for text in summary['messages']):
         faults.append(f'no word of it: {summary["messages"]}')
     if not re.search(r'; at the load factor \S+ the last step moved it (more than )?\d{2,} times as far as if all were elastic; results are '
                      r'those at \d', ' '.join(summary['messages'])):

@@ -10,7 +10,7 @@ from yielding import COLLAPSE, YIELD_STRESS, cylinder, footing, off, run
 
 # Uniform specimen: height and radius 1, Young's modulus, Poisson's ratio
 YOUNG, POISSON = 1000.0, 0.3
-WORDS = 'no equilibrium beyond the load factor'
+WORDS = 'no equilibrium was found beyond the load factor'
 
 
 def specimen(law, axial, lateral, factors):

@@ -21,8 +21,6 @@ module axijoint_analysis_core_yielding_bodies
    private
    public :: solve_bodies
 
-   !> Bodies that move so many times farther than elastic ones, and are out of balance, give way
-   real(wp), parameter :: gave_way = 100.0_wp
    !> Smaller multiples, and larger ones, are not told
    real(wp), parameter :: least_told = 2.0_wp, most_told = 1.0e6_wp
 
@@ -104,8 +102,8 @@ contains
          *load/dot_product(field%pushed, field%pushed)
    end function softness_of
 
-   !> Why the increments ended, in words. That there is no equilibrium is said only if the bodies
-   !> gave way: moved many times farther than elastic ones would, and were still out of balance
+   !> Why the increments ended, in words: how far the load went and what moves. That there is no equilibrium beyond is not said:
+   !> another method may find one a little farther
    function failure_text(model, history, bodies, results) result(text)
       !> The job
       type(model_type), intent(in) :: model
@@ -117,11 +115,7 @@ contains
       !> The sentence
       character(len=:), allocatable :: text
 
-      character(len=:), allocatable :: was
-
-      was = ' was found'
-      if (bodies%growth >= gave_way .or. bodies%verdict%ran_away) was = ''
-      text = 'no equilibrium'//was//' beyond the load factor '//to_text(history%reached)// &
+      text = 'no equilibrium was found beyond the load factor '//to_text(history%reached)// &
          ': '//motion_text(model%mesh, results%modes, results%failing)
       if (bodies%growth >= least_told) then
          text = text//'; at the load factor '//to_text(bodies%tried)//' the last step moved it '// &
