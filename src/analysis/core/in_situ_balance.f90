@@ -55,6 +55,8 @@ module axijoint_analysis_core_in_situ_balance
       real(wp), allocatable :: force(:, :)
       !> Area of the outside around the node, seen along the direction
       real(wp), allocatable :: area(:, :)
+      !> The same times the cosine of the angle between the normal and the direction
+      real(wp), allocatable :: facing(:, :)
       !> The same times the size of the stress there
       real(wp), allocatable :: stress(:, :)
    end type outside_type
@@ -255,9 +257,9 @@ contains
             part%largest = max(part%largest, maxval(largest))
             if (.not. part%has_stress) cycle
             do i = 1, 2
-               if (.not. (ground%free(i, node) .and. outside%area(i, node) > 0.0_wp)) cycle
-               misfit = misfit_type(0.0_wp, outside%force(i, node)/outside%area(i, node), node, i, &
-                  state%increment)
+               if (.not. (ground%free(i, node) .and. outside%facing(i, node) > 0.0_wp)) cycle
+               misfit = misfit_type(0.0_wp, outside%force(i, node)/face_area(outside, i, node), &
+                  node, i, state%increment)
                misfit%share = share_of(misfit%traction, max(largest(i), small*maxval(largest)))
                part%on_whole = larger_misfit(part%on_whole, misfit)
                misfit%share = share_of(misfit%traction, &
@@ -279,6 +281,22 @@ contains
       if (whole > 0.0_wp) share = abs(value)/whole
    end function share_of
 
+   !> Area of the faces around a node on which a direction has tractions: all of a single face, however
+   !> inclined it is; of several, those that face the direction count. The area seen along a direction
+   !> would do for forces that are as small as it is, but along a face both are rounding
+   pure real(wp) function face_area(outside, direction, node) result(area)
+      !> Tractions on the outside
+      type(outside_type), intent(in) :: outside
+      !> 1 along r, 2 along z; some of the outside faces it
+      integer, intent(in) :: direction
+      !> The node
+      integer, intent(in) :: node
+
+      associate (seen => outside%area(direction, node))
+         area = seen*(seen/outside%facing(direction, node))
+      end associate
+   end function face_area
+
    !> Forces of in-situ stress on the outer edges: c_0 times the integral of -N sigma n r ds
    subroutine integrate_edges(model, ground, stresses, outside)
       !> The job
@@ -297,6 +315,7 @@ contains
 
       allocate (outside%force(2, n_nodes(model%mesh)), source=0.0_wp)
       outside%area = outside%force
+      outside%facing = outside%force
       outside%stress = outside%force
       do element = 1, n_elements(model%mesh)
          do side = 1, n_corners(model%mesh%element_size(element))
@@ -320,6 +339,8 @@ contains
                         *[stress(1)*normal(1) + stress(4)*normal(2), stress(4)*normal(1) + &
                         stress(2)*normal(2)]
                      outside%area(:, node) = outside%area(:, node) + weight*abs(shape(i)*normal)
+                     outside%facing(:, node) = outside%facing(:, node) &
+                        + weight*abs(shape(i))*normal**2/norm2(normal)
                      outside%stress(:, node) = outside%stress(:, node) &
                         + weight*abs(shape(i)*normal)*abs(stress(1:2))
                   end associate
