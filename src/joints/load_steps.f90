@@ -14,9 +14,9 @@ module axijoint_joints_load_steps
       real(wp) :: load_factor = 0.0_wp
       !> Factor of each load case
       real(wp), allocatable :: case_factor(:)
-      !> If a displacement is given instead of the loads: what the increment adds to the factors of
-      !> the load cases for elastic bodies, and the share of its displacement that is behind; the
-      !> factors above are then what elastic bodies would need, until equilibrium says which
+      !> If a displacement is given instead of the loads: what a factor of one adds to the factors of
+      !> the load cases, and the share of the increment's displacement that is behind; the factors
+      !> above are then what elastic bodies would need, until equilibrium says which
       real(wp), allocatable :: steered(:)
       real(wp) :: share = 0.0_wp
    end type step_type
@@ -44,20 +44,21 @@ contains
       !> Loads after it
       type(step_type) :: next
 
+      real(wp), allocatable :: direction(:)
+
       next = step
       next%load_factor = step%load_factor + increment%factor
-      if (allocated(next%steered)) deallocate (next%steered)
       if (allocated(increment%direction)) then
-         next%case_factor = step%case_factor + increment%factor*increment%direction
+         direction = increment%direction
       else if (increment%case == 0) then
-         next%case_factor = step%case_factor + increment%factor*combination%factor
+         direction = combination%factor
       else
-         associate (case => increment%case)
-            next%case_factor(case) = step%case_factor(case) + &
-               increment%factor*combination%factor(case)
-         end associate
+         direction = 0.0_wp*combination%factor
+         direction(increment%case) = combination%factor(increment%case)
       end if
-      if (increment%steered) next%steered = next%case_factor - step%case_factor
+      next%case_factor = step%case_factor + increment%factor*direction
+      if (allocated(next%steered)) deallocate (next%steered)
+      if (increment%steered) next%steered = direction
       next%share = 1.0_wp
    end function next_step
 

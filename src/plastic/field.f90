@@ -15,6 +15,9 @@ module axijoint_plastic_field
    !> Components that are odd in theta in a symmetric mode: r-theta and z-theta
    logical, parameter :: odd_components(6) = [.false., .false., .false., .false., .true., .true.]
 
+   !> An increment that changes displacements by less than this part of them holds them
+   real(wp), parameter :: still = 1.0e-9_wp
+
    !> Loads
    type :: body_load_type
       !> Forces on the unknowns of all modes
@@ -27,10 +30,11 @@ module axijoint_plastic_field
 
    !> The state
    type :: body_field_type
-      !> Unknown displacements of all modes; those at the last increment in equilibrium, and what it
-      !> changed of them
+      !> Unknown displacements of all modes; those at the last increment in equilibrium, and what the
+      !> last that moved anything changed of them
       real(wp), allocatable :: unknowns(:), begun(:), moved(:)
-      !> Forces on the unknowns at the last increment in equilibrium, and what it changed of them
+      !> Forces on the unknowns at the last increment in equilibrium, and what the last that moved
+      !> anything changed of them
       real(wp), allocatable :: right(:), pushed(:)
       !> Elastic stress that plastic strain has taken, and plastic strain that has hardened, both at
       !> the last increment in equilibrium, shapes (6, points, planes) and (points, planes)
@@ -152,9 +156,11 @@ contains
       end do
       field%force_before = field%force
       field%elastic_before = field%elastic
-      field%moved = field%unknowns - field%begun
+      if (any(abs(field%unknowns - field%begun) > still*maxval(abs(field%unknowns)))) then
+         field%moved = field%unknowns - field%begun
+         field%pushed = load%right - field%right
+      end if
       field%begun = field%unknowns
-      field%pushed = load%right - field%right
       field%right = load%right
    end subroutine commit
 

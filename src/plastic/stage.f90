@@ -101,11 +101,13 @@ contains
       if (allocated(history%failure)) return
       call stage%put_on_nodes(step%steered, loading)
       load = to_vector(stage%equations, loading%right)
+      if (.not. any(abs(load) > 0.0_wp)) return  ! a case without forces
       associate (problem => stage%problem)
          call steer(problem, load)
-         associate (own => problem%steering%response, begun => stage%bodies%field%begun)
+         associate (own => problem%steering%response, begun => stage%bodies%field%begun, &
+                    factor => stage%model%increments(history%increment)%factor)
             call go_to_displacement(problem, dot_product(load, begun) &
-               + (step%share - history%at%share)*dot_product(load, own), stage%bodies%field)
+               + factor*(step%share - history%at%share)*dot_product(load, own), stage%bodies%field)
          end associate
       end associate
    end subroutine steer_to
@@ -123,8 +125,7 @@ contains
 
       associate (problem => stage%problem, found => stage%problem%steering%factor)
          step%case_factor = history%at%case_factor + found*step%steered
-         step%load_factor = history%at%load_factor + found &
-            *stage%model%increments(history%increment)%factor
+         step%load_factor = history%at%load_factor + found
          call stage%put_on_nodes(step%case_factor, history%loading)
          call note_peak(stage, history)
          call take_load(stage%model, problem, history%loading, load)

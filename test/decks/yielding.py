@@ -201,6 +201,32 @@ def past_the_limit(folder, program):
     return faults + off('work', rows[-1]['energy'] + rows[-1]['dissipated'], rows[-1]['work'], 1e-6)
 
 
+def held(folder, program):
+    """A displacement that stays, given by a factor of zero, leaves the state as it was, before anything moved, on the way
+    past the limit, and at the end, beside a joint, too; so do forces that a combination multiplies by zero"""
+    faults = []
+    for make, factors in ((cylinder, (0.3, 0.9, 8.0, 8.0)), (joined, (2.0, 2.0))):
+        wanted, found = (run(program, folder, steered(make(cards))) for cards in (
+            factors, (0.0, *factors[:-1], 0.0, factors[-1], 0.0)))
+        rows = found['increments']
+        faults += expected('displacement of nothing', 0.0, rows[0]['largest_displacement'])
+        last = len(factors) - 1
+        for row, i in zip(rows[1:], (*range(last), last - 1, last, last)):
+            other = wanted['increments'][i]
+            for name in ('load_factor', 'largest_displacement', 'work', 'energy'):
+                faults += off(f'{name} at {other["load_factor"]}', row[name], other[name], 1e-6)
+        for name in ('load', 'displacement'):
+            one, two = (summary['yielding']['errors']['sum'][name] for summary in (found, wanted))
+            faults += off(f'error of the {name}', one, two, 1e-3) if None not in (one, two) else expected(name, two, one)
+    deck = steered(cylinder((0.3, 0.4))).replace('INCREMENTS', 'COMBINE\n1, 1, 0.0\nINCREMENTS')
+    return faults + expected('no forces', 0.0, run(program, folder, deck)['increments'][-1]['largest_displacement'])
+
+
+def joined(factors):
+    """A pile in clay behind a joint that slips"""
+    return slipping_pile(''.join(f'{factor},\n' for factor in factors), more=PRESSED)
+
+
 def with_method(deck, method):
     """A deck with a method for bodies that yield in its CONTROL"""
     head, tail = deck.split('CONTROL\n')
@@ -726,6 +752,7 @@ def tests(program):
         return Test(f'yielding/{name}', lambda folder: check(folder, program))
 
     return [made('thick cylinder', pressure_displacement), made('collapse', collapse), made('few iterations', few_iterations), made('past the limit', past_the_limit),
+            made('held', held),
             made('methods', methods), made('unloading', unloading),
             made('strength with depth', strength_with_depth),
             made('strong enough', strong_is_elastic), made('other units', other_units),
