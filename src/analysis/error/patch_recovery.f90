@@ -73,13 +73,17 @@ module axijoint_analysis_error_patch_recovery
       integer :: fit = 1, last = 1
    end type patch_work_type
 
+   !> Samples that lie in a strip of this half width – 1 is half an element – know nothing across it: what
+   !> differs among them would be taken far beyond them
+   real(wp), parameter :: flat = 0.1_wp
+
    !> Coordinates of a patch
    type :: frame_type
       !> Linear map of r and z to natural coordinates, but for a shift
       real(wp) :: turn(2, 2) = 0.0_wp
       !> Middle of the element of the patch, after the map
       real(wp) :: middle(2) = 0.0_wp
-      !> Middle and half widths of the patch, after the map
+      !> Middle and half widths of the patch, after the map; a huge width leaves a direction out
       real(wp) :: origin(2) = 0.0_wp, half(2) = 1.0_wp
    end type frame_type
 
@@ -346,7 +350,7 @@ contains
       work%fits(work%last) = fit
    end subroutine fit_patch
 
-   !> A coordinate rounded; a huge one, of a patch that is a point, as it is
+   !> A coordinate rounded; a huge one, far outside, as it is
    elemental real(wp) function rounded(x)
       !> The coordinate
       real(wp), intent(in) :: x
@@ -409,10 +413,11 @@ contains
          high = max(high, x)
       end do
       frame%origin = 0.5_wp*(low + high)
-      frame%half = max(0.5_wp*(high - low), epsilon(1.0_wp)*maxval(high - low), tiny(1.0_wp))
+      frame%half = 0.5_wp*(high - low)
+      where (.not. frame%half > flat) frame%half = huge(flat)
    end function new_frame
 
-   !> Coordinates of a point in a patch, within -1 and 1
+   !> Coordinates of a point in a patch, within -1 and 1; 0 in a direction that is left out
    pure function in_frame(frame, position) result(x)
       !> The patch
       type(frame_type), intent(in) :: frame
