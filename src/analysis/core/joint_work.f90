@@ -2,6 +2,7 @@
 module axijoint_analysis_core_joint_work
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_assembly_force, only : joint_jump
+   use axijoint_assembly_unit_loads, only : in_situ_joint_stress
    use axijoint_base_kinds, only : wp, pi
    use axijoint_element_joint_law, only : joint_law_type, state_open
    use axijoint_fe_fourier, only : circle_integral
@@ -66,59 +67,65 @@ contains
 
    !> Work that shear stress has done on slip from one state to the next, by the mean of both
    !> stresses: exact if friction does not change in between. Slip is the relative displacement
-   !> less what the springs take; of points that open none counts
+   !> less what the springs take; of points that open none counts. Stress in situ is there before
+   !> anything moves
    function sliding_work(model, structure, before, now) result(work)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure
       type(structure_type), intent(in) :: structure
-      !> Both states; the first has no stress if it was not reached
+      !> Both states; the first has no stress if nothing has happened before
       type(increment_state_type), intent(in) :: before, now
       !> The work [force length]
       real(wp) :: work
 
       integer, parameter :: shear(2) = [1, 3]
-      type(joint_law_type) :: law
-      real(wp), allocatable :: weight(:)
-      real(wp) :: stress(2), slip(2)
+      real(wp), allocatable :: weight(:), in_situ(:, :)
+      real(wp) :: stress(2), start(2), moved(2)
       integer :: j, k
 
       work = 0.0_wp
       if (.not. allocated(now%stress)) return
       weight = circle_weights(structure%planes)
+      in_situ = new_in_situ(model, structure, before, now)
       do j = 1, size(weight)
          do k = 1, size(structure%condensed%points)
             if (now%state(k, j) == state_open) cycle
+            stress = now%stress(shear, k, j)
+            start = in_situ(shear, k)
+            moved = now%jump(shear, k, j)
+            if (allocated(before%stress)) then
+               start = start + before%stress(shear, k, j)
+               moved = moved - before%jump(shear, k, j)
+            end if
             associate (point => structure%condensed%points(k))
-               law = model%joint_materials(point%material)%law
-               stress = now%stress(shear, k, j)
-               slip = slip_of(law, now%jump(shear, k, j), stress)
-               if (allocated(before%stress)) then
-                  stress = 0.5_wp*(stress + before%stress(shear, k, j))
-                  slip = slip - slip_of(law, before%jump(shear, k, j), &
-                                        before%stress(shear, k, j))
-               end if
-               work = work + weight(j)*point%weight*dot_product(stress, slip)
+               associate (law => model%joint_materials(point%material)%law)
+                  work = work + weight(j)*point%weight*sum(0.5_wp*(start + stress) &
+                     *(moved - (stress - start)/law%stiffness(shear)), &
+                     law%stiffness(shear) > 0.0_wp)
+               end associate
             end associate
          end do
       end do
-
-   contains
-
-      !> Relative displacement less what the springs take
-      pure function slip_of(law, jump, stress) result(slip)
-         !> The law
-         type(joint_law_type), intent(in) :: law
-         !> Along xi and theta
-         real(wp), intent(in) :: jump(2), stress(2)
-         !> The slip
-         real(wp) :: slip(2)
-
-         slip = 0.0_wp
-         where (law%stiffness(shear) > 0.0_wp) slip = jump - stress/law%stiffness(shear)
-      end function slip_of
-
    end function sliding_work
+
+   !> Stress in situ of the joints that can yield, that is new from one state to the next
+   function new_in_situ(model, structure, before, now) result(stress)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> Both states; the first has no stress if nothing has happened before
+      type(increment_state_type), intent(in) :: before, now
+      !> Shape (3, points)
+      real(wp), allocatable :: stress(:, :)
+
+      associate (points => structure%condensed%points)
+         stress = in_situ_joint_stress(model, points, now%case_factor)
+         if (allocated(before%stress)) &
+            stress = stress - in_situ_joint_stress(model, points, before%case_factor)
+      end associate
+   end function new_in_situ
 
    !> Weights of the planes in an integral over the circle: trapezium rule
    pure function circle_weights(planes) result(weight)
