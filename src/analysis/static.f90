@@ -32,6 +32,7 @@ module axijoint_analysis_static
    use axijoint_joints_increments, only : run_increments, compare_loops
    use axijoint_joints_keeper, only : keeper_type
    use axijoint_joints_load_steps, only : final_factors, loads_of_increments
+   use axijoint_joints_residual, only : balance_each_other
    use axijoint_joints_scene, only : stand_where_they_are
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_load, only : combination_type
@@ -131,6 +132,7 @@ contains
          results%plastic = plastic_fields(model, results%modes, results%stress, &
             state%bodies)
       end associate
+      results%at_rest = is_at_rest(structure, history, field)
       if (estimates) &
          call estimate_discretization(model, structure, history%loading, field, &
             history%largest_stress, mesh_error, results)
@@ -157,6 +159,23 @@ contains
       results%exchanged(2) = structure%equations%team%exchanged()
       call timer%pop()
    end subroutine analyse_combination
+
+   !> Whether loads balance each other before anything moves, and joints hold
+   logical function is_at_rest(structure, history, field) result(rests)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> The loads
+      type(history_type), intent(in) :: history
+      !> State of the joints that can yield
+      type(joint_field_type), intent(in) :: field
+
+      !> Stress that joints do not admit below this part of the largest is rounding
+      real(wp), parameter :: none = 1.0e-9_wp
+
+      rests = balance_each_other(structure%equations, history%loading)
+      if (rests .and. size(structure%yielding) > 0) &
+         rests = maxval(abs(field%excess)) <= none*maxval(abs(field%stress))
+   end function is_at_rest
 
    !> Joints that yield: the increments on the condensed structure, then the
    !> displacements of the whole

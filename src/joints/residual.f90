@@ -14,7 +14,7 @@ module axijoint_joints_residual
    private
    public :: measure_type, reference_type, strictest_type, residual_record_type, new_measure, &
       set_reference
-   public :: strictest, ratios_of, residual_norm, load_norm, ratio
+   public :: strictest, ratios_of, residual_norm, load_norm, balance_each_other, ratio
 
    !> A residual this small beside the forces of the increment is rounding: smaller parts and
    !> harmonics are not resolved beyond it
@@ -293,35 +293,68 @@ contains
       integer :: k
 
       do k = 1, size(equations%modes)
-         associate (external => loading%external(:, :, k), right => loading%right(:, :, k))
-            squared(k) = 0.0_wp
-            if (.not. (is_loaded(external) .or. is_loaded(right))) cycle
-            squared(k) = (sum(on_equations(equations, k, external)**2) &
-                          + sum(on_equations(equations, k, right - external)**2)) &
-               /circle_integral(equations%modes(k)%harmonic)
-         end associate
+         squared(k) = squared_parts(equations, loading, k)/circle_integral(equations%modes(k)%harmonic)
       end do
       norm = sqrt(sum(squared))
-
-   contains
-
-      !> Whether there is any force: most harmonics of most jobs are not loaded
-      pure logical function is_loaded(force)
-         !> Forces on components, shape (3, nodes)
-         real(wp), intent(in) :: force(:, :)
-
-         integer :: i, node
-
-         is_loaded = .true.
-         do node = 1, size(force, 2)
-            do i = 1, 3
-               if (abs(force(i, node)) > 0.0_wp) return
-            end do
-         end do
-         is_loaded = .false.
-      end function is_loaded
-
    end function load_norm
+
+   !> Sum of the squares of the loads of a mode: external forces, and what held displacements and initial
+   !> stresses make
+   function squared_parts(equations, loading, k) result(squared)
+      !> The equations
+      type(equations_type), intent(in) :: equations
+      !> The loads
+      type(loading_type), intent(in) :: loading
+      !> Place of the mode
+      integer, intent(in) :: k
+      !> The sum
+      real(wp) :: squared
+
+      associate (external => loading%external(:, :, k), right => loading%right(:, :, k))
+         squared = 0.0_wp
+         if (.not. (is_loaded(external) .or. is_loaded(right))) return
+         squared = sum(on_equations(equations, k, external)**2) &
+                   + sum(on_equations(equations, k, right - external)**2)
+      end associate
+   end function squared_parts
+
+   !> Whether loads balance each other in every mode, but for rounding of their own and of the mesh,
+   !> before anything moves
+   function balance_each_other(equations, loading) result(balance)
+      !> The equations
+      type(equations_type), intent(in) :: equations
+      !> The loads
+      type(loading_type), intent(in) :: loading
+      !> Whether they do
+      logical :: balance
+
+      !> What is left of them, over them
+      real(wp), parameter :: left = 1.0e-9_wp
+      integer :: k
+
+      balance = .false.
+      do k = 1, size(equations%modes)
+         if (sum(on_equations(equations, k, loading%right(:, :, k))**2) &
+             > left**2*squared_parts(equations, loading, k)) return
+      end do
+      balance = .true.
+   end function balance_each_other
+
+   !> Whether there is any force: most harmonics of most jobs are not loaded
+   pure logical function is_loaded(force)
+      !> Forces on components, shape (3, nodes)
+      real(wp), intent(in) :: force(:, :)
+
+      integer :: i, node
+
+      is_loaded = .true.
+      do node = 1, size(force, 2)
+         do i = 1, 3
+            if (abs(force(i, node)) > 0.0_wp) return
+         end do
+      end do
+      is_loaded = .false.
+   end function is_loaded
 
    !> Quotient of two sizes; zero over zero is zero
    elemental function ratio(part, whole)

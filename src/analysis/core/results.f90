@@ -216,6 +216,9 @@ module axijoint_analysis_core_results
       !> structure that it is measured on; empty for a linear job
       type(residual_record_type), allocatable :: residuals(:)
       integer, allocatable :: residual_part_node(:)
+      !> Whether loads balance each other before anything moves, and joints hold: displacements are
+      !> rounding
+      logical :: at_rest = .false.
       !> Error of displacements or joint stresses that the iterations leave, where it is more than
       !> the tolerance claims; zero if it is not
       real(wp) :: unsettled = 0.0_wp

@@ -47,6 +47,7 @@ contains
       budget(source_solver) = error_share_type(source=source_solver, &
          remedy='less contrast of the stiffnesses')
       budget(source_solver)%displacement = solver_error(results)
+      if (results%at_rest) budget%displacement = min(0.0_wp, budget%displacement)  ! nothing is left to be off
    end function new_budget
 
    !> What rounding in the solver leaves of the displacements, over the largest

@@ -65,6 +65,7 @@ contains
          if (mesh_error%known) then
             estimate%displacement = ratio(largest_vector(results%modes, mesh_error%displacement), &
                                           estimate%largest_displacement)
+            if (results%at_rest) estimate%displacement = 0.0_wp
             estimate%joint_stress = joint_stress_error()
          end if
          estimate%seconds = structure%fine%seconds + mesh_error%seconds + omp_get_wtime() - start
