@@ -17,7 +17,7 @@ module axijoint_analysis_static
    use axijoint_analysis_error_largest_values, only : largest_vector
    use axijoint_analysis_error_plastic_errors, only : estimate_plastic_errors
    use axijoint_analysis_error_stiffer_joints, only : compare_stiffer
-   use axijoint_analysis_error_yielding_errors, only : estimate_yielding_errors
+   use axijoint_analysis_error_yielding_errors, only : estimate_yielding_errors, yielding_scale
    use axijoint_analysis_fine_difference, only : difference_type, new_difference
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type, new_mesh_error
    use axijoint_assembly_loading, only : new_loading
@@ -94,6 +94,7 @@ contains
       type(joint_field_type) :: field
       type(history_type) :: history
       type(mesh_error_type) :: mesh_error
+      real(wp) :: yielding_stress
       logical :: estimates, remarks
 
       remarks = .true.
@@ -132,10 +133,12 @@ contains
          results%plastic = plastic_fields(model, results%modes, results%stress, &
             state%bodies)
       end associate
+      yielding_stress = 0.0_wp
+      if (estimates .and. size(structure%yielding) > 0) yielding_stress = yielding_scale(structure, history)
       results%at_rest = is_at_rest(structure, history, field)
       if (estimates) &
          call estimate_discretization(model, structure, history%loading, field, &
-            history%largest_stress, mesh_error, results)
+            yielding_stress, mesh_error, results)
       if (remarks .and. bodies_yield(model)) &
          call estimate_plastic_errors(model, structure, combination, results, progress)
       call move_bodies(model, structure, results%states(size(results%states)), results)

@@ -88,7 +88,7 @@ contains
          end do
       end if
       if (history%n_faded > 0) call add(remarks, fading_text(history))
-      if (history%verdict%at_rounding) then
+      if (history%verdict%at_rounding .and. .not. results%unsettled > 0.0_wp) then
          call add(remarks, 'rounding allows no smaller residual ratio: the stress of open '// &
             'joints so '// &
                   'stiff is large; a tolerance of '//to_text(10.0_wp*results%residual_ratio)// &

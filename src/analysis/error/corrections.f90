@@ -6,7 +6,7 @@ module axijoint_analysis_error_corrections
    use axijoint_analysis_core_solution, only : solve_displacements
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_error_budget, only : solver_error
-   use axijoint_analysis_error_yielding_errors, only : iteration_error
+   use axijoint_analysis_error_yielding_errors, only : iteration_error, held_share
    use axijoint_assembly_force, only : elastic_joint_stress
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
@@ -105,6 +105,9 @@ contains
       integer, parameter :: most_attempts = 3
       !> Part of the tolerance that would do if errors fell with it
       real(wp), parameter :: ample = 0.3_wp
+      !> Joint stresses are not claimed better than as if the largest were this part of what joints would
+      !> carry if they held: balanced forces do not say more of joints that are about to close
+      real(wp), parameter :: slight = 1.0e-2_wp
       type(error_share_type) :: share, wanted
       real(wp) :: tolerance, excess
       integer :: k
@@ -113,12 +116,14 @@ contains
          if (.not. results%converged .or. history%method%accumulates) return
          tolerance = results%tolerance
          wanted%displacement = claim(condensed, results%tolerance)
-         wanted%joint_stress = merge(wanted%displacement, huge(1.0_wp), condensed%proportion <= stiff)
+         wanted%joint_stress = huge(1.0_wp)
+         if (condensed%proportion <= stiff) wanted%joint_stress = &
+            wanted%displacement*max(1.0_wp, slight*held_share(structure, history))
          do k = 0, most_attempts
             call iteration_error(structure, history, results, wanted, share)
-            excess = share%displacement
-            if (condensed%proportion <= stiff) excess = max(excess, share%joint_stress)
-            excess = excess/wanted%displacement
+            excess = share%displacement/wanted%displacement
+            if (condensed%proportion <= stiff) &
+               excess = max(excess, share%joint_stress/wanted%joint_stress)
             if (excess <= 1.0_wp) return
             if (k == most_attempts) exit
             tolerance = ample*tolerance/excess
@@ -131,7 +136,8 @@ contains
             if (allocated(error)) return
          end do
          results%converged = .false.
-         results%unsettled = excess*claimed*results%tolerance
+         results%unsettled = share%displacement
+         if (condensed%proportion <= stiff) results%unsettled = max(share%displacement, share%joint_stress)
       end associate
    end subroutine keep_claim
 

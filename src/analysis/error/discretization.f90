@@ -22,7 +22,7 @@ module axijoint_analysis_error_discretization
 contains
 
    !> Estimate the discretization error
-   subroutine estimate_discretization(model, structure, loading, field, largest_stress, &
+   subroutine estimate_discretization(model, structure, loading, field, yielding_stress, &
       mesh_error, results)
       !> The job
       type(model_type), intent(in) :: model
@@ -32,8 +32,8 @@ contains
       type(loading_type), intent(in) :: loading
       !> State of the joints
       type(joint_field_type), intent(in) :: field
-      !> Largest stress of points of joints that yield, of all increments; not allocated if none can
-      real(wp), allocatable, intent(in) :: largest_stress(:)
+      !> Stress that errors of joints that yield are measured by; zero if none can
+      real(wp), intent(in) :: yielding_stress
       !> Errors of the displacements of nodes, and of joints that yield
       type(mesh_error_type), intent(in) :: mesh_error
       !> Results, stresses and all; takes the estimate
@@ -89,9 +89,7 @@ contains
             structure%joint_points(elastic), new_view(results%plane_angles, results%modes), &
             mesh_error%jump(:, elastic, :)))
          scale = maxval(maxval(maxval(abs(results%joint_stress), 3), 1), mask=structure%judged)
-         if (allocated(largest_stress)) then
-            scale = max(scale, maxval(largest_stress, mask=structure%judged(structure%yielding)))
-         end if
+         scale = max(scale, yielding_stress)
          if (.not. all(structure%judged)) largest = away_from_infinite*largest
          error = ratio(largest, scale)
       end function joint_stress_error

@@ -23,16 +23,18 @@ module axijoint_analysis_error_yielding_errors
       find_joint_changes, change_between, &
                                            largest_change
    use axijoint_joints_residual, only : ratio
-   use axijoint_joints_scene, only : scene_type
+   use axijoint_joints_scene, only : scene_type, elastic_stress
    use axijoint_joints_settle, only : settle_wholly, find_again
    use axijoint_model_joint_points, only : model_joint_point_type
    implicit none
    private
-   public :: estimate_yielding_errors, iteration_error
+   public :: estimate_yielding_errors, iteration_error, held_share, yielding_scale
 
    !> Displacements below this part of those with elastic joints are rounding: all loads were taken
    !> away
    real(wp), parameter :: none = 1.0e-9_wp
+   !> Errors of joint stress are measured by no less than this part of what joints would carry if they held
+   real(wp), parameter :: small = 1.0e-6_wp
 
 contains
 
@@ -196,7 +198,7 @@ contains
       share%displacement = ratio(displacement + change%beyond, &
          max(largest, none*history%largest_elastic))
       share%joint_stress = ratio(max(change%stress, stress), &
-         maxval(history%largest_stress, mask=structure%judged(structure%yielding)))
+         yielding_scale(structure, history))
    end subroutine bound_share
 
    !> Whether all loads were taken away, and displacements and stress of joints with them. Then
@@ -294,9 +296,50 @@ contains
       !> The stress
       real(wp) :: scale
 
-      scale = max(maxval(history%largest_stress, mask=structure%judged(structure%yielding)), &
+      scale = max(yielding_scale(structure, history), &
                   elastic_change(structure, displacement))
    end function stress_scale
+
+   !> Largest stress of joints that yield, where it is judged, in all increments; at least a small part of
+   !> what they would carry if they held: what loads press on joints that are about to close may be rounding
+   function yielding_scale(structure, history) result(scale)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> The stress
+      real(wp) :: scale
+
+      scale = maxval([0.0_wp, pack(history%largest_stress, structure%judged(structure%yielding)), &
+                      small*held_stress(structure, history)])
+   end function yielding_scale
+
+   !> Largest stress that joints would carry if they held, where it is judged
+   function held_stress(structure, history) result(stress)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> The stress: amplitudes of all modes together
+      real(wp) :: stress
+
+      associate (amplitude => elastic_stress(structure%condensed, history%scene, history%field))
+         stress = maxval([0.0_wp, pack(maxval(sum(abs(amplitude), 3), 1), &
+                                       structure%judged(structure%yielding))])
+      end associate
+   end function held_stress
+
+   !> The same over the stress that errors are measured by: large where loads hardly close the joints
+   function held_share(structure, history) result(share)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> The share
+      real(wp) :: share
+
+      share = ratio(held_stress(structure, history), yielding_scale(structure, history))
+   end function held_share
 
    !> Errors of the mesh while the stress of the joints is what it is
    subroutine mesh_error_of_held(structure, history, field, displacement, error)
