@@ -492,48 +492,6 @@ def hard_inputs():
     return {f'{name}.dat': text for name, text in decks.items()}
 
 
-# Ground on a slope that friction alone cannot hold, its weight in balance with its stress but for the joint
-SLOPE = """TITLE
-Ground on a slope
-CONTROL
-0, 9, , , , , TRANSFER
-MATERIALS
-1, 200, 0.3, 0.002
-2, 200, 0.3, 0.002
-LAWS
-1, 1000, 1000, 1000, 0, 30
-LAWDETAILS
-1, RESULTANT
-BLOCKS
-1, 1, 8, 1, 2
-0, -4, 1, -4, 2, 0, 0, 0
-2, 2, 8, 1, 2
-1, -4, 6, -4, 6, 0, 2, 0
-FACES
-1, 1, 1, -4, 2, 0
-2, 2, 1, -4, 2, 0
-3, 1, 0, -4, 1, -4
-4, 2, 1, -4, 6, -4
-5, 2, 6, -4, 6, 0
-INTERFACES
-1, 1, 2
-FIXEDFACES
-3, 010
-4, 010
-5, 100
-CASE
-1
-GRAVITY
--10
-INSITU
-1, 0, 0.02, 0.2
-2, 0, 0.02, 0.2
-INCREMENTS
-1, 1E-8, 500, 1
-END
-"""
-
-
 def main(folder):
     """Write the decks of inputs/hard"""
     for name, text in hard_inputs().items():
