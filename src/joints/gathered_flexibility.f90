@@ -12,7 +12,7 @@ module axijoint_joints_gathered_flexibility
    public :: gathered_type, gathering_type, gather_moving, is_worth_threads
 
    !> Numbers of flexibilities that a processor keeps at hand
-   real(wp), parameter :: at_hand = 3.0e4_wp
+   real(wp), parameter :: at_hand = 1.0e5_wp
    !> Numbers of flexibilities from which on threads are worth their start
    real(wp), parameter :: worth_threads = 1.0e5_wp
    !> What is gathered serves fewer points if it is of so many times as many at most

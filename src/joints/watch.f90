@@ -45,7 +45,7 @@ contains
       type(joint_field_type), intent(in) :: field
       !> Excess stress that is not transferred yet, shape (3, points, modes): what it moves is as large as a state, too, where
       !> loads alone move nothing, as weight does in ground whose stress balances it
-      real(wp), intent(in) :: residual(:, :, :)
+      real(wp), intent(in), contiguous :: residual(:, :, :)
       !> The watch
       type(watch_type) :: watch
 
