@@ -91,8 +91,8 @@ contains
       call add_warning(diagnostics, 0, 0, 0, part_text(model, part)// &
          ' has no in-situ stress, but joints press '// &
                        'it with that of its neighbours, up to '//to_text(part%pressed), &
-                       mend='give it an INSITU card; one with gamma = 0 and MEANT says that it '// &
-                       'has none')
+                       mend='give it an INSITU card; one with gamma = 0, K0 = 0 and MEANT says '// &
+                       'that it has none')
    end subroutine tell_pressed
 
    !> Tell of a part whose weight is not that of its in-situ stress

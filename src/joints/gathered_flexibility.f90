@@ -31,8 +31,8 @@ module axijoint_joints_gathered_flexibility
    type :: gathering_type
       !> The points; not allocated if nothing is gathered yet
       integer, allocatable :: points(:)
-      !> Whether all digits are
-      logical :: double = .false.
+      !> Whether all digits are, and whether they are to be from now on
+      logical :: double = .false., all_digits = .false.
       !> One a system
       type(gathered_type), allocatable :: flexibilities(:)
       !> Weights over the largest, of all points of component 1, 2, 3, and that
@@ -60,7 +60,7 @@ contains
       integer :: k, s
 
       if (.not. any(moves)) return
-      double = any(stiff .and. moves) .or. n_numbers(condensed, count(moves)) <= at_hand
+      double = gathering%all_digits .or. any(stiff .and. moves) .or. n_numbers(condensed, count(moves)) <= at_hand
       if (serves(gathering, moves, double)) then
          moves = .false.
          moves(gathering%points) = .true.

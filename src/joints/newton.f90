@@ -17,9 +17,10 @@ module axijoint_joints_newton
    use axijoint_joints_newton_system, only : linear_type, gathering_type, solve
    use axijoint_joints_planes, only : synthesize, analyse
    use axijoint_joints_scene, only : scene_type, views
+   use axijoint_model_joint_points, only : stiffest_base
    implicit none
    private
-   public :: newton_type, step_bounds_type, see, linearize, newton_step, at_points, newton_view, bold
+   public :: newton_type, step_bounds_type, see, linearize, newton_step, at_points, newton_view, bold, most_damping
 
    !> Stiffness k h/E of joints that the laws see at most at a time
    real(wp), parameter :: newton_view = 10.0_wp
@@ -36,6 +37,8 @@ module axijoint_joints_newton
    !> Residual ratio below which an iterate is near to equilibrium, and the springs that damp a step
    !> there first, in parts of the stiffness of the bodies
    real(wp), parameter :: near = 0.1_wp, damping = 0.1_wp
+   !> Springs that damp all steps of an attempt, at first and at most, in the same parts
+   real(wp), parameter :: strong_damping = 0.5_wp
 
    !> Laws of all points, linear about an iterate: the excess stress k d - P changes by the slopes of the linear
    !> system times the change of the jumps, and by -`rest`; the right side of the system is what is not transferred of
@@ -69,6 +72,8 @@ module axijoint_joints_newton
       real(wp) :: radius = huge(1.0_wp)
       !> Springs that damp a step, as a share of the joints' stiffness; they weaken while that helps
       real(wp) :: damping = 0.0_wp
+      !> Whether all steps are damped, by less the less is missing
+      logical :: damps_all = .false.
       !> Steps in a row that were next to nothing of their linear solutions
       integer :: n_astray = 0
    end type step_bounds_type
@@ -322,6 +327,22 @@ contains
       end do
    end function merit_of
 
+   !> Springs that damp all steps of an attempt, at first and at most, as a share of the joints' stiffness in the structure
+   pure real(wp) function most_damping(condensed)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+
+      most_damping = strong_damping*share_of_bodies(condensed)
+   end function most_damping
+
+   !> Stiffness of the bodies, as a share of that which joints have in the structure, 1 at most
+   pure real(wp) function share_of_bodies(condensed) result(share)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+
+      share = 1.0_wp/max(1.0_wp, min(condensed%proportion, stiffest_base))
+   end function share_of_bodies
+
    !> One step. Near to equilibrium, where all points are about to slip, next to nothing may resist a
    !> motion, or less than nothing, for friction has no potential. A step along it goes too far, or
    !> against the force; one that springs damp goes along with the force, farther and farther.
@@ -346,14 +367,18 @@ contains
       logical :: falls
 
       start = iterate_type(field%excess, field%carried, field%jump)
+      least = newton%merit
       call step_along(condensed, scene, bounds, start, newton, field, residual, made, falls)
-      if (bounds%damping > 0.0_wp) then
+      if (bounds%damps_all) then
+         bounds%damping = min(most_damping(condensed), &
+            merge(widening, 1.0_wp, newton%merit > least)*sqrt(newton%merit/max(tiny(least), least))*bounds%damping)
+      else if (bounds%damping > 0.0_wp) then
          bounds%damping = merge(bounds%damping/widening, 0.0_wp, made .and. falls)
       else if (made .and. .not. falls .and. bounds%far < near) then
          reached = iterate_type(field%excess, field%carried, field%jump)
          least = newton%merit
          call go_to(start)
-         bounds%damping = damping/max(1.0_wp, condensed%proportion)
+         bounds%damping = damping*share_of_bodies(condensed)
          call step_along(condensed, scene, bounds, start, newton, field, residual, made, falls)
          if (.not. (made .and. newton%merit < least)) then
             bounds%damping = 0.0_wp

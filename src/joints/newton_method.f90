@@ -11,7 +11,7 @@ module axijoint_joints_newton_method
    use axijoint_joints_mechanism, only : find_mechanism
    use axijoint_joints_method, only : method_type, control_type, verdict_type
    use axijoint_joints_newton, only : newton_type, see, linearize, newton_step, step_bounds_type, &
-      newton_view, bold
+      newton_view, bold, most_damping
    use axijoint_joints_passes, only : pass_on
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_residual, only : strictest_type, strictest, residual_norm
@@ -57,13 +57,12 @@ module axijoint_joints_newton_method
    !> Steps along a motion that nothing resists until weak springs are tried
    integer, parameter :: enough_astray = 2
 
-   !> What to try where the iterations ran away or stalled: nothing more, weaker springs than those
-   !> that were taken away too early, the whole stiffness at once, steps as long as they want, weak
-   !> springs, cohesion that fades, smaller steps of that, and as much of it as there was equilibrium
-   !> for
+   !> What to try where the iterations ran away or stalled: nothing more, the whole stiffness at once,
+   !> cohesion that fades, smaller steps of that, as much of it as there was equilibrium for, damped
+   !> steps, weaker springs than those that were taken away too early, weak springs
    enum, bind(c)
-      enumerator :: give_up, weaker_springs, whole_stiffness, long_steps, weak_springs, &
-         fading_cohesion, slower_fading, wider_fading
+      enumerator :: give_up, whole_stiffness, fading_cohesion, slower_fading, wider_fading, damped_steps, &
+         weaker_springs, weak_springs
    end enum
 
    !> The method
@@ -91,9 +90,9 @@ module axijoint_joints_newton_method
       real(wp) :: springs = 0.0_wp
       !> What bounds the steps
       type(step_bounds_type) :: bounds
-      !> Whether the laws see a part of the stiffness first, whether steps are long whatever the
-      !> residual does, whether weak springs were tried, and whether the last step was not made
-      logical :: in_stages = .false., far = .false., leaked = .false., ran = .false.
+      !> Whether the laws see a part of the stiffness first, whether damped steps and weak springs were
+      !> tried, and whether the last step was not made
+      logical :: in_stages = .false., damped = .false., leaked = .false., ran = .false.
       !> Whether cohesion that fades was tried, and whether it is not to fade faster
       logical :: faded = .false., wide = .false.
       !> What the fading is multiplied by whenever there is equilibrium, and how far down
@@ -248,10 +247,10 @@ contains
          next = slower_fading
       else if (stalled .and. holds_faded(course)) then
          next = wider_fading
+      else if (.not. (course%damped .or. course%leaked)) then
+         next = damped_steps
       else if (.not. field%leak > 0.0_wp .and. course%springs > last_leak) then
          next = weaker_springs
-      else if (stalled .and. .not. (course%far .or. course%leaked)) then
-         next = long_steps
       else if (may_hold_weakly(condensed, course, may_go_on)) then
          next = weak_springs
       end if
@@ -314,10 +313,12 @@ contains
          course%in_stages = .false.
          field = course%start
          call begin_again(condensed, scene, 0.0_wp, field, course, verdict)
-      case (long_steps)
-         course%far = .true.
+      case (damped_steps)
+         course%damped = .true.
          field = course%start
          call begin_again(condensed, scene, 0.0_wp, field, course, verdict)
+         course%bounds%damps_all = .true.
+         course%bounds%damping = most_damping(condensed)
       case (fading_cohesion)
          course%faded = .true.
          field = course%start
@@ -352,7 +353,6 @@ contains
       type(verdict_type), intent(inout) :: verdict
 
       course%leaked = .true.
-      course%far = .false.
       course%bounds%radius = huge(1.0_wp)  ! the springs hold
       call begin_again(condensed, scene, first_leak, field, course, verdict)
    end subroutine hold_weakly
@@ -378,6 +378,7 @@ contains
       course%watch%best = huge(1.0_wp)
       course%n_steps = 0
       course%bounds%damping = 0.0_wp
+      course%bounds%damps_all = .false.
       course%bounds%n_astray = 0
       field%leak = leak
       call look_again(condensed, scene, 1.0_wp, field, course)
@@ -514,8 +515,7 @@ contains
             call approach(condensed, scene, .true., course%begun, field, course%residual, moved)
             if (moved) call linearize(condensed, scene, ratio, field, course%newton)
          end if
-         if (course%far) bounds%radius = bounds%largest
-         bounds%more = merge(bold, careful, falls .or. course%far)
+         bounds%more = merge(bold, careful, falls)
          call newton_step(condensed, scene, bounds, course%newton, field, course%residual, made)
       end associate
       if (.not. made .and. .not. field%leak > 0.0_wp) then  ! what slips may stop farther on

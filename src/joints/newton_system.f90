@@ -86,7 +86,7 @@ module axijoint_joints_newton_system
 
 contains
 
-   !> Solve for the change of the excess stress
+   !> Solve for the change of the excess stress, with all digits if few do not do
    subroutine solve(condensed, scene, linear, tolerance, change, jump, kept)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
@@ -101,23 +101,47 @@ contains
       !> Flexibilities that were gathered for the last solution, then for this one
       type(gathering_type), intent(inout), optional, target :: kept
 
+      type(gathering_type), target :: own
+      type(gathering_type), pointer :: gathering
+      real(wp) :: left
+
+      gathering => own
+      if (present(kept)) gathering => kept
+      call solve_by(gathering, condensed, scene, linear, tolerance, change, jump, left)
+      if (gathering%double .or. left <= loosest) return
+      gathering%all_digits = .true.
+      call solve_by(gathering, condensed, scene, linear, tolerance, change, jump, left)
+   end subroutine solve
+
+   !> Solve by the digits that are gathered
+   subroutine solve_by(gathering, condensed, scene, linear, tolerance, change, jump, share)
+      !> Flexibilities that were gathered for the last solution, then for this one
+      type(gathering_type), intent(inout), target :: gathering
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> Slopes and right side
+      type(linear_type), intent(in) :: linear
+      !> What may be left of the right side
+      real(wp), intent(in) :: tolerance
+      !> The change, and amplitudes of the jumps that it makes, shape (3, points, modes)
+      real(wp), allocatable, intent(out) :: change(:, :, :), jump(:, :, :)
+      !> What is left over the right side
+      real(wp), intent(out) :: share
+
       type(derivative_type) :: derivative
-      type(gathering_type), target :: gathering
       type(room_type), target :: room
       real(wp), allocatable :: right(:, :, :), left(:, :, :), x(:)
       integer, allocatable :: points(:)
       logical :: moves(size(linear%slope, 3))
-      real(wp) :: enough, before, reached, reduction
+      real(wp) :: whole, before, reached, reduction
       integer :: k, n, n_products
 
+      share = 0.0_wp
       moves = moving(condensed, linear%slope)
-      if (present(kept)) then
-         call gather_moving(condensed, linear%stiff, moves, kept)
-         derivative%gathering => kept
-      else
-         call gather_moving(condensed, linear%stiff, moves, gathering)
-         derivative%gathering => gathering
-      end if
+      call gather_moving(condensed, linear%stiff, moves, gathering)
+      derivative%gathering => gathering
       points = pack([(k, k=1, size(moves))], moves)
       change = linear%residual
       do k = 1, size(moves)  ! what is left of points that hold is often nothing
@@ -128,24 +152,25 @@ contains
       if (any(abs(change) > 0.0_wp)) jump = jumps(condensed, scene, change, free=.false.)
       if (size(points) == 0) return
       call new_derivative(condensed, scene, linear, points, derivative)
-      call make_room(derivative%gathering%double, size(points), size(scene%system), room)
+      call make_room(gathering%double, size(points), size(scene%system), room)
       derivative%room => room
       right = by_component(linear%residual, points)
       if (allocated(derivative%blocks)) call precondition(derivative%blocks, right)
-      enough = tolerance*hypot(norm2(change), norm2(right))
+      whole = hypot(norm2(change), norm2(right))
       allocate (x(size(right)))
       before = huge(before)
       do n = 1, most_solutions
          left = remainder(derivative, linear, points, change, jump)
          reached = norm2(left)
-         if (reached <= enough .or. reached > worth_more*before) exit
+         if (reached <= tolerance*whole .or. reached > worth_more*before) exit
          before = reached
-         call gmres(derivative, reshape(left, [size(x)]), min(loosest, max(enough/reached, &
+         call gmres(derivative, reshape(left, [size(x)]), min(loosest, max(tolerance*whole/reached, &
             derivative%least_left)), min(most_products, size(x)), x, n_products, reduction)
          call add(reshape(x, shape(left)), points, change)
          jump = jumps(condensed, scene, change, free=.false.)
       end do
-   end subroutine solve
+      if (whole > 0.0_wp) share = reached/whole
+   end subroutine solve_by
 
    !> Memory for products
    subroutine make_room(double, n, n_modes, room)

@@ -10,6 +10,7 @@ module axijoint_joints_scene
    use axijoint_joints_loads, only : joint_loads_type, new_joint_loads
    use axijoint_joints_planes, only : planes_type, new_planes, synthesize, analyse
    use axijoint_linalg_lapack, only : invert, matrix_sparse_vector, symmetric_vector
+   use axijoint_model_joint_points, only : law_at
    use axijoint_model_model, only : model_type
    implicit none
    private
@@ -65,7 +66,7 @@ contains
 
       integer :: k
 
-      scene%laws = model%joint_materials(condensed%points%material)%law
+      scene%laws = law_at(condensed%points, model%joint_materials(condensed%points%material))
       do k = 1, size(scene%laws)
          associate (law => scene%laws(k))
             law%edge = max(1.0_wp, condensed%points(k)%proportion*law%stiffness(eta) &

@@ -4,12 +4,13 @@ module axijoint_model_joint_points
    use axijoint_element_joint, only : joint_point_type, new_joint_point, lower_node
    use axijoint_element_joint_law, only : joint_law_type, law_elastic
    use axijoint_fe_quadrature, only : gauss_rule, lobatto_rule
-   use axijoint_model_material, only : rule_centroid, rule_gauss
+   use axijoint_model_material, only : joint_material_type, rule_centroid, rule_gauss
    use axijoint_model_model, only : model_type
    use axijoint_model_neighbours, only : neighbours_type, new_neighbours, element_at_edge
    implicit none
    private
-   public :: model_joint_point_type, new_joint_points, joint_rule, stiffness_ratio
+   public :: model_joint_point_type, new_joint_points, joint_rule, stiffness_ratio, law_at, least_moduli, &
+      stiffest_base
 
    !> k h/E up to which joints that can yield act in the structure with their whole stiffness. What
    !> stiffer joints do beyond that is left to the iteration on their laws: a structure that is
@@ -22,7 +23,9 @@ module axijoint_model_joint_points
       integer :: joint = 0, material = 0
       !> Nodes of the joint, the first 2 n_pairs of which are in use
       integer :: nodes(6) = 0
-      !> Stiffness in proportion to the bodies, k h/E
+      !> Stiffness of its law along xi, eta, theta; of a rigid joint, as much of it as counts [stress/length]
+      real(wp) :: stiffness(3) = 0.0_wp
+      !> The same in proportion to the bodies, k h/E
       real(wp) :: proportion = 0.0_wp
       !> Stiffness along xi, eta, theta that the structure has there: k of the law or, of a joint
       !> that can yield and is much stiffer than the bodies, less [stress/length]
@@ -43,7 +46,7 @@ contains
       type(model_joint_point_type), allocatable :: points(:)
 
       type(neighbours_type) :: neighbours
-      real(wp) :: x(3), w(3), side(2, 3), modulus
+      real(wp) :: x(3), w(3), side(2, 3), length, modulus(size(model%mesh%node_label))
       integer :: joint, k, n, n_pairs, count, elements(2)
       logical :: in_situ
 
@@ -52,7 +55,7 @@ contains
       elements = 0
       allocate (points(3*size(model%mesh%joint_label)))
       count = 0
-      modulus = least_modulus(model)
+      modulus = least_moduli(model)
       do joint = 1, size(model%mesh%joint_label)
          n_pairs = model%mesh%joint_size(joint)/2
          associate (nodes => model%mesh%joint_nodes(:, joint), &
@@ -65,6 +68,7 @@ contains
             else
                call joint_rule(model%joint_materials(material)%rule, n_pairs, n, x, w)
             end if
+            length = norm2(side(:, 2) - side(:, 1))
             do k = 1, n
                count = count + 1
                points(count)%joint_point_type = new_joint_point(side(:, :n_pairs), x(k), w(k))
@@ -72,9 +76,8 @@ contains
                points(count)%material = material
                points(count)%nodes = nodes
                points(count)%elements = elements
-               call set_base(model%joint_materials(material)%law, &
-                  norm2(side(:, 2) - side(:, 1))/modulus, &
-                             points(count))
+               call set_stiffness(model%joint_materials(material)%law, model%rigid_joint, &
+                  length/minval(modulus(nodes(:2*n_pairs))), length/minval(modulus), points(count))
             end do
          end associate
       end do
@@ -100,40 +103,59 @@ contains
       end if
    end subroutine joint_rule
 
-   !> What the stiffness of a joint is in proportion to the bodies, and in the structure
-   pure subroutine set_base(law, flexibility, point)
+   !> Stiffness of a joint that counts, what it is in proportion to the bodies, and in the structure
+   pure subroutine set_stiffness(law, rigid, beside, flexibility, point)
       !> Law of the joint
       type(joint_law_type), intent(in) :: law
-      !> Length of the joint over the modulus of the bodies, h/E
-      real(wp), intent(in) :: flexibility
+      !> k h/E from which on joints that can yield count as rigid
+      real(wp), intent(in) :: rigid
+      !> Length of the joint over the least modulus of the bodies beside it and of all bodies, h/E
+      real(wp), intent(in) :: beside, flexibility
       !> The point
       type(model_joint_point_type), intent(inout) :: point
 
-      point%proportion = maxval(law%stiffness)*flexibility
-      point%base = law%stiffness
+      point%stiffness = law%stiffness
+      if (law%kind /= law_elastic) point%stiffness = law%stiffness/max(1.0_wp, maxval(law%stiffness)*beside/rigid)
+      point%proportion = maxval(point%stiffness)*flexibility
+      point%base = point%stiffness
       if (law%kind /= law_elastic .and. point%proportion > stiffest_base) then
-         point%base = stiffest_base/point%proportion*law%stiffness
+         point%base = stiffest_base/point%proportion*point%stiffness
       end if
-   end subroutine set_base
+   end subroutine set_stiffness
 
-   !> Least modulus E of the elements
-   pure real(wp) function least_modulus(model) result(modulus)
+   !> Law of a joint point, with the stiffness that counts
+   elemental function law_at(point, material) result(law)
+      !> The point
+      type(model_joint_point_type), intent(in) :: point
+      !> Material of its joint
+      type(joint_material_type), intent(in) :: material
+      !> The law
+      type(joint_law_type) :: law
+
+      law = material%law
+      law%stiffness = point%stiffness
+   end function law_at
+
+   !> Least modulus E of the elements at each node; the largest number where there are none
+   pure function least_moduli(model) result(modulus)
       !> The job
       type(model_type), intent(in) :: model
+      !> Shape (nodes)
+      real(wp) :: modulus(size(model%mesh%node_label))
 
-      integer :: k
+      real(wp) :: young
+      integer :: element
 
       modulus = huge(1.0_wp)
-      do k = 1, size(model%mesh%element_material)
-         associate (material => model%materials(model%mesh%element_material(k)))
-            if (material%orthotropic) then
-               modulus = min(modulus, minval(material%moduli))
-            else
-               modulus = min(modulus, material%young)
-            end if
+      do element = 1, size(model%mesh%element_label)
+         associate (nodes => model%mesh%element_nodes(:model%mesh%element_size(element), element), &
+                    material => model%materials(model%mesh%element_material(element)))
+            young = material%young
+            if (material%orthotropic) young = minval(material%moduli)
+            modulus(nodes) = min(modulus(nodes), young)
          end associate
       end do
-   end function least_modulus
+   end function least_moduli
 
    !> Stiffness of the joints in proportion to the bodies: the largest k h/E, with
    !> the length h of a joint and the least modulus E of the elements

@@ -2,6 +2,7 @@
 module axijoint_model_joint_proportion
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : joint_law_type, law_elastic, eta
+   use axijoint_model_joint_points, only : least_moduli
    use axijoint_model_model, only : model_type
    implicit none
    private
@@ -52,27 +53,6 @@ contains
          end associate
       end do
    end function joint_proportions
-
-   !> Least modulus of the elements at each node
-   pure function least_moduli(model) result(modulus)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Moduli; shape (nodes)
-      real(wp) :: modulus(size(model%mesh%node_label))
-
-      real(wp) :: young
-      integer :: element
-
-      modulus = huge(1.0_wp)
-      do element = 1, size(model%mesh%element_label)
-         associate (nodes => model%mesh%element_nodes(:model%mesh%element_size(element), element), &
-                    material => model%materials(model%mesh%element_material(element)))
-            young = material%young
-            if (material%orthotropic) young = minval(material%moduli)
-            modulus(nodes) = min(modulus(nodes), young)
-         end associate
-      end do
-   end function least_moduli
 
    !> Whether the joints of a law are soft or stiff out of proportion
    pure integer function side_of(law, proportion) result(side)

@@ -407,7 +407,7 @@ def tests(program):
     found = [Test(f'resumed: {what}', lambda folder, check=check: check(program, folder))
              for what, check in functions.items()]
     for what, deck in JOBS.items():
-        step = 11 if what in ('history', 'rounds') else 5
+        step = 11 if what == 'history' else 5
         found.append(Test(f'resumed: {what}', lambda folder, deck=deck, step=step: every_state(
             program, folder, deck, step)))
         found.append(Test(f'resumed: {what}, at every name', lambda folder, deck=deck: every_state(

@@ -119,6 +119,7 @@ def sides(program, folder):
     for k_xi, k_eta, law, side, words in (
             (1.61e2, 1.61e2, 'PAPER', 'sensible', ''), (1.59e2, 1.59e2, 'PAPER', 'soft', 'along eta'),
             (1.59e7, 1.59e7, 'ELASTIC', 'sensible', ''), (1.61e7, 1.61e7, 'ELASTIC', 'stiff', '10 E/h'),
+            (1.61e10, 1.61e10, 'PAPER', 'stiff', 'counts as rigid'), (1.61e9, 1.61e9, 'PAPER', 'stiff', '10 E/h'),
             (1.0, 1e4, 'PAPER', 'sensible', ''), (1.0, 1e4, 'ELASTIC', 'soft', 'along xi'),
             (0.0, 1e4, 'ELASTIC', 'sensible', '')):
         deck = paper(law=law)

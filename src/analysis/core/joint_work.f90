@@ -9,7 +9,7 @@ module axijoint_analysis_core_joint_work
    use axijoint_joints_field, only : joint_field_type, new_joint_field, set_initial_stress
    use axijoint_joints_planes, only : planes_type
    use axijoint_joints_states, only : increment_state_type
-   use axijoint_model_joint_points, only : model_joint_point_type
+   use axijoint_model_joint_points, only : model_joint_point_type, law_at
    use axijoint_model_model, only : model_type, can_yield_at
    implicit none
    private
@@ -56,7 +56,7 @@ contains
       do j = 1, size(weight)
          do k = 1, size(structure%condensed%points)
             associate (point => structure%condensed%points(k))
-               law = model%joint_materials(point%material)%law
+               law = law_at(point, model%joint_materials(point%material))
                energy = energy + 0.5_wp*weight(j)*point%weight &
                   *sum((state%stress(:, k, j)**2 - in_situ%initial(:, k)**2)/law%stiffness, &
                        law%stiffness > 0.0_wp)
@@ -99,7 +99,7 @@ contains
                moved = moved - before%jump(shear, k, j)
             end if
             associate (point => structure%condensed%points(k))
-               associate (law => model%joint_materials(point%material)%law)
+               associate (law => law_at(point, model%joint_materials(point%material)))
                   work = work + weight(j)*point%weight*sum(0.5_wp*(start + stress) &
                      *(moved - (stress - start)/law%stiffness(shear)), &
                      law%stiffness(shear) > 0.0_wp)

@@ -3,6 +3,7 @@ module axijoint_analysis_core_proportion_remarks
    use axijoint_analysis_core_results, only : results_type, remark_type, stiffer_type
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
+   use axijoint_element_joint_law, only : law_elastic
    use axijoint_model_joint_proportion, only : proportion_type, joint_proportions, side_of, &
       decisive_direction, &
       side_stiff
@@ -33,7 +34,7 @@ contains
          associate (stiffer => results%stiffer(i))
             do k = 1, size(stiffer%laws)
                text = proportion_text(model%joint_materials(stiffer%laws(k)), &
-                  proportions(stiffer%laws(k)))
+                  proportions(stiffer%laws(k)), model%rigid_joint)
                remarks = [remarks, remark_type(text)]
             end do
             if (.not. stiffer%known) cycle
@@ -44,11 +45,13 @@ contains
    end function proportion_remarks
 
    !> A law out of proportion in words
-   pure function proportion_text(material, proportion) result(text)
+   pure function proportion_text(material, proportion, rigid) result(text)
       !> The law
       type(joint_material_type), intent(in) :: material
       !> Its joints
       type(proportion_type), intent(in) :: proportion
+      !> k h/E from which on joints that can yield count as rigid
+      real(wp), intent(in) :: rigid
       !> The sentence
       character(len=:), allocatable :: text
 
@@ -61,7 +64,9 @@ contains
       text = 'law '//to_text(material%label)//': joints '//trim(merge('stiff', 'soft ', stiff))// &
          ' out of proportion, k h/E up to '//to_text(proportion%largest(direction))//' along '// &
          trim(directions(direction))//' (sensible: 1E-3 to 1E2)'
-      if (stiff) then
+      if (material%law%kind /= law_elastic .and. maxval(proportion%largest) > (1.0_wp + epsilon(rigid))*rigid) then
+         text = text//'; counts as rigid, k = '//to_text(rigid)//' E/h'
+      else if (stiff) then
          text = text//'; k = 10 E/h is as good as rigid'
       else
          text = text//'; contact needs about k = E/h'

@@ -108,7 +108,7 @@ contains
          do i = 1, size(structure%joint_points)
             associate (point => structure%joint_points(i))
                joint_energy = joint_energy + 0.5_wp*point%weight*energy_density( &
-                  stress(:, i), model%joint_materials(point%material)%law%stiffness)
+                  stress(:, i), point%stiffness)
             end associate
          end do
          joint_energy = mode_integral(results%modes(k))*joint_energy

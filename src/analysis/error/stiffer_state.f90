@@ -145,6 +145,7 @@ contains
             law%stiffness = times*law%stiffness
          end associate
       end do
+      stiffer%rigid_joint = times*model%rigid_joint
       call timer%start()
       call build_structure(stiffer, structure, timer, progress, error, estimated=.false.)
       if (allocated(error)) return

@@ -8,7 +8,7 @@ module axijoint_analysis_fine_joint_quadrature
    use axijoint_fe_shape, only : lagrange
    use axijoint_joints_field, only : joint_field_type, trial_of
    use axijoint_joints_planes, only : planes_type, analyse
-   use axijoint_model_joint_points, only : model_joint_point_type, joint_rule
+   use axijoint_model_joint_points, only : model_joint_point_type, joint_rule, law_at
    use axijoint_model_model, only : model_type
    implicit none
    private
@@ -117,7 +117,7 @@ contains
 
       do i = 1, course%n
          k = course%first + i - 1
-         course%trial(:, i) = trial_of(model%joint_materials(points(k)%material)%law, k, plane, &
+         course%trial(:, i) = trial_of(law_at(points(k), model%joint_materials(points(k)%material)), k, plane, &
             field%jump(:, k, plane), field)
          course%stress(:, i) = law_stress(model, points, field, plane, course, course%x(i))
       end do
@@ -148,7 +148,7 @@ contains
       do i = 1, course%n
          trial = trial + course%trial(:, i)*shape(i)
       end do
-      call admit(model%joint_materials(points(k)%material)%law, field%memory(k, plane), trial, stress, tangent)
+      call admit(law_at(points(k), model%joint_materials(points(k)%material)), field%memory(k, plane), trial, stress, tangent)
    end function law_stress
 
    !> Whether the stresses at the ends and in the middle lie on the course of those at the points

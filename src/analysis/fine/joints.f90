@@ -12,7 +12,7 @@ module axijoint_analysis_fine_joints
       admit_jump
    use axijoint_joints_planes, only : synthesize, analyse
    use axijoint_joints_scene, only : scene_type
-   use axijoint_model_joint_points, only : model_joint_point_type, joint_rule, stiffness_ratio
+   use axijoint_model_joint_points, only : model_joint_point_type, joint_rule, law_at, stiffness_ratio
    use axijoint_model_model, only : model_type, can_yield_at
    implicit none
    private
@@ -65,7 +65,7 @@ contains
       call set_initial_stress(level%model, points, case_factor, fine_field)
       call spread_memory(level%model, condensed%points, field%memory, fine_field%memory)
       left = jump  ! for its shape
-      laws = level%model%joint_materials(points%material)%law
+      laws = law_at(points, level%model%joint_materials(points%material))
       base = reshape([(points(k)%base, k=1, size(points))], [3, size(points)])
       fine_field%jump = jump + moved
       call admit_jump(laws, base, [(1.0_wp, k=1, size(points))], fine_field, left)

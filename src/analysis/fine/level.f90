@@ -214,6 +214,7 @@ contains
                   2.0_wp*half)
                point%weight = before%weight
                point%base = before%base
+               point%stiffness = before%stiffness
             end associate
          end do
          do half = 1, 2
@@ -222,6 +223,7 @@ contains
                level%on_coarse(n_fine) = in_joint(model%mesh, joint, 0.5_wp*x(k) + half - 1.5_wp)
                ! that of the joint's points, whatever their length
                level%joint_points(n_fine)%base = before%base
+               level%joint_points(n_fine)%stiffness = before%stiffness
                level%joint_points(n_fine)%proportion = before%proportion
             end do
          end do

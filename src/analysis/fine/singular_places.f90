@@ -6,6 +6,7 @@ module axijoint_analysis_fine_singular_places
    use axijoint_base_kinds, only : wp, pi
    use axijoint_element_wedge, only : wedge_exponent
    use axijoint_fe_shape, only : n_corners
+   use axijoint_model_joint_points, only : least_moduli
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type, can_yield_at
    implicit none
@@ -272,7 +273,7 @@ contains
       joints%together = line
       allocate (joints%holds(size(line)), source=.false.)
       allocate (joints%stiffness(size(line)), joints%length(size(line)), source=0.0_wp)
-      associate (mesh => model%mesh, modulus => least_modulus(model), n => n_joints(model%mesh))
+      associate (mesh => model%mesh, modulus => least_moduli(model), n => n_joints(model%mesh))
          call unite(reshape(mesh%joint_nodes(:4, :), [4, n]), line)
          call unite(reshape(mesh%joint_nodes([1, 4, 2, 3], :), [2, 2*n]), joints%together)
          do k = 1, n
@@ -315,25 +316,6 @@ contains
          end do
       end do
    end subroutine unite
-
-   !> Least modulus of the elements at each node
-   pure function least_modulus(model) result(modulus)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Shape (nodes)
-      real(wp) :: modulus(n_nodes(model%mesh))
-
-      integer :: k
-
-      modulus = huge(1.0_wp)
-      do k = 1, n_elements(model%mesh)
-         associate (nodes => model%mesh%element_nodes(:model%mesh%element_size(k), k), &
-                    material => model%materials(model%mesh%element_material(k)))
-            modulus(nodes) = min(modulus(nodes), &
-               merge(minval(material%moduli), material%young, material%orthotropic))
-         end associate
-      end do
-   end function least_modulus
 
    !> Whether joint stresses at points are judged: those that are far enough from singular places;
    !> all, if none is
