@@ -23,7 +23,7 @@ module axijoint_model_joint_points
       integer :: joint = 0, material = 0
       !> Nodes of the joint, the first 2 n_pairs of which are in use
       integer :: nodes(6) = 0
-      !> Stiffness of its law along xi, eta, theta; of a rigid joint, as much of it as counts [stress/length]
+      !> Stiffness of its law along xi, eta, theta; where that is as good as rigid, as much of it as counts [stress/length]
       real(wp) :: stiffness(3) = 0.0_wp
       !> The same in proportion to the bodies, k h/E
       real(wp) :: proportion = 0.0_wp
@@ -115,7 +115,7 @@ contains
       type(model_joint_point_type), intent(inout) :: point
 
       point%stiffness = law%stiffness
-      if (law%kind /= law_elastic) point%stiffness = law%stiffness/max(1.0_wp, maxval(law%stiffness)*beside/rigid)
+      if (law%kind /= law_elastic) point%stiffness = min(law%stiffness, rigid/beside)
       point%proportion = maxval(point%stiffness)*flexibility
       point%base = point%stiffness
       if (law%kind /= law_elastic .and. point%proportion > stiffest_base) then
