@@ -12,6 +12,7 @@ from stability_solids import CEA, ENERGY, against_interpolant
 
 # k h / E of joints
 PROPORTIONS = [10.0**k for k in range(-6, 7)]
+RIGID = 1e5  # what joints that can yield count with at most
 TOLERANCE = 1e-6
 
 
@@ -212,22 +213,30 @@ def tee_exact(r, z, above, stiffness):
             1: np.array([-bend, TILT*r*s/YOUNG + rotation*r, bend]).T}
 
 
+def tee_error(runs, proportion):
+    """Largest error of the displacements, over the largest"""
+    stiffness = proportion*YOUNG/0.25
+    results = runs.run("tee", tee_deck(8, float(f"{stiffness:.12G}")))
+    above = np.ones(len(results.coordinates))
+    for body, nodes in zip(results.element_body, results.element_nodes):
+        if body == 3:
+            above[nodes[nodes > 0] - 1] = 0.0
+    exact = tee_exact(*results.coordinates.T, above, stiffness)
+    size = max(np.abs(values).max() for values in exact.values())
+    error = max(np.abs(values - (exact.get(m, 0.0) if family == SYMMETRIC else 0.0)).max()
+                for (m, family), values in results.displacement.items())
+    return error/size
+
+
 def tee(runs):
-    """8-node elements hold the exact field: what is left is rounding. From k h/E = 1e5 on joints count as rigid, with that"""
-    found = []
-    for proportion in PROPORTIONS:
-        results = runs.run("tee", tee_deck(8, float(f"{proportion*YOUNG/0.25:.12G}")))
-        stiffness = min(proportion, 1e5)*YOUNG/0.25
-        above = np.ones(len(results.coordinates))
-        for body, nodes in zip(results.element_body, results.element_nodes):
-            if body == 3:
-                above[nodes[nodes > 0] - 1] = 0.0
-        exact = tee_exact(*results.coordinates.T, above, stiffness)
-        size = max(np.abs(values).max() for values in exact.values())
-        error = max(np.abs(values - (exact.get(m, 0.0) if family == SYMMETRIC else 0.0)).max()
-                    for (m, family), values in results.displacement.items())
-        found.append((error/size, 100*EPSILON*runs.condition("tee"), f"k h/E = {proportion:g}"))
-    return worst(found)
+    """8-node elements hold the exact field: what is left is rounding"""
+    return worst([(tee_error(runs, proportion), 100*EPSILON*runs.condition("tee"), f"k h/E = {proportion:g}")
+                  for proportion in PROPORTIONS if proportion <= RIGID])
+
+
+def rigid_tee(runs):
+    """Joints that count as rigid, against the exact field of their whole stiffness"""
+    return worst([(tee_error(runs, proportion), 10/RIGID, f"k h/E = {proportion:g}") for proportion in (1e6, 1e9)])
 
 
 CASES = [*[elastic_joints(name) for name in ("4-node", "8-node")],
@@ -239,7 +248,9 @@ CASES = [*[elastic_joints(name) for name in ("4-node", "8-node")],
               "displacement", "tolerance 1e-6", law_kept),
          Case("case 3, bodies and joints", "k h/E = 1e-6 … 1e5",
               "self-consistent: relative displacement of the bodies × k", "100 × tolerance", jumps_agree),
-         Case("joints in a T", "k h/E = 1e-6 … 1e6", "exact, displacements", "100 ε × condition", tee),
+         Case("joints in a T", "k h/E = 1e-6 … 1e5", "exact, displacements", "100 ε × condition", tee),
+         Case("rigid joints in a T", "k h/E = 1e6, 1e9", "exact, displacements", "1e-4: ten times E/(k h) of what counts",
+              rigid_tee),
          *[rings_apart(name, proportions) for name in ("4-node", "8-node")
            for proportions in (PROPORTIONS[:9], PROPORTIONS[9:])],
          Case("open shaft of a pile", "gap never closes", "self-consistent: no interface", "tolerance 1e-6",

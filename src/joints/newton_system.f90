@@ -87,7 +87,7 @@ module axijoint_joints_newton_system
 contains
 
    !> Solve for the change of the excess stress, with all digits if few do not do
-   subroutine solve(condensed, scene, linear, tolerance, change, jump, kept)
+   recursive subroutine solve(condensed, scene, linear, tolerance, change, jump, gathering)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads
@@ -98,37 +98,8 @@ contains
       real(wp), intent(in) :: tolerance
       !> The change, and amplitudes of the jumps that it makes, shape (3, points, modes)
       real(wp), allocatable, intent(out) :: change(:, :, :), jump(:, :, :)
-      !> Flexibilities that were gathered for the last solution, then for this one
-      type(gathering_type), intent(inout), optional, target :: kept
-
-      type(gathering_type), target :: own
-      type(gathering_type), pointer :: gathering
-      real(wp) :: left
-
-      gathering => own
-      if (present(kept)) gathering => kept
-      call solve_by(gathering, condensed, scene, linear, tolerance, change, jump, left)
-      if (gathering%double .or. left <= loosest) return
-      gathering%all_digits = .true.
-      call solve_by(gathering, condensed, scene, linear, tolerance, change, jump, left)
-   end subroutine solve
-
-   !> Solve by the digits that are gathered
-   subroutine solve_by(gathering, condensed, scene, linear, tolerance, change, jump, share)
       !> Flexibilities that were gathered for the last solution, then for this one
       type(gathering_type), intent(inout), target :: gathering
-      !> The condensed structure
-      type(condensed_type), intent(in) :: condensed
-      !> Laws, planes and loads
-      type(scene_type), intent(in) :: scene
-      !> Slopes and right side
-      type(linear_type), intent(in) :: linear
-      !> What may be left of the right side
-      real(wp), intent(in) :: tolerance
-      !> The change, and amplitudes of the jumps that it makes, shape (3, points, modes)
-      real(wp), allocatable, intent(out) :: change(:, :, :), jump(:, :, :)
-      !> What is left over the right side
-      real(wp), intent(out) :: share
 
       type(derivative_type) :: derivative
       type(room_type), target :: room
@@ -138,7 +109,6 @@ contains
       real(wp) :: whole, before, reached, reduction
       integer :: k, n, n_products
 
-      share = 0.0_wp
       moves = moving(condensed, linear%slope)
       call gather_moving(condensed, linear%stiff, moves, gathering)
       derivative%gathering => gathering
@@ -169,8 +139,10 @@ contains
          call add(reshape(x, shape(left)), points, change)
          jump = jumps(condensed, scene, change, free=.false.)
       end do
-      if (whole > 0.0_wp) share = reached/whole
-   end subroutine solve_by
+      if (gathering%double .or. reached <= loosest*whole) return
+      gathering%all_digits = .true.
+      call solve(condensed, scene, linear, tolerance, change, jump, gathering)
+   end subroutine solve
 
    !> Memory for products
    subroutine make_room(double, n, n_modes, room)

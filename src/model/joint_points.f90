@@ -76,7 +76,7 @@ contains
                points(count)%material = material
                points(count)%nodes = nodes
                points(count)%elements = elements
-               call set_stiffness(model%joint_materials(material)%law, model%rigid_joint, &
+               call set_stiffness(model%joint_materials(material), &
                   length/minval(modulus(nodes(:2*n_pairs))), length/minval(modulus), points(count))
             end do
          end associate
@@ -104,23 +104,22 @@ contains
    end subroutine joint_rule
 
    !> Stiffness of a joint that counts, what it is in proportion to the bodies, and in the structure
-   pure subroutine set_stiffness(law, rigid, beside, flexibility, point)
-      !> Law of the joint
-      type(joint_law_type), intent(in) :: law
-      !> k h/E from which on joints that can yield count as rigid
-      real(wp), intent(in) :: rigid
+   pure subroutine set_stiffness(material, beside, flexibility, point)
+      !> Material of the joint
+      type(joint_material_type), intent(in) :: material
       !> Length of the joint over the least modulus of the bodies beside it and of all bodies, h/E
       real(wp), intent(in) :: beside, flexibility
       !> The point
       type(model_joint_point_type), intent(inout) :: point
 
-      point%stiffness = law%stiffness
-      if (law%kind /= law_elastic) point%stiffness = min(law%stiffness, rigid/beside)
+      logical :: can_yield
+
+      can_yield = material%law%kind /= law_elastic
+      point%stiffness = material%law%stiffness
+      if (can_yield) point%stiffness = min(point%stiffness, material%rigid/beside)
       point%proportion = maxval(point%stiffness)*flexibility
       point%base = point%stiffness
-      if (law%kind /= law_elastic .and. point%proportion > stiffest_base) then
-         point%base = stiffest_base/point%proportion*point%stiffness
-      end if
+      if (can_yield .and. point%proportion > stiffest_base) point%base = stiffest_base/point%proportion*point%stiffness
    end subroutine set_stiffness
 
    !> Law of a joint point, with the stiffness that counts

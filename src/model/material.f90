@@ -53,6 +53,9 @@ module axijoint_model_material
       integer :: rule = rule_gauss
       !> Law with its constants
       type(joint_law_type) :: law
+      !> k h/E, with the softer of the bodies beside a joint, from which on one that can yield counts as rigid: more
+      !> moves the bodies by next to nothing, and takes the digits that tell how joints open
+      real(wp) :: rigid = 1.0e5_wp
    end type joint_material_type
 
 contains

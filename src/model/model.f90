@@ -40,10 +40,6 @@ module axijoint_model_model
    character(len=8), parameter :: body_method_names(4) = [character(len=8) :: &
       'ANDERSON', 'NEWTON', 'LBFGS', 'TRANSFER']
 
-   !> k h/E, with the softer of the bodies beside a joint, from which on one that can yield counts as rigid: more changes
-   !> nothing that could be seen, and takes the digits that tell how joints open
-   real(wp), parameter :: rigid = 1.0e5_wp
-
    !> A job
    type :: model_type
       !> Title card
@@ -93,8 +89,6 @@ module axijoint_model_model
       integer, allocatable :: harmonics(:)
       !> Number of planes theta from 0 to pi on which the joint law is checked
       integer :: n_planes = 0
-      !> k h/E from which on joints that can yield count as rigid
-      real(wp) :: rigid_joint = rigid
       !> How joints are brought to equilibrium, one of the `method_` parameters
       integer :: method = method_newton
       !> How bodies that yield are, one of the `body_` parameters

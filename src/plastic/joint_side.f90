@@ -214,8 +214,8 @@ contains
    !> Forces on the unknowns by which joints answer small displacements of the elastic structure:
    !> those of the excess stress e = A E' S (D v + F e)
    subroutine joint_tangent_force(side, equations, displacement, force)
-      !> The joints, linearized
-      type(joint_side_type), intent(in) :: side
+      !> The joints, linearized; flexibilities that were gathered once serve again
+      type(joint_side_type), intent(inout) :: side
       !> The equations
       type(equations_type), intent(in) :: equations
       !> Unknowns v
@@ -236,7 +236,7 @@ contains
       linear%residual = linear%kept*analyse(side%scene%planes, at_points(linear%slope, &
          synthesize(side%scene%planes, jump)))
       linear%rounding = rounding*maxval(abs(linear%residual))
-      call solve(side%condensed, side%scene, linear, linear_tolerance, change, jump)
+      call solve(side%condensed, side%scene, linear, linear_tolerance, change, jump, side%tangent%gathering)
       force = force_of(side, equations, change, size(nodal, 2))
    end subroutine joint_tangent_force
 

@@ -271,65 +271,20 @@ def stiff_shaft(method='NEWTON'):
 def tube_in_ground(young=31000.0, times=1.0):
     """A tube stands in ground whose stress comes before any weight: it pushes the tube up, the shaft slips all along, and
     the toe opens. Then the weight, and a wind in two increments. `times`: the stiffness of the joints"""
-    k = ', '.join(f'{times*value:G}' for value in (310, 710, 310))
-    return f"""TITLE
-Tube in ground
-CONTROL
-3, 13
-MATERIALS
-1, {young}, 0.22, 2.5E-3
-2, 41, 0.31, 1.9E-3
-LAWS
-1, {k}, 0.0, 24
-LAWDETAILS
-1, RESULTANT, REVERSIBLE
-BLOCKS
-1, 1, 8, 2, 7
-0.43, -5.3, 0.61, 0.0
-1, 1, 8, 2, 2
-0.43, 0.0, 0.61, 1.1
-2, 2, 8, 5, 7, 4.0
-0.61, -5.3, 6.7, 0.0
-2, 2, 8, 5, 3, 4.0, 0.4
-0.61, -9.0, 6.7, -5.3
-2, 2, 8, 2, 3, , 0.4
-0.43, -9.0, 0.61, -5.3
-FACES
-1, 1, 0.43, 1.1, 0.61, 1.1
-2, 1, 0.61, -5.3, 0.61, 0.0
-3, 2, 0.61, -5.3, 0.61, 0.0
-4, 2, 0.43, -9.0, 6.7, -9.0
-5, 2, 6.7, -9.0, 6.7, 0.0
-6, 1, 0.43, -5.3, 0.61, -5.3
-7, 2, 0.43, -5.3, 0.61, -5.3
-INTERFACES
-1, 2, 3
-1, 6, 7
-FIXEDFACES
-5, 101
-4, 111
-CASE
-1, weight
-GRAVITY
--9.81
-CASE
-2, stress of the ground
-INSITU
-1, 0.0, 0.0, 0.0, , , MEANT
-2, 0.0, 0.018639, 0.6, , , MEANT
-CASE
-3, wind
-RESULTANTS
-1, LATERAL, 0.21
-COMBINE
-1, 1, 1.0, 2, 1.0, 3, 1.0
-INCREMENTS
-1.0, 1E-8, , 2
-1.0, 1E-8, , 1
-0.5, 1E-8, , 3
-0.5, 1E-8, , 3
-END
-"""
+    deck = Deck('Tube in ground', 3, 13).material(1, young, 0.22, 2.5e-3).material(2, 41.0, 0.31, 1.9e-3)
+    deck.law(1, (310.0*times, 710.0*times, 310.0*times), 0.0, 24.0).details(1)
+    deck.block(1, 1, 8, 2, 7, 0.43, -5.3, 0.61, 0).block(1, 1, 8, 2, 2, 0.43, 0, 0.61, 1.1)
+    deck.block(2, 2, 8, 5, 7, 0.61, -5.3, 6.7, 0, ratio=4.0).block(2, 2, 8, 5, 3, 0.61, -9, 6.7, -5.3, ratio=4.0, along=0.4)
+    deck.block(2, 2, 8, 2, 3, 0.43, -9, 0.61, -5.3, along=0.4)
+    deck.faces((1, 1, 0.43, 1.1, 0.61, 1.1), (2, 1, 0.61, -5.3, 0.61, 0), (3, 2, 0.61, -5.3, 0.61, 0),
+               (4, 2, 0.43, -9, 6.7, -9), (5, 2, 6.7, -9, 6.7, 0), (6, 1, 0.43, -5.3, 0.61, -5.3),
+               (7, 2, 0.43, -5.3, 0.61, -5.3))
+    deck.add('INTERFACES', (1, 2, 3), (1, 6, 7)).add('FIXEDFACES', (5, '101'), (4, '111'))
+    deck.add('CASE', (1, 'weight')).add('GRAVITY', (-9.81,)).add('CASE', (2, 'stress of the ground'))
+    deck.add('INSITU', (1, 0.0, 0.0, 0.0, None, None, 'MEANT'), (2, 0.0, 0.018639, 0.6, None, None, 'MEANT'))
+    deck.add('CASE', (3, 'wind')).resultants((1, 'LATERAL', 0.21)).add('COMBINE', (1, 1, 1.0, 2, 1.0, 3, 1.0))
+    return deck.add('INCREMENTS', (1.0, 1e-8, None, 2), (1.0, 1e-8, None, 1), (0.5, 1e-8, None, 3),
+                    (0.5, 1e-8, None, 3)).text()
 
 
 def push_through(share, units=METRE, method='NEWTON'):

@@ -34,7 +34,7 @@ contains
          associate (stiffer => results%stiffer(i))
             do k = 1, size(stiffer%laws)
                text = proportion_text(model%joint_materials(stiffer%laws(k)), &
-                  proportions(stiffer%laws(k)), model%rigid_joint)
+                  proportions(stiffer%laws(k)))
                remarks = [remarks, remark_type(text)]
             end do
             if (.not. stiffer%known) cycle
@@ -45,13 +45,11 @@ contains
    end function proportion_remarks
 
    !> A law out of proportion in words
-   pure function proportion_text(material, proportion, rigid) result(text)
+   pure function proportion_text(material, proportion) result(text)
       !> The law
       type(joint_material_type), intent(in) :: material
       !> Its joints
       type(proportion_type), intent(in) :: proportion
-      !> k h/E from which on joints that can yield count as rigid
-      real(wp), intent(in) :: rigid
       !> The sentence
       character(len=:), allocatable :: text
 
@@ -64,8 +62,8 @@ contains
       text = 'law '//to_text(material%label)//': joints '//trim(merge('stiff', 'soft ', stiff))// &
          ' out of proportion, k h/E up to '//to_text(proportion%largest(direction))//' along '// &
          trim(directions(direction))//' (sensible: 1E-3 to 1E2)'
-      if (material%law%kind /= law_elastic .and. maxval(proportion%largest) > (1.0_wp + epsilon(rigid))*rigid) then
-         text = text//'; counts as rigid, k = '//to_text(rigid)//' E/h'
+      if (stiff .and. material%law%kind /= law_elastic .and. proportion%largest(direction) > material%rigid) then
+         text = text//'; counts as rigid, k = '//to_text(material%rigid)//' E/h'
       else if (stiff) then
          text = text//'; k = 10 E/h is as good as rigid'
       else

@@ -141,11 +141,11 @@ contains
 
       stiffer = model
       do i = 1, size(laws)
-         associate (law => stiffer%joint_materials(laws(i))%law)
-            law%stiffness = times*law%stiffness
+         associate (material => stiffer%joint_materials(laws(i)))
+            material%law%stiffness = times*material%law%stiffness
+            material%rigid = times*material%rigid
          end associate
       end do
-      stiffer%rigid_joint = times*model%rigid_joint
       call timer%start()
       call build_structure(stiffer, structure, timer, progress, error, estimated=.false.)
       if (allocated(error)) return
