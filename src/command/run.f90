@@ -17,7 +17,7 @@ module axijoint_command_run
    use axijoint_job_job, only : job_type, job_name, deck_name, standard_input
    use axijoint_job_read, only : read_job
    use axijoint_output_claim, only : claim_type, claim_output, release_output
-   use axijoint_output_brief, only : brief_text, status_text
+   use axijoint_output_brief, only : brief_text, status_text, reason_text
    use axijoint_output_file_echo, only : deck_text
    use axijoint_output_file_run, only : exit_code_of
    use axijoint_output_output, only : check_output, write_output, write_error_summary
@@ -272,7 +272,7 @@ contains
          flush (output_unit)
       else if (exit_code_of(results) /= exit_ok) then
          write (error_unit, '(a)') 'axijoint: '//deck_name(job%deck)//': '//status_text(results)
-         if (allocated(results%mechanism)) write (error_unit, '(a)') results%mechanism
+         if (len(reason_text(results)) > 0) write (error_unit, '(a)') reason_text(results)
       end if
    end subroutine write_combination
 

@@ -8,6 +8,7 @@ module axijoint_job_in_situ_messages
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text, percent_text
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, add_warning
+   use axijoint_model_material, only : rule_gauss, rule_names
    use axijoint_model_model, only : model_type
    implicit none
    private
@@ -33,12 +34,16 @@ contains
       type(in_situ_type) :: findings
       type(in_situ_boundary_type), allocatable :: boundaries(:)
       integer, allocatable :: told(:, :)
+      logical :: rules_told
       integer :: k, i, before
 
+      rules_told = .false.
       allocate (boundaries(0))
       allocate (told(traction, size(model%mesh%node_label)), source=0)
       do k = 1, size(model%combinations)
          findings = in_situ_balance(model, model%combinations(k))
+         if (size(findings%parts) > 0 .and. .not. rules_told) call tell_rules(model, diagnostics)
+         rules_told = rules_told .or. size(findings%parts) > 0
          do i = 1, size(findings%parts)
             associate (part => findings%parts(i), known => told(:, findings%parts(i)%node))
                if (part%meant) cycle
@@ -68,6 +73,25 @@ contains
          end do
       end do
    end subroutine judge_in_situ
+
+   !> Tell of laws whose joints integrate stress along them otherwise than the bodies beside them
+   subroutine tell_rules(model, diagnostics)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      integer :: k
+
+      do k = 1, size(model%joint_materials)
+         associate (material => model%joint_materials(k))
+            if (material%rule == rule_gauss .or. .not. any(model%mesh%joint_material == k)) cycle
+            call add_warning(diagnostics, 0, 0, 0, 'law '//to_text(material%label)//': points of '// &
+               trim(rule_names(material%rule))//' do not integrate in-situ stress that varies along joints as the '// &
+               'bodies do: ground at rest moves a little', mend='GAUSS in columns 66-75 of LAWS')
+         end associate
+      end do
+   end subroutine tell_rules
 
    !> 0 for nothing, 1 for a warning, 2 for an error
    pure integer function grade(share, of_whole)

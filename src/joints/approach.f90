@@ -18,6 +18,8 @@ module axijoint_joints_approach
    real(wp), parameter :: touch = 1.0e-3_wp
    !> Contacts that are followed: so many for each motion
    integer, parameter :: most_contacts = 4
+   !> Jumps that are rounding of a motion along the joint, over the largest: they close nothing
+   real(wp), parameter :: rounding = 1.0e-10_wp
 
 contains
 
@@ -72,14 +74,15 @@ contains
       !> In units of the motion
       real(wp) :: way
 
-      real(wp) :: pressure, trial(3), stiffness
+      real(wp) :: pressure, trial(3), stiffness, least
       integer :: j, k
 
       way = huge(way)
+      least = rounding*maxval(abs(jump))
       pressure = touch*maxval(abs(elastic_stress(condensed, scene, field)))
       do j = 1, size(jump, 3)
          do k = 1, size(jump, 2)
-            if (.not. jump(eta, k, j) < 0.0_wp) cycle
+            if (.not. jump(eta, k, j) < -least) cycle
             stiffness = scene%laws(k)%stiffness(eta)
             trial = trial_of(scene%laws(k), k, j, field%jump(:, k, j), field)
             if (trial(eta) > 0.0_wp) &
@@ -88,8 +91,9 @@ contains
       end do
    end function way_to_contact
 
-   !> Points that stood open start without shear where rigid motions bring them: what the bodies
-   !> would deform if all joints held has not happened when they touch
+   !> Points that stood open when the load step began start without shear where rigid motions bring
+   !> them: what the bodies would deform if all joints held has not happened when they touch. Those
+   !> that touched then keep where they stuck, though they are open on the way
    subroutine stand_free(condensed, scene, jump, before, field)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
@@ -102,6 +106,7 @@ contains
       type(joint_field_type), intent(inout) :: field
 
       real(wp), allocatable :: place(:, :, :)
+      real(wp) :: trial(3)
       integer :: i, j, k
 
       place = analyse(scene%planes, field%jump - before)
@@ -110,6 +115,8 @@ contains
       do j = 1, size(jump, 3)
          do k = 1, size(jump, 2)
             if (any(abs(field%stress(:, k, j)) > 0.0_wp)) cycle
+            trial = trial_of(scene%laws(k), k, j, before(:, k, j), field)
+            if (.not. trial(eta) > 0.0_wp) cycle
             do i = xi, theta, theta - xi
                field%memory(k, j)%slip(i) = place(i, k, j)
             end do

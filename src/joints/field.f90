@@ -12,7 +12,7 @@ module axijoint_joints_field
    implicit none
    private
    public :: joint_field_type, new_joint_field, admit_jump, admit_trial, judge_states
-   public :: set_initial_stress, trial_of, seen_by_law, stress_amplitude
+   public :: set_initial_stress, is_homogeneous, scale_field, trial_of, seen_by_law, stress_amplitude
    public :: commit_field, break_bonds, soften, count_state, n_across_gaps, n_fading
 
    !> Share of the largest joint stress, or jump, below which a value is rounding
@@ -37,9 +37,6 @@ module axijoint_joints_field
       real(wp) :: share = 1.0_wp
       !> Stiffness k h/E of joints that the laws see at most at a time
       real(wp) :: view_limit = huge(1.0_wp)
-      !> Share of the elastic stress that joints keep though the laws do not admit it: weak springs
-      !> that hold, on the way, what nothing else does
-      real(wp) :: leak = 0.0_wp
       !> Tension over which the cohesion of an opening point fades, as a share of it: none where there
       !> is a state without
       real(wp) :: fading = 0.0_wp
@@ -310,6 +307,39 @@ contains
          end do
       end do
    end subroutine commit_field
+
+   !> Whether joint stresses and displacements are in proportion to the load that acts first: no law has a stress or
+   !> a width of its own, and no stress was there before
+   pure logical function is_homogeneous(laws, field)
+      !> Laws of the points
+      type(joint_law_type), intent(in) :: laws(:)
+      !> Their state
+      type(joint_field_type), intent(in) :: field
+
+      is_homogeneous = .not. any(laws%cohesion > 0.0_wp .or. laws%gap > 0.0_wp .or. laws%softens) .and. &
+         .not. any(abs(field%initial) > 0.0_wp)
+   end function is_homogeneous
+
+   !> The state under so many times the load, where all is in proportion to it
+   pure subroutine scale_field(factor, field)
+      !> So many times
+      real(wp), intent(in) :: factor
+      !> The state
+      type(joint_field_type), intent(inout) :: field
+
+      integer :: i
+
+      field%jump = factor*field%jump
+      field%stress = factor*field%stress
+      field%carried = factor*field%carried
+      field%moved = factor*field%moved
+      field%offset = factor*field%offset
+      field%excess = factor*field%excess
+      field%pending = factor*field%pending
+      do i = 1, 3
+         field%memory%slip(i) = factor*field%memory%slip(i)
+      end do
+   end subroutine scale_field
 
    !> Amplitudes of the joint stress that acts on the bodies: k d and in-situ stress,
    !> less what was not admitted

@@ -12,13 +12,14 @@ module axijoint_joints_increments
    use axijoint_element_joint_law, only : memory_type, cuts_back
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, commit_field, judge_states, &
-      set_initial_stress
+      set_initial_stress, is_homogeneous, scale_field
    use axijoint_joints_history, only : history_type, new_history, new_state, &
       keep_state, note_failure, forget_failure, &
                                        note_residual
    use axijoint_joints_keeper, only : keeper_type
    use axijoint_joints_load_steps, only : step_type
    use axijoint_joints_loads, only : put_loads, answer_type, case_answer_type, is_known, learn_case, put_sum
+   use axijoint_joints_mechanism, only : mechanism_type, find_mechanism
    use axijoint_joints_method, only : method_type, control_type, verdict_type
    use axijoint_joints_methods, only : other_loop, second_opinion, is_newton
    use axijoint_joints_path, only : iteration_type
@@ -110,14 +111,16 @@ contains
       logical, intent(out) :: halvable
 
       call put(self, step, history)
+      if (scales_with_load(history, step)) &
+         call scale_field(step%load_factor/history%at%load_factor, history%field)
       call balance(self, history%method, step, history)
       halvable = .not. ends(history) .and. .not. history%method%accumulates
       if (.not. ends(history)) call note_failure(history)
    end subroutine try_step
 
-   !> A step is left without equilibrium. If nothing resists, an iterate says nothing: another
-   !> method is asked, and if it knows no better, the state before is shown. Sweeps do not go on from what Newton's method
-   !> finds, for they would run away again and again: the user is told
+   !> A step is left without equilibrium: another method is asked. If it knows no better and nothing resists, the
+   !> state before is shown, for an iterate says nothing. Sweeps do not go on from what Newton's method finds, for
+   !> they would run away again and again: the user is told
    subroutine give_up(self, step, before, history)
       !> What the increments act on
       class(joint_stage_type), intent(inout) :: self
@@ -131,8 +134,15 @@ contains
       class(method_type), allocatable :: second
       type(history_type), allocatable :: asked
 
-      if (ends(history)) return
-      if (.not. allocated(history%runaway) .and. .not. allocated(history%motion)) return
+      type(mechanism_type) :: mechanism
+      logical :: nothing_resists
+
+      if (ends(history)) then
+         call forget_failure(history)  ! of larger steps
+         return
+      end if
+      nothing_resists = allocated(history%runaway) .or. allocated(history%motion)
+      if (.not. (nothing_resists .or. is_newton(history%method))) return
       if (.not. history%verdict%mechanism%loaded) call second_opinion(history%method, second)
       if (allocated(second)) then
          allocate (asked, source=history)
@@ -145,6 +155,11 @@ contains
          end if
          history%strayed = asked%verdict%converged
          if (history%strayed) call forget_failure(history)
+      end if
+      if (.not. nothing_resists) then  ! where iterations go round in circles
+         call find_mechanism(self%condensed, history%scene, history%field, .false., mechanism)
+         if (.not. mechanism%loaded) return
+         history%motion = mechanism%motion
       end if
       history%field = before  ! what ran away is no state to show
       call put(self, history%at, history)
@@ -240,6 +255,18 @@ contains
       end associate
    end function ends
 
+   !> Whether the state before a step is one of it, too, times the loads of both: a smaller part of the first loads
+   !> acted alone, and no law has a stress or a width of its own
+   pure logical function scales_with_load(history, step) result(scales)
+      !> The history, loaded with the step
+      type(history_type), intent(in) :: history
+      !> The step
+      type(step_type), intent(in) :: step
+
+      scales = history%increment == 1 .and. abs(history%at%load_factor) > 0.0_wp .and. .not. allocated(step%steered)
+      if (scales) scales = is_homogeneous(history%scene%laws, history%field)
+   end function scales_with_load
+
    !> Iterate a step of an increment, and keep what it came to
    subroutine balance_step(condensed, increment, number, load_factor, method, history)
       !> The condensed structure
@@ -268,7 +295,8 @@ contains
       call set_reference(condensed%measure, history%peak_norm, stress - history%balanced, history%balanced, &
          rounded_stress(condensed, history%scene), increment%tolerance, history%scene%loads%reference)
       history%control = control_type(increment%tolerance, increment%max_iterations, &
-                                     iteration_type(increment=number, load_factor=load_factor))
+                                     iteration_type(increment=number, load_factor=load_factor), &
+                                     damps=history%thorough)
       if (size(history%path) > 0) then
          associate (last => history%path(size(history%path)))
             if (last%increment == number) history%control%now%iteration = last%iteration

@@ -74,20 +74,25 @@ contains
       !> Whether the stress of a point counts, shape (points)
       logical, intent(in) :: judged(:)
 
-      !> So many times
-      real(wp), parameter :: reach = 2.0_wp
-      real(wp) :: trial(3), earlier(3)
+      !> So many times, and what is rounding of the largest stress: no change
+      real(wp), parameter :: reach = 2.0_wp, rounding = 1.0e-12_wp
+      real(wp) :: trial(3), earlier(3), least, change
       integer :: k, j, l
 
       largest = 0.0_wp
+      least = rounding*maxval(abs(before%stress))
       do j = 1, size(before%stress, 3)
          l = 1 + step*(j - 1)
          do k = 1, size(judged)
             if (.not. judged(k)) cycle
             largest = max(largest, maxval(abs(after%stress(:, k, l) - before%stress(:, k, j))))
-            earlier = trial_of(scene%laws(k), k, j, before%jump(:, k, j), before)
+            earlier = trial_of(scene%laws(k), k, l, before%jump(:, k, j), after)
             trial = trial_of(scene%laws(k), k, l, after%jump(:, k, l), after)
-            if (abs(trial(eta)) > reach*abs(trial(eta) - earlier(eta))) cycle
+            ! dilation presses a point that slips
+            if (before%stress(eta, k, j) < 0.0_wp) earlier(eta) = before%stress(eta, k, j)
+            if (after%stress(eta, k, l) < 0.0_wp) trial(eta) = after%stress(eta, k, l)
+            change = abs(trial(eta) - earlier(eta))
+            if (change <= least .or. abs(trial(eta)) > reach*change) cycle
             largest = max(largest, lost_at_opening(scene%laws(k), &
                                                    after%memory(k, l), trial))
          end do

@@ -23,6 +23,8 @@ module axijoint_joints_method
       !> Whether the state is about in equilibrium already, so that the laws see the whole stiffness
       !> at once
       logical :: warm = .false.
+      !> Whether to damp steps where plain ones do not get there
+      logical :: damps = .true.
    end type control_type
 
    !> How a load step ended

@@ -39,6 +39,9 @@ module axijoint_joints_newton
    real(wp), parameter :: near = 0.1_wp, damping = 0.1_wp
    !> Springs that damp all steps of an attempt, at first and at most, in the same parts
    real(wp), parameter :: strong_damping = 0.5_wp
+   !> What a step leaves over what was missing before: more than the first is farther off; between the
+   !> two nothing resists the motion, or next to nothing
+   real(wp), parameter :: no_more = 1.001_wp, no_less = 0.98_wp
 
    !> Laws of all points, linear about an iterate: the excess stress k d - P changes by the slopes of the linear
    !> system times the change of the jumps, and by -`rest`; the right side of the system is what is not transferred of
@@ -213,13 +216,11 @@ contains
          end do
       end do
       !$omp end parallel do
-      newton%kept = 1.0_wp - field%leak
-      newton%residual = newton%kept*analyse(scene%planes, left) - field%excess
+      newton%residual = analyse(scene%planes, left) - field%excess
       if (present(residual)) residual = newton%residual
-      newton%merit = merit_of(condensed, newton%residual &
-         + newton%kept*analyse(scene%planes, missing), missing)
+      newton%merit = merit_of(condensed, newton%residual + analyse(scene%planes, missing), missing)
       if (any(abs(view - limit) > 0.0_wp)) newton%residual = newton%residual &
-         + newton%kept*analyse(scene%planes, missing - newton%rest)
+         + analyse(scene%planes, missing - newton%rest)
       if (present(stress)) then
          newton%rounding = rounding*maxval(abs(stress))
       else
@@ -335,6 +336,23 @@ contains
       most_damping = strong_damping*share_of_bodies(condensed)
    end function most_damping
 
+   !> Springs for the next step where all are damped: as much less as less is missing, so that the last steps are
+   !> Newton's; stronger where more is missing than before; weaker where what is missing stays, so that a motion
+   !> that nothing resists comes to the next contact, or runs away, in few steps
+   pure real(wp) function next_damping(damping, left) result(next)
+      !> Springs of the last step
+      real(wp), intent(in) :: damping
+      !> What is missing after it, over what was before
+      real(wp), intent(in) :: left
+
+      next = left*damping
+      if (left > no_more) then
+         next = widening*next
+      else if (left > no_less) then
+         next = next/widening
+      end if
+   end function next_damping
+
    !> Stiffness of the bodies, as a share of that which joints have in the structure, 1 at most
    pure real(wp) function share_of_bodies(condensed) result(share)
       !> The condensed structure
@@ -371,7 +389,7 @@ contains
       call step_along(condensed, scene, bounds, start, newton, field, residual, made, falls)
       if (bounds%damps_all) then
          bounds%damping = min(most_damping(condensed), &
-            merge(widening, 1.0_wp, newton%merit > least)*sqrt(newton%merit/max(tiny(least), least))*bounds%damping)
+            next_damping(bounds%damping, sqrt(newton%merit/max(tiny(least), least))))
       else if (bounds%damping > 0.0_wp) then
          bounds%damping = merge(bounds%damping/widening, 0.0_wp, made .and. falls)
       else if (made .and. .not. falls .and. bounds%far < near) then
@@ -426,7 +444,7 @@ contains
       real(wp), allocatable :: change(:, :, :), amplitude(:, :, :), change_carried(:, :, :), jump(:, :, :)
       real(wp) :: length, before, least
 
-      newton%kept = newton%kept*(1.0_wp - bounds%damping)
+      newton%kept = 1.0_wp - bounds%damping
       call solve(condensed, scene, newton%linear_type, bounds%tolerance, change, amplitude, &
          newton%gathering)
       jump = synthesize(scene%planes, amplitude)

@@ -1,5 +1,5 @@
 !> Newton's method for the joints of a load step, and what it tries where a plain iteration does not
-!> get there: stages of stiffness, long steps, weak springs
+!> get there: stages of stiffness, cohesion that fades, damped steps
 module axijoint_joints_newton_method
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use axijoint_base_kinds, only : wp
@@ -29,10 +29,6 @@ module axijoint_joints_newton_method
    !> Joints much stiffer than the bodies: the laws see a share of their stiffness
    !> first, this many times more whenever the residual ratio has fallen so far
    real(wp), parameter :: stage_factor = 10.0_wp, stage_tolerance = 0.1_wp
-   !> Weak springs in place of joints that do not resist a motion under load: their first share of
-   !> the joints' stiffness, what it falls by whenever the ratio has fallen to `stage_tolerance`,
-   !> and the last
-   real(wp), parameter :: first_leak = 1.0e-2_wp, leak_factor = 1.0e-2_wp, last_leak = 1.0e-8_wp
    !> Tolerance of the linear solution far from equilibrium, with very stiff joints, the ratio from
    !> which on it is near, the least tolerance there, and the part of the step's tolerance that is
    !> left to it, with very stiff joints
@@ -54,15 +50,14 @@ module axijoint_joints_newton_method
    !> Change of the jumps by the first steps, in displacements with elastic joints: of several
    !> states the near one is found. It grows as steps want more
    real(wp), parameter :: first_radius = 3.0_wp
-   !> Steps along a motion that nothing resists until weak springs are tried
+   !> Steps along a motion that nothing resists until steps are damped
    integer, parameter :: enough_astray = 2
 
    !> What to try where the iterations ran away or stalled: nothing more, the whole stiffness at once,
    !> cohesion that fades, smaller steps of that, as much of it as there was equilibrium for, damped
-   !> steps, weaker springs than those that were taken away too early, weak springs
+   !> steps
    enum, bind(c)
-      enumerator :: give_up, whole_stiffness, fading_cohesion, slower_fading, wider_fading, damped_steps, &
-         weaker_springs, weak_springs
+      enumerator :: give_up, whole_stiffness, fading_cohesion, slower_fading, wider_fading, damped_steps
    end enum
 
    !> The method
@@ -81,18 +76,13 @@ module axijoint_joints_newton_method
       real(wp), allocatable :: residual(:, :, :)
       !> Jumps of the state that the load step begins with, shape (3, points, planes)
       real(wp), allocatable :: begun(:, :, :)
-      !> The state at the start, the last that ran away, and that from which weak springs were taken
-      !> away
-      type(joint_field_type), allocatable :: start, astray, held
-      !> The last state in equilibrium in which cohesion fades
-      type(joint_field_type), allocatable :: fading
-      !> How strong these springs were
-      real(wp) :: springs = 0.0_wp
+      !> The state at the start, the last that ran away, and the last in equilibrium in which cohesion fades
+      type(joint_field_type), allocatable :: start, astray, fading
       !> What bounds the steps
       type(step_bounds_type) :: bounds
-      !> Whether the laws see a part of the stiffness first, whether damped steps and weak springs were
-      !> tried, and whether the last step was not made
-      logical :: in_stages = .false., damped = .false., leaked = .false., ran = .false.
+      !> Whether the laws see a part of the stiffness first, whether damped steps were tried, and whether
+      !> the last step was not made
+      logical :: in_stages = .false., damped = .false., ran = .false.
       !> Whether cohesion that fades was tried, and whether it is not to fade faster
       logical :: faded = .false., wide = .false.
       !> What the fading is multiplied by whenever there is equilibrium, and how far down
@@ -137,8 +127,8 @@ contains
          associate (may_go_on => course%watch%k < control%most)
             if (verdict%ran_away .or. verdict%stalled) then
                if (verdict%ran_away) course%astray = field
-               next = next_attempt(condensed, course, field, verdict%stalled, &
-                  any(loses_at_opening(scene%laws)), may_go_on)
+               next = next_attempt(control%damps, course, verdict%stalled, any(loses_at_opening(scene%laws)), &
+                  may_go_on)
                if (next == give_up) exit
                call try(next, condensed, scene, field, course, verdict)
                cycle
@@ -146,8 +136,8 @@ contains
             call go_on(self, condensed, scene, control%tolerance, field, course, verdict, again)
             if (verdict%converged) exit
             if (verdict%mechanism%loaded) then
-               if (.not. may_hold_weakly(condensed, course, may_go_on)) exit
-               call try(weak_springs, condensed, scene, field, course, verdict)
+               if (course%damped .or. .not. may_go_on) exit
+               call try(damped_steps, condensed, scene, field, course, verdict)
                cycle
             end if
             if (.not. may_go_on) exit
@@ -188,14 +178,15 @@ contains
       logical :: moved
 
       allocate (course%residual, mold=field%excess)
+      course%begun = field%jump
       share = share_seen_first(condensed, scene)
       course%in_stages = .not. warm .and. share < 1.0_wp
+      if (course%in_stages) course%in_stages = .not. is_admitted(condensed, scene, field, course%residual)
       if (course%in_stages) field%share = share
       if (.not. warm) field%fading = 0.0_wp
       ! states that go on from each other fade alike
       if (field%fading > 0.0_wp) course%least_fading = max(last_fading, field%fading)
       field%view_limit = newton_view
-      course%begun = field%jump
       call look_again(condensed, scene, 1.0_wp, field, course)
       call approach(condensed, scene, .true., course%begun, field, course%residual, moved)
       course%start = field
@@ -203,12 +194,30 @@ contains
       course%bounds%radius = first_radius*course%watch%largest/runaway
       if (moved) call linearize(condensed, scene, 1.0_wp, field, course%newton)
       call find_mechanism(condensed, scene, field, .false., verdict%mechanism)
-      if (verdict%mechanism%loaded) call hold_weakly(condensed, scene, field, course, verdict)
+      if (verdict%mechanism%loaded) call try(damped_steps, condensed, scene, field, course, verdict)
    end subroutine begin
 
+   !> Whether the laws admit the stress of all points as it is, so that there is nothing to find
+   logical function is_admitted(condensed, scene, field, residual) result(admitted)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> State of the joints; jumps and stresses follow its excess stress
+      type(joint_field_type), intent(inout) :: field
+      !> Takes the excess stress that is not transferred
+      real(wp), intent(inout) :: residual(:, :, :)
+
+      type(strictest_type) :: found
+
+      call evaluate(condensed, scene, field, residual, judged=.true.)
+      found = strictest(condensed%measure, scene%loads%reference, residual, paper=.false.)
+      admitted = found%ratio <= strict
+   end function is_admitted
+
    !> Share of the joint stiffness to begin with: what is about
-   !> the stiffness of the bodies. Cohesion makes yield depend on the size of the
-   !> stress, not on its direction alone; then the share would mislead.
+   !> the stiffness of the bodies. Cohesion, or a stress before loading, makes yield depend on the size
+   !> of the stress, not on its direction alone; then the share would mislead.
    pure real(wp) function share_seen_first(condensed, scene) result(share)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
@@ -219,19 +228,16 @@ contains
       integer, parameter :: easy = 0
 
       share = 1.0_wp
-      if (any(scene%laws%cohesion > 0.0_wp)) return
+      if (any(scene%laws%cohesion > 0.0_wp) .or. any(abs(scene%laws%initial_stress) > 0.0_wp)) return
       share = 10.0_wp**min(0, easy - floor(log10(max(tiny(1.0_wp), condensed%proportion))))
    end function share_seen_first
 
    !> What to try next
-   pure integer function next_attempt(condensed, course, field, stalled, may_fade, may_go_on) &
-      result(next)
-      !> The condensed structure
-      type(condensed_type), intent(in) :: condensed
+   pure integer function next_attempt(damps, course, stalled, may_fade, may_go_on) result(next)
+      !> Whether steps may be damped
+      logical, intent(in) :: damps
       !> The iteration
       type(course_type), intent(in) :: course
-      !> State of the joints
-      type(joint_field_type), intent(in) :: field
       !> Whether the iterations stalled, whether there is cohesion to fade, and whether iterations are
       !> left
       logical, intent(in) :: stalled, may_fade, may_go_on
@@ -243,16 +249,12 @@ contains
          return
       else if (stalled .and. may_fade .and. .not. course%faded) then
          next = fading_cohesion
-      else if (stalled .and. fades_too_widely(course)) then
+      else if (fades_too_widely(course)) then
          next = slower_fading
-      else if (stalled .and. holds_faded(course)) then
+      else if (holds_faded(course)) then
          next = wider_fading
-      else if (.not. (course%damped .or. course%leaked)) then
+      else if (damps .and. .not. course%damped) then
          next = damped_steps
-      else if (.not. field%leak > 0.0_wp .and. course%springs > last_leak) then
-         next = weaker_springs
-      else if (may_hold_weakly(condensed, course, may_go_on)) then
-         next = weak_springs
       end if
    end function next_attempt
 
@@ -277,18 +279,6 @@ contains
          .and. course%faster < small_fading_factor
    end function fades_too_widely
 
-   !> Whether weak springs may still help
-   pure logical function may_hold_weakly(condensed, course, may_go_on) result(may)
-      !> The condensed structure
-      type(condensed_type), intent(in) :: condensed
-      !> The iteration
-      type(course_type), intent(in) :: course
-      !> Whether iterations are left
-      logical, intent(in) :: may_go_on
-
-      may = size(condensed%floating) > 0 .and. .not. course%leaked .and. may_go_on
-   end function may_hold_weakly
-
    !> Begin again otherwise
    subroutine try(attempt, condensed, scene, field, course, verdict)
       !> What to try
@@ -305,66 +295,39 @@ contains
       type(verdict_type), intent(inout) :: verdict
 
       select case (attempt)
-      case (weaker_springs)
-         course%springs = max(last_leak, leak_factor*course%springs)
-         field = course%held
-         call begin_again(condensed, scene, course%springs, field, course, verdict)
       case (whole_stiffness)
          course%in_stages = .false.
          field = course%start
-         call begin_again(condensed, scene, 0.0_wp, field, course, verdict)
+         call begin_again(condensed, scene, field, course, verdict)
       case (damped_steps)
          course%damped = .true.
          field = course%start
-         call begin_again(condensed, scene, 0.0_wp, field, course, verdict)
+         call begin_again(condensed, scene, field, course, verdict)
          course%bounds%damps_all = .true.
          course%bounds%damping = most_damping(condensed)
       case (fading_cohesion)
          course%faded = .true.
          field = course%start
          field%fading = first_fading
-         call begin_again(condensed, scene, 0.0_wp, field, course, verdict)
+         call begin_again(condensed, scene, field, course, verdict)
       case (slower_fading)
          course%faster = small_fading_factor
          field = course%fading
          field%fading = course%faster*field%fading
-         call begin_again(condensed, scene, 0.0_wp, field, course, verdict)
+         call begin_again(condensed, scene, field, course, verdict)
       case (wider_fading)
          course%wide = .true.
          field = course%fading
-         call begin_again(condensed, scene, 0.0_wp, field, course, verdict)
-      case (weak_springs)
-         if (verdict%ran_away .or. verdict%stalled) field = course%start
-         call hold_weakly(condensed, scene, field, course, verdict)
+         call begin_again(condensed, scene, field, course, verdict)
       end select
    end subroutine try
 
-   !> Go on with weak springs
-   subroutine hold_weakly(condensed, scene, field, course, verdict)
-      !> The condensed structure
-      type(condensed_type), intent(in) :: condensed
-      !> Laws, planes and loads
-      type(scene_type), intent(in) :: scene
-      !> State of the joints
-      type(joint_field_type), intent(inout) :: field
-      !> The iteration
-      type(course_type), intent(inout) :: course
-      !> Forgets how the last attempt ended
-      type(verdict_type), intent(inout) :: verdict
-
-      course%leaked = .true.
-      course%bounds%radius = huge(1.0_wp)  ! the springs hold
-      call begin_again(condensed, scene, first_leak, field, course, verdict)
-   end subroutine hold_weakly
-
    !> Go on from the field as if the iterations began
-   subroutine begin_again(condensed, scene, leak, field, course, verdict)
+   subroutine begin_again(condensed, scene, field, course, verdict)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
-      !> Weak springs, as a share of the joints' stiffness
-      real(wp), intent(in) :: leak
       !> State of the joints
       type(joint_field_type), intent(inout) :: field
       !> The iteration
@@ -380,12 +343,11 @@ contains
       course%bounds%damping = 0.0_wp
       course%bounds%damps_all = .false.
       course%bounds%n_astray = 0
-      field%leak = leak
       call look_again(condensed, scene, 1.0_wp, field, course)
    end subroutine begin_again
 
-   !> In a state that is balanced well enough, see what is next: weaker springs, more of the joints'
-   !> stiffness, the next bonds to break, or the end
+   !> In a state that is balanced well enough, see what is next: more of the joints' stiffness, the
+   !> next bonds to break, or the end
    subroutine go_on(self, condensed, scene, tolerance, field, course, verdict, again)
       !> The method
       class(newton_method_type), intent(in) :: self
@@ -408,10 +370,7 @@ contains
 
       again = .false.
       associate (found => verdict%residual)
-         if (field%leak > 0.0_wp) then
-            again = found%ratio <= stage_tolerance .and. course%n_steps > 0
-            if (again) call weaken(condensed, scene, field, course, verdict)
-         else if (field%share < 1.0_wp) then
+         if (field%share < 1.0_wp) then
             again = found%whole <= stage_tolerance
             if (again) call stiffen(condensed, scene, field, course%residual)
          else if (field%fading > course%least_fading .and. .not. course%wide) then
@@ -457,31 +416,6 @@ contains
       end do
    end subroutine stiffen
 
-   !> Take the springs away where joints resist all motions under load by now, else weaken them.
-   !> What they alone still hold when they are weakest is a mechanism
-   subroutine weaken(condensed, scene, field, course, verdict)
-      !> The condensed structure
-      type(condensed_type), intent(in) :: condensed
-      !> Laws, planes and loads
-      type(scene_type), intent(in) :: scene
-      !> State of the joints
-      type(joint_field_type), intent(inout) :: field
-      !> The iteration; keeps the state if the springs are taken away
-      type(course_type), intent(inout) :: course
-      !> Takes a mechanism
-      type(verdict_type), intent(inout) :: verdict
-
-      call find_mechanism(condensed, scene, field, .false., verdict%mechanism)
-      if (verdict%mechanism%loaded .and. field%leak > last_leak) then
-         verdict%mechanism%loaded = .false.
-         field%leak = max(last_leak, leak_factor*field%leak)
-      else
-         course%springs = field%leak
-         field%leak = 0.0_wp
-         course%held = field
-      end if
-   end subroutine weaken
-
    !> One step
    subroutine take_step(condensed, scene, tolerance, ratio, field, course)
       !> The condensed structure
@@ -508,22 +442,16 @@ contains
                max(strict, merge(smaller_part, part, condensed%proportion > very_stiff)*tolerance/max(tiny(ratio), ratio)))
          end if
          bounds%largest = course%watch%largest
-         if (field%leak > 0.0_wp) then
-            bounds%tolerance = max(strict, min(bounds%tolerance, 0.1_wp*field%leak))
-            bounds%largest = bounds%largest/field%leak
-         else
-            call approach(condensed, scene, .true., course%begun, field, course%residual, moved)
-            if (moved) call linearize(condensed, scene, ratio, field, course%newton)
-         end if
+         call approach(condensed, scene, .true., course%begun, field, course%residual, moved)
+         if (moved) call linearize(condensed, scene, ratio, field, course%newton)
          bounds%more = merge(bold, careful, falls)
          call newton_step(condensed, scene, bounds, course%newton, field, course%residual, made)
       end associate
-      if (.not. made .and. .not. field%leak > 0.0_wp) then  ! what slips may stop farther on
+      if (.not. made) then  ! what slips may stop farther on
          call approach(condensed, scene, .false., course%begun, field, course%residual, made)
          if (made) call linearize(condensed, scene, ratio, field, course%newton)
       end if
-      course%ran = .not. made .or. &
-         course%bounds%n_astray >= enough_astray .and. may_hold_weakly(condensed, course, .true.)
+      course%ran = .not. made .or. course%bounds%n_astray >= enough_astray .and. .not. course%damped
    end subroutine take_step
 
    !> What an iterate leaves without equilibrium, and the laws about it

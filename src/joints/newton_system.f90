@@ -38,7 +38,7 @@ module axijoint_joints_newton_system
    type :: linear_type
       !> Derivatives of the excess stress by the jumps, shape (3, 3, points, planes)
       real(wp), allocatable :: slope(:, :, :, :)
-      !> Share of the excess stress that the laws do keep from the structure
+      !> Share of the slopes that the system has: what it lacks of one is springs that damp the step
       real(wp) :: kept = 1.0_wp
       !> Right side: amplitudes that are not transferred, shape (3, points, modes)
       real(wp), allocatable :: residual(:, :, :)

@@ -243,7 +243,7 @@ contains
       allocate (excess, mold=field%jump)
       call admit_jump(scene%laws, reshape([(condensed%points(k)%base, k=1, size(view))], &
          [3, size(view)]), view, field, excess)
-      residual = (1.0_wp - field%leak)*analyse(scene%planes, excess) - field%excess
+      residual = analyse(scene%planes, excess) - field%excess
    end subroutine evaluate
 
    !> How much of a jump the law of each point sees: joints that are much stiffer than the bodies

@@ -177,6 +177,7 @@ contains
 
       target = history%ahead(size(history%ahead))
       before = history%field
+      history%thorough = target%halvings == most_halvings .or. target%halvings == 0
       call stage%try(target%step, history, halvable)
       if (allocated(history%failure)) return
       if (.not. history%verdict%converged .and. halvable .and. target%halvings > 0) then

@@ -88,7 +88,7 @@ contains
          watch%before = field%state
          verdict%ran_away = .not. ieee_is_finite(step%ratio)
          if (verdict%ran_away) return
-         verdict%ran_away = maxval(abs(field%jump)) > watch%largest .and. .not. field%leak > 0.0_wp
+         verdict%ran_away = maxval(abs(field%jump)) > watch%largest
          if (step%ratio < 0.9_wp*watch%best) then
             watch%best = step%ratio
             watch%best_at = watch%k
@@ -110,7 +110,6 @@ contains
       type(verdict_type), intent(inout) :: verdict
 
       field%pending = residual
-      field%leak = 0.0_wp
       path = [path, watch%steps(:watch%k)]
       if (.not. verdict%converged) verdict%restless = watch%changed > watch%k - recent
    end subroutine end_watch

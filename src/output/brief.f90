@@ -19,7 +19,7 @@ module axijoint_output_brief
    use axijoint_output_table_yield_errors, only : yield_errors_text
    implicit none
    private
-   public :: brief_text, status_text
+   public :: brief_text, status_text, reason_text
 
    !> Columns of the words before the values
    integer, parameter :: margin = 22
@@ -38,7 +38,8 @@ contains
       text = line("deck", deck_name(job%deck))
       if (results%combination > 0) text = text//line("combination", to_text(results%combination))
       text = text//line("status", status_text(results))
-      if (allocated(results%mechanism)) text = text//line("mechanism", results%mechanism)
+      if (len(reason_text(results)) > 0) &
+         text = text//line(merge("mechanism", "reason   ", allocated(results%mechanism)), reason_text(results))
       text = text// &
          line("mesh", to_text(n_nodes(job%model%mesh))//" nodes, "// &
          to_text(n_elements(job%model%mesh))//" elements, "// &
@@ -107,6 +108,25 @@ contains
             to_text(results%tolerance)//")"
       end if
    end function status_text
+
+   !> Why there is no equilibrium
+   pure function reason_text(results) result(text)
+      !> Results
+      type(results_type), intent(in) :: results
+      !> The mechanism, or another reason; empty if there is none
+      character(len=:), allocatable :: text
+
+      integer :: k
+
+      text = ""
+      if (allocated(results%mechanism)) then
+         text = results%mechanism
+      else if (allocated(results%remarks)) then
+         do k = 1, size(results%remarks)
+            if (results%remarks(k)%says_why) text = results%remarks(k)%text
+         end do
+      end if
+   end function reason_text
 
    !> Stiffness of the joints beside the bodies, and what stiffer ones would change
    pure function stiffness_lines(model, results) result(text)

@@ -233,7 +233,7 @@ contains
       real(wp), dimension(size(field%unknowns)) :: force, response
       real(wp) :: change, norm
 
-      norm = problem%load_norm
+      norm = max(problem%load_norm, problem%peak)
       if (allocated(problem%steering%load)) norm = max(norm, found_load(problem))
       call balance_joints(problem%joints, problem%equations, field%unknowns + iterate%response, &
                           problem%load%held, norm, force)

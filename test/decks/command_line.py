@@ -126,8 +126,18 @@ def quiet(program, folder):
     deck = read_text(FIRST).replace('END', 'INCREMENTS\n       1.0              1\nEND')
     ran = program.run('run', write(folder, 'one.dat', deck), '--quiet', folder=folder)
     faults += ran.ended_with(3) + expected('output', '', ran.out)
-    if 'one.dat: *** NOT CONVERGED ***' not in ran.err:
+    if 'one.dat: *** NOT CONVERGED ***' not in ran.err or '\nINCREMENTS allows no more iterations\n' not in ran.err:
         faults.append(f'the end is not told:\n{ran.err}')
+    return faults
+
+
+def reason(program, folder):
+    """Without equilibrium the lines on the terminal say why"""
+    deck = read_text(FIRST).replace('END', 'INCREMENTS\n       1.0              1\nEND')
+    ran = program.run('run', write(folder, 'one.dat', deck), folder=folder)
+    faults = ran.ended_with(3)
+    if not re.search(r'^reason +INCREMENTS allows no more iterations$', ran.out, re.M):
+        faults.append(f'no reason is told:\n{ran.out}')
     return faults
 
 

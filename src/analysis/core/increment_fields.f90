@@ -233,7 +233,7 @@ contains
          call stress_plastic_strain(model, state, solved%loading)
          ! what errors are held against
          call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
-                          structure%equations%unit_loads, combination_type(0, state%case_factor), loads)
+                          structure%equations%unit_loads, combination_type(0, largest_factors(final, state)), loads)
          call recover_fields(model, structure, solved%loading, loads, field, results)
       else
          call recover_fields(model, structure, solved%loading, solved%loading, field, results)
@@ -241,6 +241,25 @@ contains
       results%plastic = plastic_fields(model, results%modes, results%stress, state%bodies)
       call move_bodies(model, structure, state, results)
    end subroutine recover_state
+
+   !> The largest factors of the load cases up to a state: what is left of loads that were taken away
+   !> says nothing
+   pure function largest_factors(final, state) result(factor)
+      !> Results at the end of the run, with the states of all increments
+      type(results_type), intent(in) :: final
+      !> The state
+      type(increment_state_type), intent(in) :: state
+      !> Those of the state with the largest, shape (cases)
+      real(wp), allocatable :: factor(:)
+
+      integer :: i
+
+      factor = state%case_factor
+      do i = 1, size(final%states)
+         if (final%states(i)%increment >= state%increment) exit
+         if (norm2(final%states(i)%case_factor) > norm2(factor)) factor = final%states(i)%case_factor
+      end do
+   end function largest_factors
 
    !> Loads of a state, with the stress of the plastic strain that its displacements follow from
    subroutine load_plastic_strain(model, structure, state, loading)

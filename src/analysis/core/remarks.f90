@@ -45,7 +45,6 @@ contains
       allocate (remarks(0))
       if (size(results%path) > 0) then
          call remark_on_end(model, structure, history, results, remarks)
-         call remark_on_accuracy(model, structure, field, results, remarks)
       else if (.not. results%converged .and. allocated(results%budget)) then
          call add(remarks, 'rounding in the solver leaves displacements uncertain by '// &
                   to_text(results%budget(size(results%budget))%displacement)// &
@@ -55,6 +54,8 @@ contains
                   to_text(maxval(results%solves%condition))//', residual '// &
                   to_text(results%residual_ratio)//'): stiffnesses out of all proportion?')
       end if
+      if (.not. (results%converged .or. allocated(results%mechanism))) remarks(size(remarks))%says_why = .true.
+      if (size(results%path) > 0) call remark_on_accuracy(model, structure, field, results, remarks)
       pins = pin_text(model, structure, history%loading, field, results)
       if (len(pins) > 0) call add(remarks, pins)
       if (allocated(results%stiffer)) remarks = [remarks, proportion_remarks(model, results)]

@@ -70,6 +70,8 @@ module axijoint_analysis_core_results
    type :: remark_type
       !> The sentence
       character(len=:), allocatable :: text
+      !> Whether it says why the results are no equilibrium
+      logical :: says_why = .false.
    end type remark_type
 
    !> Sources of errors, in the order of the budget, and their sum

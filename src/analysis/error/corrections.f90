@@ -48,6 +48,7 @@ contains
       !> Part of the tolerance that is no matter
       real(wp), parameter :: negligible = 0.1_wp
       real(wp), allocatable :: jump(:, :, :)
+      type(history_type), allocatable :: before
       type(strictest_type) :: found
       integer :: k
 
@@ -59,10 +60,13 @@ contains
             results%mismatch = found%ratio
             if (.not. results%converged .or. history%method%accumulates) return
             if (results%mismatch <= negligible*results%tolerance .or. k == most_corrections) return
+            before = history
             scene%loads%free = scene%loads%free + jump
             call balance_again(condensed, history)
             results%converged = history%verdict%converged
             results%path = history%path
+            if (.not. results%converged) call go_back(before, history)
+            if (.not. results%converged) return
             call solve_displacements(structure, model, history%loading, results%displacement, &
                results%solves, &
                                      error, history%field%excess)
@@ -88,6 +92,18 @@ contains
 
    end subroutine correct_rounding
 
+   !> Back to a state in equilibrium from one that is none; how iterations ended is kept
+   subroutine go_back(before, history)
+      !> The history before the last iterations
+      type(history_type), intent(inout) :: before
+      !> After them
+      type(history_type), intent(inout) :: history
+
+      call move_alloc(history%path, before%path)
+      before%verdict = history%verdict
+      history = before
+   end subroutine go_back
+
    !> Iterate on until the errors that iterations leave are what the tolerance claims. What does not
    !> come there has not converged. (The paper's loop claims no more than its residual ratio.)
    subroutine keep_claim(model, structure, history, results, error)
@@ -109,6 +125,7 @@ contains
       !> carry if they held: balanced forces do not say more of joints that are about to close
       real(wp), parameter :: slight = 1.0e-2_wp
       type(error_share_type) :: share, wanted
+      type(history_type), allocatable :: before
       real(wp) :: tolerance, excess
       integer :: k
 
@@ -127,8 +144,10 @@ contains
             if (excess <= 1.0_wp) return
             if (k == most_attempts) exit
             tolerance = ample*tolerance/excess
+            before = history
             call balance_again(condensed, history, tolerance)
             results%path = history%path
+            if (.not. history%verdict%converged) call go_back(before, history)
             if (.not. history%verdict%converged) exit
             call solve_displacements(structure, model, history%loading, results%displacement, &
                results%solves, &

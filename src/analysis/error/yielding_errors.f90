@@ -201,8 +201,9 @@ contains
          yielding_scale(structure, history))
    end subroutine bound_share
 
-   !> Whether all loads were taken away, and displacements and stress of joints with them. Then
-   !> bodies that joints alone held may stand anywhere, and there is nothing that an error is a part of
+   !> Whether all loads were taken away, and displacements and stress of joints with them, as far as the
+   !> tolerance goes. Then bodies that joints alone held may stand anywhere, and there is nothing that an
+   !> error is a part of
    logical function nothing_is_left(structure, history, results) result(none_left)
       !> The structure
       type(structure_type), intent(in) :: structure
@@ -211,8 +212,11 @@ contains
       !> Results with displacements
       type(results_type), intent(in) :: results
 
-      none_left = maxval(abs(results%displacement)) <= none*history%largest_elastic
-      if (none_left) none_left = maxval(abs(history%field%stress)) <= none* &
+      real(wp) :: little
+
+      little = max(none, results%tolerance)
+      none_left = maxval(abs(results%displacement)) <= little*history%largest_elastic
+      if (none_left) none_left = maxval(abs(history%field%stress)) <= little* &
          maxval([0.0_wp, pack(history%largest_stress, structure%judged(structure%yielding))])
    end function nothing_is_left
 

@@ -160,6 +160,9 @@ contains
          text = mark_not_converged//" forces are balanced (residual ratio "//ratio// &
             ", tolerance "//tolerance//"), but iterations or rounding leave displacements or "// &
             "stresses less certain than that claims"
+      else if (.not. results%converged .and. results%residual_ratio <= results%tolerance) then
+         text = mark_not_converged//" joints are balanced (ratio "//ratio//"), jumps of the bodies differ by "// &
+            to_text(results%mismatch)//", tolerance "//tolerance
       else if (.not. results%converged) then
          text = mark_not_converged//" residual ratio "//ratio//", tolerance "//tolerance// &
             ", after "//to_text(size(results%path))//" iterations: these results are no equilibrium"

@@ -1,0 +1,202 @@
+"""Bodies that joints alone hold, in holes of another: what holds none, what stays elastic, loads that are taken away,
+little friction; and scenes drawn at random, each of which ends with a state or a mechanism"""
+import json
+import os
+import random
+
+from hard_decks import close, solved
+from hard_scenes import Deck
+from support import INPUTS, Test, expected, read_text, write
+
+# What is drawn at random
+SCENES, SEED = 60, 20261126
+
+
+def plug(title, loads, *, stiffness, friction, cohesion=0.0, details=None, young=(2e4, 2e4), poisson=(0.2, 0.2), expansion=0.0, inner=0.0, below=0.5,
+         above=0.5, outer=2.0, height=1.0, head=0.0, nodes=8, across=(2, 3), along=4, harmonic=2, planes=None, method='NEWTON'):
+    """A plug (body 1, face 1 its top), perhaps with a head above, in the hole of a block that is held outside"""
+    deck = Deck(title, harmonic, planes, method)
+    for number in (0, 1):
+        deck.material(number + 1, young[number], poisson[number], 0.0, expansion)
+    deck.law(1, stiffness, cohesion, friction)
+    if details is not None:
+        deck.details(1, **details)
+    deck.block(1, 1, nodes, across[0], along, inner, 0, below, 0, above, height, inner, height)
+    if head > 0.0:
+        deck.block(1, 1, nodes, across[0], 1, inner, height, above, height + head)
+    deck.block(2, 2, nodes, across[1], along, below, 0, outer, 0, outer, height, above, height)
+    deck.faces((1, 1, inner, height + head, above, height + head), (2, 1, below, 0, above, height), (3, 2, below, 0, above, height),
+               (4, 2, outer, 0, outer, height))
+    deck.add('INTERFACES', (1, 2, 3)).add('FIXEDFACES', (4, '111'))
+    return deck.resultants(*((1, *load) for load in loads))
+
+
+def even(k):
+    """The same stiffness along xi, eta, theta"""
+    return (k, k, k)
+
+
+def nothing_holds(program, folder):
+    """A plug with a gap round it, pulled along its own axis, never touches, whatever the unit of length"""
+    faults = []
+    for size in (0.1, 0.31, 1.0, 3.7, 10.0):
+        deck = plug('A plug that nothing holds', [('AXIAL', 1.0)], stiffness=even(2.1e5), friction=30.0, young=(2.1e5, 2.1e5),
+                    details={'slip': 'COMPONENTS', 'gap': 0.002*size}, below=0.2*size, above=0.2*size, outer=0.8*size,
+                    height=0.9*size, nodes=9, along=3)
+        summary, _ = solved(program, folder, 'free', deck.text(), code=4)
+        faults += [] if 'moves along z' in str(summary['messages']) else [f'size {size}: {summary["messages"]}']
+    return faults
+
+
+def stays_elastic(program, folder):
+    """A tapered plug with pressure round it, all of which sticks: displacements in proportion to the load, stiff joints or not"""
+    faults = []
+    for k in (2e5, 7.9e5, 8e5, 4e6):
+        for method in ('NEWTON', 'ANDERSON'):
+            found = []
+            for load in (0.25, 0.5, 1.0):
+                deck = plug('Pressed round', [('AXIAL', load)], stiffness=even(k), friction=30.0, above=0.55, harmonic=0, method=method,
+                            details={'initial': -2.0})
+                summary, tables = solved(program, folder, 'taper', deck.text())
+                found.append(max(abs(row['v']) for row in tables['m = 0'])/load)
+                faults += expected(f'k = {k}, {method}: points that slip', 0, summary['joint_states']['slip'])
+            faults += close(f'k = {k}, {method}: displacement', found[0], max(found, key=lambda u: abs(u - found[0])), 1e-6*found[0])
+    return faults
+
+
+def taken_back(program, folder):
+    """A cone is pressed in, a part of the load taken back: friction turns, takes no work out, and steps hardly matter"""
+    found = []
+    for steps in (1, 2, 4, 10):
+        deck = plug('A cone', [('AXIAL', -3.84179)], stiffness=(1.35648e6, 1.35648e7, 1.35648e7), friction=40.0, inner=0.2, below=0.7,
+                    above=0.892382, young=(287.348, 76673.4), poisson=(0.45, 0.3), across=(2, 1), along=2, harmonic=0,
+                    details={'slip': 'COMPONENTS'})
+        deck.add('INCREMENTS', (1.0,), *steps*[(-0.270621/steps,)])
+        summary, _ = solved(program, folder, 'cone', deck.text())
+        series = summary['increments']
+        if any(after['dissipated'] < before['dissipated'] for before, after in zip(series, series[1:])):
+            return [f'{steps} steps: friction does work: {[now["dissipated"] for now in series]}']
+        found.append(series[-1]['largest_displacement'])
+    return [fault for u in found for fault in close('displacement', found[-1], u, 1e-3*found[-1])]
+
+
+def all_taken_back(program, folder):
+    """Loads come, and all go again: what is left is nothing, and no error is a part of it"""
+    faults = []
+    for loads, options in (([('MOMENT', 0.04)], {'friction': 45.0}), ([('MOMENT', -0.02), ('LATERAL', 0.01)], {'friction': 5.0}),
+                           ([('TORQUE', -0.007)], {'friction': 20.0, 'cohesion': 0.05}), ([('LATERAL', 0.3)], {'friction': 0.0})):
+        deck = plug('Loaded and not', loads, stiffness=(1e4, 2e4, 1e4), **options)
+        deck.add('INCREMENTS', *((factor,) for factor in (0.3, 0.3, 0.4, -1.0)))
+        summary, _ = solved(program, folder, 'back', deck.text())
+        faults += expected('status', 'converged', summary['status'])
+        left, most = (summary['increments'][k]['largest_displacement'] for k in (3, 2))
+        faults += [] if left <= 0.3*most else [f'{loads}: {left:.2E} is left of {most:.2E}']
+    return faults
+
+
+def nothing_opens(program, folder):
+    """A torque on joints with cohesion, none of which is pressed or pulled: elastic, in any number of steps"""
+    faults = []
+    for steps in (1, 2, 5):
+        deck = plug('Bonded', [('TORQUE', -0.02)], stiffness=(28061.0, 56123.0, 28061.0), cohesion=0.05, friction=0.0, young=(4.6e5, 2e4))
+        deck.add('INCREMENTS', *steps*[(1.0/steps,)])
+        summary, _ = solved(program, folder, 'bonded', deck.text())
+        if summary['iterations'] > 2*steps or summary['joint_states']['slip'] > 0:
+            faults.append(f'{steps} steps: {summary["iterations"]} iterations, {summary["joint_states"]}')
+    return faults
+
+
+def first(law, *more):
+    """The deck of the README with another law"""
+    text = read_text(os.path.join(INPUTS, 'first.dat')).replace('    1     1.0E4     2.0E4     1.0E4       0.0      30.0', law)
+    return text.replace('\nEND', ''.join('\n' + line for line in more) + '\nEND')
+
+
+def little_friction(program, folder):
+    """The first deck with next to no friction has a state"""
+    faults = []
+    for angle in (0.2, 0.5, 1.0, 1.5, 3.0):
+        summary, _ = solved(program, folder, 'first', first(f'1, 1.0E4, 2.0E4, 1.0E4, 0.0, {angle}'))
+        faults += expected(f'{angle} degrees', 'converged', summary['status'])
+    return faults
+
+
+def dilates(program, folder):
+    """Cohesion beside dilation: a point that slides up does not count as one that opens"""
+    faults = []
+    for steps in (['1.0'], ['0.5', '0.5']):
+        summary, _ = solved(program, folder, 'first', first('1, 1.0E4, 2.0E4, 1.0E4, 0.1, 30', 'LAWDETAILS', '1, RESULTANT, , , , 5.0',
+                                                            'INCREMENTS', *(f'{step},' for step in steps)))
+        faults += expected(f'{len(steps)} steps', 'converged', summary['status'])
+    return faults
+
+
+def in_proportion(program, folder):
+    """Without cohesion, gap and stress before, a state grows with the load, however it was found"""
+    faults, found = [], []
+    for load in (0.125, 1.0, 8.0):
+        deck = plug('Pressed and hot', [('AXIAL', -3.0697*load)], stiffness=(1.84344e8, 1.84344e9, 1.84344e8), friction=30.0,
+                    young=(7423.88, 336.006), outer=1.5, head=0.4, nodes=4, across=(1, 1), along=1, harmonic=0, poisson=(0.0, 0.0), expansion=1e-5,
+                    details={'slip': 'COMPONENTS'})
+        deck.add('TEMPERATURES', (2, 0, 571.157*load))
+        _, tables = solved(program, folder, 'hot', deck.text())
+        found.append([row[c]/load for row in tables['m = 0'] for c in 'uv'])
+    largest = max(map(abs, found[1]))
+    for other in (found[0], found[2]):
+        faults += [f'{a} and {b}' for a, b in zip(found[1], other) if abs(a - b) > 1e-5*largest]
+    return faults
+
+
+def rules_in_ground(program, folder):
+    """Points at nodes do not integrate in-situ stress as bodies do: that is said, once for a law"""
+    text = read_text(os.path.join(INPUTS, 'monopile.dat'))
+    law = next(line for line in text.split('\n') if line.startswith('LAWS') or 'LAWS' in line)
+    lines = text.split('\n')
+    card = lines.index(law) + 1
+    lines[card] = lines[card].ljust(65)[:65] + 'LOBATTO'
+    ran = program.run('check', write(folder, 'rules.dat', '\n'.join(lines)), folder=folder)
+    said = (ran.out + ran.err).count('points of LOBATTO do not integrate in-situ stress')
+    return ran.ended_with(0) + expected('warnings', 1, said)
+
+
+def drawn(generator):
+    """A scene drawn at random"""
+    choose, uniform = generator.choice, generator.uniform
+    harmonic = choose((1, 2, 4))
+    young = (2e4*10**choose((0, 0, uniform(-4, 4))), 2e4*10**choose((0, 0, uniform(-3, 3))))
+    k = 1e4*10**choose((0, uniform(-3, 3), uniform(-1, 1)))
+    loads = [(kind, choose((1, -1))*0.4*10**uniform(-2, 1))
+             for kind in generator.sample(('LATERAL', 'AXIAL', 'MOMENT', 'TORQUE'), choose((1, 1, 2, 3)))]
+    deck = plug('Drawn', loads, stiffness=(k, 2*k, k), friction=choose((0.0, 5.0, 20.0, 30.0, 45.0)),
+                cohesion=choose((0.0, 0.0, 0.0, 0.05)), young=young, nodes=choose((4, 8)), harmonic=harmonic, head=choose((0.0, 0.5)),
+                above=choose((0.5, 0.5, 0.6)), planes=choose((4*harmonic + 1, 4*harmonic + 2)))
+    steps = choose((None, (1.0,), (0.5, 0.5), (1.0, -0.5, 0.5), (0.3, 0.3, 0.4, -1.0)))
+    return (deck if steps is None else deck.add('INCREMENTS', *((step,) for step in steps))).text()
+
+
+def at_random(program, folder):
+    """Each scene ends with a state in equilibrium, or with a mechanism that is named"""
+    generator, faults, ends = random.Random(SEED), [], {0: 0, 4: 0}
+    for number in range(SCENES):
+        path = write(folder, f'drawn{number}.dat', drawn(generator))
+        ran = program.run('run', path, '-o', folder, '--threads', '1')
+        with open(path[:-3] + 'json', encoding='utf-8') as file:
+            summary = json.load(file)
+        if ran.code not in ends:
+            faults.append(f'scene {number}: exit code {ran.code}: {summary["messages"]}')
+            continue
+        ends[ran.code] += 1
+        if ran.code == 0 and not summary['part_equilibrium_error'] <= 1e-5:
+            faults.append(f'scene {number}: forces of {summary["part_equilibrium_error"]:.1E} are out of balance')
+        if ran.code == 4 and not any('no equilibrium beyond' in text for text in summary['messages']):
+            faults.append(f'scene {number}: no mechanism is named: {summary["messages"]}')
+    return faults + ([] if min(ends.values()) >= SCENES//6 else [f'too much of one kind: {ends}'])
+
+
+def tests(program):
+    """The tests of this module"""
+    named = {'nothing holds': nothing_holds, 'all sticks': stays_elastic, 'a part taken back': taken_back,
+             'all taken back': all_taken_back, 'nothing opens': nothing_opens, 'little friction': little_friction,
+             'dilation and cohesion': dilates, 'in proportion': in_proportion, 'rules in the ground': rules_in_ground,
+             'at random': at_random}
+    return [Test(f'plugs: {name}', lambda folder, function=function: function(program, folder)) for name, function in named.items()]
