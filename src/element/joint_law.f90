@@ -100,7 +100,7 @@ contains
       type(joint_law_type), intent(in) :: law
 
       loses = law%kind == law_paper .and. law%cohesion > 0.0_wp .and. &
-         law%opening == opening_reversible
+         law%opening == opening_reversible .and. .not. law%dilation > 0.0_wp
    end function loses_at_opening
 
    !> Stress admitted by a point that has no memory
@@ -154,7 +154,7 @@ contains
       real(wp), intent(in), optional :: fading
 
       real(wp) :: friction, cohesion, span
-      logical :: tension, fades
+      logical :: tension
 
       span = 0.0_wp
       if (present(fading) .and. loses_at_opening(law)) span = fading*law%edge*law%cohesion
@@ -164,14 +164,10 @@ contains
          call cut(law, cohesion, friction, trial, stress, tangent)
          tension = stress(eta) > 0.0_wp
       end if
-      fades = tension .and. span > 0.0_wp .and. .not. memory%broken
-      if (fades) then
-         call cut(law, cohesion, cohesion/span, trial, stress, tangent)
-         fades = stress(eta) < span
-      end if
       if (law%kind == law_elastic .or. .not. tension) then
          call cut(law, cohesion, friction, trial, stress, tangent)
-      else if (fades) then
+      else if (trial(eta) < span .and. .not. memory%broken) then
+         call cut(law, cohesion, cohesion/span, trial, stress, tangent)
          stress(eta) = 0.0_wp
          tangent(eta, :) = 0.0_wp
       else if (law%opening == opening_reversible .or. memory%broken) then

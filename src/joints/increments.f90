@@ -133,8 +133,8 @@ contains
 
       class(method_type), allocatable :: second
       type(history_type), allocatable :: asked
-
       type(mechanism_type) :: mechanism
+      real(wp), allocatable :: left(:, :, :)
       logical :: nothing_resists
 
       if (ends(history)) then
@@ -157,6 +157,9 @@ contains
          if (history%strayed) call forget_failure(history)
       end if
       if (.not. nothing_resists) then  ! where iterations go round in circles
+         history%field%share = 1.0_wp
+         allocate (left, mold=history%field%excess)
+         call history%method%evaluate(self%condensed, history%scene, history%field, left)
          call find_mechanism(self%condensed, history%scene, history%field, .false., mechanism)
          if (.not. mechanism%loaded) return
          history%motion = mechanism%motion
@@ -333,6 +336,7 @@ contains
 
       control = history%control
       control%warm = .true.
+      control%damps = .true.
       control%now = history%path(size(history%path))
       if (present(tolerance)) control%tolerance = tolerance
       history%field%memory = history%memory

@@ -87,8 +87,6 @@ module axijoint_joints_newton_method
       logical :: faded = .false., wide = .false.
       !> What the fading is multiplied by whenever there is equilibrium, and how far down
       real(wp) :: faster = fading_factor, least_fading = last_fading
-      !> Steps since the task changed
-      integer :: n_steps = 0
    end type course_type
 
 contains
@@ -114,7 +112,7 @@ contains
       logical :: again
       integer :: next
 
-      call begin(condensed, scene, control%warm, field, course, verdict)
+      call begin(condensed, scene, control, field, course, verdict)
       do while (course%watch%k < control%most)
          call note(course%watch, condensed, scene, control%now, self%accumulates, course%residual, &
             field, verdict)
@@ -152,21 +150,19 @@ contains
       end if
       if (verdict%converged .and. n_fading(scene%laws, field) == 0) field%fading = 0.0_wp
       call end_watch(course%watch, course%residual, field, path, verdict)
-      if (verdict%converged .or. .not. verdict%stalled) return
-      verdict%at_rounding = course%watch%best <= rounding*(residual_norm(condensed%measure, &
-         field%excess) &
-         /residual_norm(condensed%measure, &
-         course%residual))*course%watch%steps(course%watch%k)%ratio
+      if (verdict%converged .or. verdict%ran_away .or. .not. verdict%stalled) return
+      verdict%at_rounding = course%watch%best*residual_norm(condensed%measure, course%residual) &
+         <= rounding*residual_norm(condensed%measure, field%excess)*course%watch%steps(course%watch%k)%ratio
    end subroutine balance
 
    !> From the state of the last step to the first iterate
-   subroutine begin(condensed, scene, warm, field, course, verdict)
+   subroutine begin(condensed, scene, control, field, course, verdict)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
-      !> Whether the state is about in equilibrium already
-      logical, intent(in) :: warm
+      !> The tolerance, and whether the state is about in equilibrium already
+      type(control_type), intent(in) :: control
       !> State of the joints
       type(joint_field_type), intent(inout) :: field
       !> The iteration
@@ -180,10 +176,10 @@ contains
       allocate (course%residual, mold=field%excess)
       course%begun = field%jump
       share = share_seen_first(condensed, scene)
-      course%in_stages = .not. warm .and. share < 1.0_wp
-      if (course%in_stages) course%in_stages = .not. is_admitted(condensed, scene, field, course%residual)
+      course%in_stages = .not. control%warm .and. share < 1.0_wp
+      if (course%in_stages) course%in_stages = .not. is_admitted(condensed, scene, control%tolerance, field, course%residual)
       if (course%in_stages) field%share = share
-      if (.not. warm) field%fading = 0.0_wp
+      if (.not. control%warm) field%fading = 0.0_wp
       ! states that go on from each other fade alike
       if (field%fading > 0.0_wp) course%least_fading = max(last_fading, field%fading)
       field%view_limit = newton_view
@@ -198,11 +194,13 @@ contains
    end subroutine begin
 
    !> Whether the laws admit the stress of all points as it is, so that there is nothing to find
-   logical function is_admitted(condensed, scene, field, residual) result(admitted)
+   logical function is_admitted(condensed, scene, tolerance, field, residual) result(admitted)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
+      !> Tolerance on the residual ratio
+      real(wp), intent(in) :: tolerance
       !> State of the joints; jumps and stresses follow its excess stress
       type(joint_field_type), intent(inout) :: field
       !> Takes the excess stress that is not transferred
@@ -212,7 +210,7 @@ contains
 
       call evaluate(condensed, scene, field, residual, judged=.true.)
       found = strictest(condensed%measure, scene%loads%reference, residual, paper=.false.)
-      admitted = found%ratio <= strict
+      admitted = found%ratio <= tolerance
    end function is_admitted
 
    !> Share of the joint stiffness to begin with: what is about
@@ -297,6 +295,7 @@ contains
       select case (attempt)
       case (whole_stiffness)
          course%in_stages = .false.
+         course%damped = .false.
          field = course%start
          call begin_again(condensed, scene, field, course, verdict)
       case (damped_steps)
@@ -339,7 +338,6 @@ contains
       verdict%stalled = .false.
       verdict%mechanism%loaded = .false.
       course%watch%best = huge(1.0_wp)
-      course%n_steps = 0
       course%bounds%damping = 0.0_wp
       course%bounds%damps_all = .false.
       course%bounds%n_astray = 0
@@ -392,7 +390,6 @@ contains
       end associate
       if (.not. again) return
       course%watch%best = huge(1.0_wp)
-      course%n_steps = 0
    end subroutine go_on
 
    !> Let the laws see more of the joints' stiffness, as much as leaves the state about in balance
@@ -431,7 +428,6 @@ contains
 
       logical :: made, moved, falls
 
-      course%n_steps = course%n_steps + 1
       falls = course%watch%best_at == course%watch%k
       associate (bounds => course%bounds)
          bounds%far = ratio

@@ -233,7 +233,7 @@ contains
          jump(:, :, k) = joint_jump(side%condensed%points, nodal)
       end do
       linear = side%tangent%linear_type
-      linear%residual = linear%kept*analyse(side%scene%planes, at_points(linear%slope, &
+      linear%residual = analyse(side%scene%planes, at_points(linear%slope, &
          synthesize(side%scene%planes, jump)))
       linear%rounding = rounding*maxval(abs(linear%residual))
       call solve(side%condensed, side%scene, linear, linear_tolerance, change, jump, side%tangent%gathering)

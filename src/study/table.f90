@@ -224,7 +224,8 @@ contains
          call add_error(diagnostics, line, first, max(last, first), &
             'the column names no section of a deck', found=section, &
             allowed='SECTION NUMBER FIELD, e.g. LAWS 1 PHI; or SAMPLES, SEED, SAMPLER', &
-            mend=did_you_mean(section, [character(len=12) :: names_of(deck%sections), own_names]))
+            mend=did_you_mean(section, [character(len=12) :: &
+            names_of(pack(deck%sections, deck%sections%form == form_entries)), own_names]))
          return
       end if
       associate (kind => deck%sections(column%section), table => entries%tables(column%section))

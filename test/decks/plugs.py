@@ -74,7 +74,7 @@ def taken_back(program, folder):
         deck.add('INCREMENTS', (1.0,), *steps*[(-0.270621/steps,)])
         summary, _ = solved(program, folder, 'cone', deck.text())
         series = summary['increments']
-        if any(after['dissipated'] < before['dissipated'] for before, after in zip(series, series[1:])):
+        if any(after['dissipated'] < 0.999*before['dissipated'] for before, after in zip(series, series[1:])):
             return [f'{steps} steps: friction does work: {[now["dissipated"] for now in series]}']
         found.append(series[-1]['largest_displacement'])
     return [fault for u in found for fault in close('displacement', found[-1], u, 1e-3*found[-1])]
@@ -108,7 +108,11 @@ def nothing_opens(program, folder):
 
 def first(law, *more):
     """The deck of the README with another law"""
-    text = read_text(os.path.join(INPUTS, 'first.dat')).replace('    1     1.0E4     2.0E4     1.0E4       0.0      30.0', law)
+    card = '    1     1.0E4     2.0E4     1.0E4       0.0      30.0'
+    text = read_text(os.path.join(INPUTS, 'first.dat'))
+    if card not in text:
+        raise AssertionError('first.dat has another law')
+    text = text.replace(card, law)
     return text.replace('\nEND', ''.join('\n' + line for line in more) + '\nEND')
 
 

@@ -19,6 +19,7 @@ module axijoint_analysis_core_increment_fields
    use axijoint_joints_field, only : joint_field_type, new_joint_field, set_initial_stress
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_planes, only : planes_type, new_view, synthesize
+   use axijoint_joints_residual, only : load_norm
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type
@@ -233,7 +234,8 @@ contains
          call stress_plastic_strain(model, state, solved%loading)
          ! what errors are held against
          call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
-                          structure%equations%unit_loads, combination_type(0, largest_factors(final, state)), loads)
+                          structure%equations%unit_loads, &
+                          combination_type(0, largest_factors(model, structure, final, state)), loads)
          call recover_fields(model, structure, solved%loading, loads, field, results)
       else
          call recover_fields(model, structure, solved%loading, solved%loading, field, results)
@@ -244,7 +246,11 @@ contains
 
    !> The largest factors of the load cases up to a state: what is left of loads that were taken away
    !> says nothing
-   pure function largest_factors(final, state) result(factor)
+   function largest_factors(model, structure, final, state) result(factor)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
       !> Results at the end of the run, with the states of all increments
       type(results_type), intent(in) :: final
       !> The state
@@ -252,12 +258,23 @@ contains
       !> Those of the state with the largest, shape (cases)
       real(wp), allocatable :: factor(:)
 
+      type(loading_type) :: loads
+      real(wp) :: one(size(state%case_factor)), size_of_case(size(state%case_factor))
       integer :: i
 
+      do i = 1, size(one)
+         one = 0.0_wp
+         one(i) = 1.0_wp
+         call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
+                          structure%equations%unit_loads, combination_type(0, one), loads)
+         size_of_case(i) = load_norm(structure%equations, loads)
+      end do
       factor = state%case_factor
       do i = 1, size(final%states)
          if (final%states(i)%increment >= state%increment) exit
-         if (norm2(final%states(i)%case_factor) > norm2(factor)) factor = final%states(i)%case_factor
+         associate (other => final%states(i)%case_factor)
+            if (norm2(size_of_case*other) > norm2(size_of_case*factor)) factor = other
+         end associate
       end do
    end function largest_factors
 

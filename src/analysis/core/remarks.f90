@@ -115,7 +115,8 @@ contains
                   ' of the largest, more than 10 times it')
          return
       end if
-      if (history%verdict%converged) then
+      if (history%verdict%converged .or. (results%residual_ratio <= results%tolerance .and. &
+          results%mismatch > results%tolerance)) then
          call add(remarks, trim(merge('bodies that yield', 'the joints       ', &
             bodies_yield(model)))//' are balanced to the tolerance, the whole structure is '// &
             'not: rounding; '// &

@@ -10,10 +10,12 @@ module axijoint_analysis_error_corrections
    use axijoint_assembly_force, only : elastic_joint_stress
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
+   use axijoint_element_joint_law, only : memory_type
    use axijoint_joints_condensed, only : condensed_type
+   use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_history, only : history_type
    use axijoint_joints_increments, only : balance_again
-   use axijoint_joints_residual, only : strictest_type, strictest
+   use axijoint_joints_residual, only : strictest_type, strictest, residual_record_type
    use axijoint_joints_scene, only : mismatch_of
    use axijoint_model_model, only : model_type
    implicit none
@@ -27,6 +29,18 @@ module axijoint_analysis_error_corrections
    !> element is not determined by them, and displacements are by so much less certain as joints are
    !> stiffer
    real(wp), parameter :: stiff = 1.0e2_wp
+
+   !> A state in equilibrium, before it is balanced further
+   type :: balanced_type
+      !> State of the joints, and what their points remembered before its slip was added
+      type(joint_field_type) :: field
+      type(memory_type), allocatable :: memory(:, :)
+      !> What it left out of balance, and whether the last entry is of it
+      type(residual_record_type), allocatable :: residuals(:)
+      logical :: noted = .true.
+      !> Jumps by the loads if joints are elastic, shape (3, points, modes)
+      real(wp), allocatable :: free(:, :, :)
+   end type balanced_type
 
 contains
 
@@ -48,7 +62,7 @@ contains
       !> Part of the tolerance that is no matter
       real(wp), parameter :: negligible = 0.1_wp
       real(wp), allocatable :: jump(:, :, :)
-      type(history_type), allocatable :: before
+      type(balanced_type) :: before
       type(strictest_type) :: found
       integer :: k
 
@@ -60,13 +74,15 @@ contains
             results%mismatch = found%ratio
             if (.not. results%converged .or. history%method%accumulates) return
             if (results%mismatch <= negligible*results%tolerance .or. k == most_corrections) return
-            before = history
+            before = balanced_state(history)
             scene%loads%free = scene%loads%free + jump
             call balance_again(condensed, history)
             results%converged = history%verdict%converged
             results%path = history%path
-            if (.not. results%converged) call go_back(before, history)
-            if (.not. results%converged) return
+            if (.not. results%converged) then
+               call go_back(before, history)
+               return
+            end if
             call solve_displacements(structure, model, history%loading, results%displacement, &
                results%solves, &
                                      error, history%field%excess)
@@ -92,16 +108,32 @@ contains
 
    end subroutine correct_rounding
 
-   !> Back to a state in equilibrium from one that is none; how iterations ended is kept
-   subroutine go_back(before, history)
-      !> The history before the last iterations
-      type(history_type), intent(inout) :: before
-      !> After them
+   !> What further iterations change of a history
+   function balanced_state(history) result(state)
+      !> The history
+      type(history_type), intent(in) :: history
+      !> Its last state
+      type(balanced_type) :: state
+
+      state%field = history%field
+      state%memory = history%memory
+      state%residuals = history%residuals
+      state%free = history%scene%loads%free
+      state%noted = history%noted
+   end function balanced_state
+
+   !> Back to a state in equilibrium from one that is none; the path, and how iterations ended, stay
+   subroutine go_back(state, history)
+      !> The state
+      type(balanced_type), intent(inout) :: state
+      !> The history after the iterations
       type(history_type), intent(inout) :: history
 
-      call move_alloc(history%path, before%path)
-      before%verdict = history%verdict
-      history = before
+      history%field = state%field
+      call move_alloc(state%memory, history%memory)
+      call move_alloc(state%residuals, history%residuals)
+      call move_alloc(state%free, history%scene%loads%free)
+      history%noted = state%noted
    end subroutine go_back
 
    !> Iterate on until the errors that iterations leave are what the tolerance claims. What does not
@@ -119,13 +151,13 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       integer, parameter :: most_attempts = 3
-      !> Part of the tolerance that would do if errors fell with it
-      real(wp), parameter :: ample = 0.3_wp
+      !> Part of the tolerance that would do if errors fell with it, and the least that numbers may reach
+      real(wp), parameter :: ample = 0.3_wp, least_tolerance = 1.0e-12_wp
       !> Joint stresses are not claimed better than as if the largest were this part of what joints would
       !> carry if they held: balanced forces do not say more of joints that are about to close
       real(wp), parameter :: slight = 1.0e-2_wp
       type(error_share_type) :: share, wanted
-      type(history_type), allocatable :: before
+      type(balanced_type) :: before
       real(wp) :: tolerance, excess
       integer :: k
 
@@ -143,12 +175,14 @@ contains
                excess = max(excess, share%joint_stress/wanted%joint_stress)
             if (excess <= 1.0_wp) return
             if (k == most_attempts) exit
-            tolerance = ample*tolerance/excess
-            before = history
+            tolerance = max(ample*tolerance/excess, least_tolerance)
+            before = balanced_state(history)
             call balance_again(condensed, history, tolerance)
             results%path = history%path
-            if (.not. history%verdict%converged) call go_back(before, history)
-            if (.not. history%verdict%converged) exit
+            if (.not. history%verdict%converged) then
+               call go_back(before, history)
+               exit
+            end if
             call solve_displacements(structure, model, history%loading, results%displacement, &
                results%solves, &
                                      error, history%field%excess)

@@ -201,9 +201,9 @@ contains
          yielding_scale(structure, history))
    end subroutine bound_share
 
-   !> Whether all loads were taken away, and displacements and stress of joints with them, as far as the
-   !> tolerance goes. Then bodies that joints alone held may stand anywhere, and there is nothing that an
-   !> error is a part of
+   !> Whether displacements and stress of joints were taken away, with all loads as far as the tolerance
+   !> goes. Then bodies that joints alone held may stand anywhere, and there is nothing that an error is a
+   !> part of
    logical function nothing_is_left(structure, history, results) result(none_left)
       !> The structure
       type(structure_type), intent(in) :: structure
@@ -214,7 +214,8 @@ contains
 
       real(wp) :: little
 
-      little = max(none, results%tolerance)
+      little = none
+      if (history%load_norm <= none*history%peak_norm) little = max(none, results%tolerance)
       none_left = maxval(abs(results%displacement)) <= little*history%largest_elastic
       if (none_left) none_left = maxval(abs(history%field%stress)) <= little* &
          maxval([0.0_wp, pack(history%largest_stress, structure%judged(structure%yielding))])
