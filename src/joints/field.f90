@@ -316,7 +316,7 @@ contains
       !> Their state
       type(joint_field_type), intent(in) :: field
 
-      is_homogeneous = .not. any(laws%cohesion > 0.0_wp .or. laws%gap > 0.0_wp .or. laws%softens) .and. &
+      is_homogeneous = .not. any(laws%cohesion > 0.0_wp .or. laws%gap > 0.0_wp .or. laws%residual_cohesion > 0.0_wp) .and. &
          .not. any(abs(field%initial) > 0.0_wp)
    end function is_homogeneous
 

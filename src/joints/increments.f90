@@ -133,17 +133,12 @@ contains
 
       class(method_type), allocatable :: second
       type(history_type), allocatable :: asked
-      type(mechanism_type) :: mechanism
-      real(wp), allocatable :: left(:, :, :)
       logical :: nothing_resists
 
-      if (ends(history)) then
-         call forget_failure(history)  ! of larger steps
-         return
-      end if
+      if (allocated(history%failure)) return
       nothing_resists = allocated(history%runaway) .or. allocated(history%motion)
       if (.not. (nothing_resists .or. is_newton(history%method))) return
-      if (.not. history%verdict%mechanism%loaded) call second_opinion(history%method, second)
+      if (.not. ends(history)) call second_opinion(history%method, second)
       if (allocated(second)) then
          allocate (asked, source=history)
          asked%field = before
@@ -155,19 +150,38 @@ contains
          end if
          history%strayed = asked%verdict%converged
          if (history%strayed) call forget_failure(history)
+         if (.not. nothing_resists) call take_motion(self, asked, history)
+         nothing_resists = allocated(history%runaway) .or. allocated(history%motion)
       end if
-      if (.not. nothing_resists) then  ! where iterations go round in circles
-         history%field%share = 1.0_wp
-         allocate (left, mold=history%field%excess)
-         call history%method%evaluate(self%condensed, history%scene, history%field, left)
-         call find_mechanism(self%condensed, history%scene, history%field, .false., mechanism)
-         if (.not. mechanism%loaded) return
-         history%motion = mechanism%motion
-      end if
+      if (.not. (nothing_resists .or. history%strayed)) return
       history%field = before  ! what ran away is no state to show
       call put(self, history%at, history)
       call judge_states(history%scene%laws, history%field)  ! none was, before the first load
    end subroutine give_up
+
+   !> Where iterations go round in circles: the motion that another method came to, or else one under load that joints do
+   !> not resist as they are now
+   subroutine take_motion(self, asked, history)
+      !> What the increments act on
+      class(joint_stage_type), intent(in) :: self
+      !> The same loads by another method, without equilibrium
+      type(history_type), intent(inout) :: asked
+      !> The history; takes the motion
+      type(history_type), intent(inout) :: history
+
+      type(mechanism_type) :: mechanism
+      real(wp), allocatable :: left(:, :, :)
+
+      call note_failure(asked)
+      if (allocated(asked%runaway)) call move_alloc(asked%runaway, history%runaway)
+      if (allocated(asked%motion)) call move_alloc(asked%motion, history%motion)
+      if (allocated(history%runaway) .or. allocated(history%motion)) return
+      history%field%share = 1.0_wp
+      allocate (left, mold=history%field%excess)
+      call history%method%evaluate(self%condensed, history%scene, history%field, left)
+      call find_mechanism(self%condensed, history%scene, history%field, .false., mechanism)
+      if (mechanism%loaded) history%motion = mechanism%motion
+   end subroutine take_motion
 
    !> The loads of the increment are reached
    subroutine end_increment(self, history)

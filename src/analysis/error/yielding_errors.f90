@@ -22,6 +22,7 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_joints_joint_errors, only : joint_change_type, joint_changes_type, &
       find_joint_changes, change_between, &
                                            largest_change
+   use axijoint_joints_mechanism, only : mechanism_type, find_mechanism, settle
    use axijoint_joints_residual, only : ratio
    use axijoint_joints_scene, only : scene_type, elastic_stress
    use axijoint_joints_settle, only : settle_wholly, find_again
@@ -33,6 +34,8 @@ module axijoint_analysis_error_yielding_errors
    !> Displacements below this part of those with elastic joints are rounding: all loads were taken
    !> away
    real(wp), parameter :: none = 1.0e-9_wp
+   !> Part of them that errors are measured by where no load is left, and how many times its tolerance a state claims
+   real(wp), parameter :: slight = 1.0e-2_wp, claimed = 10.0_wp
    !> Errors of joint stress are measured by no less than this part of what joints would carry if they held
    real(wp), parameter :: small = 1.0e-6_wp
 
@@ -146,8 +149,9 @@ contains
       !> The error
       type(error_share_type), intent(out) :: share
 
-      type(joint_field_type), allocatable :: balanced
+      type(joint_field_type), allocatable :: balanced, found
       type(joint_change_type) :: change
+      type(mechanism_type) :: mechanism
       real(wp), allocatable :: displacement(:, :, :)
       real(wp) :: largest
 
@@ -156,7 +160,13 @@ contains
          allocate (balanced, source=field)
          balanced%memory = history%memory
          call settle_wholly(condensed, scene, balanced)
-         change = change_between(scene, field, balanced, structure%judged(structure%yielding))
+         found = field
+         call find_mechanism(condensed, scene, field, .false., mechanism)
+         if (size(mechanism%idle, 2) > 0) then  ! where these leave a state is of no meaning
+            call settle(condensed, scene, mechanism, found)
+            call settle(condensed, scene, mechanism, balanced)
+         end if
+         change = change_between(scene, found, balanced, structure%judged(structure%yielding))
          displacement = results%displacement
          call add_motions(condensed%floating, field%offset, displacement)
          largest = largest_vector(results%modes, displacement)
@@ -196,7 +206,7 @@ contains
          stress = merge(huge(1.0_wp), stress, abs(change%offset(k)) > 0.0_wp)
       end do
       share%displacement = ratio(displacement + change%beyond, &
-         max(largest, none*history%largest_elastic))
+         displacement_scale(history, largest))
       share%joint_stress = ratio(max(change%stress, stress), &
          yielding_scale(structure, history))
    end subroutine bound_share
@@ -213,13 +223,34 @@ contains
       type(results_type), intent(in) :: results
 
       real(wp) :: little
+      integer :: j
 
       little = none
-      if (history%load_norm <= none*history%peak_norm) little = max(none, results%tolerance)
+      if (unloaded(history)) little = max(none, claimed*results%tolerance)
       none_left = maxval(abs(results%displacement)) <= little*history%largest_elastic
-      if (none_left) none_left = maxval(abs(history%field%stress)) <= little* &
+      if (none_left) none_left = maxval([(maxval(abs(history%field%stress(:, :, j) - history%field%initial)), &
+         j=1, size(history%field%stress, 3))]) <= little* &
          maxval([0.0_wp, pack(history%largest_stress, structure%judged(structure%yielding))])
    end function nothing_is_left
+
+   !> Whether all loads were taken away
+   pure logical function unloaded(history)
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+
+      unloaded = history%load_norm <= none*history%peak_norm
+   end function unloaded
+
+   !> Displacement that errors are measured by: where no load is left, at least a small part of what the largest loads would
+   !> give if all joints held
+   pure real(wp) function displacement_scale(history, largest) result(scale)
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> Largest displacement
+      real(wp), intent(in) :: largest
+
+      scale = max(largest, merge(slight, none, unloaded(history))*history%largest_elastic)
+   end function displacement_scale
 
    !> An error in relative numbers
    subroutine take_share(structure, history, results, largest, change, effect, share)
@@ -249,7 +280,7 @@ contains
       share%joint_stress = ratio(max(change%stress, elastic_change(structure, displacement)), &
                                  stress_scale(structure, history, results%displacement))
       share%displacement = ratio(largest_vector(results%modes, displacement) + change%beyond, &
-                                 max(largest, none*history%largest_elastic))
+                                 displacement_scale(history, largest))
       share%seconds = share%seconds + omp_get_wtime() - start
    end subroutine take_share
 
