@@ -15,8 +15,9 @@ module axijoint_joints_settle
    public :: settle, settle_wholly, find_again
 
    !> Stress that may be missing, over what is missing at first: of an error one digit is enough;
-   !> over the stress, where nothing is to be left
-   real(wp), parameter :: one_digit = 0.003_wp, strict = 1.0e-10_wp
+   !> over the stress, where nothing is to be left; and over the excess stress, of which points that
+   !> stand open have rounding alone: a step would follow that
+   real(wp), parameter :: one_digit = 0.003_wp, strict = 1.0e-10_wp, noise = 1.0e-13_wp
    !> Tolerance of the linear solutions, and most steps
    real(wp), parameter :: linear_tolerance = 0.01_wp, strict_tolerance = 1.0e-2_wp
    integer, parameter :: most_steps = 12
@@ -134,8 +135,8 @@ contains
 
       rounding = 0.0_wp
       do k = 1, size(condensed%points)
-         rounding = rounding + strict**2*condensed%points(k)%weight*sum(field%stress(:, k, &
-            :)**2)/size(field%stress, 3)
+         rounding = rounding + condensed%points(k)%weight*(strict**2*sum(field%stress(:, k, :)**2) &
+            /size(field%stress, 3) + noise**2*sum(field%excess(:, k, :)**2))
       end do
    end function rounding
 

@@ -175,6 +175,16 @@ def no_friction_unloaded(program, folder):
     return expected('status', 'converged', summary['status'])
 
 
+def let_go(program, folder):
+    """A hot cone is pressed in, then cold and let go: it stands free of all joints, where rounding is no force that moves it"""
+    deck = plug('Let go', [('AXIAL', -0.312719)], stiffness=(5953.74, 11907.5, 11907.5), friction=25.0, below=0.7, above=1.09913, nodes=9,
+                young=(116.445, 10226.8), poisson=(0.3, 0.2), expansion=1e-5, inner=0.2, across=(1, 3), along=2, harmonic=0,
+                details={'slip': 'COMPONENTS'})
+    deck.add('TEMPERATURES', (1, 0, 503.015)).add('INCREMENTS', (1.0, 1e-5), (-1.0, 1e-5))
+    summary, _ = solved(program, folder, 'let_go', deck.text().replace('4, 2, 2, 0, 2, 1\n', '4, 2, 0.7, 0, 2, 0\n'))
+    return expected('status', 'converged', summary['status']) + expected('points that touch', 0, summary['joint_states']['stick'])
+
+
 def rules_in_ground(program, folder):
     """Points at nodes do not integrate in-situ stress as bodies do: that is said, once for a law"""
     text = read_text(os.path.join(INPUTS, 'monopile.dat'))
@@ -225,7 +235,7 @@ def tests(program):
     """The tests of this module"""
     named = {'nothing holds': nothing_holds, 'all sticks': stays_elastic, 'a part taken back': taken_back,
              'all taken back': all_taken_back, 'nothing opens': nothing_opens, 'little friction': little_friction,
-             'dilation and cohesion': dilates, 'in proportion': in_proportion, 'pushed out': pushed_out, 'unloaded without friction': no_friction_unloaded,
+             'dilation and cohesion': dilates, 'in proportion': in_proportion, 'pushed out': pushed_out, 'let go': let_go, 'unloaded without friction': no_friction_unloaded,
              'rules in the ground': rules_in_ground,
              'at random': at_random}
     return [Test(f'plugs: {name}', lambda folder, function=function: function(program, folder)) for name, function in named.items()]
