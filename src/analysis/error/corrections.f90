@@ -152,7 +152,7 @@ contains
 
       integer, parameter :: most_attempts = 3
       !> Part of the tolerance that would do if errors fell with it, and the least that numbers may reach
-      real(wp), parameter :: ample = 0.3_wp, least_tolerance = 1.0e-12_wp
+      real(wp), parameter :: ample = 0.3_wp, least_tolerance = 1.0e-15_wp
       !> Joint stresses are not claimed better than as if the largest were this part of what joints would
       !> carry if they held: balanced forces do not say more of joints that are about to close
       real(wp), parameter :: slight = 1.0e-2_wp
