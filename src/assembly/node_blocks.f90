@@ -12,7 +12,6 @@ module axijoint_assembly_node_blocks
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_large_pages, only : use_large_pages, zero_large_pages
    use axijoint_base_ranges, only : range_end
-   use axijoint_base_sort, only : sort_short
    use axijoint_base_team, only : team_type
    use axijoint_element_blocks, only : pack_blocks
    use axijoint_element_joint, only : joint_stiffness
@@ -59,26 +58,28 @@ contains
       !> order(k) is the k-th node
       integer, intent(in) :: order(:)
 
-      integer(i8) :: n
-      integer :: k, l, other
+      integer(i8), allocatable :: next(:)
+      integer :: k, l, row
 
-      allocate (blocks%place(graph%n), blocks%row_start(graph%n + 1))
+      allocate (blocks%place(graph%n), blocks%row_start(graph%n + 1), next(graph%n))
       allocate (blocks%column(graph%n + size(graph%neighbour, kind=i8)/2))
       blocks%place(order) = [(k, k=1, graph%n)]
-      n = 0
+      blocks%row_start(1) = 1
       do k = 1, graph%n
-         blocks%row_start(k) = n + 1
-         do l = graph%start(order(k)), graph%start(order(k) + 1) - 1
-            other = blocks%place(graph%neighbour(l))
-            if (other > k) cycle
-            n = n + 1
-            blocks%column(n) = other
-         end do
-         call sort_short(blocks%column(blocks%row_start(k):n))
-         n = n + 1
-         blocks%column(n) = k
+         associate (neighbours => graph%neighbour(graph%start(order(k)):graph%start(order(k) + 1) - 1))
+            blocks%row_start(k + 1) = blocks%row_start(k) + count(blocks%place(neighbours) < k) + 1
+         end associate
       end do
-      blocks%row_start(graph%n + 1) = n + 1
+      next = blocks%row_start(:graph%n)
+      do k = 1, graph%n  ! column after column, so that those of a row ascend
+         do l = graph%start(order(k)), graph%start(order(k) + 1) - 1
+            row = blocks%place(graph%neighbour(l))
+            if (row < k) cycle
+            blocks%column(next(row)) = k
+            next(row) = next(row) + 1
+         end do
+         blocks%column(next(k)) = k
+      end do
       call find_ranges(blocks)
    end subroutine new_node_blocks
 

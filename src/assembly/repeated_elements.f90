@@ -12,11 +12,12 @@ module axijoint_assembly_repeated_elements
 
    !> Difference of coordinates that are alike, over the largest of the mesh: what rounding leaves of them
    real(wp), parameter :: rounding = 8.0_wp*epsilon(1.0_wp)
-   !> Size of the table in which shapes are looked up, and what brings them to different places there
-   integer, parameter :: table_size = 1024
+   !> Places of the table in which shapes are looked up, for every element: two shapes of one place find each other's
+   !> trace and nothing else. What brings them to different places
+   integer, parameter :: places_of_element = 4
    real(wp), parameter :: scatter = 12345.678_wp
    !> Most shapes whose blocks are kept, and elements of a mesh for one that is
-   integer, parameter :: most_kept = 256, a_share = 8
+   integer, parameter :: most_kept = 1024, a_share = 8
 
    !> Shapes of the elements of a mesh
    type :: shapes_type
@@ -42,15 +43,16 @@ contains
       type(shapes_type), intent(out) :: shapes
 
       real(wp) :: x(2, max_element_nodes), extent
-      integer :: last(0:table_size - 1), k, n, place
+      integer, allocatable :: last(:)
+      integer :: k, n, place
 
       extent = maxval(abs(mesh%coordinates))
       allocate (shapes%number(n_elements(mesh)), shapes%first(n_elements(mesh)))
-      last = 0
+      allocate (last(places_of_element*n_elements(mesh)), source=0)
       n = 0
       do k = 1, n_elements(mesh)
          x = from_first(mesh, k)
-         place = table_place(x, extent, mesh%element_kind(k), mesh%element_material(k))
+         place = table_place(size(last), x, extent, mesh%element_kind(k), mesh%element_material(k))
          associate (shape => last(place))
             if (shape > 0) then
                if (is_same(mesh, k, shapes%first(shape), x, rounding*extent)) then
@@ -68,7 +70,9 @@ contains
    end subroutine find_shapes
 
    !> Place in the table of elements that lie so; that of others is another as a rule
-   pure integer function table_place(x, extent, kind, material)
+   pure integer function table_place(n, x, extent, kind, material)
+      !> Places of the table
+      integer, intent(in) :: n
       !> Coordinates of the nodes, and the largest of the mesh
       real(wp), intent(in) :: x(2, max_element_nodes), extent
       !> Kind and material
@@ -81,7 +85,7 @@ contains
       do i = 1, max_element_nodes
          lengths = lengths + i*(x(1, i) + 3.0_wp*x(2, i))
       end do
-      table_place = modulo(int(table_size*modulo(scatter*lengths/extent, 1.0_wp)) + 37*kind + 101*material, table_size)
+      table_place = 1 + modulo(int(n*modulo(scatter*lengths/extent, 1.0_wp)) + 37*kind + 101*material, n)
    end function table_place
 
    !> Coordinates of the nodes of an element, z from the first node on; zero beyond them

@@ -2,9 +2,7 @@
 module axijoint_assembly_stiffness
    use omp_lib, only : omp_get_max_threads
    use axijoint_assembly_dofs, only : dofs_type, new_dofs, first_equation
-   use axijoint_assembly_element_stiffness, only : integrands_type, new_integrands, &
-      element_blocks, &
-      max_unknowns, max_blocks
+   use axijoint_assembly_element_stiffness, only : integrands_type, new_integrands, element_blocks, max_unknowns, max_blocks
    use axijoint_assembly_pattern, only : new_pattern
    use axijoint_assembly_support, only : support_point_type, support_stiffness
    use axijoint_base_kinds, only : wp, i8
@@ -136,19 +134,21 @@ contains
       logical, allocatable :: regular(:)
 
       integer, allocatable :: component(:)  ! of each equation; zero if its node is not whole
-      integer(i8) :: k, start
-      integer :: node, i
+      integer(i8) :: k
+      integer :: node, i, next
 
       allocate (component(pattern%n), source=0)
       do node = 1, size(dofs%equation, 2)
          if (is_whole(dofs%equation(:, node))) component(dofs%equation(:, node)) = [1, 2, 3]
       end do
-      allocate (regular(pattern%n), source=.true.)
+      allocate (regular(pattern%n))
       do i = 1, pattern%n
-         start = pattern%row_start(i)
-         do k = start, pattern%row_start(i + 1) - 1
-            if (component(pattern%column(k)) /= 1 + mod(k - start, 3_i8)) regular(i) = .false.
+         next = 1
+         do k = pattern%row_start(i), pattern%row_start(i + 1) - 1
+            if (component(pattern%column(k)) /= next) exit
+            next = merge(1, next + 1, next == 3)
          end do
+         regular(i) = k == pattern%row_start(i + 1)
       end do
    end function regular_rows
 
@@ -160,6 +160,24 @@ contains
       is_whole = all(equation > 0) .and. equation(3) - equation(1) == 2
    end function is_whole
 
+   !> Equations of a node that blocks are added to at once: u, v, w, or u and v where there is harmonic 0 alone; zero
+   !> if it has others, or ties
+   pure integer function n_at_once(stiffness, node) result(n)
+      !> The stiffness
+      type(stiffness_type), intent(in) :: stiffness
+      !> The node
+      integer, intent(in) :: node
+
+      n = 0
+      associate (equation => stiffness%dofs%equation(:, node))
+         if (stiffness%harmonic == any_harmonic) then
+            if (is_whole(equation)) n = 3
+         else if (stiffness%harmonic == 0) then
+            if (equation(1) > 0 .and. equation(2) > 0 .and. equation(3) == 0) n = 2
+         end if
+      end associate
+   end function n_at_once
+
    !> Numbers stored for each entry
    pure integer function n_parts(stiffness)
       !> The stiffness
@@ -168,7 +186,9 @@ contains
       n_parts = merge(2, 1, stiffness%harmonic == any_harmonic)
    end function n_parts
 
-   !> Integrate every element and joint once, for all classes that have a sparsity. Every thread adds
+   !> Integrate every element and joint once, for all classes that have a sparsity. Elements that are alike are not
+   !> integrated once for all of them: what rounding leaves of stiffness against rigid motions would be the same in each,
+   !> and add up. Every thread adds
    !> to rows of its own, always element by element in the order of the nodes, so
    !> that sums do not depend on the number of threads; few elements have rows of
    !> two threads.
@@ -246,39 +266,20 @@ contains
       !> First and last place of the range
       integer, intent(in) :: from, to
 
-      integer :: k
+      real(wp) :: blocks(2, 3, 3, max_blocks)
+      integer :: k, i
 
       do k = 1, size(order%elements)
          associate (element => order%elements(k))
             if (order%lowest(element) > to .or. order%highest(element) < from) cycle
-            call add_element(model, integrands, element, classes, from, to)
+            call element_blocks(model, integrands, element, blocks)
+            do i = 1, size(classes)
+               call scatter(classes(i), model%mesh%element_nodes(:model%mesh%element_size(element), element), &
+                  blocks, from, to)
+            end do
          end associate
       end do
    end subroutine assemble_range
-
-   !> Add the parts of one element
-   subroutine add_element(model, integrands, element, classes, from, to)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Kinds of elements, and kernels of the materials
-      type(integrands_type), intent(in) :: integrands
-      !> Element
-      integer, intent(in) :: element
-      !> The classes in use
-      type(stiffness_type), intent(inout) :: classes(:)
-      !> First and last place of the nodes whose rows are added to
-      integer, intent(in) :: from, to
-
-      real(wp) :: blocks(2, 3, 3, max_blocks)
-      integer :: i
-
-      call element_blocks(model, integrands, element, blocks)
-      associate (nodes => model%mesh%element_nodes(:model%mesh%element_size(element), element))
-         do i = 1, size(classes)
-            call scatter(classes(i), nodes, blocks, from, to)
-         end do
-      end associate
-   end subroutine add_element
 
    !> Add one point of a joint; its stiffness is free of the harmonic: part A
    subroutine add_joint_point(point, classes)
@@ -329,15 +330,13 @@ contains
       !> First and last place of the nodes whose rows are added to
       integer, intent(in) :: from, to
 
-      logical :: whole(size(nodes)), mine(size(nodes))
-      integer :: first(size(nodes)), i, j, p
+      logical :: mine(size(nodes))
+      integer :: first(size(nodes)), n(size(nodes)), i, j, p
 
       if (.not. has_sparsity(stiffness)) return
       do i = 1, size(nodes)
-         associate (equation => stiffness%dofs%equation(:, nodes(i)))
-            first(i) = first_equation(equation)
-            whole(i) = is_whole(equation)
-         end associate
+         first(i) = first_equation(stiffness%dofs%equation(:, nodes(i)))
+         n(i) = n_at_once(stiffness, nodes(i))
          mine(i) = first(i) > 0 .and. stiffness%place(nodes(i)) >= from &
             .and. stiffness%place(nodes(i)) <= to
       end do
@@ -347,15 +346,14 @@ contains
             p = p + 1
             if (first(i) == 0 .or. first(j) == 0) cycle
             if (i /= j .and. first(i) == first(j)) then  ! tip of a slit: one node on both sides
-               if (mine(i)) call add_block(stiffness, nodes(i), nodes(j), first(i), first(j), &
-                                           whole(i), &
+               if (mine(i)) call add_block(stiffness, nodes(i), nodes(j), first(i), first(j), n(i), &
                                            blocks(:, :, :, p) + transposed(blocks(:, :, :, p)))
             else if (first(i) >= first(j)) then
-               if (mine(i)) call add_block(stiffness, nodes(i), nodes(j), first(i), first(j), &
-                                           whole(i) .and. whole(j), blocks(:, :, :, p))
+               if (mine(i)) call add_block(stiffness, nodes(i), nodes(j), first(i), first(j), min(n(i), n(j)), &
+                                           blocks(:, :, :, p))
             else
-               if (mine(j)) call add_block(stiffness, nodes(j), nodes(i), first(j), first(i), &
-                                           whole(i) .and. whole(j), transposed(blocks(:, :, :, p)))
+               if (mine(j)) call add_block(stiffness, nodes(j), nodes(i), first(j), first(i), min(n(i), n(j)), &
+                                           transposed(blocks(:, :, :, p)))
             end if
          end do
       end do
@@ -376,13 +374,13 @@ contains
    end function transposed
 
    !> Add the block of two nodes
-   pure subroutine add_block(stiffness, row_node, column_node, row, column, whole, block)
+   pure subroutine add_block(stiffness, row_node, column_node, row, column, n, block)
       !> The stiffness
       type(stiffness_type), intent(inout) :: stiffness
       !> The nodes, and their first equations, row >= column
       integer, intent(in) :: row_node, column_node, row, column
-      !> Whether both have all three equations
-      logical, intent(in) :: whole
+      !> Equations of both that are added to at once, or zero
+      integer, intent(in) :: n
       !> The block
       real(wp), intent(in) :: block(2, 3, 3)
 
@@ -393,11 +391,17 @@ contains
       offset = block_offset(stiffness%pattern%column(stiffness%pattern%row_start(row): &
                                                      stiffness%pattern%row_start(row + 1) - 1), &
                             column, merge(3, 1, stiffness%regular(row)))
-      if (whole .and. stiffness%harmonic == any_harmonic) then
+      if (n == 3) then
          do i = 1, 3
             k = stiffness%pattern%row_start(row + i - 1) + offset
             call add_row(merge(i, 3, row == column), block(1, 1, i), stiffness%parts(1, k))
          end do
+      else if (n == 2) then
+         k = stiffness%pattern%row_start(row) + offset
+         stiffness%parts(1, k) = stiffness%parts(1, k) + block(1, 1, 1)
+         if (row /= column) stiffness%parts(1, k + 1) = stiffness%parts(1, k + 1) + block(1, 2, 1)
+         k = stiffness%pattern%row_start(row + 1) + offset
+         stiffness%parts(1, k:k + 1) = stiffness%parts(1, k:k + 1) + block(1, 1:2, 2)
       else
          reduced = block
          if (stiffness%harmonic /= any_harmonic) &

@@ -249,9 +249,11 @@ contains
       real(wp) :: total(size(amplitude, 1), size(amplitude, 2), size(planes%angle))
 
       real(wp) :: by_component(size(total, 2), size(total, 1), size(total, 3))
+      real(wp) :: summands(size(amplitude, 2), size(amplitude, 1), size(amplitude, 3))
 
-      call sum_modes(planes, size(total, 2), size(total, 2), turned(amplitude), by_component)
-      total = turned(by_component)
+      call turn(amplitude, summands)
+      call sum_modes(planes, size(total, 2), size(total, 2), summands, by_component)
+      call turn(by_component, total)
    end function synthesize
 
    !> Amplitudes of joint quantities known on the planes
@@ -264,9 +266,11 @@ contains
       real(wp) :: amplitude(size(total, 1), size(total, 2), size(planes%meridional, 1))
 
       real(wp) :: by_component(size(amplitude, 2), size(amplitude, 1), size(amplitude, 3))
+      real(wp) :: values(size(total, 2), size(total, 1), size(total, 3))
 
-      call find_modes(planes, size(total, 2), size(total, 2), turned(total), by_component)
-      amplitude = turned(by_component)
+      call turn(total, values)
+      call find_modes(planes, size(total, 2), size(total, 2), values, by_component)
+      call turn(by_component, amplitude)
    end function analyse
 
    !> What components of one mode with amplitudes of one are on the planes
@@ -310,21 +314,33 @@ contains
       end do
    end function by_component
 
-   !> Values with their first two places changed
-   pure function turned(values)
+   !> Values with their first two places changed, one of which is that of the components
+   pure subroutine turn(values, turned)
       !> Shape (m, n, any)
       real(wp), intent(in) :: values(:, :, :)
       !> Shape (n, m, any)
-      real(wp) :: turned(size(values, 2), size(values, 1), size(values, 3))
+      real(wp), intent(out) :: turned(:, :, :)
 
       integer :: i, k
 
       do k = 1, size(values, 3)
-         do i = 1, size(values, 1)
-            turned(:, i, k) = values(i, :, k)
-         end do
+         if (size(values, 1) == 3) then  ! most often: a fixed number is moved at once
+            do i = 1, size(values, 2)
+               turned(i, 1, k) = values(1, i, k)
+               turned(i, 2, k) = values(2, i, k)
+               turned(i, 3, k) = values(3, i, k)
+            end do
+         else if (size(values, 2) == 3) then
+            do i = 1, size(values, 1)
+               turned(1, i, k) = values(i, 1, k)
+               turned(2, i, k) = values(i, 2, k)
+               turned(3, i, k) = values(i, 3, k)
+            end do
+         else
+            turned(:, :, k) = transpose(values(:, :, k))
+         end if
       end do
-   end function turned
+   end subroutine turn
 
    !> Whether sums are found by halves, which threads share by themselves
    pure logical function by_halves(planes)

@@ -46,7 +46,7 @@ contains
       type(model_joint_point_type), allocatable :: points(:)
 
       type(neighbours_type) :: neighbours
-      real(wp) :: x(3), w(3), side(2, 3), length, modulus(size(model%mesh%node_label))
+      real(wp) :: x(3), w(3), side(2, 3), length, least, modulus(size(model%mesh%node_label))
       integer :: joint, k, n, n_pairs, count, elements(2)
       logical :: in_situ
 
@@ -56,6 +56,7 @@ contains
       allocate (points(3*size(model%mesh%joint_label)))
       count = 0
       modulus = least_moduli(model)
+      least = minval(modulus)
       do joint = 1, size(model%mesh%joint_label)
          n_pairs = model%mesh%joint_size(joint)/2
          associate (nodes => model%mesh%joint_nodes(:, joint), &
@@ -77,7 +78,7 @@ contains
                points(count)%nodes = nodes
                points(count)%elements = elements
                call set_stiffness(model%joint_materials(material), &
-                  length/minval(modulus(nodes(:2*n_pairs))), length/minval(modulus), points(count))
+                  length/minval(modulus(nodes(:2*n_pairs))), length/least, points(count))
             end do
          end associate
       end do

@@ -1,7 +1,6 @@
 !> Graph of the nodes: who shares an element or a joint with whom
 module axijoint_order_graph
    use axijoint_base_kinds, only : i8
-   use axijoint_base_sort, only : sort_short
    implicit none
    private
    public :: graph_type, new_graph, subgraph, degree, bandwidth, profile, fill, max_ends
@@ -35,31 +34,36 @@ contains
       !> Nodes of the cliques
       integer, intent(in) :: member(:)
 
-      integer, allocatable :: touch_start(:), touch(:), found(:)
-      integer :: pass, node, k, l, clique, count
+      integer, allocatable :: touch_start(:), touch(:), found(:), next(:)
+      integer :: pass, node, k, l, clique
 
       call invert(n, clique_start, member, touch_start, touch)
       graph%n = n
-      allocate (graph%start(n + 1), found(n))
-      do pass = 1, 2  ! count the neighbours, then store them
+      allocate (graph%start(n + 1), found(n), next(n))
+      next = 0
+      do pass = 1, 2  ! count the neighbours, then store each node with all of them: their lists ascend
          found = 0
-         count = 0
          do node = 1, n
-            graph%start(node) = count + 1
             found(node) = node
             do k = touch_start(node), touch_start(node + 1) - 1
                clique = touch(k)
                do l = clique_start(clique), clique_start(clique + 1) - 1
-                  if (found(member(l)) == node) cycle
-                  found(member(l)) = node
-                  count = count + 1
-                  if (pass == 2) graph%neighbour(count) = member(l)
+                  associate (other => member(l))
+                     if (found(other) == node) cycle
+                     found(other) = node
+                     if (pass == 2) graph%neighbour(next(other)) = node
+                     next(other) = next(other) + 1
+                  end associate
                end do
             end do
-            if (pass == 2) call sort_short(graph%neighbour(graph%start(node):count))
          end do
-         graph%start(n + 1) = count + 1
-         if (pass == 1) allocate (graph%neighbour(count))
+         if (pass == 2) exit
+         graph%start(1) = 1
+         do node = 1, n
+            graph%start(node + 1) = graph%start(node) + next(node)
+         end do
+         allocate (graph%neighbour(graph%start(n + 1) - 1))
+         next = graph%start(:n)
       end do
    end subroutine new_graph
 

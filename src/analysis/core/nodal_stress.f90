@@ -70,7 +70,7 @@ contains
       type(reference_type), allocatable :: references(:)
       real(wp) :: matrix(max_element_nodes, max_element_points), at_nodes(6, max_element_nodes)
       logical, allocatable :: pole(:)
-      integer :: element, n, n_points, last, i, kind, before
+      integer :: element, n, n_points, last, i, p, kind, before
 
       references = element_references(model%mesh)
       amplitude = 0.0_wp
@@ -86,9 +86,11 @@ contains
          before = kind
          associate (values => results%nodal%value_of(:n, element), &
                     nodes => model%mesh%element_nodes(:n, element))
-            at_nodes(:, :n) = matmul(results%stress(:, last + 1:last + n_points, k), &
-                                     transpose(matrix(:n, :n_points)))
             do i = 1, n
+               at_nodes(:, i) = 0.0_wp
+               do p = 1, n_points
+                  at_nodes(:, i) = at_nodes(:, i) + matrix(i, p)*results%stress(:, last + p, k)
+               end do
                if (pole(nodes(i))) at_nodes(:, i) = &
                   pole_stress(results%modes(k)%harmonic, at_nodes(:, i))
                amplitude(:, values(i)) = amplitude(:, values(i)) &

@@ -134,9 +134,16 @@ contains
       !> The patches
       type(patches_type), intent(out) :: patches
 
-      real(wp) :: shape(9), derivative(2, 9)
-      integer :: element, i, n
+      real(wp) :: shape(9, max_samples, size(samplings)), derivative(2, 9), place(2)
+      integer :: kind, element, i, k
 
+      do kind = 1, size(samplings)
+         do i = 1, samplings(kind)%n
+            associate (x => samplings(kind)%position(:, i))
+               call shape_element(mesh%kinds(kind)%n_nodes, x(1), x(2), shape(:, i, kind), derivative)
+            end associate
+         end do
+      end do
       allocate (patches%before(n_elements(mesh) + 1))
       patches%before(1) = 0
       do element = 1, n_elements(mesh)
@@ -145,13 +152,13 @@ contains
       end do
       allocate (patches%position(2, patches%before(n_elements(mesh) + 1)))
       do element = 1, n_elements(mesh)
-         n = mesh%element_size(element)
-         do i = 1, samplings(mesh%element_kind(element))%n
-            associate (x => samplings(mesh%element_kind(element))%position(:, i))
-               call shape_element(n, x(1), x(2), shape, derivative)
-            end associate
-            patches%position(:, patches%before(element) + i) = &
-               matmul(mesh%coordinates(:, mesh%element_nodes(:n, element)), shape(:n))
+         kind = mesh%element_kind(element)
+         do i = 1, samplings(kind)%n
+            place = 0.0_wp
+            do k = 1, mesh%element_size(element)
+               place = place + shape(k, i, kind)*mesh%coordinates(:, mesh%element_nodes(k, element))
+            end do
+            patches%position(:, patches%before(element) + i) = place
          end do
       end do
       call list_elements(mesh, patches%first, patches%element)
@@ -355,8 +362,11 @@ contains
       !> The coordinate
       real(wp), intent(in) :: x
 
+      ! numbers as large as this have no digits after the point: what is added to them is rounded to a whole one
+      real(wp), parameter :: whole = 1.5_wp/epsilon(1.0_wp)
+
       rounded = x
-      if (abs(x) < 1.0_wp/grain) rounded = anint(x/grain)*grain
+      if (abs(x) < 1.0_wp/grain) rounded = ((x/grain + whole) - whole)*grain
    end function rounded
 
    !> Whether two fits are the same

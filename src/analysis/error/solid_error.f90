@@ -11,7 +11,7 @@ module axijoint_analysis_error_solid_error
    use axijoint_fe_mode, only : mode_integral
    use axijoint_fe_quadrature, only : max_element_points
    use axijoint_fe_reference, only : reference_type
-   use axijoint_linalg_lapack, only : cholesky, inverse_from_cholesky
+   use axijoint_linalg_lapack, only : cholesky, inverse_from_cholesky, dgemm
    use axijoint_model_material, only : elasticity
    use axijoint_model_mesh, only : n_elements, element_references
    use axijoint_model_model, only : model_type
@@ -186,15 +186,18 @@ contains
       !> The element
       integer, intent(in) :: element
 
-      integer :: s, i
+      real(wp) :: sample(6)
+      integer :: s, i, k
 
       associate (n => model%mesh%element_kind(element), first => fields%patches%before(element), &
                  before => fields%before(element))
          do s = 1, fields%samplings(n)%n
-            fields%sampled(:, :, first + s) = 0.0_wp
-            do i = 1, fields%references(n)%n_points
-               fields%sampled(:, :, first + s) = fields%sampled(:, :, first + s) &
-                  + fields%samplings(n)%matrix(s, i)*stress(:, before + i, :)
+            do k = 1, size(stress, 3)
+               sample = 0.0_wp
+               do i = 1, fields%references(n)%n_points
+                  sample = sample + fields%samplings(n)%matrix(s, i)*stress(:, before + i, k)
+               end do
+               fields%sampled(:, k, first + s) = sample
             end do
          end do
       end associate
@@ -216,13 +219,12 @@ contains
       real(wp), intent(out) :: error(:), energy(:)
 
       type(solid_point_type) :: points(max_element_points)
-      real(wp), allocatable :: recovered(:, :)
-      real(wp) :: position(2, max_element_points)
+      real(wp), allocatable :: sampled(:, :, :), recovered(:, :, :)
+      real(wp) :: position(2, max_element_points), own(6)
       integer :: n, kind, i, s, k
 
       n = model%mesh%element_size(element)
       kind = model%mesh%element_kind(element)
-      allocate (recovered(6, size(error)))
       error = 0.0_wp
       energy = 0.0_wp
       associate (reference => fields%references(kind), sampling => fields%samplings(kind), &
@@ -235,18 +237,20 @@ contains
          call find_patch(model%mesh, fields%patches, sampling%least_elements, element, work)
          call fit_patch(model%mesh, fields%patches, sampling%degree, element, &
                         position(:, :reference%n_points), work)
+         allocate (sampled(6, size(error), work%n_samples), recovered(6, size(error), reference%n_points))
+         do s = 1, work%n_samples
+            sampled(:, :, s) = fields%sampled(:, :, work%samples(s))
+         end do
+         associate (matrix => work%fits(work%fit)%matrix)
+            call dgemm('N', 'T', 6*size(error), size(matrix, 1), work%n_samples, 1.0_wp, sampled, 6*size(error), &
+               matrix, size(matrix, 1), 0.0_wp, recovered, 6*size(error))
+         end associate
          do i = 1, reference%n_points
-            recovered = 0.0_wp
-            associate (matrix => work%fits(work%fit)%matrix)
-               do s = 1, work%n_samples
-                  recovered = recovered + matrix(i, s)*fields%sampled(:, :, work%samples(s))
-               end do
-            end associate
             associate (point => fields%before(element) + i, weight => 0.5_wp*points(i)%weight)
                do k = 1, size(error)
-                  error(k) = error(k) + weight*square(compliance, &
-                     recovered(:, k) - stress(:, point, k))
-                  energy(k) = energy(k) + weight*square(compliance, stress(:, point, k))
+                  own = stress(:, point, k)
+                  error(k) = error(k) + weight*square(compliance, recovered(:, k, i) - own)
+                  energy(k) = energy(k) + weight*square(compliance, own)
                end do
             end associate
          end do

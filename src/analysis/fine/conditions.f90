@@ -34,35 +34,45 @@ contains
       !> The conditions
       type(conditions_type), intent(out) :: conditions
 
-      logical :: present(3), at_face(size(dofs%equation, 2)), tied(size(dofs%equation, 2))
-      integer :: k, i
+      logical, dimension(size(dofs%equation, 2)) :: at_face, tied, whole
+      logical :: present(3), all_tied
+      integer :: k, i, component
 
       present = [.not. is_torsion(mode), .not. is_torsion(mode), is_torsion(mode) &
          .or. mode%harmonic > 0]
-      tied = dofs%equation(3, :) > 0 .and. dofs%equation(3, :) == dofs%equation(1, :)
+      allocate (conditions%free(3, size(place)))
+      allocate (conditions%tied(size(place)), source=.false.)
+      do component = 1, 3
+         conditions%free(component, :) = present(component)
+      end do
+      do k = 1, size(tied)
+         associate (equation => dofs%equation(:, k), free => conditions%free(:, place(k)))
+            tied(k) = equation(3) > 0 .and. equation(3) == equation(1)
+            free(1) = equation(1) > 0
+            free(2) = equation(2) > 0
+            free(3) = equation(3) > 0 .and. .not. tied(k)
+            whole(k) = (free(1) .eqv. present(1)) .and. (free(2) .eqv. present(2)) .and. (free(3) .eqv. present(3))
+         end associate
+         conditions%tied(place(k)) = tied(k)
+      end do
       at_face = .false.
       do k = 1, size(fine%edges)
          if (fine%edges(k)%elements(2) == 0) at_face(fine%edges(k)%nodes(:2)) = .true.
       end do
-      conditions%free = spread(present, 2, size(place))
-      allocate (conditions%tied(size(place)), source=.false.)
-      do k = 1, size(tied)
-         conditions%free(:, place(k)) = dofs%equation(:, k) > 0 &
-            .and. .not. [.false., .false., tied(k)]
-         conditions%tied(place(k)) = tied(k)
-      end do
       do k = 1, size(fine%edges)
-         associate (edge => fine%edges(k), nodes => fine%edges(k)%nodes(:n_on(fine%edges(k))), &
-            new => fine%edges(k)%new)
-            do i = 1, n_on(edge) - 1
-               conditions%tied(place(new(i))) = all(tied(nodes))
-               if (n_on(edge) == 2 .and. edge%elements(2) > 0 .and. all(at_face(nodes))) cycle
-               conditions%free(:, place(new(i))) = any(dofs%equation(:, nodes) > 0, 2) &
-                  .and. .not. [.false., .false., all(tied(nodes))]
+         associate (edge => fine%edges(k), n => n_on(fine%edges(k)))
+            if (all(whole(edge%nodes(:n)))) cycle
+            all_tied = all(tied(edge%nodes(:n)))
+            do i = 1, n - 1
+               conditions%tied(place(edge%new(i))) = all_tied
+               if (n == 2 .and. edge%elements(2) > 0 .and. all(at_face(edge%nodes(:n)))) cycle
+               conditions%free(:, place(edge%new(i))) = any(dofs%equation(:, edge%nodes(:n)) > 0, 2) &
+                  .and. .not. [.false., .false., all_tied]
             end do
          end associate
       end do
-      conditions%held = pack([(k, k=1, size(place))], conditions%tied .or. .not. all(conditions%free, 1))
+      conditions%held = pack([(k, k=1, size(place))], conditions%tied .or. .not. (conditions%free(1, :) &
+         .and. conditions%free(2, :) .and. conditions%free(3, :)))
    end subroutine new_conditions
 
    !> Put displacements where the conditions hold them

@@ -77,7 +77,7 @@ contains
       level%joint_points = new_joint_points(level%model)
       level%support_points = new_support_points(level%model)
       call place_joint_points(model, level)
-      graph = node_graph(level%model%mesh)
+      graph = node_graph(level%model%mesh, neighbours_only=.true.)
       block = new_blocks(model%mesh, level%mesh)
       call order_by_blocks(model%mesh, level%mesh, graph, block, order)
       call new_node_blocks(level%stiffness, graph, order)

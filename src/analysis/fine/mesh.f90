@@ -403,6 +403,10 @@ contains
 
       integer :: node, k
 
+      if (size(values, 1) == 3) then
+         call prolong_vectors(parents, coarse_values, values)
+         return
+      end if
       values = 0.0_wp
       do node = 1, size(values, 2)
          do k = parents%start(node), parents%start(node + 1) - 1
@@ -411,23 +415,45 @@ contains
       end do
    end subroutine prolong
 
+   !> The same for vectors, which it is most often asked for: a fixed number of components is added at once
+   pure subroutine prolong_vectors(parents, coarse_values, values)
+      !> What the fine nodes follow
+      type(parents_type), intent(in) :: parents
+      !> Vectors at the coarse nodes, shape (3, nodes)
+      real(wp), intent(in) :: coarse_values(:, :)
+      !> Vectors at the fine nodes, shape (3, nodes)
+      real(wp), intent(out) :: values(:, :)
+
+      real(wp) :: total(3)
+      integer :: node, k
+
+      do node = 1, size(parents%start) - 1
+         total = 0.0_wp
+         do k = parents%start(node), parents%start(node + 1) - 1
+            total = total + parents%weight(k)*coarse_values(:3, parents%node(k))
+         end do
+         values(:3, node) = total
+      end do
+   end subroutine prolong_vectors
+
    !> Forces at the coarse nodes that do the same work as those at the fine ones
    pure subroutine restrict(parents, forces, coarse_forces)
       !> What the fine nodes follow
       type(parents_type), intent(in) :: parents
-      !> Forces at the fine nodes, shape (any, nodes)
+      !> Forces at the fine nodes, shape (3, nodes)
       real(wp), intent(in) :: forces(:, :)
-      !> Forces at the coarse nodes, shape (any, nodes)
+      !> Forces at the coarse nodes, shape (3, nodes)
       real(wp), intent(out) :: coarse_forces(:, :)
 
+      real(wp) :: force(3)
       integer :: node, k
 
       coarse_forces = 0.0_wp
       do node = 1, size(forces, 2)
+         force = forces(:3, node)
          do k = parents%start(node), parents%start(node + 1) - 1
             associate (parent => parents%node(k))
-               coarse_forces(:, parent) = coarse_forces(:, parent) + &
-                  parents%weight(k)*forces(:, node)
+               coarse_forces(:3, parent) = coarse_forces(:3, parent) + parents%weight(k)*force
             end associate
          end do
       end do

@@ -15,6 +15,8 @@ module axijoint_analysis_fine_wedges
    integer, parameter :: looked_back = 8
    !> Angles that differ by no more are those of one wedge [radian]
    real(wp), parameter :: rounding = 1.0e-10_wp
+   !> Sectors follow each other if no larger angle is left between them [radian]
+   real(wp), parameter :: closing = 1.0e-6_wp
 
    !> Part of an element at one of its corners
    type :: sector_type
@@ -60,6 +62,7 @@ contains
       type(wedge_type) :: wedge
       integer :: first, last, n
 
+      if (is_inside(model, sectors)) return
       if (any(model%materials(model%mesh%element_material(sectors%element))%orthotropic)) return
       n = size(sectors)
       sorted = sectors
@@ -89,6 +92,26 @@ contains
          first = last + 1
       end do
    end subroutine divide
+
+   !> Whether sectors of one material fill the circle round a node: most do
+   pure logical function is_inside(model, sectors) result(inside)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The sectors
+      type(sector_type), intent(in) :: sectors(:)
+
+      real(wp) :: angle
+      integer :: k
+
+      inside = .false.
+      angle = 0.0_wp
+      do k = 1, size(sectors)
+         if (any(sectors(k)%opens)) return
+         if (model%mesh%element_material(sectors(k)%element) /= model%mesh%element_material(sectors(1)%element)) return
+         angle = angle + sectors(k)%to - sectors(k)%from
+      end do
+      inside = abs(angle - 2.0_wp*pi) < closing
+   end function is_inside
 
    !> Take the wedge of a node
    subroutine take_wedge(wedge, node, wedges)
@@ -152,7 +175,7 @@ contains
       !> The sectors
       type(sector_type), intent(in) :: before, after
 
-      follows = abs(modulo(after%from - before%to + pi, 2.0_wp*pi) - pi) < 1.0e-6_wp &
+      follows = abs(modulo(after%from - before%to + pi, 2.0_wp*pi) - pi) < closing &
          .and. .not. (before%opens(2) .or. after%opens(1))
    end function follows
 

@@ -7,7 +7,7 @@ module axijoint_output_file_set
    use axijoint_base_whole_file, only : link_path, knows_no_links, is_not_there, &
       read_whole_file, write_new_file
    use axijoint_output_file_pending, only : temporary_path, backup_path, io_error, join_path, &
-      sync_file, sync_names
+      sync_file, sync_names, publish, discard
    implicit none
    private
    public :: commit_set, finish_set
@@ -36,12 +36,18 @@ contains
       integer :: errno, k, n
 
       halfway = .false.
-      do k = 1, size(names)
-         call sync_file(join_path(directory, trim(names(k))), error)
-         if (allocated(error)) return
-      end do
       call write_journal(directory, journal, names, error)
       if (allocated(error)) return
+      ! the journal with the rest: the first file takes what the disk has to note of the others, too
+      do k = 1, size(names)
+         if (.not. allocated(error)) call sync_file(join_path(directory, trim(names(k))), error)
+      end do
+      path = join_path(directory, journal)
+      if (.not. allocated(error)) call publish(path, error)
+      if (allocated(error)) then
+         call discard(path)
+         return
+      end if
       call sync_names(directory)
       do k = 1, size(names)
          path = join_path(directory, trim(names(k)))
@@ -115,7 +121,7 @@ contains
       call unlink_path(path, errno)
    end subroutine finish_set
 
-   !> List the files, in a file that appears when it is complete
+   !> List the files, under a temporary name still
    subroutine write_journal(directory, journal, names, error)
       !> Directory of the files
       character(len=*), intent(in) :: directory
@@ -127,7 +133,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: path, text
-      integer :: errno, k, ignored
+      integer :: errno, k
 
       text = first_line//nl
       do k = 1, size(names)
@@ -135,11 +141,10 @@ contains
       end do
       text = text//last_line//nl
       path = join_path(directory, journal)
-      call unlink_path(temporary_path(path), ignored)
-      call write_new_file(temporary_path(path), text, errno)
-      if (errno == 0) call rename_path(temporary_path(path), path, errno)
+      call discard(path)
+      call write_new_file(temporary_path(path), text, errno, lasting=.false.)
       if (errno == 0) return
-      call unlink_path(temporary_path(path), ignored)
+      call discard(path)
       call io_error(error, 'write', path, errno)
    end subroutine write_journal
 
