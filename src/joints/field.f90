@@ -13,7 +13,7 @@ module axijoint_joints_field
    private
    public :: joint_field_type, new_joint_field, admit_jump, admit_trial, judge_states
    public :: set_initial_stress, is_homogeneous, scale_field, trial_of, seen_by_law, stress_amplitude
-   public :: commit_field, break_bonds, soften, count_state, n_across_gaps, n_fading
+   public :: commit_field, break_bonds, soften, mend, count_state, n_across_gaps, n_fading
 
    !> Share of the largest joint stress, or jump, below which a value is rounding
    real(wp), parameter :: noise = 1.0e-9_wp
@@ -307,6 +307,18 @@ contains
          end do
       end do
    end subroutine commit_field
+
+   !> Begin a load step again: what broke or softened since has not. Where points that stood open have landed they stay:
+   !> the iterate that follows starts there
+   elemental subroutine mend(start, memory)
+      !> What a point remembered at the beginning
+      type(memory_type), intent(in) :: start
+      !> What it remembers
+      type(memory_type), intent(inout) :: memory
+
+      memory%broken = start%broken
+      memory%softened = start%softened
+   end subroutine mend
 
    !> Whether joint stresses and displacements are in proportion to the load that acts first: no law has a stress or
    !> a width of its own, and no stress was there before

@@ -22,6 +22,7 @@ module axijoint_joints_increments
    use axijoint_joints_mechanism, only : mechanism_type, find_mechanism
    use axijoint_joints_method, only : method_type, control_type, verdict_type
    use axijoint_joints_methods, only : other_loop, second_opinion, is_newton
+   use axijoint_joints_passes, only : keep_standing
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_residual, only : load_norm, ratio, set_reference
    use axijoint_joints_scene, only : elastic_stress, rounded_stress
@@ -299,17 +300,19 @@ contains
       type(history_type), intent(inout) :: history
 
       type(memory_type), allocatable :: start(:, :)
-      real(wp), allocatable :: stress(:, :, :)
+      real(wp), allocatable :: stress(:, :, :), change(:, :, :), begun(:, :, :)
 
       history%verdict%converged = .false.
       if (allocated(history%failure)) return
       start = history%field%memory
+      begun = history%field%jump
       if (history%load_norm >= history%peak_norm) then
          history%peak_norm = history%load_norm
          history%peak = history%loading
       end if
       stress = elastic_stress(condensed, history%scene, history%field)
-      call set_reference(condensed%measure, history%peak_norm, stress - history%balanced, history%balanced, &
+      change = stress - history%balanced
+      call set_reference(condensed%measure, history%peak_norm, change, history%balanced, &
          rounded_stress(condensed, history%scene), increment%tolerance, history%scene%loads%reference)
       history%control = control_type(increment%tolerance, increment%max_iterations, &
                                      iteration_type(increment=number, load_factor=load_factor), &
@@ -323,6 +326,8 @@ contains
       call method%balance(condensed, history%scene, history%control, history%field, history%path, &
          history%verdict)
       history%exchanged = history%exchanged + condensed%team%exchanged()
+      if (history%verdict%converged) call keep_standing(method, condensed, history%scene, increment%tolerance, begun, change, &
+         history%verdict%mechanism, history%field)
       call note_residual(condensed, number, load_factor, history)
       if (.not. history%verdict%converged) return
       if (history%field%fading > 0.0_wp) history%n_faded = history%n_faded + 1
@@ -347,7 +352,9 @@ contains
       real(wp), intent(in), optional :: tolerance
 
       type(control_type) :: control
+      real(wp), allocatable :: begun(:, :, :)
 
+      begun = history%field%jump
       control = history%control
       control%warm = .true.
       control%damps = .true.
@@ -356,6 +363,8 @@ contains
       history%field%memory = history%memory
       call history%method%balance(condensed, history%scene, control, history%field, history%path, &
          history%verdict)
+      if (history%verdict%converged) call keep_standing(history%method, condensed, history%scene, control%tolerance, begun, &
+         0.0_wp*history%field%excess, history%verdict%mechanism, history%field)
       history%noted = .false.  ! in the place of the last
       call note_residual(condensed, control%now%increment, control%now%load_factor, history)
       history%memory = history%field%memory

@@ -7,6 +7,7 @@ module axijoint_joints_joint_errors
    use axijoint_fe_mode, only : mode_type, family_symmetric, family_antisymmetric
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, trial_of
+   use axijoint_joints_mechanism, only : mechanism_type, find_mechanism, settle
    use axijoint_joints_planes, only : new_planes, synthesize
    use axijoint_joints_scene, only : scene_type, jumps, jumps_of_mode
    use axijoint_joints_settle, only : find_again
@@ -99,7 +100,7 @@ contains
       end do
    end function largest_change
 
-   !> Changes by more planes and harmonics
+   !> Changes by more planes and harmonics, but for motions that nothing resists and no load acts on
    subroutine find_joint_changes(condensed, scene, balanced, start, judged, changes)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
@@ -115,7 +116,8 @@ contains
       type(joint_changes_type), intent(inout) :: changes
 
       type(scene_type) :: finer_scene, extended
-      type(joint_field_type), allocatable :: on_more, with_more
+      type(joint_field_type), allocatable :: settled, on_more, with_more
+      type(mechanism_type) :: mechanism
       type(memory_type), allocatable :: memory(:, :)
       real(wp) :: clock
       integer :: n, step
@@ -126,6 +128,9 @@ contains
          return
       end if
       clock = omp_get_wtime()
+      allocate (settled, source=balanced)
+      call find_mechanism(condensed, scene, balanced, .false., mechanism)
+      call settle(condensed, scene, mechanism, settled)
       n = scene%planes%n - 1
       ! for products of harmonics up to 2 M
       step = max(finer, (4*maxval(scene%modes%harmonic) + n - 1)/n)
@@ -138,7 +143,8 @@ contains
       call find_again(condensed, finer_scene, memory, on_more, changes%planes%known)
       changes%planes%stress = largest_change(scene, balanced, on_more, step, judged)
       changes%planes%excess = on_more%excess - balanced%excess
-      changes%planes%offset = on_more%offset - balanced%offset
+      call settle(condensed, finer_scene, mechanism, on_more)
+      changes%planes%offset = on_more%offset - settled%offset
       changes%planes%seconds = omp_get_wtime() - clock
       clock = omp_get_wtime()
       call add_harmonics(condensed, finer_scene, on_more, extended, with_more)
@@ -147,6 +153,7 @@ contains
          associate (m => size(scene%modes))
             changes%harmonics%stress = largest_change(scene, on_more, with_more, 1, judged)
             changes%harmonics%excess = with_more%excess(:, :, :m) - on_more%excess
+            call settle(condensed, extended, mechanism, with_more)
             changes%harmonics%offset = with_more%offset - on_more%offset
             with_more%excess(:, :, :m) = 0.0_wp
          end associate

@@ -11,7 +11,7 @@ module axijoint_joints_mechanism
    use axijoint_linalg_lapack, only : symmetric_eigen, singular_values
    implicit none
    private
-   public :: mechanism_type, find_mechanism, settle, balance_motions
+   public :: mechanism_type, find_mechanism, settle, stand_still, balance_motions
 
    !> A motion is not resisted if the resistance to it is less than this share of that of sticking
    !> joints
@@ -25,6 +25,9 @@ module axijoint_joints_mechanism
    !> times as much as nothing, all do, as each adds to it
    integer, parameter :: one_of = 8
    real(wp), parameter :: surely = 1.0e3_wp
+   !> A motion that loads push by less than this part of what they push another by, both of unit elastic work, has that
+   !> from a little of the other in it
+   real(wp), parameter :: slight = 1.0e-3_wp
 
    !> Motions that nothing resists, in multiples of the floating motions of a scene
    type :: mechanism_type
@@ -139,23 +142,89 @@ contains
       !> The state; the stresses are those before
       type(joint_field_type), intent(inout) :: field
 
-      real(wp), allocatable :: stress(:, :, :)
-      integer :: i, k
+      real(wp), allocatable :: work(:)
+      integer :: k
 
-      stress = jumps(condensed, scene, field%excess, free=.true.) + &
-         motion_of(condensed, scene, field%offset)
-      do k = 1, size(stress, 2)
-         do i = 1, 3
-            stress(i, k, :) = condensed%points(k)%base(i)*stress(i, k, :)
-         end do
+      if (size(mechanism%idle, 2) == 0) return
+      work = elastic_works(condensed, scene, total_jumps(condensed, scene, field))
+      do k = 1, size(mechanism%idle, 2)
+         field%offset = field%offset - dot_product(mechanism%idle(:, k), work)*mechanism%idle(:, k)
+      end do
+   end subroutine settle
+
+   !> Let the parts stand where they stood when a load step began, along motions that no load acts on, nothing resists and
+   !> the step does not push. Those that it pushes stay where it left them
+   subroutine stand_still(condensed, scene, mechanism, begun, change, field)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> Motions that no load acts on and nothing resists
+      type(mechanism_type), intent(in) :: mechanism
+      !> Jumps when the step began, shape (3, points, planes)
+      real(wp), intent(in) :: begun(:, :, :)
+      !> What the loads of the step would add to the stress of joints that hold, amplitudes, shape (3, points, modes)
+      real(wp), intent(in) :: change(:, :, :)
+      !> The state; the stresses are those before
+      type(joint_field_type), intent(inout) :: field
+
+      real(wp), dimension(size(condensed%floating)) :: work, push, unit, own
+      real(wp) :: least
+      integer :: k
+
+      work = elastic_works(condensed, scene, total_jumps(condensed, scene, field) - analyse(scene%planes, begun))
+      push = works(condensed, scene, change)
+      least = 0.0_wp
+      do k = 1, size(push)
+         unit = 0.0_wp
+         unit(k) = 1.0_wp
+         own = elastic_works(condensed, scene, motion_of(condensed, scene, unit))
+         least = max(least, slight*abs(push(k))/sqrt(own(k)))
       end do
       do k = 1, size(mechanism%idle, 2)
          associate (direction => mechanism%idle(:, k))
-            field%offset = field%offset - dot_product(direction, &
-               works(condensed, scene, stress))*direction
+            if (abs(dot_product(direction, push)) > least) cycle
+            field%offset = field%offset - dot_product(direction, work)*direction
          end associate
       end do
-   end subroutine settle
+   end subroutine stand_still
+
+   !> Jumps of a state, amplitudes, shape (3, points, modes)
+   function total_jumps(condensed, scene, field) result(jump)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> The state
+      type(joint_field_type), intent(in) :: field
+      !> The jumps
+      real(wp), allocatable :: jump(:, :, :)
+
+      jump = jumps(condensed, scene, field%excess, free=.true.) + motion_of(condensed, scene, field%offset)
+   end function total_jumps
+
+   !> Work of elastic joints on unit motions
+   function elastic_works(condensed, scene, jump) result(work)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> Amplitudes of their jumps, shape (3, points, modes)
+      real(wp), intent(in) :: jump(:, :, :)
+      !> Shape (motions)
+      real(wp) :: work(size(condensed%floating))
+
+      real(wp), allocatable :: stress(:, :, :)
+      integer :: i, k
+
+      allocate (stress, mold=jump)
+      do k = 1, size(stress, 2)
+         do i = 1, 3
+            stress(i, k, :) = condensed%points(k)%base(i)*jump(i, k, :)
+         end do
+      end do
+      work = works(condensed, scene, stress)
+   end function elastic_works
 
    !> What joints resist of motions that sticking joints all resist by one
    subroutine unit_resistance(condensed, scene, field, sticking, step, resistance, to_unit, value, &

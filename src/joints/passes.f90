@@ -4,13 +4,13 @@ module axijoint_joints_passes
    use axijoint_base_kinds, only : wp
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, break_bonds, soften
-   use axijoint_joints_mechanism, only : find_mechanism, settle
+   use axijoint_joints_mechanism, only : mechanism_type, find_mechanism, stand_still
    use axijoint_joints_method, only : method_type, verdict_type
    use axijoint_joints_residual, only : strictest_type, strictest
    use axijoint_joints_scene, only : scene_type, evaluate, views
    implicit none
    private
-   public :: pass_on
+   public :: pass_on, keep_standing
 
    !> Bonds are broken and points softened, one pass after the other, in states at
    !> least this well balanced. The last pass reaches the tolerance asked for
@@ -71,7 +71,6 @@ contains
       type(verdict_type), intent(inout) :: verdict
 
       type(strictest_type) :: found
-      type(joint_field_type), allocatable :: settled
       type(scene_type) :: seen
 
       if (any(views(condensed, scene, field) < 1.0_wp)) then
@@ -89,14 +88,39 @@ contains
       if (method%accumulates) seen%laws%gap = 0.0_wp  ! this loop knows none
       call find_mechanism(condensed, seen, field, .false., verdict%mechanism)
       verdict%converged = .not. verdict%mechanism%loaded
-      if (.not. verdict%converged .or. size(verdict%mechanism%idle, 2) == 0) return
-      allocate (settled, source=field)
-      call settle(condensed, scene, verdict%mechanism, settled)
-      call method%evaluate(condensed, scene, settled, residual, judged=.true.)
-      found = strictest(condensed%measure, scene%loads%reference, residual, &
-         paper=method%accumulates)
-      if (found%ratio <= tolerance) field = settled
-      call method%evaluate(condensed, scene, field, residual, judged=.true.)
    end subroutine conclude
+
+   !> Where a step in equilibrium leaves motions that it does not push, no load acts on and nothing resists is of no
+   !> meaning: the parts stand as when it began, if that is equilibrium, too
+   subroutine keep_standing(method, condensed, scene, tolerance, begun, change, mechanism, field)
+      !> The method
+      class(method_type), intent(in) :: method
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> Tolerance on the residual ratio
+      real(wp), intent(in) :: tolerance
+      !> Jumps when the step began, shape (3, points, planes)
+      real(wp), intent(in) :: begun(:, :, :)
+      !> What its loads would add to the stress of joints that hold, amplitudes, shape (3, points, modes)
+      real(wp), intent(in) :: change(:, :, :)
+      !> Motions that no load acts on and nothing resists
+      type(mechanism_type), intent(in) :: mechanism
+      !> State of the joints in equilibrium
+      type(joint_field_type), intent(inout) :: field
+
+      type(strictest_type) :: found
+      type(joint_field_type), allocatable :: standing
+      real(wp), allocatable :: residual(:, :, :)
+
+      if (size(mechanism%idle, 2) == 0) return
+      allocate (standing, source=field)
+      allocate (residual, mold=field%excess)
+      call stand_still(condensed, scene, mechanism, begun, change, standing)
+      call method%evaluate(condensed, scene, standing, residual, judged=.true.)
+      found = strictest(condensed%measure, scene%loads%reference, residual, paper=method%accumulates)
+      if (found%ratio <= tolerance) field = standing
+   end subroutine keep_standing
 
 end module axijoint_joints_passes

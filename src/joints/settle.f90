@@ -3,7 +3,7 @@ module axijoint_joints_settle
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : memory_type, opening_bond
    use axijoint_joints_condensed, only : condensed_type
-   use axijoint_joints_field, only : joint_field_type
+   use axijoint_joints_field, only : joint_field_type, mend
    use axijoint_joints_method, only : control_type, verdict_type
    use axijoint_joints_newton, only : newton_type, step_bounds_type, linearize, newton_step, &
       newton_view
@@ -49,7 +49,7 @@ contains
          call settle(condensed, scene, field, found)
          if (found) return
       end if
-      field%memory = start
+      call mend(start, field%memory)
       allocate (path(0))
       call newton%balance(condensed, scene, control_type(pass_tolerance, most_iterations), field, &
          path, verdict)

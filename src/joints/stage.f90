@@ -12,7 +12,7 @@ module axijoint_joints_stage
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_history, only : history_type, target_type
    use axijoint_joints_keeper, only : keeper_type
-   use axijoint_joints_load_steps, only : step_type, first_step, next_step, halfway
+   use axijoint_joints_load_steps, only : step_type, first_step, next_step, halfway, on_the_way, unloads
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type
    use axijoint_model_model, only : model_type
@@ -22,6 +22,9 @@ module axijoint_joints_stage
 
    !> A step that finds no equilibrium is halved so many times at most
    integer, parameter :: most_halvings = 6
+   !> Share of the loads that goes first where all go and joints alone hold a part: without load it would stand anywhere,
+   !> so the last bit of the load says where
+   real(wp), parameter :: most_of_it = 0.999_wp
 
    !> What the increments of a job act on
    type, abstract :: stage_type
@@ -153,11 +156,15 @@ contains
       !> Where to show progress
       type(progress_type), intent(inout) :: progress
 
+      type(step_type) :: next
+
       history%increment = history%increment + 1
       history%at%share = 0.0_wp
       associate (increments => stage%model%increments, n => history%increment)
-         history%ahead = [target_type(next_step(history%at, increments(n), stage%combination), &
-                                      most_halvings)]
+         next = next_step(history%at, increments(n), stage%combination)
+         history%ahead = [target_type(next, most_halvings)]
+         if (unloads(history%at, next) .and. size(stage%condensed%floating) > 0) &
+            history%ahead = [history%ahead, target_type(on_the_way(history%at, next, most_of_it), most_halvings)]
          call show_progress(progress, 'increment '//to_text(n)//' of '//to_text(size(increments)))
       end associate
       call stage%begin_increment()

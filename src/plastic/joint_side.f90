@@ -7,11 +7,12 @@ module axijoint_plastic_joint_side
    use axijoint_base_kinds, only : wp
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_joints_condensed, only : condensed_type
-   use axijoint_joints_field, only : joint_field_type, commit_field
+   use axijoint_joints_field, only : joint_field_type, commit_field, mend
    use axijoint_joints_loads, only : put_work
    use axijoint_joints_method, only : method_type, control_type, verdict_type
    use axijoint_joints_newton, only : newton_type, linearize, at_points
    use axijoint_joints_newton_system, only : linear_type, solve
+   use axijoint_joints_passes, only : keep_standing
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_planes, only : synthesize, analyse
    use axijoint_joints_residual, only : set_reference
@@ -170,12 +171,17 @@ contains
          side%begun = .true.
       end if
       allocate (path(0))
-      side%field%memory = side%before%memory  ! bonds break in equilibrium, not on the way
+      call mend(side%before%memory, side%field%memory)  ! bonds break in equilibrium, not on the way
       ! where cohesion fades over an opening it goes on to in this step, so that states follow each
       ! other without a jump
       side%control%warm = side%field%fading > 0.0_wp
       call side%method%balance(side%condensed, side%scene, side%control, side%field, path, &
          side%verdict)
+      if (side%verdict%converged) then
+         change = elastic_stress(side%condensed, side%scene, side%field) - side%balanced
+         call keep_standing(side%method, side%condensed, side%scene, side%control%tolerance, side%before%jump, change, &
+            side%verdict%mechanism, side%field)
+      end if
       force = force_of(side, equations, side%field%excess, size(displacement, 2))
    end subroutine balance_joints
 

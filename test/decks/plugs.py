@@ -95,6 +95,49 @@ def all_taken_back(program, folder):
     return faults
 
 
+def stands_where_it_was_left(program, folder):
+    """All loads go: the peg stays where they left it, however strict the tolerance, and goes on from there"""
+    faults = []
+    for more in ([], ['0.1']):
+        found = []
+        for tolerance in ('1E-6', '1E-8', '1E-9', '1E-10'):
+            steps = [f'{factor}, {tolerance}' for factor in ['1.0', '-1.0', *more]]
+            summary, _ = solved(program, folder, 'left', first('1, 1.0E4, 2.0E4, 1.0E4, 0.0, 30', 'INCREMENTS', *steps))
+            found.append([increment['largest_displacement'] for increment in summary['increments']])
+        for most, left, *_ in found:
+            faults += [] if left > 0.05*most else [f'the peg jumps back: {left:.3E} is left of {most:.3E}']
+        faults += [fault for u in found for fault in close(f'displacement of the last of {len(u)} steps', found[-1][-1], u[-1],
+                                                           0.01*found[-1][-1])]
+    return faults
+
+
+def slides_freely(program, folder):
+    """Without friction the peg slides along its axis as it likes: no error is told by where it goes"""
+    faults, found = [], []
+    law = '1, 1.0E4, 2.0E4, 1.0E4, 0.0, 0.0'
+    for held in ([], ['FIXEDFACES', '1, 010, 0, 0']):
+        summary, _ = solved(program, folder, 'slides', first(law, *held))
+        found.append(summary['errors']['sum']['displacement'])
+    faults += close('estimated error, held along the axis and not', found[1], found[0], 0.1*found[1])
+    return faults
+
+
+def never_yields(program, folder):
+    """A criterion that nothing reaches changes nothing, beside joints with gap and cohesion"""
+    faults = []
+    for load in (0.003, 0.03, 0.3):
+        found = []
+        for strength in (None, 1e9):
+            deck = plug('Never yields', [('LATERAL', 100*load)], stiffness=even(1e6), friction=0.0, cohesion=25.0, young=(3e7, 3e4),
+                        poisson=(0.2, 0.45), details={'gap': 0.002}, outer=10.0, height=5.0, across=(1, 4), along=4, harmonic=3)
+            if strength:
+                deck.add('YIELD', (2, 'MISES', strength))
+            summary, _ = solved(program, folder, 'never', deck.text())
+            found.append(summary['increments'][-1]['largest_displacement'])
+        faults += close(f'load {load}: displacement', found[0], found[1], 1e-5*found[0])
+    return faults
+
+
 def nothing_opens(program, folder):
     """A torque on joints with cohesion, none of which is pressed or pulled: elastic, in any number of steps"""
     faults = []
@@ -229,7 +272,8 @@ def at_random(program, folder):
 def tests(program):
     """The tests of this module"""
     named = {'nothing holds': nothing_holds, 'all sticks': stays_elastic, 'a part taken back': taken_back,
-             'all taken back': all_taken_back, 'nothing opens': nothing_opens, 'little friction': little_friction,
+             'all taken back': all_taken_back, 'stands where it was left': stands_where_it_was_left, 'slides freely': slides_freely,
+             'never yields': never_yields, 'nothing opens': nothing_opens, 'little friction': little_friction,
              'dilation and cohesion': dilates, 'in proportion': in_proportion, 'let go': let_go,
              'far beyond': far_beyond, 'unloaded without friction': no_friction_unloaded, 'rules in the ground': rules_in_ground,
              'at random': at_random}

@@ -1,7 +1,7 @@
 !> What the approximations leave of the error of a job whose joints yield: the iteration, planes,
 !> harmonics and the mesh, each by a state found again without it
 module axijoint_analysis_error_yielding_errors
-   use omp_lib, only : omp_get_wtime
+   use omp_lib, only : omp_get_max_threads, omp_get_wtime
    use axijoint_analysis_core_results, only : results_type, error_share_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_error_excess_bound, only : bound_excess_effect
@@ -12,6 +12,7 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_analysis_fine_joints, only : fine_excess
    use axijoint_analysis_fine_level, only : fine_level_type, fine_load_type, new_fine_load
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type, new_mesh_error
+   use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
       release_factor
    use axijoint_assembly_force, only : joint_jump
@@ -36,8 +37,9 @@ module axijoint_analysis_error_yielding_errors
    real(wp), parameter :: none = 1.0e-9_wp
    !> Part of them that errors are measured by where no load is left, and how many times its tolerance a state claims
    real(wp), parameter :: slight = 1.0e-2_wp, claimed = 10.0_wp
-   !> Errors of joint stress are measured by no less than this part of what joints would carry if they held
-   real(wp), parameter :: small = 1.0e-6_wp
+   !> Errors of joint stress are measured by no less than this part of what joints would carry if they held, and this part of
+   !> the largest stress anywhere: where contact is by a few points, those that are judged may carry nothing
+   real(wp), parameter :: small = 1.0e-6_wp, of_largest = 0.1_wp
 
 contains
 
@@ -57,7 +59,8 @@ contains
 
       type(joint_field_type), allocatable :: balanced
       type(joint_changes_type) :: changes
-      real(wp), allocatable :: displacement(:, :, :), effect(:, :, :, :)
+      type(joint_change_type) :: iteration(1)
+      real(wp), allocatable :: displacement(:, :, :), of_iteration(:, :, :, :), others(:, :, :, :)
       real(wp) :: start, largest
 
       start = omp_get_wtime()
@@ -78,61 +81,115 @@ contains
          displacement = results%displacement
          call add_motions(condensed%floating, field%offset, displacement)
          largest = largest_vector(results%modes, displacement)
-         changes%iteration = change_between(scene, field, balanced, &
-            structure%judged(structure%yielding))
+         iteration(1) = change_between(scene, field, balanced, structure%judged(structure%yielding))
+         call find_effects(structure, size(displacement, 2), iteration, of_iteration)
+         changes%iteration = iteration(1)
          changes%iteration%seconds = omp_get_wtime() - start
-         call find_joint_changes(condensed, scene, balanced, history%start, &
-                                 structure%judged(structure%yielding), changes)
-         call find_effects(structure, size(displacement, 2), changes, effect)
-         displacement = results%displacement + effect(:, :, :, 1)
-         call take_share(structure, history, results, largest, changes%iteration, effect(:, :, :, 1), &
+         displacement = results%displacement + of_iteration(:, :, :, 1)
+         call find_other_changes(structure, history, balanced, displacement, changes, others, mesh_error)
+         call take_share(structure, history, results, largest, changes%iteration, of_iteration(:, :, :, 1), &
             results%joint_errors(1))
-         call take_share(structure, history, results, largest, changes%planes, effect(:, :, :, 2), &
+         call take_share(structure, history, results, largest, changes%planes, others(:, :, :, 1), &
             results%joint_errors(2))
-         call take_share(structure, history, results, largest, changes%harmonics, effect(:, :, :, 3), &
+         call take_share(structure, history, results, largest, changes%harmonics, others(:, :, :, 2), &
             results%joint_errors(3))
-         call mesh_error_of_balanced(structure, history, balanced, displacement, mesh_error)
       end associate
    end subroutine estimate_yielding_errors
 
-   !> What the changes of the joints do to the displacements, each without rigid motions of floating parts
+   !> What planes, harmonics and the mesh leave. They know nothing of each other: where threads have little to do in
+   !> each, they are found at once
+   subroutine find_other_changes(structure, history, balanced, displacement, changes, effect, mesh_error)
+      !> The structure
+      type(structure_type), intent(inout) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> State of the joints, balanced
+      type(joint_field_type), intent(in) :: balanced
+      !> Displacement amplitudes of that state, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
+      !> Takes the changes by planes and harmonics
+      type(joint_changes_type), intent(inout) :: changes
+      !> What they do to the displacements, shape (3, nodes, modes, 2)
+      real(wp), allocatable, intent(out) :: effect(:, :, :, :)
+      !> Takes what the mesh leaves
+      type(mesh_error_type), intent(out) :: mesh_error
+
+      real(wp) :: seconds, share
+
+      seconds = omp_get_wtime()
+      !$omp parallel sections num_threads(merge(2, 1, is_small(structure%equations)))
+      !$omp section
+      call see_mesh()
+      !$omp section
+      call see_joints()
+      !$omp end parallel sections
+      seconds = omp_get_wtime() - seconds
+      share = seconds/max(tiny(1.0_wp), mesh_error%seconds + changes%planes%seconds + changes%harmonics%seconds)
+      mesh_error%seconds = share*mesh_error%seconds
+      changes%planes%seconds = share*changes%planes%seconds
+      changes%harmonics%seconds = share*changes%harmonics%seconds
+
+   contains
+
+      !> What the mesh leaves
+      subroutine see_mesh()
+         call mesh_error_of_balanced(structure, history, balanced, displacement, mesh_error)
+      end subroutine see_mesh
+
+      !> What planes and harmonics leave
+      subroutine see_joints()
+         type(joint_change_type) :: both(2)
+
+         call find_joint_changes(structure%condensed, history%scene, balanced, history%start, &
+                                 structure%judged(structure%yielding), changes)
+         both = [changes%planes, changes%harmonics]
+         call find_effects(structure, size(displacement, 2), both, effect)
+         changes%planes = both(1)
+         changes%harmonics = both(2)
+      end subroutine see_joints
+
+   end subroutine find_other_changes
+
+   !> Whether threads have so little to do in a loop over the systems, all factors being kept by this process alone, that
+   !> they had better see to different things
+   logical function is_small(equations)
+      !> The equations
+      type(equations_type), intent(in) :: equations
+
+      !> Equations of all systems at most
+      integer, parameter :: few = 10000
+
+      is_small = omp_get_max_threads() > 1 .and. equations%team%size == 1 .and. equations%n_kept == size(equations%systems)
+      if (is_small) is_small = sum(equations%classes(equations%systems%class)%dofs%n_equations) <= few
+   end function is_small
+
+   !> What changes of the joints do to the displacements, each without rigid motions of floating parts
    subroutine find_effects(structure, n_nodes, changes, effect)
       !> The structure
       type(structure_type), intent(inout) :: structure
       !> Nodes
       integer, intent(in) :: n_nodes
       !> The changes; those whose effect is not found are not known, and each took its part of the time
-      type(joint_changes_type), intent(inout) :: changes
-      !> Of iteration, planes, harmonics: amplitudes, shape (3, nodes, modes, 3)
+      type(joint_change_type), intent(inout) :: changes(:)
+      !> Amplitudes, shape (3, nodes, modes, changes)
       real(wp), allocatable, intent(out) :: effect(:, :, :, :)
 
       real(wp), allocatable :: excess(:, :, :, :)
-      real(wp) :: seconds
+      real(wp) :: start
+      integer :: k
       logical :: found
 
-      seconds = omp_get_wtime()
-      allocate (excess(3, size(structure%condensed%points), size(structure%modes), 3), source=0.0_wp)
-      if (changes%iteration%known) excess(:, :, :, 1) = changes%iteration%excess
-      if (changes%planes%known) excess(:, :, :, 2) = changes%planes%excess
-      if (changes%harmonics%known) excess(:, :, :, 3) = changes%harmonics%excess
-      allocate (effect(3, n_nodes, size(structure%modes), 3), source=0.0_wp)
+      start = omp_get_wtime()
+      allocate (excess(3, size(structure%condensed%points), size(structure%modes), size(changes)), source=0.0_wp)
+      do k = 1, size(changes)
+         if (changes(k)%known) excess(:, :, :, k) = changes(k)%excess
+      end do
+      allocate (effect(3, n_nodes, size(structure%modes), size(changes)), source=0.0_wp)
       call add_excess_effect(structure%equations, structure%condensed%points, excess, effect, found)
-      seconds = (omp_get_wtime() - seconds)/3.0_wp
-      call see(changes%iteration)
-      call see(changes%planes)
-      call see(changes%harmonics)
-
-   contains
-
-      !> See whether the effect of a change is known, and what it took
-      subroutine see(change)
-         !> The change
-         type(joint_change_type), intent(inout) :: change
-
-         change%known = change%known .and. found
-         change%seconds = change%seconds + seconds
-      end subroutine see
-
+      do k = 1, size(changes)
+         changes(k)%known = changes(k)%known .and. found
+         changes(k)%seconds = changes(k)%seconds + (omp_get_wtime() - start)/size(changes)
+      end do
    end subroutine find_effects
 
    !> What the iteration left, by the state in which the joints are wholly balanced: a bound where
@@ -336,8 +393,8 @@ contains
                   elastic_change(structure, displacement))
    end function stress_scale
 
-   !> Largest stress of joints that yield, where it is judged, in all increments; at least a small part of
-   !> what they would carry if they held: what loads press on joints that are about to close may be rounding
+   !> Largest stress of joints that yield, where it is judged, in all increments; at least a part of the largest anywhere, and a
+   !> small part of what they would carry if they held: what loads press on joints that are about to close may be rounding
    function yielding_scale(structure, history) result(scale)
       !> The structure
       type(structure_type), intent(in) :: structure
@@ -347,7 +404,7 @@ contains
       real(wp) :: scale
 
       scale = maxval([0.0_wp, pack(history%largest_stress, structure%judged(structure%yielding)), &
-                      small*held_stress(structure, history)])
+                      of_largest*history%largest_stress, small*held_stress(structure, history)])
    end function yielding_scale
 
    !> Largest stress that joints would carry if they held, where it is judged
@@ -414,7 +471,8 @@ contains
       type(mesh_error_type), intent(out) :: error
 
       type(model_joint_point_type), allocatable :: points(:)
-      type(joint_field_type), allocatable :: after
+      type(joint_field_type), allocatable :: after, settled
+      type(mechanism_type) :: mechanism
       type(scene_type) :: corrected
       real(wp), allocatable :: excess(:, :, :), before(:, :, :)
       real(wp) :: start
@@ -438,7 +496,11 @@ contains
                after%excess - balanced%excess, &
                                    error%displacement, found)
             error%known = error%known .and. found
-            call add_motions(condensed%floating, after%offset - balanced%offset, error%displacement)
+            allocate (settled, source=balanced)
+            call find_mechanism(condensed, scene, balanced, .false., mechanism)
+            call settle(condensed, scene, mechanism, settled)
+            call settle(condensed, corrected, mechanism, after)
+            call add_motions(condensed%floating, after%offset - settled%offset, error%displacement)
             do k = 1, size(before, 3)
                error%jump(:, :, k) = error%jump(:, :, k) &
                   + joint_jump(structure%joint_points, error%displacement(:, :, k) - &
