@@ -145,6 +145,8 @@ contains
       state%increment = increment
       state%load_factor = load_factor
       state%case_factor = case_factor
+      state%peak_factor = case_factor
+      if (allocated(history%peak%case_factor)) state%peak_factor = history%peak%case_factor
       associate (planes => history%scene%planes)
          state%jump = on_all(planes, field%jump)
          state%stress = on_all(planes, field%stress)

@@ -35,8 +35,8 @@ module axijoint_joints_states
       integer :: increment = 0
       !> Sum of the load factors
       real(wp) :: load_factor = 0.0_wp
-      !> Factor of each load case
-      real(wp), allocatable :: case_factor(:)
+      !> Factor of each load case, and those of the largest loads so far, which residuals are held against
+      real(wp), allocatable :: case_factor(:), peak_factor(:)
       !> Relative displacement and stress, shape (3, points, planes)
       real(wp), allocatable :: jump(:, :, :), stress(:, :, :)
       !> Stick, slip or open, shape (points, planes)

@@ -13,7 +13,7 @@ module axijoint_plastic_problem
    use axijoint_plastic_residual, only : evaluate, elastic_force
    implicit none
    private
-   public :: problem_type, steering_type, iterate_type, put_load, steer, look, turn, &
+   public :: slight, problem_type, steering_type, iterate_type, put_load, steer, look, turn, &
       give_way, go_to_displacement, whole_force, resolution
 
    !> Increments are repeated so often at most, for the start of the next
@@ -21,6 +21,10 @@ module axijoint_plastic_problem
 
    !> Residuals this small beside the forces of the bodies are rounding
    real(wp), parameter :: resolution = 1.0e-11_wp
+
+   !> Where a displacement is given, forces below this part of those that it would take if all held are no measure of what
+   !> is out of balance: the load that it needs may be none, as in a gap
+   real(wp), parameter :: slight = 1.0e-3_wp
 
    !> Load control by the displacement that is work-conjugate to the load: where that is given, the
    !> load factor is found, beyond the limit load, too
@@ -178,6 +182,7 @@ contains
       largest = problem%peak
       if (allocated(problem%steering%load)) largest = max(largest, found_load(problem))
       if (largest > 0.0_wp) forces = min(forces, largest)
+      if (allocated(problem%steering%load)) forces = max(forces, slight*problem%pushed)
       iterate%ratio = ring_norm(problem%equations, iterate%residual)
       iterate%at_rounding = iterate%ratio <= resolution*whole
       if (iterate%ratio > 0.0_wp) iterate%ratio = iterate%ratio/max(forces, tiny(1.0_wp))

@@ -14,7 +14,7 @@ module axijoint_plastic_stage
    use axijoint_plastic_field, only : body_field_type, body_load_type, new_body_field
    use axijoint_plastic_methods, only : body_verdict_type
    use axijoint_plastic_posed, only : pose, take_load
-   use axijoint_plastic_problem, only : problem_type, steering_type, put_load, steer, &
+   use axijoint_plastic_problem, only : slight, problem_type, steering_type, put_load, steer, &
       go_to_displacement
    implicit none
    private
@@ -126,6 +126,11 @@ contains
       associate (problem => stage%problem, found => stage%problem%steering%factor)
          step%case_factor = history%at%case_factor + found*step%steered
          step%load_factor = history%at%load_factor + found
+         associate (share => step%share - history%at%share, given => stage%model%increments(history%increment)%factor)
+            ! the displacement may need next to no load: residuals are held against what it would need if all held
+            call stage%put_on_nodes(slight*share*given*step%steered, history%loading)
+         end associate
+         call note_peak(stage, history)
          call stage%put_on_nodes(step%case_factor, history%loading)
          call note_peak(stage, history)
          call take_load(stage%model, problem, history%loading, load)

@@ -122,6 +122,20 @@ def slides_freely(program, folder):
     return faults
 
 
+def needs_no_load(program, folder):
+    """A displacement is given along which nothing resists: it is reached, by no load"""
+    faults = []
+    for loads, details in (([('AXIAL', 1.0)], None), ([('LATERAL', 1.0)], {'gap': 0.01})):
+        deck = plug('Goes by itself', loads, stiffness=even(2e4), friction=0.0, details=details, harmonic=1)
+        deck.add('YIELD', (2, 'MISES', 1e9)).add('INCREMENTS', *3*[(1.0, None, None, None, 'DISPLACEMENT')])
+        summary, _ = solved(program, folder, 'goes', deck.text())
+        found = [increment['largest_displacement'] for increment in summary['increments']]
+        faults += [fault for k in (1, 2) for fault in close(f'{loads}: displacement', (k + 1)*found[0], found[k], 1e-3*found[k])]
+        faults += [f'{loads}: a load factor of {increment["load_factor"]:.1E}' for increment in summary['increments']
+                   if abs(increment['load_factor']) > 1e-8]
+    return faults
+
+
 def never_yields(program, folder):
     """A criterion that nothing reaches changes nothing, beside joints with gap and cohesion"""
     faults = []
@@ -273,7 +287,7 @@ def tests(program):
     """The tests of this module"""
     named = {'nothing holds': nothing_holds, 'all sticks': stays_elastic, 'a part taken back': taken_back,
              'all taken back': all_taken_back, 'stands where it was left': stands_where_it_was_left, 'slides freely': slides_freely,
-             'never yields': never_yields, 'nothing opens': nothing_opens, 'little friction': little_friction,
+             'needs no load': needs_no_load, 'never yields': never_yields, 'nothing opens': nothing_opens, 'little friction': little_friction,
              'dilation and cohesion': dilates, 'in proportion': in_proportion, 'let go': let_go,
              'far beyond': far_beyond, 'unloaded without friction': no_friction_unloaded, 'rules in the ground': rules_in_ground,
              'at random': at_random}

@@ -235,7 +235,7 @@ contains
          ! what errors are held against
          call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
                           structure%equations%unit_loads, &
-                          combination_type(0, largest_factors(model, structure, final, state)), loads)
+                          combination_type(0, state%peak_factor), loads)
          call recover_fields(model, structure, solved%loading, loads, field, results)
       else
          call recover_fields(model, structure, solved%loading, solved%loading, field, results)
@@ -243,40 +243,6 @@ contains
       results%plastic = plastic_fields(model, results%modes, results%stress, state%bodies)
       call move_bodies(model, structure, state, results)
    end subroutine recover_state
-
-   !> The largest factors of the load cases up to a state: what is left of loads that were taken away
-   !> says nothing
-   function largest_factors(model, structure, final, state) result(factor)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> The structure
-      type(structure_type), intent(in) :: structure
-      !> Results at the end of the run, with the states of all increments
-      type(results_type), intent(in) :: final
-      !> The state
-      type(increment_state_type), intent(in) :: state
-      !> Those of the state with the largest, shape (cases)
-      real(wp), allocatable :: factor(:)
-
-      type(loading_type) :: loads
-      real(wp) :: one(size(state%case_factor)), size_of_case(size(state%case_factor))
-      integer :: i
-
-      do i = 1, size(one)
-         one = 0.0_wp
-         one(i) = 1.0_wp
-         call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
-                          structure%equations%unit_loads, combination_type(0, one), loads)
-         size_of_case(i) = load_norm(structure%equations, loads)
-      end do
-      factor = state%case_factor
-      do i = 1, size(final%states)
-         if (final%states(i)%increment >= state%increment) exit
-         associate (other => final%states(i)%case_factor)
-            if (norm2(size_of_case*other) > norm2(size_of_case*factor)) factor = other
-         end associate
-      end do
-   end function largest_factors
 
    !> Loads of a state, with the stress of the plastic strain that its displacements follow from
    subroutine load_plastic_strain(model, structure, state, loading)
