@@ -163,7 +163,7 @@ contains
       associate (increments => stage%model%increments, n => history%increment)
          next = next_step(history%at, increments(n), stage%combination)
          history%ahead = [target_type(next, most_halvings)]
-         if (unloads(history%at, next) .and. size(stage%condensed%floating) > 0) &
+         if (unloads(history%at, next) .and. size(stage%condensed%floating) > 0 .and. .not. history%method%accumulates) &
             history%ahead = [history%ahead, target_type(on_the_way(history%at, next, most_of_it), most_halvings)]
          call show_progress(progress, 'increment '//to_text(n)//' of '//to_text(size(increments)))
       end associate
