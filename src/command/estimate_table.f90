@@ -121,7 +121,8 @@ contains
       if (forecast%n_processes > 1) text = 'rows by '//to_text(forecast%n_processes)// &
          ' processes, '//to_text(forecast%apart)//' s for structures of their own; '// &
          to_text(sum(term_seconds(forecast, machine, 1)))//' s by one thread'
-      if (forecast%n_rounds > 1) text = text//', '//to_text(forecast%n_rounds)//' rounds assumed'
+      if (forecast%n_rounds > 1) text = text//', '//to_text(forecast%n_rounds)// &
+         ' rounds assumed: memory and files are of the last, and a strict ERROR may take more'
    end function total_text
 
    !> What nobody knows before, and what was assumed

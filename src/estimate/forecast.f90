@@ -112,6 +112,11 @@ contains
       if (.not. model%error_goal%wanted) return
       forecast%n_rounds = min(usual_rounds, model%error_goal%most_rounds)
       forecast%rounds = sum([(longer_round**k, k=0, forecast%n_rounds - 1)])
+      ! memory and files are those of the last round, which grow like its time
+      associate (last => longer_round**(forecast%n_rounds - 1))
+         forecast%memory = machine%program_bytes + nint(last*(forecast%memory - machine%program_bytes), i8)
+         forecast%disk = last*forecast%disk
+      end associate
    end function forecast_run
 
    !> Seconds of each term

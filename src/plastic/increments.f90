@@ -319,6 +319,7 @@ contains
          state%increment = history%increment
          state%load_factor = history%at%load_factor
          state%case_factor = history%at%case_factor
+         state%peak_factor = history%peak%case_factor
       end if
       associate (bodies => stage%bodies)
          state%bodies = snapshot(stage%problem%bodies, stage%problem%planes, bodies%field)
