@@ -151,7 +151,8 @@ contains
          end if
          history%strayed = asked%verdict%converged
          if (history%strayed) call forget_failure(history)
-         if (.not. nothing_resists) call take_motion(self, asked, history)
+         ! where iterations were used up, nothing is known of what resists
+         if (.not. nothing_resists .and. history%verdict%stalled) call take_motion(self, asked, history)
          nothing_resists = allocated(history%runaway) .or. allocated(history%motion)
       end if
       if (.not. (nothing_resists .or. history%strayed)) return

@@ -55,8 +55,8 @@ module axijoint_plastic_methods
       logical :: converged = .false., ran_away = .false.
       !> Whether the residual stopped falling: a smaller step may help
       logical :: stalled = .false.
-      !> Whether joints found no equilibrium on the way
-      logical :: joints_failed = .false.
+      !> Whether joints found no equilibrium on the way, and whether the iterations of the one or the other were used up
+      logical :: joints_failed = .false., exhausted = .false.
       !> Ratio of the residual forces
       real(wp) :: ratio = 0.0_wp
       !> Iterates, and elastic solutions of all modes
@@ -144,7 +144,7 @@ contains
          if (size(course%ratios) <= verdict%iterations) &
             course%ratios = [course%ratios, iterate%ratio]
          if (allocated(problem%joints)) &
-            verdict%joints_failed = .not. problem%joints%verdict%converged
+            verdict%joints_failed = .not. (problem%joints%verdict%converged .or. problem%joints%verdict%at_rounding)
          verdict%converged = .not. verdict%joints_failed &
             .and. (iterate%ratio <= control%tolerance .or. iterate%at_rounding)
          if (verdict%converged) call settle(problem, control%tolerance, field, iterate, &
@@ -160,6 +160,13 @@ contains
          ended = ended .or. verdict%converged .or. verdict%ran_away .or. verdict%stalled &
             .or. verdict%joints_failed .or. .not. ieee_is_finite(iterate%ratio) &
             .or. problem%solutions - course%begun >= control%most
+         verdict%exhausted = ended .and. .not. (verdict%converged .or. verdict%ran_away .or. verdict%stalled) &
+            .and. ieee_is_finite(iterate%ratio)
+         if (verdict%joints_failed) then
+            associate (joints => problem%joints%verdict)
+               verdict%exhausted = .not. (joints%ran_away .or. joints%stalled .or. joints%at_rounding .or. joints%mechanism%loaded)
+            end associate
+         end if
       end associate
    end function ended
 

@@ -85,7 +85,7 @@ contains
       if (allocated(results%idle)) then
          do i = 1, size(results%idle)
             call add(remarks, 'nothing resists and nothing loads it: '//trim(results%idle(i))// &
-                     '; joints are moved by it as little as can be')
+                     '; it stands where it stood before')
          end do
       end if
       if (history%n_faded > 0) call add(remarks, fading_text(history))

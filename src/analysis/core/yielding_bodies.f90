@@ -83,7 +83,7 @@ contains
       if (allocated(error) .or. results%converged) return
       results%failing = bodies%failing
       results%tried = bodies%tried
-      results%mechanism = failure_text(model, history, bodies, results)
+      if (.not. bodies%verdict%exhausted) results%mechanism = failure_text(model, history, bodies, results)
    end subroutine solve_bodies
 
    !> Growth of the displacement in the last step over that of the load, both over what they came to:
