@@ -7,6 +7,7 @@ module axijoint_legacy_abaqus
    use axijoint_deck_text_diagnostics, only : add_error
    use axijoint_deck_text_file_bytes, only : end_of_bytes => line_end, &
       next_bytes => next_line
+   use axijoint_legacy_abaqus_bodies, only : body_loads_type, open_body_loads, put_body_loads
    use axijoint_legacy_abaqus_lines, only : line_type, next_line, parameter_of, real_of, &
       fault_of, line_keyword, line_data, line_end
    use axijoint_legacy_abaqus_loads, only : add_boundary, add_ring_force, add_distributed, add_faces
@@ -58,6 +59,7 @@ contains
       type(sketch_type), intent(inout) :: sketch
 
       type(abaqus_type) :: mesh
+      type(body_loads_type) :: bodies
       type(set_type), allocatable :: names(:)
       type(material_type), allocatable :: materials(:)
       type(line_type) :: line
@@ -68,6 +70,7 @@ contains
       associate (n => cards%source%n_cards)
          allocate (mesh%element(n), mesh%nodes(9, n), mesh%size(n), mesh%material(n), source=0)
          allocate (mesh%reduced(n), source=.false.)
+         call open_body_loads(n, bodies)
       end associate
       allocate (mesh%node_sets(0), mesh%element_sets(0), mesh%surfaces(0), names(0), materials(0))
       at = 0
@@ -124,7 +127,7 @@ contains
             if (n_steps > 1) then
                call leave_data(cards, line, at, sketch)
             else
-               call add_distributed(cards, line, at, mesh, sketch)
+               call add_distributed(cards, line, at, mesh, bodies, sketch)
             end if
          case ('STEP')
             n_steps = n_steps + 1
@@ -137,7 +140,7 @@ contains
          end select
          call next_line(cards, at, line)
       end do
-      if (cards%diagnostics%n_errors == 0) call write_mesh(cards, names, materials, mesh, sketch)
+      if (cards%diagnostics%n_errors == 0) call write_mesh(cards, names, materials, mesh, bodies, sketch)
    end subroutine read_abaqus
 
    !> Note that a keyword and its data are not translated
@@ -230,8 +233,9 @@ contains
       end do
    end subroutine assign_material
 
-   !> Cards of mesh, materials and surfaces, remarks on sets
-   subroutine write_mesh(cards, names, materials, mesh, sketch)
+   !> Cards of materials. Here gravity and rotation act on all elements: those that are spared get
+   !> materials of their own without density, which are numbered behind the others
+   subroutine put_materials(cards, names, materials, mesh, weightless, sketch)
       !> The file
       type(cards_type), intent(inout) :: cards
       !> Names of the materials, and what they are
@@ -239,21 +243,74 @@ contains
       type(material_type), intent(in) :: materials(:)
       !> The mesh
       type(abaqus_type), intent(in) :: mesh
+      !> Which elements are spared
+      logical, intent(in) :: weightless(:)
+      !> Takes the cards
+      type(sketch_type), intent(inout) :: sketch
+
+      integer :: k
+
+      do k = 1, size(materials)
+         if (.not. materials(k)%young > 0.0_wp) call add_error(cards%diagnostics, names(k)%card, &
+            0, 0, 'material '//names(k)%name//' has no *ELASTIC', allowed='E > 0')
+         if (.not. (any(spared(k)) .and. all(spared(k) .or. mesh%material(:size(weightless)) /= k))) &
+            call put_one(k, materials(k)%density, names(k)%name)
+      end do
+      do k = 1, size(materials)
+         if (any(spared(k))) call put_one(size(materials) + k, 0.0_wp, names(k)%name// &
+            ' of elements on which neither gravity nor rotation acts: without density')
+      end do
+
+   contains
+
+      !> Elements of a material that are spared
+      function spared(material)
+         !> The material
+         integer, intent(in) :: material
+         !> Whether an element is
+         logical :: spared(size(weightless))
+
+         spared = weightless .and. mesh%material(:size(weightless)) == material
+      end function spared
+
+      !> Card of a material
+      subroutine put_one(number, density, remark)
+         !> Its number
+         integer, intent(in) :: number
+         !> Its density
+         real(wp), intent(in) :: density
+         !> What it is
+         character(len=*), intent(in) :: remark
+
+         call put(sketch%parts(part_materials), '! '//remark)
+         call put(sketch%parts(part_materials), to_text(number)//', '// &
+            exact(materials(k)%young)//', '//exact(materials(k)%poisson)//', '//exact(density))
+      end subroutine put_one
+
+   end subroutine put_materials
+
+   !> Cards of mesh, materials and surfaces, remarks on sets
+   subroutine write_mesh(cards, names, materials, mesh, bodies, sketch)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> Names of the materials, and what they are
+      type(set_type), intent(in), allocatable :: names(:)
+      type(material_type), intent(in) :: materials(:)
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> What acts on masses
+      type(body_loads_type), intent(in) :: bodies
       !> Takes the cards
       type(sketch_type), intent(inout) :: sketch
 
       ! from corners first to round the perimeter
       integer, parameter :: order(8, 4) = reshape([1, 2, 3, 0, 0, 0, 0, 0, 1, 2, 3, 4, 0, 0, 0, 0, &
          1, 4, 2, 5, 3, 6, 0, 0, 1, 5, 2, 6, 3, 7, 4, 8], [8, 4])
+      logical :: weightless(mesh%n_elements)
       integer :: k, n, kind
 
-      do k = 1, size(materials)
-         if (.not. materials(k)%young > 0.0_wp) call add_error(cards%diagnostics, names(k)%card, &
-            0, 0, 'material '//names(k)%name//' has no *ELASTIC', allowed='E > 0')
-         call put(sketch%parts(part_materials), '! '//names(k)%name)
-         call put(sketch%parts(part_materials), to_text(k)//', '//exact(materials(k)%young)//', '// &
-            exact(materials(k)%poisson)//', '//exact(materials(k)%density))
-      end do
+      call put_body_loads(cards, mesh, bodies, sketch, weightless)
+      call put_materials(cards, names, materials, mesh, weightless, sketch)
       do k = 1, mesh%n_nodes
          call put(sketch%parts(part_nodes), to_text(mesh%node(k))//', '// &
             exact(mesh%position(1, k))//', '//exact(mesh%position(2, k)))
@@ -266,7 +323,8 @@ contains
          n = mesh%size(k)
          kind = findloc([3, 4, 6, 8], n, 1)
          call put(sketch%parts(part_elements), to_text(mesh%element(k))//', '// &
-            to_text(mesh%material(k))//', 1'//integers(mesh%nodes(order(:n, kind), k)))
+            to_text(mesh%material(k) + merge(size(materials), 0, weightless(k)))//', 1'// &
+            integers(mesh%nodes(order(:n, kind), k)))
       end do
       if (any(mesh%reduced(:mesh%n_elements))) sketch%order_quadratic = 2
       if (any(mesh%reduced(:mesh%n_elements)) .and. any(mesh%size(:mesh%n_elements) > 4 .and. &

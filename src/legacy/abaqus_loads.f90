@@ -3,13 +3,14 @@ module axijoint_legacy_abaqus_loads
    use axijoint_base_kinds, only : wp, pi
    use axijoint_base_number_map, only : find_number
    use axijoint_base_text, only : to_text, upper
+   use axijoint_legacy_abaqus_bodies, only : body_loads_type, add_body_gravity, add_body_rotation
    use axijoint_legacy_abaqus_lines, only : line_type, is_data, field_text, integer_of, real_of, &
       fault_of, parameter_of
    use axijoint_legacy_abaqus_mesh, only : abaqus_type, members, side_nodes
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_list, only : list_type
    use axijoint_legacy_sketch, only : sketch_type, leave_out, part_chains, part_pressures, &
-      part_restraints, part_moved, part_ring_loads, part_gravity, part_rotation
+      part_restraints, part_moved, part_ring_loads
    use axijoint_legacy_words, only : put, exact
    implicit none
    private
@@ -126,7 +127,7 @@ contains
    end subroutine add_ring_force
 
    !> *DLOAD: elements or a set, P1 to P4, GRAV, CENTRIF; *DSLOAD: a surface, P
-   subroutine add_distributed(cards, keyword, at, mesh, sketch)
+   subroutine add_distributed(cards, keyword, at, mesh, bodies, sketch)
       !> The file
       type(cards_type), intent(inout) :: cards
       !> The keyword
@@ -135,28 +136,25 @@ contains
       integer, intent(inout) :: at
       !> The mesh
       type(abaqus_type), intent(in) :: mesh
+      !> Takes what acts on masses
+      type(body_loads_type), intent(inout) :: bodies
       !> The new deck
       type(sketch_type), intent(inout) :: sketch
 
       type(line_type) :: line
       character(len=:), allocatable :: kind
-      real(wp) :: lateral
 
       do while (is_data(cards, at, line))
          kind = upper(field_text(line, 2))
-         lateral = 0.0_wp
-         if (kind == 'GRAV') lateral = real_of(cards, line, 4)
          if (keyword%keyword == 'DSLOAD' .and. kind == 'P') then
             call press_surface(cards, line, mesh, sketch)
          else if (keyword%keyword == 'DLOAD' .and. len(kind) == 2 .and. index(kind, 'P') == 1 .and. &
                   verify(kind(len(kind):), '1234') == 0) then
             call press_sides(cards, line, mesh, sketch)
-         else if (kind == 'GRAV' .and. .not. abs(lateral) > 0.0_wp) then
-            call put(sketch%parts(part_gravity), exact(real_of(cards, line, 3)* &
-               real_of(cards, line, 5)))
+         else if (kind == 'GRAV') then
+            call add_body_gravity(cards, line, keyword%keyword, mesh, bodies, sketch)
          else if (kind == 'CENTRIF') then
-            call put(sketch%parts(part_rotation), exact(sqrt(max(0.0_wp, &
-               real_of(cards, line, 3)))))
+            call add_body_rotation(cards, line, keyword%keyword, mesh, bodies, sketch)
          else
             call leave_out(sketch, line%card, '*'//keyword%keyword//' of kind '//kind)
          end if

@@ -1,0 +1,144 @@
+"""`axijoint convert`: what means something else than it seems to, or cannot be translated, in files of Abaqus and CalculiX, of
+NASTRAN, of Owen and Hinton's program"""
+import math
+import os
+import re
+
+import legacy_scenes as scenes
+import listing
+from support import Test, read_text, write
+
+SAME = 1e-9
+
+
+def bar(*step, before=(), heading='Bar', low='LOW'):
+    """A bar of Abaqus, 2 high, radius 1, E = 1000, no Poisson's ratio, that stands on its lower end: the lower half of density 2, the
+    upper one of density 3"""
+    lines = ['*HEADING', heading, '*NODE']
+    lines += [f'{3*j + i + 1}, {i/2}, {j/2}' for j in range(5) for i in range(3)]
+    for name, first, row in ((low, 1, 0), ('UP', 101, 2)):
+        lines.append(f'*ELEMENT, TYPE=CAX4, ELSET={name}')
+        for k in range(4):
+            a = 3*(row + k//2) + k % 2 + 1
+            lines.append(f'{first + k}, {a}, {a + 1}, {a + 4}, {a + 3}')
+    for name, section, density in (('A', low, 2), ('B', 'UP', 3)):
+        lines += [f'*MATERIAL, NAME={name}', '*ELASTIC', '1000., 0.', '*DENSITY', f'{density}.',
+                  f'*SOLID SECTION, ELSET={section}, MATERIAL={name}']
+    lines += ['*NSET, NSET=FOOT, GENERATE', '1, 3, 1', '*NSET, NSET=TOP', '13, 14, 15', '*BOUNDARY', 'FOOT, 2, 2']
+    return '\n'.join([*lines, *before, '*STEP', '*STATIC', *step, '*END STEP', ''])
+
+
+def ring(*bulk, case=('LOAD = 1', 'SPC = 7'), harmonic=3, title='RING', inner='1.0'):
+    """A ring of NASTRAN of one element, from r = 1 to 2, 1 high, E = 1000, no Poisson's ratio, that stands on rings 1 and 2"""
+    cards = ['ID A,B', 'SOL 1', 'CEND', f'TITLE = {title}', 'AXISYM = COSINE', *case, 'BEGIN BULK', f'AXIC,{harmonic}']
+    if not any(card.startswith('MAT1') for card in bulk):
+        cards.append('MAT1,1,1000.,,0.,2.')
+    cards += ['PTRAPAX,1,,1', 'CTRAPAX,1,1,1,2,3,4']
+    cards += [f'RINGAX,{k},,{r},{z},,,456' for k, r, z in ((1, inner, '0.'), (2, '2.', '0.'), (3, '2.', '1.'), (4, inner, '1.'))]
+    cards += [f'SPCAX,7,{k},S0T{harmonic},123,0.' for k in (1, 2)]
+    return '\n'.join([*cards, *bulk, 'ENDDATA', ''])
+
+
+class Converted:
+    """What `axijoint convert` and `axijoint run` make of a text: what is said, the new deck, its displacements by node"""
+
+    def __init__(self, program, folder, name, text):
+        self.folder, self.program, self.new = folder, program, os.path.join(folder, 'new.dat')
+        if os.path.exists(self.new):
+            os.remove(self.new)
+        ran = program.run('convert', write(folder, name, text), self.new)
+        self.faults = ran.ended_with(0)
+        self.said = ran.err
+        self.deck = read_text(self.new).split('\n') if os.path.exists(self.new) else []
+
+    def section(self, keyword):
+        """Cards of a section without remarks"""
+        if keyword not in self.deck:
+            return []
+        cards = self.deck[self.deck.index(keyword) + 1:]
+        ends = [k for k, card in enumerate(cards) if re.fullmatch('[A-Z]+', card)]
+        return [card for card in cards[:ends[0]] if not card.startswith('!')]
+
+    def solve(self):
+        """Displacements of harmonic 0 by node"""
+        self.faults += self.program.run('run', '--quiet', self.new, '-o', self.folder).ended_with(0)
+        if self.faults:
+            raise AssertionError('\n'.join(self.faults))
+        return {row['node']: row for row in listing.tables(read_text(os.path.join(self.folder, 'new.lis')))['m = 0']}
+
+    def expect(self, keyword, *cards):
+        """A section has these cards"""
+        if self.section(keyword) != list(cards):
+            self.faults.append(f'{keyword}: expected {list(cards)}, found {self.section(keyword)}')
+        return self
+
+    def told(self, *words):
+        """This was said, and stands in no line that is not on the screen"""
+        self.faults += [f'not told: {text}\n{self.said[:1500]}' for text in words if text not in self.said]
+        return self
+
+
+def body_loads(program, folder):
+    """GRAV and CENTRIF act on their sets: the displacement of the top by hand, cards of the new deck"""
+    faults = []
+    for lines, wanted, densities in (
+            ((', GRAV, 10., 0., -1., 0.',), 0.055, ['1, 1.0E+003, 0.0, 2.0', '2, 1.0E+003, 0.0, 3.0']),
+            (('LOW, GRAV, 10., 0., -1., 0.', 'UP, GRAV, 10., 0., -1., 0.'), 0.055, ['1, 1.0E+003, 0.0, 2.0', '2, 1.0E+003, 0.0, 3.0']),
+            (('UP, GRAV, 10., 0., -1., 0.',), 0.045, ['2, 1.0E+003, 0.0, 3.0', '3, 1.0E+003, 0.0, 0.0']),
+            (('LOW, GRAV, 10., 0., -1., 0.',), 0.010, ['1, 1.0E+003, 0.0, 2.0', '4, 1.0E+003, 0.0, 0.0']),
+            (('1, GRAV, 10., 0., -1., 0.', '2, GRAV, 10., 0., -1., 0.', 'UP, GRAV, 10., 0., -1., 0.'), None,
+             ['1, 1.0E+003, 0.0, 2.0', '2, 1.0E+003, 0.0, 3.0', '3, 1.0E+003, 0.0, 0.0'])):
+        got = Converted(program, folder, 'bar.inp', bar('*DLOAD', *lines)).expect('GRAVITY', '-1.0E+001')
+        got.expect('MATERIALS', *densities)
+        v = -got.solve()[13]['v']
+        faults += got.faults
+        if wanted and abs(v - wanted) > 1e-8:
+            faults.append(f'{lines}: expected {wanted}, found {v}')
+    for lines, materials in ((('UP, CENTRIF, 4., 0., 0., 0., 0., 1., 0.',), ['2, 1.0E+003, 0.0, 3.0', '3, 1.0E+003, 0.0, 0.0']),
+                             (('UP, CENTRIF, 4., 0., 0., 0., 0., 1., 0.', 'LOW, CENTRIF, 4., 0., 0., 0., 0., 1., 0.'),
+                              ['1, 1.0E+003, 0.0, 2.0', '2, 1.0E+003, 0.0, 3.0'])):
+        faults += Converted(program, folder, 'bar.inp', bar('*DLOAD', *lines)).expect('ROTATION', '2.0').expect('MATERIALS', *materials).faults
+    return faults
+
+
+def gravity_directions(program, folder):
+    """A direction that is no unit vector is one; one across the axis is left out, and said to be"""
+    got = Converted(program, folder, 'bar.inp', bar('*DLOAD', ', GRAV, 10., 0., -2.'))
+    faults = got.expect('GRAVITY', '-1.0E+001').told('the direction of GRAV has the length 2').faults
+    for direction in ('1., -1., 0.', '0., 0., -1.'):
+        got = Converted(program, folder, 'bar.inp', bar('*DLOAD', f', GRAV, 10., {direction}'))
+        faults += got.expect('GRAVITY').told('not translated: *DLOAD of kind GRAV across the axis, line').faults
+    got = Converted(program, folder, 'bar.inp', bar('*DLOAD', ', CENTRIF, 4., 0., 0., 0., 1., 0., 0.'))
+    return faults + got.expect('ROTATION').told('not translated: *DLOAD of kind CENTRIF about another axis, line').faults
+
+
+BAD = (
+    # what, the text, its ending, where the error is, what it says
+    ('gravity that differs', bar('*DLOAD', 'LOW, GRAV, 10., 0., -1.', 'UP, GRAV, 9., 0., -1.'), 'inp', r':\d+',
+     'GRAV of this line acts on element 1, and not alike on element 101'),
+    ('gravity twice', bar('*DLOAD', ', GRAV, 10., 0., -1.', 'UP, GRAV, 10., 0., -1.'), 'inp', r':\d+:1-2', r'element 101 has GRAV of line \d+ already'),
+    ('gravity and rotation of other sets', bar('*DLOAD', ', GRAV, 10., 0., -1.', 'UP, CENTRIF, 4., 0., 0., 0., 0., 1., 0.'), 'inp', r':\d+',
+     'CENTRIF of this line acts on element 101, and not alike on element 1'),
+    ('gravity of no set', bar('*DLOAD', 'NONE, GRAV, 10., 0., -1.'), 'inp', r':\d+:1-4', 'there is no set of this name'),
+    ('gravity without direction', bar('*DLOAD', ', GRAV, 10.'), 'inp', r':\d+', 'GRAV has no direction'),
+    ('a negative square', bar('*DLOAD', ', CENTRIF, -4., 0., 0., 0., 0., 1., 0.'), 'inp', r':\d+:12-14', 'no square of an angular velocity'),
+)
+
+
+def bad(program, folder, text, ending, place, words):
+    """An error with its place; no new deck"""
+    ran = program.run('convert', write(folder, f'bad.{ending}', text), os.path.join(folder, 'new.dat'))
+    faults = ran.ended_with(2)
+    if not re.search(rf'bad\.{ending}{place}: error: .*{words}', ran.err):
+        faults.append(f'expected {place}: {words}\n{ran.err[:1200]}')
+    return faults + (['a new deck'] if os.path.exists(os.path.join(folder, 'new.dat')) else [])
+
+
+def tests(program):
+    """The tests of this module"""
+
+    def test(name, function, *arguments):
+        return Test(f'legacy misread: convert, {name}', lambda folder: function(program, folder, *arguments))
+
+    return ([test(function.__name__.replace('_', ' '), function) for function in (body_loads, gravity_directions)]
+            + [test(name, bad, text, ending, place, words) for name, text, ending, place, words in BAD])
