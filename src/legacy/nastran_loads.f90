@@ -191,7 +191,7 @@ contains
       !> Whether it is translated
       logical, intent(out) :: known
 
-      real(wp) :: force(3), length
+      real(wp) :: force(3), length, around
       integer :: ring, first, last, m, k
 
       known = .true.
@@ -208,10 +208,14 @@ contains
       if (.not. known) return
       do m = first, last
          length = merge(2.0_wp, 1.0_wp, m == 0)*pi*case%position(1, ring)
-         if (m == 0) force(2) = 0.0_wp
+         around = force(2)
+         if (m == 0 .and. abs(around) > 0.0_wp) then
+            around = 0.0_wp
+            call leave_out(sketch, entry%first, entry%name//' of FP in harmonic 0, which is torsion')
+         end if
          call put(sketch%parts(part_ring_loads), to_text(integer_in(cards, entry, 3, 0))//', '// &
             to_text(m)//', '//exact(force(1)/length)//', '//exact(force(3)/length)//', '// &
-            exact(force(2)/length)//', '//family(case))
+            exact(around/length)//', '//family(case))
       end do
    end subroutine add_force
 

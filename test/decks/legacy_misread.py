@@ -112,6 +112,22 @@ def gravity_directions(program, folder):
     return faults + got.expect('ROTATION').told('not translated: *DLOAD of kind CENTRIF about another axis, line').faults
 
 
+def force_of_harmonics(program, folder):
+    """FORCEAX over a sequence of harmonics says the same as a card for each: FP is left out in harmonic 0 alone"""
+    texts = (('FORCEAX,1,3,S0T3,2.0,0.,4.,-5.',), [f'FORCEAX,1,3,{m},2.0,0.,4.,-5.' for m in range(4)])
+    decks = [Converted(program, folder, 'ring.bdf', ring(*cards)) for cards in texts]
+    faults = decks[0].told('not translated: FORCEAX of FP in harmonic 0, which is torsion').faults + decks[1].faults
+    if decks[0].section('RINGLOADS') != decks[1].section('RINGLOADS'):
+        faults.append(f"a sequence: {decks[0].section('RINGLOADS')}\na card each: {decks[1].section('RINGLOADS')}")
+    for m, card in enumerate(decks[0].section('RINGLOADS')):
+        found = [float(field) for field in card.split(', ')[2:5]]
+        length = (4 if m == 0 else 2)*math.pi
+        wanted = [0.0, -10/length, 8/length if m else 0.0]
+        if any(abs(a - b) > SAME for a, b in zip(found, wanted)):
+            faults.append(f'harmonic {m}: expected {wanted}, found {found}')
+    return faults
+
+
 BAD = (
     # what, the text, its ending, where the error is, what it says
     ('gravity that differs', bar('*DLOAD', 'LOW, GRAV, 10., 0., -1.', 'UP, GRAV, 9., 0., -1.'), 'inp', r':\d+',
@@ -140,5 +156,5 @@ def tests(program):
     def test(name, function, *arguments):
         return Test(f'legacy misread: convert, {name}', lambda folder: function(program, folder, *arguments))
 
-    return ([test(function.__name__.replace('_', ' '), function) for function in (body_loads, gravity_directions)]
+    return ([test(function.__name__.replace('_', ' '), function) for function in (body_loads, gravity_directions, force_of_harmonics)]
             + [test(name, bad, text, ending, place, words) for name, text, ending, place, words in BAD])
