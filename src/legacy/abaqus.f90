@@ -12,7 +12,7 @@ module axijoint_legacy_abaqus
       fault_of, line_keyword, line_data, line_end
    use axijoint_legacy_abaqus_loads, only : add_boundary, add_ring_force, add_distributed, add_faces
    use axijoint_legacy_abaqus_mesh, only : abaqus_type, read_nodes, read_elements, read_set, &
-      read_surface
+      gather_nodes, read_surface
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_list, only : set_type, open_set, find_set
    use axijoint_legacy_sketch, only : sketch_type, leave_out, part_materials, part_nodes, &
@@ -73,6 +73,7 @@ contains
          call open_body_loads(n, bodies)
       end associate
       allocate (mesh%node_sets(0), mesh%element_sets(0), mesh%surfaces(0), names(0), materials(0))
+      call read_mesh(cards, mesh)
       at = 0
       n_steps = 0
       material = 0
@@ -87,14 +88,16 @@ contains
             call next_line(cards, at, line)
             if (line%kind == line_data) sketch%title = trim(line%text)
             if (line%kind == line_keyword) cycle
-         case ('NODE')
-            call read_nodes(cards, line, at, mesh)
-         case ('ELEMENT')
-            call read_elements(cards, line, at, mesh)
+         case ('NODE', 'ELEMENT')  ! are read already
          case ('NSET')
-            call read_set(cards, line, at, 'NSET', mesh%node_sets)
+            if (parameter_of(line, 'ELSET') /= '') then
+               call gather_nodes(cards, line, mesh)
+            else
+               call read_set(cards, line, at, 'NSET', mesh%node(:mesh%n_nodes), mesh%node_sets)
+            end if
          case ('ELSET')
-            call read_set(cards, line, at, 'ELSET', mesh%element_sets)
+            call read_set(cards, line, at, 'ELSET', mesh%element(:mesh%n_elements), &
+               mesh%element_sets)
          case ('SURFACE')
             if (all(parameter_of(line, 'TYPE') /= [character(len=7) :: '', 'ELEMENT'])) then
                call leave_data(cards, line, at, sketch)
@@ -142,6 +145,26 @@ contains
       end do
       if (cards%diagnostics%n_errors == 0) call write_mesh(cards, names, materials, mesh, bodies, sketch)
    end subroutine read_abaqus
+
+   !> Nodes and elements, wherever they stand: sets take what is there of them
+   subroutine read_mesh(cards, mesh)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> Takes them
+      type(abaqus_type), intent(inout) :: mesh
+
+      type(line_type) :: line
+      integer :: at
+
+      at = 0
+      do
+         call next_line(cards, at, line)
+         if (line%kind == line_end) exit
+         if (line%kind /= line_keyword) cycle
+         if (line%keyword == 'NODE') call read_nodes(cards, line, at, mesh)
+         if (line%keyword == 'ELEMENT') call read_elements(cards, line, at, mesh)
+      end do
+   end subroutine read_mesh
 
    !> Note that a keyword and its data are not translated
    subroutine leave_data(cards, line, at, sketch)

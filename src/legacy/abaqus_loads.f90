@@ -6,7 +6,7 @@ module axijoint_legacy_abaqus_loads
    use axijoint_legacy_abaqus_bodies, only : body_loads_type, add_body_gravity, add_body_rotation
    use axijoint_legacy_abaqus_lines, only : line_type, is_data, field_text, integer_of, real_of, &
       fault_of, parameter_of
-   use axijoint_legacy_abaqus_mesh, only : abaqus_type, members, side_nodes
+   use axijoint_legacy_abaqus_mesh, only : abaqus_type, members, side_nodes, is_side
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_list, only : list_type
    use axijoint_legacy_sketch, only : sketch_type, leave_out, part_chains, part_pressures, &
@@ -212,6 +212,7 @@ contains
             call fault_of(cards, line, 1, 'there is no element '//to_text(list%value(k)))
             return
          end if
+         if (.not. is_side(cards, line, mesh, element, side)) return
          nodes = side_nodes(mesh, element, side)
          sketch%n_sides = sketch%n_sides + 1
          face = first_side + sketch%n_sides - 1

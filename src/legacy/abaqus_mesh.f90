@@ -2,6 +2,7 @@
 module axijoint_legacy_abaqus_mesh
    use axijoint_base_kinds, only : wp
    use axijoint_base_number_map, only : number_map_type, find_number, insert_number
+   use axijoint_base_sort, only : ascending_order
    use axijoint_base_text, only : to_text, upper
    use axijoint_deck_text_diagnostics, only : add_warning
    use axijoint_legacy_abaqus_lines, only : line_type, is_data, parameter_of, has_parameter, &
@@ -10,8 +11,8 @@ module axijoint_legacy_abaqus_mesh
    use axijoint_legacy_list, only : list_type, set_type, add, open_set, find_set
    implicit none
    private
-   public :: abaqus_type, surface_type, read_nodes, read_elements, read_set, read_surface, members, &
-      side_nodes
+   public :: abaqus_type, surface_type, read_nodes, read_elements, read_set, gather_nodes, read_surface, &
+      members, side_nodes, is_side
 
    !> Sides of elements with a name
    type :: surface_type
@@ -163,7 +164,7 @@ contains
    end subroutine add_element
 
    !> Data of *NSET and *ELSET: numbers, names of sets, or with GENERATE first, last, step
-   subroutine read_set(cards, keyword, at, name, sets)
+   subroutine read_set(cards, keyword, at, name, there, sets)
       !> The file
       type(cards_type), intent(inout) :: cards
       !> The keyword
@@ -172,6 +173,8 @@ contains
       integer, intent(inout) :: at
       !> Name of the parameter that names the set
       character(len=*), intent(in) :: name
+      !> Numbers of all nodes or elements
+      integer, intent(in) :: there(:)
       !> Takes it
       type(set_type), allocatable, intent(inout) :: sets(:)
 
@@ -186,10 +189,7 @@ contains
       call open_set(sets, parameter_of(keyword, name), keyword%card, set)
       do while (is_data(cards, at, line))
          if (has_parameter(keyword, 'GENERATE')) then
-            do i = integer_of(cards, line, 1), integer_of(cards, line, 2), &
-               max(1, integer_of(cards, line, 3))
-               call add(sets(set)%list, i)
-            end do
+            call generate(cards, line, there, sets(set)%list)
             cycle
          end if
          do k = 1, size(line%place, 2)
@@ -201,6 +201,75 @@ contains
          end do
       end do
    end subroutine read_set
+
+   !> Numbers from a first to a last one in steps, as far as they are there, in ascending order
+   subroutine generate(cards, line, there, list)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The line: first, last, step
+      type(line_type), intent(in) :: line
+      !> Numbers of all nodes or elements
+      integer, intent(in) :: there(:)
+      !> Takes them
+      type(list_type), intent(inout) :: list
+
+      integer, allocatable :: found(:)
+      integer :: first, last, step, k
+
+      first = integer_of(cards, line, 1)
+      last = integer_of(cards, line, 2)
+      step = integer_of(cards, line, 3)
+      if (step == 0) step = 1
+      if (first < 1 .or. first > last .or. step < 1) then
+         call fault_of(cards, line, 0, 'GENERATE has no numbers from '//to_text(first)//' to '// &
+            to_text(last)//' in steps of '//to_text(step), 'first, last, step: the last not below '// &
+            'the first, the step 1 or above')
+         return
+      end if
+      found = pack(there, there >= first .and. there <= last .and. modulo(there - first, step) == 0)
+      if (size(found) == 0) call fault_of(cards, line, 0, 'none of these numbers is there', &
+         'numbers of *NODE for *NSET, of *ELEMENT for *ELSET')
+      found = found(ascending_order(real(found, wp)))
+      do k = 1, size(found)
+         call add(list, found(k))
+      end do
+   end subroutine generate
+
+   !> *NSET, ELSET=: the nodes of a set of elements, each once
+   subroutine gather_nodes(cards, keyword, mesh)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The keyword
+      type(line_type), intent(in) :: keyword
+      !> Takes the set
+      type(abaqus_type), intent(inout) :: mesh
+
+      logical :: taken(mesh%n_nodes)
+      integer :: from, set, k, element, node
+
+      if (parameter_of(keyword, 'NSET') == '') then
+         call fault_of(cards, keyword, 0, 'the set has no name', 'NSET=')
+         return
+      end if
+      from = find_set(mesh%element_sets, parameter_of(keyword, 'ELSET'))
+      if (from == 0) then
+         call fault_of(cards, keyword, 0, 'there is no set '//parameter_of(keyword, 'ELSET'), &
+            'sets of elements that are above')
+         return
+      end if
+      call open_set(mesh%node_sets, parameter_of(keyword, 'NSET'), keyword%card, set)
+      taken = .false.
+      do k = 1, mesh%element_sets(from)%list%n
+         element = find_number(mesh%element_map, mesh%element_sets(from)%list%value(k))
+         if (element == 0) cycle
+         do node = 1, mesh%size(element)
+            taken(find_number(mesh%node_map, mesh%nodes(node, element))) = .true.
+         end do
+      end do
+      do k = 1, mesh%n_nodes
+         if (taken(k)) call add(mesh%node_sets(set)%list, mesh%node(k))
+      end do
+   end subroutine gather_nodes
 
    !> What a field means: a number, or the members of a set
    function members(cards, line, field, sets) result(list)
@@ -265,6 +334,7 @@ contains
                call fault_of(cards, line, 1, 'there is no element '//to_text(list%value(k)))
                exit
             end if
+            if (.not. is_side(cards, line, mesh, element, side)) exit
             call push(surface%elements, element)
             call push(surface%sides, side)
          end do
@@ -292,6 +362,32 @@ contains
 
    end subroutine read_surface
 
+   !> Whether an element has a side; an error if not
+   logical function is_side(cards, line, mesh, element, side)
+      !> The file
+      type(cards_type), intent(inout) :: cards
+      !> The line that names the side in its second field
+      type(line_type), intent(in) :: line
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> Element (index) and side, from 1
+      integer, intent(in) :: element, side
+
+      is_side = side <= corners_of(mesh, element)
+      if (.not. is_side) call fault_of(cards, line, 2, 'element '//to_text(mesh%element(element))// &
+         ' is a triangle and has no such side', 'sides 1 to 3')
+   end function is_side
+
+   !> Corners of an element
+   pure integer function corners_of(mesh, element) result(corners)
+      !> The mesh
+      type(abaqus_type), intent(in) :: mesh
+      !> Element (index)
+      integer, intent(in) :: element
+
+      corners = merge(3, 4, any(mesh%size(element) == [3, 6]))
+   end function corners_of
+
    !> Corners of a side of an element
    pure function side_nodes(mesh, element, side) result(nodes)
       !> The mesh
@@ -301,10 +397,7 @@ contains
       !> Numbers of the nodes
       integer :: nodes(2)
 
-      integer :: corners
-
-      corners = merge(3, 4, any(mesh%size(element) == [3, 6]))
-      nodes = mesh%nodes([min(side, corners), mod(side, corners) + 1], element)
+      nodes = mesh%nodes([side, mod(side, corners_of(mesh, element)) + 1], element)
    end function side_nodes
 
 end module axijoint_legacy_abaqus_mesh

@@ -35,8 +35,8 @@ contains
 
       if (.not. allocated(list%value)) allocate (list%value(8), source=0)
       if (list%n == size(list%value)) then
-         allocate (more(2*list%n), source=0)
-         more(:list%n) = list%value
+         allocate (more(max(8, 2*list%n)), source=0)
+         more(:list%n) = list%value(:list%n)
          call move_alloc(more, list%value)
       end if
       list%n = list%n + 1

@@ -112,6 +112,23 @@ def gravity_directions(program, folder):
     return faults + got.expect('ROTATION').told('not translated: *DLOAD of kind CENTRIF about another axis, line').faults
 
 
+def sets_of_nodes(program, folder):
+    """*NSET of a set of elements has their nodes, each once; GENERATE those that are there, however far it goes; nodes and elements
+    may stand below the sets"""
+    held = [f'{k}, 100' for k in range(1, 10)]
+    faults = []
+    for lines in (('*NSET, NSET=WALL, ELSET=LOW',), ('*NSET, NSET=WALL, GENERATE', '1, 9')):
+        got = Converted(program, folder, 'bar.inp', bar(before=(*lines, '*BOUNDARY', 'WALL, 1, 1')))
+        faults += got.expect('RESTRAINTS', '1, 010', '2, 010', '3, 010', *held).faults
+    text = bar('*CLOAD', 'ODD, 2, 1.', before=('*NSET, NSET=ODD, GENERATE', '3, 2000000000, 6'))
+    for way in (text, text.replace('*NODE\n', '*NSET, NSET=ODD, GENERATE\n3, 2000000000, 6\n*NODE\n', 1).replace(
+            '*NSET, NSET=ODD, GENERATE\n3, 2000000000, 6\n*STEP', '*STEP')):
+        got = Converted(program, folder, 'bar.inp', way)
+        faults += got.faults + ([] if [card.split(',')[0] for card in got.section('RINGLOADS')] == ['3', '9', '15'] else
+                                [f"GENERATE: {got.section('RINGLOADS')}"])
+    return faults
+
+
 def force_of_harmonics(program, folder):
     """FORCEAX over a sequence of harmonics says the same as a card for each: FP is left out in harmonic 0 alone"""
     texts = (('FORCEAX,1,3,S0T3,2.0,0.,4.,-5.',), [f'FORCEAX,1,3,{m},2.0,0.,4.,-5.' for m in range(4)])
@@ -141,6 +158,37 @@ BAD = (
 )
 
 
+TRIANGLES = '''*HEADING
+Two triangles
+*NODE
+1, 1., 0.
+2, 2., 0.
+3, 2., 1.
+4, 1., 1.
+*ELEMENT, TYPE=CAX3, ELSET=E
+1, 1, 2, 3
+2, 1, 3, 4
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.
+*SOLID SECTION, ELSET=E, MATERIAL=M
+*BOUNDARY
+1, 2
+2, 2
+'''
+
+BAD += (
+    ('nodes of no elements', bar(before=('*NSET, NSET=WALL, ELSET=NONE',)), 'inp', r':\d+', 'there is no set NONE'),
+    ('GENERATE backwards', bar(before=('*NSET, NSET=X, GENERATE', '3, 1, -1')), 'inp', r':\d+', 'GENERATE has no numbers from 3 to 1 in steps of -1'),
+    ('GENERATE from below', bar(before=('*NSET, NSET=X, GENERATE', '3, 1')), 'inp', r':\d+', 'GENERATE has no numbers from 3 to 1 in steps of 1'),
+    ('GENERATE of nothing', bar(before=('*NSET, NSET=X, GENERATE', '16, 2000000000')), 'inp', r':\d+', 'none of these numbers is there'),
+    ('a fourth side of a triangle, P4', TRIANGLES + '*STEP\n*DLOAD\n1, P4, 5.\n*END STEP\n', 'inp', ':20:4-5',
+     'element 1 is a triangle and has no such side'),
+    ('a fourth side of a triangle, S4', TRIANGLES + '*SURFACE, NAME=S\nE, S4\n*STEP\n*DSLOAD\nS, P, 5.\n*END STEP\n', 'inp', ':19:4-5',
+     'element 1 is a triangle and has no such side'),
+)
+
+
 def bad(program, folder, text, ending, place, words):
     """An error with its place; no new deck"""
     ran = program.run('convert', write(folder, f'bad.{ending}', text), os.path.join(folder, 'new.dat'))
@@ -156,5 +204,5 @@ def tests(program):
     def test(name, function, *arguments):
         return Test(f'legacy misread: convert, {name}', lambda folder: function(program, folder, *arguments))
 
-    return ([test(function.__name__.replace('_', ' '), function) for function in (body_loads, gravity_directions, force_of_harmonics)]
+    return ([test(function.__name__.replace('_', ' '), function) for function in (body_loads, gravity_directions, sets_of_nodes, force_of_harmonics)]
             + [test(name, bad, text, ending, place, words) for name, text, ending, place, words in BAD])
