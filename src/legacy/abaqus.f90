@@ -8,9 +8,10 @@ module axijoint_legacy_abaqus
    use axijoint_deck_text_file_bytes, only : end_of_bytes => line_end, &
       next_bytes => next_line
    use axijoint_legacy_abaqus_bodies, only : body_loads_type, open_body_loads, put_body_loads
-   use axijoint_legacy_abaqus_lines, only : line_type, next_line, parameter_of, real_of, &
+   use axijoint_legacy_abaqus_lines, only : line_type, next_line, is_data, parameter_of, real_of, &
       fault_of, line_keyword, line_data, line_end
-   use axijoint_legacy_abaqus_loads, only : add_boundary, add_ring_force, add_distributed, add_faces
+   use axijoint_legacy_abaqus_loads, only : renew_boundary, add_boundary, add_ring_force, &
+      add_distributed, add_faces
    use axijoint_legacy_abaqus_mesh, only : abaqus_type, read_nodes, read_elements, read_set, &
       gather_nodes, read_surface
    use axijoint_legacy_cards, only : cards_type
@@ -63,7 +64,7 @@ contains
       type(set_type), allocatable :: names(:)
       type(material_type), allocatable :: materials(:)
       type(line_type) :: line
-      integer :: at, n_steps, material
+      integer :: at, n_steps, n_boundaries, material
 
       sketch%title = ''
       allocate (mesh%node(cards%source%n_cards), mesh%position(2, cards%source%n_cards))
@@ -76,6 +77,7 @@ contains
       call read_mesh(cards, mesh)
       at = 0
       n_steps = 0
+      n_boundaries = 0
       material = 0
       call next_line(cards, at, line)
       do while (line%kind /= line_end)
@@ -118,6 +120,7 @@ contains
             if (n_steps > 1) then
                call leave_data(cards, line, at, sketch)
             else
+               call renew_boundary(cards, line, n_steps > 0, n_boundaries, sketch)
                call add_boundary(cards, line, at, mesh, sketch)
             end if
          case ('CLOAD')
@@ -228,6 +231,11 @@ contains
          materials(material)%young = real_of(cards, data, 1)
          materials(material)%poisson = real_of(cards, data, 2)
       end if
+      at = data%card
+      do while (is_data(cards, at, data))
+         call leave_out(sketch, data%card, '*'//line%keyword//' of other temperatures than that of '// &
+            'its first line')
+      end do
    end subroutine read_material
 
    !> *SOLID SECTION: the material of a set of elements

@@ -365,6 +365,9 @@ contains
             call complain(cards, 1, 0, 'the node is loaded already', 'one card a node')
          deck%force(1, node) = real_at(cards, 2, 'F_r')
          deck%force(2, node) = real_at(cards, 3, 'F_z')
+         if (cards%diagnostics%n_errors == 0 .and. abs(deck%force(1, node)) > 0.0_wp .and. &
+             .not. deck%position(1, node) > 0.0_wp) call warn(cards, 2, &
+             'F_r on the axis, where nothing moves along r, does nothing and is left out')
          if (node == deck%n_nodes) exit
       end do
       if (has(2) /= 0) then
