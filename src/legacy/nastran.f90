@@ -132,7 +132,13 @@ contains
          value = ''
          if (equals < len(line)) value = trim(adjustl(line(equals + 1:)))
          fault = 0
-         if (word == 'TITLE') then
+         if (begins_subcase(word)) case%n_subcases = case%n_subcases + 1
+         if (case%n_subcases > 1) then
+            call leave_out(sketch, bulk, 'case control of further subcases: '//case%subcase// &
+               ', the first, is translated')
+         else if (begins_subcase(word)) then
+            case%subcase = word
+         else if (word == 'TITLE') then
             sketch%title = value
          else if (word == 'LOAD') then
             read (value, *, iostat=fault) case%load
@@ -153,6 +159,15 @@ contains
       if (.not. chosen) call add_warning(cards%diagnostics, 1, 0, 0, &
          'no AXISYMMETRIC = COSINE or SINE: taken as COSINE')
    end subroutine read_case
+
+   !> Whether a line of case control begins a subcase, or one that is made of others
+   pure logical function begins_subcase(word)
+      !> What stands before its equals sign
+      character(len=*), intent(in) :: word
+
+      begins_subcase = any(word(:index(word//' ', ' ') - 1) == [character(len=7) :: 'SUBCASE', &
+         'SUBCOM', 'SYM', 'SYMCOM', 'REPCASE'])
+   end function begins_subcase
 
    !> Harmonics, rings, and the materials of properties
    subroutine read_rings(cards, bulk, case, sketch)

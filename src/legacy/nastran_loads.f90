@@ -18,6 +18,9 @@ module axijoint_legacy_nastran_loads
    type :: case_type
       !> Sets that case control names
       integer :: load = 0, constraint = 0
+      !> The subcase that is translated, the first; how many there are
+      character(len=:), allocatable :: subcase
+      integer :: n_subcases = 0
       !> Whether series are symmetric to phi = 0 (COSINE), or antisymmetric (SINE)
       logical :: symmetric = .true.
       !> Sets that act, and factors of the sets of loads
@@ -94,20 +97,26 @@ contains
       end do
    end function factor_of
 
-   !> Whether case control chooses the set that an entry belongs to; it is noted if not
-   logical function acts(cards, entry, sets, sketch)
+   !> Whether a set that an entry belongs to acts; it is noted if not
+   logical function acts(cards, entry, case, sets, sketch)
       !> The deck
       type(cards_type), intent(inout) :: cards
       !> The entry
       type(entry_type), intent(in) :: entry
-      !> The sets that act
+      !> What is asked for
+      type(case_type), intent(in) :: case
+      !> The sets that act: its loads, or its constraints
       type(list_type), intent(in) :: sets
       !> The new deck
       type(sketch_type), intent(inout) :: sketch
 
+      character(len=:), allocatable :: who
+
       acts = any(sets%value(:sets%n) == integer_in(cards, entry, 2, 0))
-      if (.not. acts) call leave_out(sketch, entry%first, entry%name// &
-         ' of a set that case control does not choose')
+      if (acts) return
+      who = 'case control'
+      if (case%n_subcases > 1) who = case%subcase//', the subcase that is translated,'
+      call leave_out(sketch, entry%first, entry%name//' of a set that '//who//' does not choose')
    end function acts
 
    !> S or A
@@ -134,7 +143,7 @@ contains
       integer :: nodes(2), rings(2), k, m
 
       pressure = factor_of(cards, entry, case)*real_in(cards, entry, 3, 0.0_wp)
-      if (.not. acts(cards, entry, case%loads, sketch)) return
+      if (.not. acts(cards, entry, case, case%loads, sketch)) return
       do k = 1, 2
          nodes(k) = integer_in(cards, entry, 3 + k, 0)
          rings(k) = find_number(case%rings, nodes(k))
@@ -196,7 +205,7 @@ contains
 
       known = .true.
       force = factor_of(cards, entry, case)*real_in(cards, entry, 5, 1.0_wp)
-      if (.not. acts(cards, entry, case%loads, sketch)) return
+      if (.not. acts(cards, entry, case, case%loads, sketch)) return
       do k = 1, 3
          force(k) = force(k)*real_in(cards, entry, 5 + k, 0.0_wp)
       end do
@@ -271,7 +280,7 @@ contains
 
       known = .true.
       g = factor_of(cards, entry, case)*real_in(cards, entry, 4, 0.0_wp)
-      if (.not. acts(cards, entry, case%loads, sketch)) return
+      if (.not. acts(cards, entry, case, case%loads, sketch)) return
       lateral(1) = real_in(cards, entry, 5, 0.0_wp)
       lateral(2) = real_in(cards, entry, 6, 0.0_wp)
       known = case%symmetric .and. .not. any(abs(lateral) > 0.0_wp)
@@ -297,7 +306,7 @@ contains
       integer :: ring, first, last, m, k
 
       known = .true.
-      if (.not. acts(cards, entry, case%constraints, sketch)) return
+      if (.not. acts(cards, entry, case, case%constraints, sketch)) return
       ring = integer_in(cards, entry, 3, 0)
       if (find_number(case%rings, ring) == 0) then
          call fault_in(cards, entry, 3, 'there is no such ring', 'RINGAX')

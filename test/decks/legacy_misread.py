@@ -197,6 +197,22 @@ def force_of_harmonics(program, folder):
     return faults
 
 
+def subcases(program, folder):
+    """Of several subcases the first is translated, with what stands above all of them, and this is said; a single one is none"""
+    both = ('SPC = 7', 'SUBCASE 1', ' LOAD = 1', 'SUBCASE 2', ' LOAD = 2', ' SPC = 9')
+    bulk = ('PRESAX,1,5.,3,4,0.,360.', 'PRESAX,2,50.,3,4,0.,360.', 'SPCAX,9,4,S0T3,1,0.')
+    held = [f'{k}, 111, , , 0, 3, S' for k in (1, 2)]
+    got = Converted(program, folder, 'ring.bdf', ring(*bulk, case=both))
+    line = ring(*bulk, case=both).split('\n').index('SUBCASE 2') + 1
+    faults = got.expect('RESTRAINTS', *held).expect('TRACTIONS', '1, 0, 0.0, 5.0, , , , , S').told(
+        f'not translated: case control of further subcases: SUBCASE 1, the first, is translated, lines {line} to {line + 2}',
+        'not translated: PRESAX of a set that SUBCASE 1, the subcase that is translated, does not choose, line',
+        'not translated: SPCAX of a set that SUBCASE 1, the subcase that is translated, does not choose, line').faults
+    got = Converted(program, folder, 'ring.bdf', ring(bulk[0], case=both[:3]))
+    faults += got.expect('RESTRAINTS', *held).expect('TRACTIONS', '1, 0, 0.0, 5.0, , , , , S').faults
+    return faults + ([f'said of a single subcase: {got.said}'] if 'not translated' in got.said else [])
+
+
 BAD = (
     # what, the text, its ending, where the error is, what it says
     ('gravity that differs', bar('*DLOAD', 'LOW, GRAV, 10., 0., -1.', 'UP, GRAV, 9., 0., -1.'), 'inp', r':\d+',
@@ -258,5 +274,5 @@ def tests(program):
         return Test(f'legacy misread: convert, {name}', lambda folder: function(program, folder, *arguments))
 
     return ([test(function.__name__.replace('_', ' '), function) for function in (body_loads, gravity_directions, sets_of_nodes, left_out, tables, boundaries_anew,
-                      radial_force_on_axis, force_of_harmonics)]
+                      radial_force_on_axis, force_of_harmonics, subcases)]
             + [test(name, bad, text, ending, place, words) for name, text, ending, place, words in BAD])
