@@ -89,6 +89,7 @@ contains
          case ('HEADING')
             call next_line(cards, at, line)
             if (line%kind == line_data) sketch%title = trim(line%text)
+            if (line%kind == line_data) sketch%title_card = line%card
             if (line%kind == line_keyword) cycle
          case ('NODE', 'ELEMENT')  ! are read already
          case ('NSET')

@@ -11,6 +11,7 @@ module axijoint_legacy_convert
    use axijoint_legacy_deck, only : old_deck_type, read_old_deck, tresca, mises, mohr, drucker
    use axijoint_legacy_layout, only : dialect_type
    use axijoint_legacy_loads, only : put_edges, put_forces
+   use axijoint_legacy_title, only : put_title
    use axijoint_legacy_words, only : text_type, put, list, integers, exact
    implicit none
    private
@@ -107,8 +108,7 @@ contains
       call warn(cards, 0, 'NALGO '//to_text(deck%algorithm)//' ('// &
          trim(algorithms(deck%algorithm))//'): solved by Newton''s method on the elastic '// &
          'stiffness, whatever NALGO says')
-      call put(new, 'TITLE')
-      call put(new, trim(deck%title))
+      call put_title(deck%title, 1, cards, new)
       call put(new, '! from '//path//', load: '//trim(deck%load_title))
       call put(new, '! loads, restraints and increments of an axisymmetric job: harmonic 0 alone')
       call put(new, 'CONTROL')

@@ -2,7 +2,7 @@
 !> (NASTRAN User's Manual, 2.4)
 module axijoint_legacy_nastran
    use axijoint_base_kinds, only : wp
-   use axijoint_base_number_map, only : find_number, insert_number
+   use axijoint_base_number_map, only : number_map_type, find_number, insert_number
    use axijoint_base_text, only : to_text, upper
    use axijoint_deck_text_diagnostics, only : add_error, add_warning
    use axijoint_deck_text_file_bytes, only : line_end, next_line
@@ -140,6 +140,7 @@ contains
             case%subcase = word
          else if (word == 'TITLE') then
             sketch%title = value
+            sketch%title_card = bulk
          else if (word == 'LOAD') then
             read (value, *, iostat=fault) case%load
          else if (word == 'SPC') then
@@ -210,12 +211,41 @@ contains
             if (is_in(entry, 8)) call hold(cards, entry, 8, ring, '', sketch)
          case ('PTRAPAX', 'PTRIAAX')
             case%n_materials = case%n_materials + 1
-            if (integer_in(cards, entry, 2, 0) > 0) call insert_number(case%properties, &
-               integer_in(cards, entry, 2, 0), case%n_materials)
+            call claim_number(cards, entry, 'a property', case%n_materials, case%properties)
             case%material(case%n_materials) = integer_in(cards, entry, 4, 0)
+         case ('MAT1')
+            call claim_number(cards, entry, 'a material', 1, case%materials)
+         case ('CTRAPAX', 'CTRIAAX')
+            call claim_number(cards, entry, 'an element', 1, case%elements)
          end select
       end do
    end subroutine read_rings
+
+   !> The number of a thing in field 2: an error if it is none, or there already
+   subroutine claim_number(cards, entry, what, index, map)
+      !> The deck
+      type(cards_type), intent(inout) :: cards
+      !> The entry
+      type(entry_type), intent(in) :: entry
+      !> What has the number
+      character(len=*), intent(in) :: what
+      !> Index of it
+      integer, intent(in) :: index
+      !> Numbers of all of them
+      type(number_map_type), intent(inout) :: map
+
+      integer :: number
+
+      number = integer_in(cards, entry, 2, 0)
+      if (number < 1) then
+         call fault_in(cards, entry, 2, 'this is no number of '//what, '1, 2, ...')
+      else if (find_number(map, number) > 0) then
+         call fault_in(cards, entry, 2, what//' of this number is there already', &
+            'each number once')
+      else
+         call insert_number(map, number, index)
+      end if
+   end subroutine claim_number
 
    !> CTRAPAX and CTRIAAX: nodes counterclockwise
    subroutine add_element(cards, entry, n, case, sketch)
@@ -243,6 +273,11 @@ contains
       if (property == 0) call fault_in(cards, entry, 3, 'there is no such property', &
          'PTRAPAX and PTRIAAX')
       if (any(rings == 0) .or. property == 0) return
+      if (find_number(case%materials, case%material(property)) == 0) then
+         call fault_in(cards, entry, 3, 'its property has material '// &
+            to_text(case%material(property))//', and there is no MAT1 of this number', 'MAT1')
+         return
+      end if
       area = 0.0_wp
       do k = 1, n
          associate (a => case%position(:, rings(k)), b => case%position(:, rings(mod(k, n) + 1)))

@@ -34,6 +34,8 @@ module axijoint_legacy_nastran_loads
       type(number_map_type) :: properties
       integer, allocatable :: material(:)
       integer :: n_materials = 0
+      !> Numbers of MAT1, and of elements
+      type(number_map_type) :: materials, elements
       !> Faces so far
       integer :: n_faces = 0
    end type case_type
@@ -215,6 +217,10 @@ contains
       if (ring == 0 .or. first > last) return
       known = case%symmetric .or. first > 0  ! torsion
       if (.not. known) return
+      if (.not. case%position(1, ring) > 0.0_wp) then
+         call add_axis_force(entry, integer_in(cards, entry, 3, 0), force, first, last, sketch)
+         return
+      end if
       do m = first, last
          length = merge(2.0_wp, 1.0_wp, m == 0)*pi*case%position(1, ring)
          around = force(2)
@@ -227,6 +233,25 @@ contains
             exact(around/length)//', '//family(case))
       end do
    end subroutine add_force
+
+   !> FORCEAX on the axis, where the ring is a point: the force along it in harmonic 0 alone
+   subroutine add_axis_force(entry, ring, force, first, last, sketch)
+      !> The entry
+      type(entry_type), intent(in) :: entry
+      !> Number of the ring
+      integer, intent(in) :: ring
+      !> FR, FP, FZ
+      real(wp), intent(in) :: force(3)
+      !> Harmonics
+      integer, intent(in) :: first, last
+      !> The new deck
+      type(sketch_type), intent(inout) :: sketch
+
+      if (first == 0 .and. abs(force(3)) > 0.0_wp) call put(sketch%parts(part_ring_loads), &
+         to_text(ring)//', 0, , '//exact(force(3)))
+      if (last > 0 .or. any(abs(force(:2)) > 0.0_wp)) call leave_out(sketch, entry%first, &
+         entry%name//' on the axis, but for FZ in harmonic 0')
+   end subroutine add_axis_force
 
    !> Harmonics in a field: one, or a sequence SnTm; first > last after an error
    subroutine harmonics_in(cards, entry, field, highest, first, last)
@@ -322,15 +347,25 @@ contains
       end if
       known = case%symmetric .or. first > 0  ! torsion
       if (.not. known) return
+      if (.not. is_in(entry, 5) .or. verify(trim(entry%text(4)), '123456') > 0) then
+         call fault_in(cards, entry, 5, 'these are no components', 'digits from 1 to 6')
+         return
+      end if
       ! components 1, 2, 3 are along r, phi, z
       values = ''
       do k = 1, 3
          if (index(entry%text(4), to_text(k)) > 0) values(columns(k)) = exact(value)
       end do
+      if (all(values == '')) call leave_out(sketch, entry%first, entry%name// &
+         ' of a rotation, which solids have none of')
+      if (first == 0 .and. values(3) /= '') call leave_out(sketch, entry%first, entry%name// &
+         ' of component 2 in harmonic 0, which is torsion')
       do m = first, last
+         if (m == 0 .and. all(values(:2) == '')) cycle
+         if (all(values == '')) exit
          call put(sketch%parts(part_moved), to_text(ring)//', '//to_text(m)//', '// &
-            trim(values(1))//', '//trim(values(2))//', '//trim(values(3))//', '//family(case)// &
-            ', , , ONLY')
+            trim(values(1))//', '//trim(values(2))//', '// &
+            trim(merge(repeat(' ', len(values)), values(3), m == 0))//', '//family(case)//', , , ONLY')
       end do
    end subroutine add_constraint
 

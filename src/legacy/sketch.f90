@@ -5,6 +5,7 @@ module axijoint_legacy_sketch
    use axijoint_deck_text_diagnostics, only : add_warning
    use axijoint_deck_text_source, only : card_line
    use axijoint_legacy_cards, only : cards_type
+   use axijoint_legacy_title, only : put_title
    use axijoint_legacy_words, only : text_type, put
    implicit none
    private
@@ -32,8 +33,9 @@ module axijoint_legacy_sketch
 
    !> The deck so far
    type :: sketch_type
-      !> Title
+      !> Title, and its card; 0 if there is none
       character(len=:), allocatable :: title
+      integer :: title_card = 0
       !> Highest harmonic; points in each direction of linear and of quadratic elements
       integer :: harmonic = 0, order_linear = 2, order_quadratic = 3
       !> Faces that are no sides of surfaces
@@ -95,8 +97,7 @@ contains
       type(text_type) :: new
       integer :: k
 
-      call put(new, 'TITLE')
-      call put(new, sketch%title)
+      call put_title(sketch%title, sketch%title_card, cards, new)
       call put(new, '! from '//path)
       do k = 1, sketch%n_left
          associate (left => sketch%left(k))

@@ -213,6 +213,50 @@ def subcases(program, folder):
     return faults + ([f'said of a single subcase: {got.said}'] if 'not translated' in got.said else [])
 
 
+def titles(program, folder):
+    """Titles that are too long, or keywords here, make decks that can be read"""
+    long, wide = 'x y '*30, 'ä b '*30
+    faults = []
+    for heading, wanted in ((long, long[:79]), (wide, wide[:79]), ('Control', '"Control"'), ('End', '"End"'), ('NODES  7', '"NODES  7"'),
+                            ('Nodes of a pile', 'Nodes of a pile'), (' End', ' End')):
+        for name, text, title in (('bar.inp', bar('*DLOAD', '103, P3, 5.', heading=heading), wanted),
+                                  ('ring.bdf', ring('PRESAX,1,5.,3,4,0.,360.', title=heading), wanted.upper().strip()),
+                                  ('old.dat', scenes.cylinder(scenes.MISES, (1.0,)).replace('THICK CYLINDER', heading, 1), wanted)):
+            if name == 'ring.bdf' and (heading == wide or heading.startswith(' ')):
+                continue
+            got = Converted(program, folder, name, text)
+            faults += got.faults
+            if got.deck[1:2] != [title]:
+                faults.append(f'{name}: expected {title}, found {got.deck[1:2]}')
+            faults += program.run('check', got.new).ended_with(0)
+            if len(heading) > 80:
+                faults += got.told('the title is cut to 80 characters').faults
+    return faults
+
+
+def force_on_axis(program, folder):
+    """FORCEAX on the axis: the axial force in harmonic 0; what else there is, is left out and said to be"""
+    got = Converted(program, folder, 'ring.bdf', ring('FORCEAX,1,4,0,2.,0.,0.,-5.', inner='0.')).expect('RINGLOADS', '4, 0, , -1.0E+001')
+    faults = got.faults + (['said without need'] if 'FORCEAX' in got.said else [])
+    faults += program.run('check', got.new).ended_with(0)
+    got = Converted(program, folder, 'ring.bdf', ring('FORCEAX,1,4,S0T2,2.,1.,0.,-5.', inner='0.')).expect('RINGLOADS', '4, 0, , -1.0E+001')
+    faults += got.told('not translated: FORCEAX on the axis, but for FZ in harmonic 0, line').faults
+    return faults + program.run('check', got.new).ended_with(0)
+
+
+def moved_around(program, folder):
+    """SPCAX of component 2 that is not zero: in harmonics above 0; in harmonic 0 it is torsion, which is said"""
+    cards = [f'3, {m}, , , 1.0E-001, S, , , ONLY' for m in (1, 2)]
+    got = Converted(program, folder, 'ring.bdf', ring('SPCAX,7,3,S0T2,2,0.1')).expect('MOVEDNODES', *cards)
+    faults = got.told('not translated: SPCAX of component 2 in harmonic 0, which is torsion, line').faults
+    faults += program.run('check', got.new).ended_with(0)
+    got = Converted(program, folder, 'ring.bdf', ring('SPCAX,7,3,S0T1,12,0.1')).expect(
+        'MOVEDNODES', '3, 0, 1.0E-001, , , S, , , ONLY', '3, 1, 1.0E-001, , 1.0E-001, S, , , ONLY')
+    faults += got.faults + program.run('check', got.new).ended_with(0)
+    got = Converted(program, folder, 'ring.bdf', ring('SPCAX,7,3,1,5,0.1')).expect('MOVEDNODES')
+    return faults + got.told('not translated: SPCAX of a rotation').faults
+
+
 BAD = (
     # what, the text, its ending, where the error is, what it says
     ('gravity that differs', bar('*DLOAD', 'LOW, GRAV, 10., 0., -1.', 'UP, GRAV, 9., 0., -1.'), 'inp', r':\d+',
@@ -246,6 +290,11 @@ Two triangles
 '''
 
 BAD += (
+    ('a material twice', ring('MAT1,1,1000.,,0.,2.', 'MAT1,1,2000.,,0.,2.'), 'bdf', r':\d+:6', 'a material of this number is there already'),
+    ('a material that is not there', ring('MAT1,2,1000.,,0.,2.'), 'bdf', r':\d+:11', 'its property has material 1, and there is no MAT1'),
+    ('an element twice', ring('CTRAPAX,1,1,1,2,3,4'), 'bdf', r':\d+:9', 'an element of this number is there already'),
+    ('a property twice', ring('PTRIAAX,1,,1'), 'bdf', r':\d+:9', 'a property of this number is there already'),
+    ('displacements of no components', ring('SPCAX,7,3,1,X,0.1'), 'bdf', r':\d+:13', 'these are no components'),
     ('a held node that is not there', bar('*BOUNDARY', '99, 2, 2'), 'inp', r':\d+:1-2', 'there is no node 99'),
     ('nodes of no elements', bar(before=('*NSET, NSET=WALL, ELSET=NONE',)), 'inp', r':\d+', 'there is no set NONE'),
     ('GENERATE backwards', bar(before=('*NSET, NSET=X, GENERATE', '3, 1, -1')), 'inp', r':\d+', 'GENERATE has no numbers from 3 to 1 in steps of -1'),
@@ -274,5 +323,6 @@ def tests(program):
         return Test(f'legacy misread: convert, {name}', lambda folder: function(program, folder, *arguments))
 
     return ([test(function.__name__.replace('_', ' '), function) for function in (body_loads, gravity_directions, sets_of_nodes, left_out, tables, boundaries_anew,
-                      radial_force_on_axis, force_of_harmonics, subcases)]
+                      radial_force_on_axis, force_of_harmonics, subcases, titles, force_on_axis,
+                      moved_around)]
             + [test(name, bad, text, ending, place, words) for name, text, ending, place, words in BAD])
