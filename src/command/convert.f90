@@ -5,10 +5,13 @@ module axijoint_command_convert
    use axijoint_base_system, only : path_kind, path_absent, same_file
    use axijoint_command_line, only : command_type
    use axijoint_command_run, only : print_error
-   use axijoint_deck_text_diagnostics, only : render
+   use axijoint_deck_reader, only : read_deck
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, render
    use axijoint_deck_text_file_bytes, only : read_bytes
+   use axijoint_deck_text_source, only : source_type
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_translate, only : translate_deck
+   use axijoint_model_model, only : model_type
    use axijoint_output_file_pending, only : check_name
    use axijoint_output_file_text, only : text_file_type
    implicit none
@@ -21,7 +24,7 @@ contains
    subroutine convert_old(command, exit_code)
       !> The old deck, the new one, formats
       type(command_type), intent(in) :: command
-      !> 0; 2 if the old deck has errors; 5 if the name of the new one is taken, or it cannot be written
+      !> 0; 2 if the old deck has errors, or what is made of it has; 5 if the name of the new one is taken, or it cannot be written
       integer, intent(out) :: exit_code
 
       type(error_type), allocatable :: error
@@ -32,6 +35,7 @@ contains
          call check_new(old, new, error)
          if (.not. allocated(error)) call translate(old, command, text, error)
          if (.not. allocated(error)) call write_new(new, text, error)
+         if (.not. allocated(error)) call check_written(new, text, error)
          if (allocated(error)) then
             call print_error('', error)
             exit_code = error%code
@@ -104,5 +108,23 @@ contains
       if (.not. allocated(error)) call file%commit(error)
       if (allocated(error)) call file%abandon()
    end subroutine write_new
+
+   !> What can be translated card by card need not be a job here, such as a pressure inside a body: the
+   !> new deck is read, and what is wrong with it is told. It stays, as it may be mended by hand
+   subroutine check_written(path, text, error)
+      !> Its path, and what it says
+      character(len=*), intent(in) :: path, text
+      !> It has errors
+      type(error_type), allocatable, intent(out) :: error
+
+      type(source_type) :: source
+      type(model_type) :: model
+      type(diagnostics_type) :: diagnostics
+
+      call read_deck(path, source, model, diagnostics, bytes=text)
+      if (diagnostics%n_errors > 0) call fatal_error(error, exit_deck, path// &
+         ': written, but it has errors; mend the old deck, or this one'//new_line('a')// &
+         render(diagnostics, source))
+   end subroutine check_written
 
 end module axijoint_command_convert

@@ -307,6 +307,25 @@ BAD += (
 )
 
 
+UNREADABLE = (
+    # what, the text, what is wrong with the new deck
+    ('clockwise', bar('*DLOAD', '103, P3, 5.').replace('1, 1, 2, 5, 4\n', '1, 4, 5, 2, 1\n', 1), 'the nodes of element 1 run clockwise'),
+    ('pressure inside a body', bar('*DLOAD', 'LOW, P3, 5.'), 'the edge 5-4 is inside a body'),
+    ('held and moved', bar('*BOUNDARY', '1, 2, 2, 0.1'), 'node 1'),
+)
+
+
+def unreadable(program, folder, text, words):
+    """A new deck that cannot be read is said to be so"""
+    new = os.path.join(folder, 'new.dat')
+    ran = program.run('convert', write(folder, 'bar.inp', text), new)
+    faults = ran.ended_with(2)
+    if 'new.dat: written, but it has errors' not in ran.err or not re.search(rf'new\.dat:\d+.*error: .*{words}', ran.err):
+        faults.append(f'expected {words}\n{ran.err[:1200]}')
+    faults += [f'said: {ran.out}'] if 'solves it' in ran.out else []
+    return faults + ([] if os.path.exists(new) else ['no new deck'])
+
+
 def bad(program, folder, text, ending, place, words):
     """An error with its place; no new deck"""
     ran = program.run('convert', write(folder, f'bad.{ending}', text), os.path.join(folder, 'new.dat'))
@@ -325,4 +344,5 @@ def tests(program):
     return ([test(function.__name__.replace('_', ' '), function) for function in (body_loads, gravity_directions, sets_of_nodes, left_out, tables, boundaries_anew,
                       radial_force_on_axis, force_of_harmonics, subcases, titles, force_on_axis,
                       moved_around)]
+            + [test(f'new deck, {name}', unreadable, text, words) for name, text, words in UNREADABLE]
             + [test(name, bad, text, ending, place, words) for name, text, ending, place, words in BAD])
