@@ -18,13 +18,17 @@ module axijoint_command_convert
    private
    public :: convert_old
 
+   !> What elsewhere stands for what goes in or out without a name
+   character(len=*), parameter :: standard_output = '-'
+
 contains
 
    !> Convert a deck
    subroutine convert_old(command, exit_code)
       !> The old deck, the new one, formats
       type(command_type), intent(in) :: command
-      !> 0; 2 if the old deck has errors, or what is made of it has; 5 if the name of the new one is taken, or it cannot be written
+      !> 0; 2 if the old deck has errors, or what is made of it has; 5 if the name of the new one is
+      !> taken, or it cannot be written
       integer, intent(out) :: exit_code
 
       type(error_type), allocatable :: error
@@ -52,6 +56,11 @@ contains
       !> The name of the new one is taken
       type(error_type), allocatable, intent(out) :: error
 
+      if (new == standard_output) then
+         call fatal_error(error, exit_io, new//' is no name of a new deck'//new_line('a')// &
+            'mend: a name, such as new.dat; the deck goes into a file')
+         return
+      end if
       if (same_file(old, new)) then
          call fatal_error(error, exit_io, new//' is the old deck itself'//new_line('a')// &
             'mend: another name for the new deck')

@@ -8,7 +8,7 @@ module axijoint_legacy_abaqus_lines
    use axijoint_legacy_cards, only : cards_type
    implicit none
    private
-   public :: line_type, next_line, is_data, parameter_of, has_parameter, field_text, integer_of, real_of, &
+   public :: line_type, next_line, is_data, parameter_of, has_parameter, field_text, name_in, integer_of, real_of, &
       fault_of
    public :: line_keyword, line_data, line_end
 
@@ -114,11 +114,33 @@ contains
          equals = index(text, '=')
          if (equals == 0) cycle
          if (text(:equals - 1) /= name) cycle
-         value = trim(adjustl(text(equals + 1:)))
+         value = without_quotes(trim(adjustl(text(equals + 1:))))
       end do
-      if (len(value) < 2) return
-      if (value(1:1) == '"') value = value(2:len(value) - 1)
    end function parameter_of
+
+   !> A name in a field, in capital letters, without quotes
+   pure function name_in(line, n) result(name)
+      !> The line
+      type(line_type), intent(in) :: line
+      !> The field
+      integer, intent(in) :: n
+      !> The name
+      character(len=:), allocatable :: name
+
+      name = without_quotes(upper(field_text(line, n)))
+   end function name_in
+
+   !> A name without quotes about it
+   pure function without_quotes(text) result(name)
+      !> The name, perhaps with quotes
+      character(len=*), intent(in) :: text
+      !> What is between them
+      character(len=:), allocatable :: name
+
+      name = text
+      if (len(text) < 2) return
+      if (text(1:1) == '"' .and. text(len(text):) == '"') name = text(2:len(text) - 1)
+   end function without_quotes
 
    !> Whether a keyword has a parameter without a value
    pure logical function has_parameter(line, name)

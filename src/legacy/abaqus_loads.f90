@@ -5,7 +5,7 @@ module axijoint_legacy_abaqus_loads
    use axijoint_base_text, only : to_text, upper
    use axijoint_deck_text_diagnostics, only : add_warning
    use axijoint_legacy_abaqus_bodies, only : body_loads_type, add_body_gravity, add_body_rotation
-   use axijoint_legacy_abaqus_lines, only : line_type, is_data, field_text, integer_of, real_of, &
+   use axijoint_legacy_abaqus_lines, only : line_type, is_data, field_text, name_in, integer_of, real_of, &
       fault_of, parameter_of, has_parameter
    use axijoint_legacy_abaqus_mesh, only : abaqus_type, members, side_nodes, is_side
    use axijoint_legacy_cards, only : cards_type
@@ -244,7 +244,7 @@ contains
 
       face = 0
       do k = 1, size(mesh%surfaces)
-         if (mesh%surfaces(k)%name == upper(field_text(line, 1))) then
+         if (mesh%surfaces(k)%name == name_in(line, 1)) then
             do i = 1, mesh%surfaces(k)%elements%n
                call put(sketch%parts(part_pressures), to_text(face + i)//', 0, '// &
                   exact(real_of(cards, line, 3)))

@@ -6,7 +6,7 @@ module axijoint_legacy_abaqus_mesh
    use axijoint_base_text, only : to_text, upper
    use axijoint_deck_text_diagnostics, only : add_warning
    use axijoint_legacy_abaqus_lines, only : line_type, is_data, parameter_of, has_parameter, &
-      field_text, integer_of, real_of, fault_of
+      field_text, name_in, integer_of, real_of, fault_of
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_list, only : list_type, set_type, add, open_set, find_set
    implicit none
@@ -289,7 +289,7 @@ contains
          call add(list, integer_of(cards, line, field))
          return
       end if
-      set = find_set(sets, field_text(line, field))
+      set = find_set(sets, name_in(line, field))
       if (set > 0) then
          list = sets(set)%list
          if (.not. allocated(list%value)) allocate (list%value(0))

@@ -19,6 +19,10 @@ module axijoint_legacy_nastran
    private
    public :: read_nastran, looks_like_nastran
 
+   !> What is wrong with another file, and what is allowed
+   character(len=*), parameter :: included = 'INCLUDE is not read', &
+      itself = 'the lines of the file itself'
+
 contains
 
    !> Whether a text is such a deck
@@ -76,6 +80,8 @@ contains
             if (entry%name == 'GRAV') call add_gravity(cards, entry, case, sketch, known)
             if (entry%name == 'SPCAX') call add_constraint(cards, entry, case, sketch, known)
             if (.not. known) call leave_all(entry, sketch)
+         case ('INCLUDE')
+            call add_error(cards%diagnostics, entry%first, 0, 0, included, allowed=itself)
          case ('CCONEAX', 'PCONEAX')
             call fault_in(cards, entry, 0, entry%name//': conical shells are no solids', &
                'CTRAPAX and CTRIAAX')
@@ -125,6 +131,8 @@ contains
          if (index(line, 'BEGIN BULK') == 1) exit
          if (len(line) == 0) cycle
          if (line(1:1) == '$') cycle
+         if (index(line, 'INCLUDE') == 1) call add_error(cards%diagnostics, bulk, 0, 0, included, &
+            allowed=itself)
          if (line == 'CEND') control = .true.
          if (.not. control .or. line == 'CEND') cycle  ! executive control
          equals = index(line//'=', '=')

@@ -290,6 +290,8 @@ Two triangles
 '''
 
 BAD += (
+    ('another file', ring("INCLUDE 'loads.bdf'"), 'bdf', r':\d+', 'INCLUDE is not read'),
+    ('another file in case control', ring(case=("INCLUDE 'case.bdf'", 'LOAD = 1')), 'bdf', ':6', 'INCLUDE is not read'),
     ('a material twice', ring('MAT1,1,1000.,,0.,2.', 'MAT1,1,2000.,,0.,2.'), 'bdf', r':\d+:6', 'a material of this number is there already'),
     ('a material that is not there', ring('MAT1,2,1000.,,0.,2.'), 'bdf', r':\d+:11', 'its property has material 1, and there is no MAT1'),
     ('an element twice', ring('CTRAPAX,1,1,1,2,3,4'), 'bdf', r':\d+:9', 'an element of this number is there already'),
@@ -305,6 +307,23 @@ BAD += (
     ('a fourth side of a triangle, S4', TRIANGLES + '*SURFACE, NAME=S\nE, S4\n*STEP\n*DSLOAD\nS, P, 5.\n*END STEP\n', 'inp', ':19:4-5',
      'element 1 is a triangle and has no such side'),
 )
+
+
+def quotes(program, folder):
+    """Names in quotes, with blanks, are found wherever they stand"""
+    before = ('*NSET, NSET="right end"', '13, 14, 15', '*ELSET, ELSET="last one"', '104', '*SURFACE, NAME="up here"', '"last one", S3')
+    step = ('*CLOAD', '"Right End", 2, 0.', '*DLOAD', '"last one", P3, 2.', '"Low Set", GRAV, 10., 0., -1.', '*DSLOAD', '"up here", P, 3.')
+    got = Converted(program, folder, 'bar.inp', bar(*step, before=before, low='"low set"'))
+    got.expect('PRESSURES', '50001, 0, 2.0', '1, 0, 3.0').expect('GRAVITY', '-1.0E+001')
+    return got.faults + ([] if len(got.section('RINGLOADS')) == 3 else [f"{got.section('RINGLOADS')}"])
+
+
+def no_name(program, folder):
+    """A dash is no name of a new deck"""
+    ran = program.run('convert', write(folder, 'bar.inp', bar('*DLOAD', '103, P3, 5.')), '-', folder=folder)
+    faults = ran.ended_with(5)
+    faults += [] if 'is no name of a new deck' in ran.err else [ran.err]
+    return faults + (['a file named -'] if os.path.exists(os.path.join(folder, '-')) else [])
 
 
 UNREADABLE = (
@@ -343,6 +362,6 @@ def tests(program):
 
     return ([test(function.__name__.replace('_', ' '), function) for function in (body_loads, gravity_directions, sets_of_nodes, left_out, tables, boundaries_anew,
                       radial_force_on_axis, force_of_harmonics, subcases, titles, force_on_axis,
-                      moved_around)]
+                      moved_around, quotes, no_name)]
             + [test(f'new deck, {name}', unreadable, text, words) for name, text, words in UNREADABLE]
             + [test(name, bad, text, ending, place, words) for name, text, ending, place, words in BAD])
