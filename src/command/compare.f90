@@ -9,6 +9,7 @@ module axijoint_command_compare
    use axijoint_compare_compare, only : compare_listings
    use axijoint_compare_names, only : add_tables, add_columns, name_length
    use axijoint_compare_old_layout, only : fit_old_layout
+   use axijoint_compare_read_hdf5_history, only : add_history
    use axijoint_compare_read_hdf5_increments, only : add_increments
    use axijoint_compare_read_own_format, only : own_format_text
    use axijoint_compare_read_reader, only : read_file
@@ -59,6 +60,11 @@ contains
       end do
       do k = 1, 2
          call add_increments(listings(k), listings(3 - k), error)
+         if (allocated(error)) then
+            write (error_unit, '(a)') error%message
+            return
+         end if
+         call add_history(listings(k), listings(3 - k), dictionary, error)
          if (allocated(error)) then
             write (error_unit, '(a)') error%message
             return

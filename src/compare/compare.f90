@@ -66,8 +66,26 @@ contains
          if (find_table(a, b%tables(k)) > 0) cycle
          call note_only(unit, 'B', b%tables(k), a, verdict)
       end do
+      call print_passed_over(unit, a, b)
       call print_verdict(unit, verdict, tolerances, same)
    end subroutine compare_listings
+
+   !> Name what both files have and was not compared
+   subroutine print_passed_over(unit, a, b)
+      !> Where the report goes
+      integer, intent(in) :: unit
+      !> The files
+      type(listing_type), intent(in) :: a, b
+
+      integer :: k
+
+      if (.not. (allocated(a%passed_over) .and. allocated(b%passed_over))) return
+      write (unit, '()')
+      do k = 1, size(a%passed_over)
+         if (any(b%passed_over == a%passed_over(k))) write (unit, '(a)') &
+            'in both files, and not compared: '//trim(a%passed_over(k))
+      end do
+   end subroutine print_passed_over
 
    !> Note a table that one file lacks. A harmonic is not passed over: what it adds to the state is
    !> not there
@@ -87,6 +105,7 @@ contains
       logical :: harmonic
 
       call print_only(unit, file, table)
+      if (table%kept) return
       verdict%n_tables_only = verdict%n_tables_only + 1
       if (index(table%parameters, 'm = ') == 0 .or. .not. any_value(table)) return
       harmonic = .false.

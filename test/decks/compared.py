@@ -427,6 +427,74 @@ def result_files(base, folder):
     return faults
 
 
+def histories(base, folder):
+    """HDF5 files whose ends are the same and whose increments are not; of the fields of increments those count that both files
+    keep, and a listing has none"""
+    deck = read_text(os.path.join(INPUTS, 'first.dat'))
+    deck = re.sub(r'^( +1 +1\.0E4 +2\.0E4 +1\.0E4).*', r'\g<1>                       ELASTIC', deck, flags=re.M)
+    deck = deck.replace('END\n', 'POINTS\n    1       0.0       1.0\nINCREMENTS\n       0.5\n       0.5\nEND\n')
+    faults = []
+    for name, text in (('a', deck), ('b', deck.replace('       0.5\n       0.5\nEND', '       9.0\n      -8.0\nEND')),
+                       ('kept', deck.replace('INCREMENTS', 'KEEP\n  DISPLACE      LAST\n    JOINTS      LAST\nINCREMENTS'))):
+        faults += base.program.run('run', '--quiet', write(folder, f'{name}.dat', text), '-o', folder).ended_with(0)
+    for b, options, code, words in (
+            ('a.h5', (), SAME, 'work of increments'), ('a.h5', (), SAME, 'in both files, and not compared: /history/joint_amplitude'),
+            ('b.h5', (), DIFFERENT, 'load_factor at increment 1'), ('b.lis', (), SAME, ''),
+            ('b.h5', ('--skip', 'increments', '--skip', 'work of increments', '--skip', 'force', '--skip', 'moment'), DIFFERENT,
+             'increment = 1, m = 1, family = symmetric'),
+            ('b.h5', ('--skip', 'increments', '--skip', 'work of increments', '--skip', 'force', '--skip', 'moment', '--skip', 'displacement'), DIFFERENT,
+             'joints, increment = 1'),
+            ('kept.h5', (), SAME, 'only in A'), ('kept.h5', (), SAME, 'displacement amplitudes, increment = 2')):
+        faults += [f'{b} {options}: {fault}' for fault in verdict(base.program, folder, ('a.h5', b, *options), code, words)]
+    return faults
+
+
+def yielding(base, folder):
+    """HDF5 files of bodies that yield: plastic strain, its work, and the margin count, each by itself"""
+    deck = read_text(os.path.join(INPUTS, 'pile_clay.dat'))
+    faults = []
+    for name, text in (('a', deck), ('b', deck.replace('MISES      86.6', 'MISES      95.0'))):
+        faults += base.program.run('run', '--quiet', write(folder, f'{name}.dat', text), '-o', folder).ended_with(0)
+    faults += verdict(base.program, folder, ('a.h5', 'a.h5'), SAME, 'in both files, and not compared: /yield/active')
+    tables = ('plastic strain amplitudes', 'yielding, equivalent', 'yielding, margin', 'yielding, dissipation',
+              'yielding of increments', 'plastic work of increments')
+    others = ('increments', 'work of increments', 'status', 'joints', *(f'{kind}' for kind in ('displacement', 'jump', 'stress', 'force', 'moment')))
+    for table in tables:
+        options = [word for name in (*others, *(other for other in tables if other != table)) for word in ('--skip', name)]
+        faults += [f'{table}: {fault}' for fault in verdict(base.program, folder, ('a.h5', 'b.h5', *options), DIFFERENT, table)]
+    return faults
+
+
+def cut_motions(base, folder):
+    """Motions of cuts count: forces that are the same, and a stiffness that is not"""
+    deck = """TITLE
+A rod
+CONTROL
+    1
+MATERIALS
+1, 1.0E4, 0.0
+BLOCKS
+    1    1    4    1    4
+       0.0       0.0       1.0       4.0
+FACES
+    1    1       0.0       0.0       1.0       0.0
+    2    1       0.0       4.0       1.0       4.0
+FIXEDFACES
+    1  111
+RESULTANTS
+    2     AXIAL       1.0
+CUTS
+    1       2.1
+END
+"""
+    faults = []
+    for name, text in (('a', deck), ('b', deck.replace('1.0E4', '2.0E4'))):
+        faults += base.program.run('run', '--quiet', write(folder, f'{name}.dat', text), '-o', folder).ended_with(0)
+    skipped = [word for name in ('displacement amplitudes', 'increments', 'work of increments', 'motion of cuts of increments')
+               for word in ('--skip', name)]
+    return faults + verdict(base.program, folder, ('a.h5', 'b.h5', *skipped), DIFFERENT, 'motion of cuts\n')
+
+
 def held_by_nodes(base, folder):
     """Result files of jobs without a supported face: of nodes held, of the axis alone, of nothing that
     moves; and of one with moved faces in the antisymmetric family, whose lateral resultants are zero"""
@@ -599,7 +667,8 @@ def hurt(content, mixer):
 def tests(program):
     """One test a pair"""
     base = Base(program)
-    functions = {'HDF5': result_files, 'held by nodes': held_by_nodes, 'combinations': combinations, 'mechanism': mechanism,
+    functions = {'HDF5': result_files, 'histories': histories, 'yielding': yielding, 'motions of cuts': cut_motions,
+                 'held by nodes': held_by_nodes, 'combinations': combinations, 'mechanism': mechanism,
                  'a program of the eighties': old_program, 'wrong formats': bad_formats,
                  'damaged files': damaged}
     return [Test(f'compare: {case[0]}', lambda folder, case=case: pair(base, folder, *case[1:]))

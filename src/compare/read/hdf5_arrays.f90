@@ -32,6 +32,8 @@ module axijoint_compare_read_hdf5_arrays
       procedure :: close => close_file
       !> Whether there is a dataset or group
       procedure :: has
+      !> How many values a dataset has
+      procedure :: values => count_values
       !> Read a dataset of reals or integers
       procedure :: read => read_array
       !> Read an attribute of the file that is a text
@@ -97,6 +99,34 @@ contains
       call h5lexists_f(self%file, name, has, status)
       call note_reading('')
    end function has
+
+   !> How many values a dataset has; 0 if it cannot be read
+   real(wp) function count_values(self, name) result(n)
+      !> The file
+      class(result_file_type), intent(in) :: self
+      !> Absolute path in the file
+      character(len=*), intent(in) :: name
+
+      integer(hid_t) :: dataset, space
+      integer(hsize_t) :: extents(32), largest(32)
+      integer :: status, rank
+
+      n = 0.0_wp
+      if (len(self%failure) > 0) return
+      call note_reading(self%path)
+      call h5dopen_f(self%file, name, dataset, status)
+      if (status >= 0) then
+         call h5dget_space_f(dataset, space, status)
+         call h5sget_simple_extent_ndims_f(space, rank, status)
+         if (status >= 0 .and. rank >= 1 .and. rank <= size(extents)) then
+            call h5sget_simple_extent_dims_f(space, extents(:rank), largest(:rank), status)
+            n = product(real(extents(:rank), wp))
+         end if
+         call h5sclose_f(space, status)
+         call h5dclose_f(dataset, status)
+      end if
+      call note_reading('')
+   end function count_values
 
    !> Read a dataset
    subroutine read_array(self, name, values, extent)

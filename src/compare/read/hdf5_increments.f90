@@ -12,7 +12,7 @@ module axijoint_compare_read_hdf5_increments
    use axijoint_element_principal, only : plane_principal
    implicit none
    private
-   public :: add_increments
+   public :: add_increments, mode_name_type, read_modes, add_nodal
 
    !> Names of components: the meridional ones, then those of theta
    character(len=*), parameter :: displacement_names(3) = ['u', 'v', 'w'], &

@@ -12,7 +12,8 @@ module axijoint_compare_read_hdf5_lines
       kind_key, kind_coordinate, kind_angle, kind_displacement, kind_stress, kind_force, kind_moment
    implicit none
    private
-   public :: read_sections, read_cuts, read_resultants, displacement_names, stress_names
+   public :: read_sections, read_cuts, read_resultants, displacement_names, stress_names, &
+      resultant_names, cut_names, resultant_kinds
 
    !> Names of columns
    character(len=*), parameter :: displacement_names(3) = ['u', 'v', 'w'], &

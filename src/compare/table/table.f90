@@ -58,6 +58,8 @@ module axijoint_compare_table_table
       type(column_type), allocatable :: columns(:)
       !> Whether other tables stand for it
       logical :: left_out = .false.
+      !> Whether a file has it as its job wished so: it is passed over where the other has none
+      logical :: kept = .false.
       !> Number of rows
       integer :: n_rows = 0
       !> Values, at least (columns, n_rows)
@@ -81,6 +83,8 @@ module axijoint_compare_table_table
       integer, allocatable :: increments(:)
       !> What the report says of it beside its tables; not allocated if nothing
       character(len=:), allocatable :: note
+      !> What it has and is not compared; not allocated if nothing
+      character(len=64), allocatable :: passed_over(:)
       !> Number of tables
       integer :: n_tables = 0
       !> The tables, at least n_tables
@@ -158,8 +162,10 @@ contains
       call move_alloc(from%cells, to%cells)
       call move_alloc(from%line, to%line)
       to%left_out = from%left_out
+      to%kept = from%kept
       to%n_rows = from%n_rows
       from%left_out = .false.
+      from%kept = .false.
       from%n_rows = 0
    end subroutine move_table
 
