@@ -449,6 +449,18 @@ def histories(base, folder):
     return faults
 
 
+def joints_in_another_order(base, folder):
+    """Resultants of joints by increment go by the places of the joints, which may have other numbers"""
+    deck = read_text(os.path.join(INPUTS, 'first.dat'))
+    turned = deck
+    for face, body in ((2, 1), (3, 2)):
+        turned = turned.replace(f'    {face}    {body}       0.5       0.0       0.5       1.0', f'    {face}    {body}       0.5       1.0       0.5       0.0')
+    faults = [] if turned != deck else ['nothing to turn']
+    for name, text in (('a', deck), ('b', turned)):
+        faults += base.program.run('run', '--quiet', write(folder, f'{name}.dat', text), '-o', folder).ended_with(0)
+    return faults + verdict(base.program, folder, ('a.h5', 'b.h5'), SAME, 'joint resultants of increments\n  8 rows matched by')
+
+
 def yielding(base, folder):
     """HDF5 files of bodies that yield: plastic strain, its work, and the margin count, each by itself"""
     deck = read_text(os.path.join(INPUTS, 'pile_clay.dat'))
@@ -667,7 +679,7 @@ def hurt(content, mixer):
 def tests(program):
     """One test a pair"""
     base = Base(program)
-    functions = {'HDF5': result_files, 'histories': histories, 'yielding': yielding, 'motions of cuts': cut_motions,
+    functions = {'HDF5': result_files, 'histories': histories, 'joints in another order': joints_in_another_order, 'yielding': yielding, 'motions of cuts': cut_motions,
                  'held by nodes': held_by_nodes, 'combinations': combinations, 'mechanism': mechanism,
                  'a program of the eighties': old_program, 'wrong formats': bad_formats,
                  'damaged files': damaged}

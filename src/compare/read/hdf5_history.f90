@@ -160,11 +160,50 @@ contains
          call add_things(file, listing, 'motion of cuts of increments', '/history/cut_motion', 'cut', &
             '/cuts/label', motion_columns(), .true.)
       end if
-      call add_things(file, listing, 'joint resultants of increments', '/history/joint_resultants', &
-         'joint', '/mesh/joint_label', columns, .true.)
+      call add_joint_resultants(file, listing, columns)
       if (file%has('/supports')) call add_things(file, listing, 'reactions of faces of increments', &
          '/history/supports', 'face', '/supports/face', columns, .true.)
    end subroutine add_resultants_of_increments
+
+   !> Resultants of joints by increment, at the middle of each joint, as joints may be numbered in
+   !> another way
+   subroutine add_joint_resultants(file, listing, columns)
+      !> The file
+      type(result_file_type), intent(inout) :: file
+      !> The tables
+      type(listing_type), intent(inout) :: listing
+      !> Columns of the resultants
+      type(column_type), intent(in) :: columns(:)
+
+      type(array_type) :: label, owner, place, increment, values
+      integer, allocatable :: points(:)
+      real(wp), allocatable :: middle(:, :)
+      integer :: table, i, j, k
+
+      if (.not. can_compare(file, listing, '/history/joint_resultants')) return
+      label = array(file, '/mesh/joint_label')
+      owner = array(file, '/joints/joint')
+      place = array(file, '/joints/position')
+      increment = array(file, '/history/increment')
+      values = array(file, '/history/joint_resultants')
+      if (len(file%failure) > 0) return
+      allocate (middle(2, size(label%value)), source=0.0_wp)
+      allocate (points(size(label%value)), source=0)
+      do k = 1, size(owner%value)
+         j = nint(at(owner, k))
+         if (j < 1 .or. j > size(points)) cycle
+         points(j) = points(j) + 1
+         middle(:, j) = middle(:, j) + [at(place, 1, k), at(place, 2, k)]
+      end do
+      call open_table(listing, 'joint resultants of increments', '', [new_column('increment', kind_key), &
+         new_column('joint', kind_label), coordinates(), columns], table)
+      do i = 1, size(increment%value)
+         do j = 1, size(label%value)
+            call add_row(listing%tables(table), number([at(increment, i), at(label, j), &
+               middle(:, j)/max(1, points(j)), (at(values, k, j, i), k=1, size(columns))]), 0)
+         end do
+      end do
+   end subroutine add_joint_resultants
 
    !> Columns of the motion of a section: displacements, and rotations with the signs of the moments
    function motion_columns() result(columns)
@@ -210,7 +249,7 @@ contains
       end if
       if (len(thing) > 0) then
          label = array(file, labels)
-         keys = [keys, new_column(thing, merge(kind_label, kind_key, thing == 'joint'))]
+         keys = [keys, new_column(thing, kind_key)]
       end if
       if (len(file%failure) > 0) return
       if (len(thing) == 0) values%extent = [values%extent(1), 1, values%extent(2), 1]
