@@ -42,7 +42,7 @@ contains
 
       if (.not. (listing%aligned .and. other%aligned)) return
       call file%open(listing%path)
-      if (file%has('/history')) then
+      if (is_there(file, '/history/increment')) then
          call add_increments_table(file, listing)
          call add_resultants_of_increments(file, listing)
          call add_points(file, listing)
@@ -113,7 +113,7 @@ contains
          new_column('energy', kind_other), new_column('dissipated', kind_other)])
    end subroutine add_increments_table
 
-   !> A table of numbers by increment: a column for each dataset of its name
+   !> A table of numbers by increment: a column for each dataset of its name that is there
    subroutine add_series(file, listing, title, group, columns)
       !> The file
       type(result_file_type), intent(inout) :: file
@@ -125,18 +125,34 @@ contains
       type(column_type), intent(in) :: columns(:)
 
       type(array_type) :: increment, values(size(columns))
+      logical :: there(size(columns))
       integer :: table, i, k
 
+      if (.not. file%has(group//'/increment')) return
       increment = array(file, group//'/increment')
       do k = 1, size(columns)
-         values(k) = array(file, group//'/'//columns(k)%name)
+         there(k) = file%has(group//'/'//columns(k)%name)
+         if (there(k)) values(k) = array(file, group//'/'//columns(k)%name)
       end do
-      if (len(file%failure) > 0) return
-      call open_table(listing, title, '', [new_column('increment', kind_key), columns], table)
+      if (len(file%failure) > 0 .or. .not. any(there)) return
+      call open_table(listing, title, '', [new_column('increment', kind_key), pack(columns, there)], &
+         table)
       do i = 1, size(increment%value)
          call add_row(listing%tables(table), number([at(increment, i), &
-            (at(values(k), i), k=1, size(columns))]), 0)
+            pack([(value_of(k, i), k=1, size(columns))], there)]), 0)
       end do
+
+   contains
+
+      !> A value; 0 of a dataset that is not there
+      real(wp) function value_of(k, i)
+         !> Column, increment
+         integer, intent(in) :: k, i
+
+         value_of = 0.0_wp
+         if (there(k)) value_of = at(values(k), i)
+      end function value_of
+
    end subroutine add_series
 
    !> Resultants of loads, reactions, cuts, joints and faces by increment
