@@ -87,10 +87,7 @@ contains
          end if
          select case (line%keyword)
          case ('HEADING')
-            call next_line(cards, at, line)
-            if (line%kind == line_data) sketch%title = trim(line%text)
-            if (line%kind == line_data) sketch%title_card = line%card
-            if (line%kind == line_keyword) cycle
+            call read_heading(cards, at, sketch)
          case ('NODE', 'ELEMENT')  ! are read already
          case ('NSET')
             if (parameter_of(line, 'ELSET') /= '') then
@@ -149,6 +146,27 @@ contains
       end do
       if (cards%diagnostics%n_errors == 0) call write_mesh(cards, names, materials, mesh, bodies, sketch)
    end subroutine read_abaqus
+
+   !> *HEADING: the title, and lines that become remarks
+   subroutine read_heading(cards, at, sketch)
+      !> The file
+      type(cards_type), intent(in) :: cards
+      !> The card of the keyword; the last of its data on return
+      integer, intent(inout) :: at
+      !> The new deck
+      type(sketch_type), intent(inout) :: sketch
+
+      type(line_type) :: line
+
+      do while (is_data(cards, at, line))
+         if (sketch%title_card == 0) then
+            sketch%title = trim(line%text)
+            sketch%title_card = line%card
+         else
+            call put(sketch%parts(part_notes), '! '//trim(line%text))
+         end if
+      end do
+   end subroutine read_heading
 
    !> Nodes and elements, wherever they stand: sets take what is there of them
    subroutine read_mesh(cards, mesh)

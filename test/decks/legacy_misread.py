@@ -234,6 +234,13 @@ def titles(program, folder):
     return faults
 
 
+def headings(program, folder):
+    """Further lines of a heading are remarks"""
+    got = Converted(program, folder, 'bar.inp', bar('*DLOAD', '103, P3, 5.', heading='Bar\nof two halves\nEnd'))
+    got.solve()
+    return got.faults + ([] if got.deck[1] == 'Bar' and {'! of two halves', '! End'} <= set(got.deck) else got.deck[:6])
+
+
 def force_on_axis(program, folder):
     """FORCEAX on the axis: the axial force in harmonic 0; what else there is, is left out and said to be"""
     got = Converted(program, folder, 'ring.bdf', ring('FORCEAX,1,4,0,2.,0.,0.,-5.', inner='0.')).expect('RINGLOADS', '4, 0, , -1.0E+001')
@@ -361,7 +368,7 @@ def tests(program):
         return Test(f'legacy misread: convert, {name}', lambda folder: function(program, folder, *arguments))
 
     return ([test(function.__name__.replace('_', ' '), function) for function in (body_loads, gravity_directions, sets_of_nodes, left_out, tables, boundaries_anew,
-                      radial_force_on_axis, force_of_harmonics, subcases, titles, force_on_axis,
+                      radial_force_on_axis, force_of_harmonics, subcases, titles, headings, force_on_axis,
                       moved_around, quotes, no_name)]
             + [test(f'new deck, {name}', unreadable, text, words) for name, text, words in UNREADABLE]
             + [test(name, bad, text, ending, place, words) for name, text, ending, place, words in BAD])
