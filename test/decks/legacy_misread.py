@@ -73,7 +73,7 @@ class Converted:
         return self
 
     def told(self, *words):
-        """This was said, and stands in no line that is not on the screen"""
+        """This was said"""
         self.faults += [f'not told: {text}\n{self.said[:1500]}' for text in words if text not in self.said]
         return self
 
