@@ -114,6 +114,7 @@ contains
       type(joint_field_type), allocatable :: standing
       real(wp), allocatable :: residual(:, :, :)
 
+      if (.not. allocated(mechanism%idle)) return
       if (size(mechanism%idle, 2) == 0) return
       allocate (standing, source=field)
       allocate (residual, mold=field%excess)

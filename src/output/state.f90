@@ -22,6 +22,9 @@ module axijoint_output_state
    !> Ending of a file that asks a run to end, and of a state that a run did not go on from
    character(len=*), parameter :: stop_ending = '.STOP', put_aside = '.old'
 
+   !> Number of what the bytes of a state mean: another wherever that changes
+   character(len=*), parameter :: layout = '2'
+
 contains
 
    !> Begin to keep the state of a job, from where an earlier run was if that is asked for. Of several
@@ -168,7 +171,7 @@ contains
       !> What it is of
       type(state_mark_type) :: mark
 
-      mark%program = program_name//' '//program_version
+      mark%program = program_name//' '//program_version//', layout '//layout
       mark%deck = hash_of(job%source)
       mark%options = 'of the deck'
       if (job%options%solver_given) then

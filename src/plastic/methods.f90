@@ -55,7 +55,7 @@ module axijoint_plastic_methods
       logical :: converged = .false., ran_away = .false.
       !> Whether the residual stopped falling: a smaller step may help
       logical :: stalled = .false.
-      !> Whether joints found no equilibrium on the way, and whether the iterations of the one or the other were used up
+      !> Whether joints found no equilibrium on the way, and whether that was for want of iterations
       logical :: joints_failed = .false., exhausted = .false.
       !> Ratio of the residual forces
       real(wp) :: ratio = 0.0_wp
@@ -160,8 +160,6 @@ contains
          ended = ended .or. verdict%converged .or. verdict%ran_away .or. verdict%stalled &
             .or. verdict%joints_failed .or. .not. ieee_is_finite(iterate%ratio) &
             .or. problem%solutions - course%begun >= control%most
-         verdict%exhausted = ended .and. .not. (verdict%converged .or. verdict%ran_away .or. verdict%stalled) &
-            .and. ieee_is_finite(iterate%ratio)
          if (verdict%joints_failed) then
             associate (joints => problem%joints%verdict)
                verdict%exhausted = .not. (joints%ran_away .or. joints%stalled .or. joints%at_rounding .or. joints%mechanism%loaded)
