@@ -159,7 +159,8 @@ contains
       !> Equations of all systems at most
       integer, parameter :: few = 10000
 
-      is_small = omp_get_max_threads() > 1 .and. equations%team%size == 1 .and. equations%n_kept == size(equations%systems)
+      is_small = omp_get_max_threads() > 1 .and. equations%solver%concurrent .and. equations%team%size == 1 &
+         .and. equations%n_kept == size(equations%systems)
       if (is_small) is_small = sum(equations%classes(equations%systems%class)%dofs%n_equations) <= few
    end function is_small
 
