@@ -117,12 +117,17 @@ contains
       real(wp) :: seconds, share
 
       seconds = omp_get_wtime()
-      !$omp parallel sections num_threads(merge(2, 1, is_small(structure%equations)))
-      !$omp section
-      call see_mesh()
-      !$omp section
-      call see_joints()
-      !$omp end parallel sections
+      if (is_small(structure%equations)) then
+         !$omp parallel sections num_threads(2)
+         !$omp section
+         call see_mesh()
+         !$omp section
+         call see_joints()
+         !$omp end parallel sections
+      else  ! not in a region of one thread, in which other regions would begin with new threads
+         call see_mesh()
+         call see_joints()
+      end if
       seconds = omp_get_wtime() - seconds
       share = seconds/max(tiny(1.0_wp), mesh_error%seconds + changes%planes%seconds + changes%harmonics%seconds)
       mesh_error%seconds = share*mesh_error%seconds
