@@ -152,6 +152,25 @@ def never_yields(program, folder):
     return faults
 
 
+def want_of_iterations(program, folder):
+    """One iteration is not enough for joints beside bodies that may yield: that is said, and nothing of a mechanism"""
+    deck = plug('One iteration', [('LATERAL', 0.3)], stiffness=(1e4, 2e4, 1e4), friction=30.0)
+    deck.add('YIELD', (2, 'MISES', 1e9)).add('INCREMENTS', (1.0, 1e-6, 1))
+    summary, _ = solved(program, folder, 'one', deck.text(), code=3)
+    return [] if 'INCREMENTS allows no more iterations' in str(summary['messages']) else [str(summary['messages'])]
+
+
+def rounds_foretold(program, folder):
+    """What a job with an error target is said to take is that of its last round"""
+    found = []
+    for more in ([], ['ERROR', '0.1,']):
+        path = write(folder, 'told.dat', first('1, 1.0E4, 2.0E4, 1.0E4, 0.0, 30.0', *more))
+        text = program.run('estimate', path, '--threads', '1').out
+        found.append([float(value) for value in re.findall(r'^  (?:memory|files) +([0-9.]+) MB', text, re.MULTILINE)])
+    (memory, files), (more_memory, more_files) = found
+    return [] if more_memory > memory and more_files > 5*files else [f'{found}']
+
+
 def nothing_opens(program, folder):
     """A torque on joints with cohesion, none of which is pressed or pulled: elastic, in any number of steps"""
     faults = []
@@ -287,7 +306,7 @@ def tests(program):
     """The tests of this module"""
     named = {'nothing holds': nothing_holds, 'all sticks': stays_elastic, 'a part taken back': taken_back,
              'all taken back': all_taken_back, 'stands where it was left': stands_where_it_was_left, 'slides freely': slides_freely,
-             'needs no load': needs_no_load, 'never yields': never_yields, 'nothing opens': nothing_opens, 'little friction': little_friction,
+             'needs no load': needs_no_load, 'want of iterations': want_of_iterations, 'rounds foretold': rounds_foretold, 'never yields': never_yields, 'nothing opens': nothing_opens, 'little friction': little_friction,
              'dilation and cohesion': dilates, 'in proportion': in_proportion, 'let go': let_go,
              'far beyond': far_beyond, 'unloaded without friction': no_friction_unloaded, 'rules in the ground': rules_in_ground,
              'at random': at_random}
