@@ -26,6 +26,8 @@ module axijoint_joints_history
       type(step_type) :: step
       !> Halvings that are left on the way there
       integer :: halvings = 0
+      !> Whether it is no more than a help on the way: passed over if it finds no equilibrium
+      logical :: helps = .false.
    end type target_type
 
    !> What the increments came to

@@ -34,6 +34,7 @@ contains
       do k = 1, size(history%ahead)
          call write_step(history%ahead(k)%step, writer)
          call writer%put(history%ahead(k)%halvings)
+         call writer%put(history%ahead(k)%helps)
       end do
       call write_control(history%control, writer)
       call write_loads(history%scene%loads, writer)
@@ -84,6 +85,7 @@ contains
       do k = 1, n
          call read_step(reader, history%ahead(k)%step)
          call reader%get(history%ahead(k)%halvings)
+         call reader%get(history%ahead(k)%helps)
       end do
       call read_control(reader, history%control)
       call read_loads(reader, history%scene%loads)

@@ -13,6 +13,7 @@ module axijoint_joints_stage
    use axijoint_joints_history, only : history_type, target_type
    use axijoint_joints_keeper, only : keeper_type
    use axijoint_joints_load_steps, only : step_type, first_step, next_step, halfway, on_the_way, unloads
+   use axijoint_joints_methods, only : is_newton
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type
    use axijoint_model_model, only : model_type
@@ -22,8 +23,10 @@ module axijoint_joints_stage
 
    !> A step that finds no equilibrium is halved so many times at most
    integer, parameter :: most_halvings = 6
-   !> Share of the loads that goes first where all go and joints alone hold a part: without load it would stand anywhere,
-   !> so the last bit of the load says where
+   !> One that is no more than a help is halved less often
+   integer, parameter :: few_halvings = 1
+   !> Share of the loads that NEWTON takes away first where all go and joints alone hold a part: without load it would
+   !> stand anywhere, so the last bit of the load says where. Other methods find that bit slowly, if at all
    real(wp), parameter :: most_of_it = 0.999_wp
 
    !> What the increments of a job act on
@@ -163,15 +166,15 @@ contains
       associate (increments => stage%model%increments, n => history%increment)
          next = next_step(history%at, increments(n), stage%combination)
          history%ahead = [target_type(next, most_halvings)]
-         if (unloads(history%at, next) .and. size(stage%condensed%floating) > 0 .and. .not. history%method%accumulates) &
-            history%ahead = [history%ahead, target_type(on_the_way(history%at, next, most_of_it), most_halvings)]
+         if (unloads(history%at, next) .and. size(stage%condensed%floating) > 0 .and. is_newton(history%method)) &
+            history%ahead = [history%ahead, target_type(on_the_way(history%at, next, most_of_it), few_halvings, helps=.true.)]
          call show_progress(progress, 'increment '//to_text(n)//' of '//to_text(size(increments)))
       end associate
       call stage%begin_increment()
    end subroutine go_ahead
 
-   !> Go to the loads that lie ahead next. If that finds no equilibrium, half the way there lies
-   !> ahead then, or nothing any more: the history has ended
+   !> Go to the loads that lie ahead next. If that finds no equilibrium, half the way there lies ahead then, or, where
+   !> the loads were no more than a help, those behind them, or nothing any more: the history has ended
    subroutine reach_next(stage, history)
       !> What the increments act on
       class(stage_type), intent(inout) :: stage
@@ -184,14 +187,19 @@ contains
 
       target = history%ahead(size(history%ahead))
       before = history%field
-      history%thorough = target%halvings == most_halvings .or. target%halvings == 0
+      history%thorough = target%halvings == merge(few_halvings, most_halvings, target%helps) .or. target%halvings == 0
       call stage%try(target%step, history, halvable)
       if (allocated(history%failure)) return
       if (.not. history%verdict%converged .and. halvable .and. target%halvings > 0) then
          history%field = before
          target%halvings = target%halvings - 1
          history%ahead = [history%ahead(:size(history%ahead) - 1), target, &
-            target_type(halfway(history%at, target%step), target%halvings)]
+            target_type(halfway(history%at, target%step), target%halvings, target%helps)]
+         return
+      end if
+      if (.not. history%verdict%converged .and. target%helps) then
+         history%field = before
+         history%ahead = history%ahead(:1)  ! what it was to help with
          return
       end if
       if (.not. history%verdict%converged) call stage%give_up(target%step, before, history)

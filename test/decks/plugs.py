@@ -111,6 +111,21 @@ def stands_where_it_was_left(program, folder):
     return faults
 
 
+def wholly_unloaded(program, folder):
+    """All loads go where a little of them finds no equilibrium, and where joints that are judged carried nothing"""
+    faults = []
+    scenes = ({'loads': [('AXIAL', 0.0253), ('MOMENT', -0.0504)], 'stiffness': (25.12, 251.2, 25.12), 'friction': 15.0, 'cohesion': 0.05,
+               'young': (42801.27, 167.397), 'poisson': (0.1013, 0.27154), 'details': {'gap': 2.0288e-4}, 'nodes': 4, 'harmonic': 3},
+              {'loads': [('AXIAL', 0.0731437)], 'stiffness': (18351354.8, 183513548.0, 18351354.8), 'friction': 30.0, 'cohesion': 0.5,
+               'young': (387776.886, 19618.4246), 'poisson': (0.394333, 0.155922), 'nodes': 8, 'harmonic': 1})
+    for number, scene in enumerate(scenes):
+        deck = plug('Wholly unloaded', **scene)
+        deck.add('INCREMENTS', (1.0,), (-1.0,))
+        summary, _ = solved(program, folder, 'wholly', deck.text())
+        faults += expected(f'scene {number}: status', 'converged', summary['status'])
+    return faults
+
+
 def slides_freely(program, folder):
     """Without friction the peg slides along its axis as it likes: no error is told by where it goes"""
     faults, found = [], []
@@ -305,9 +320,10 @@ def at_random(program, folder):
 def tests(program):
     """The tests of this module"""
     named = {'nothing holds': nothing_holds, 'all sticks': stays_elastic, 'a part taken back': taken_back,
-             'all taken back': all_taken_back, 'stands where it was left': stands_where_it_was_left, 'slides freely': slides_freely,
-             'needs no load': needs_no_load, 'want of iterations': want_of_iterations, 'rounds foretold': rounds_foretold, 'never yields': never_yields, 'nothing opens': nothing_opens, 'little friction': little_friction,
-             'dilation and cohesion': dilates, 'in proportion': in_proportion, 'let go': let_go,
-             'far beyond': far_beyond, 'unloaded without friction': no_friction_unloaded, 'rules in the ground': rules_in_ground,
-             'at random': at_random}
+             'all taken back': all_taken_back, 'stands where it was left': stands_where_it_was_left,
+             'wholly unloaded': wholly_unloaded, 'slides freely': slides_freely, 'needs no load': needs_no_load,
+             'want of iterations': want_of_iterations, 'rounds foretold': rounds_foretold, 'never yields': never_yields,
+             'nothing opens': nothing_opens, 'little friction': little_friction, 'dilation and cohesion': dilates,
+             'in proportion': in_proportion, 'let go': let_go, 'far beyond': far_beyond,
+             'unloaded without friction': no_friction_unloaded, 'rules in the ground': rules_in_ground, 'at random': at_random}
     return [Test(f'plugs: {name}', lambda folder, function=function: function(program, folder)) for name, function in named.items()]

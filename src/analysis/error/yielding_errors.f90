@@ -292,8 +292,7 @@ contains
       if (unloaded(history)) little = max(none, claimed*results%tolerance)
       none_left = maxval(abs(results%displacement)) <= little*history%largest_elastic
       if (none_left) none_left = maxval([(maxval(abs(history%field%stress(:, :, j) - history%field%initial)), &
-         j=1, size(history%field%stress, 3))]) <= little* &
-         maxval([0.0_wp, pack(history%largest_stress, structure%judged(structure%yielding))])
+         j=1, size(history%field%stress, 3))]) <= little*yielding_scale(structure, history)
    end function nothing_is_left
 
    !> Whether all loads were taken away
