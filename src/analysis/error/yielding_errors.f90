@@ -62,10 +62,13 @@ contains
       type(joint_change_type) :: iteration(1)
       real(wp), allocatable :: displacement(:, :, :), of_iteration(:, :, :, :), others(:, :, :, :)
       real(wp) :: start, largest
+      logical :: judged
 
       start = omp_get_wtime()
+      judged = results%converged
+      if (judged) judged = .not. nothing_is_left(structure, history, results)
       associate (condensed => structure%condensed, scene => history%scene, field => history%field)
-         if (.not. results%converged .or. nothing_is_left(structure, history, results)) then
+         if (.not. judged) then
             call mesh_error_of_held(structure, history, field, results%displacement, mesh_error)
             return
          else if (.not. history%method%accumulates) then
