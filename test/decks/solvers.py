@@ -226,12 +226,13 @@ def estimate_counts(program, folder):
 
 
 def estimated_memory(program, folder):
-    """Memory at the peak of a linear job, one of joints, one that sweeps: within 10 % of that of the run, the program itself,
-    which is larger with checks, left aside"""
+    """Memory at the peak of a linear job, one of joints, one of many harmonics: within 10 % of that of the run, the program
+    itself, which is larger with checks, left aside"""
     empty = write(folder, 'small.dat', RING.replace('1, 1, 8, 20, 20', '1, 1, 8, 2, 2'))
     faults, ground = [], {}
     for name, text in (('small', None), ('linear', RING.replace('1, 1, 8, 20, 20', '1, 1, 8, 90, 90')),
-                       ('joints', example(3, refined=6, harmonic=6, planes=33))):
+                       ('joints', example(3, refined=6, harmonic=6, planes=33)),
+                       ('many harmonics', example(3, harmonic=128, planes=513))):
         deck = write(folder, name + '.dat', text) if text else empty
         ran = program.run('run', deck, '-o', folder, '--threads', '1')
         if ran.code != 0:

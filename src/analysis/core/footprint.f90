@@ -25,6 +25,8 @@ module axijoint_analysis_core_footprint
    integer(i8), parameter :: real_bytes = storage_size(1.0_wp)/8
    !> Numbers of a joint point on a plane: jumps, stresses, states, slip, slopes, and copies
    integer(i8), parameter :: plane_numbers = 91
+   !> Matrices between modes and planes: of components that are even and odd, forth and back
+   integer(i8), parameter :: plane_matrices = 4
    !> Planes round the whole circle take so many halves of those of half of it, as measured
    integer(i8), parameter :: around = 5
    !> Planes on which the estimates of errors find joints again, times so many
@@ -113,6 +115,7 @@ contains
       footprint%joints = real_bytes*(n_systems*jumps**2 &
                                      + plane_numbers*jumps/3*max(planes, int(n_modes, i8)) &
                                      + jumps*n_modes*min(newton_vectors, jumps*n_modes))
+      if (jumps > 0) footprint%joints = footprint%joints + plane_matrix_bytes(model, modes)
       if (size(model%increments) > 1) then
          ! jumps, stresses and states are kept; earlier increments are solved again, some at a time
          footprint%joints = footprint%joints + real_bytes*(size(model%increments, kind=i8) - 1) &
@@ -124,6 +127,27 @@ contains
       footprint%joint_work = real_bytes*unknowns**2  ! the inverse
       if (jumps == 0) footprint%joint_work = 0
    end function data_footprint
+
+   !> Matrices between modes and planes: those of the job, and where it has more than harmonic 0, those of the estimates of
+   !> errors with more planes, and with as many modes again. A third of each is there for sums by halves, and in single
+   !> precision all of the ones that Newton's method multiplies with
+   pure integer(i8) function plane_matrix_bytes(model, modes) result(bytes)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Its modes
+      type(mode_type), intent(in) :: modes(:)
+
+      integer(i8) :: numbers, largest
+
+      numbers = size(modes)*int(model%n_planes, i8)
+      if (any(modes%family == family_antisymmetric)) numbers = 2*numbers
+      largest = numbers
+      if (maxval(model%harmonics) > 0) then
+         largest = 2*more_planes*numbers
+         numbers = numbers + more_planes*numbers + largest
+      end if
+      bytes = plane_matrices*real_bytes*(numbers + numbers/3 + largest/2)
+   end function plane_matrix_bytes
 
    !> Number of load cases whose answers are kept, each of one mode as a rule: where fewer act than there are increments
    pure integer function acting_cases(model)
