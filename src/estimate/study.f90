@@ -52,10 +52,10 @@ contains
       type(forecast_type), intent(out) :: forecast
       !> How large the study is
       type(study_size_type), intent(out) :: extent
-      !> None of the rows looked at can be solved
+      !> No row can be solved: why the first cannot
       type(error_type), allocatable, intent(out) :: error
 
-      type(row_type) :: row
+      type(error_type), allocatable :: refused
       real(wp) :: work(n_terms, 2), iterations
       integer, allocatable :: order(:), first(:)
       integer :: k, n_samples, n_good
@@ -70,10 +70,13 @@ contains
       n_good = 0
       do k = 1, n_samples
          call sample(first(1 + ((k - 1)*(size(first) - 1))/max(1, n_samples - 1)))
-         if (allocated(error)) return
+      end do
+      do k = 1, size(order)
+         if (n_good > 0) exit
+         call sample(order(k))
       end do
       if (n_good == 0) then
-         call fatal_error(error, exit_deck, row%message)
+         call move_alloc(refused, error)
          return
       end if
       work = work/n_good
@@ -92,8 +95,10 @@ contains
          integer, intent(in) :: number
 
          type(model_type), target :: model
+         type(row_type) :: row
          type(structure_type) :: structure
          type(timer_type) :: clock
+         type(error_type), allocatable :: why
          real(wp) :: start, finish, numbers
          integer :: again
 
@@ -103,10 +108,16 @@ contains
             call cpu_time(start)
             call make_row(table, number, shared, model, row)
             call cpu_time(finish)
-            if (len(row%message) > 0) return
+            if (len(row%message) > 0) then
+               if (.not. allocated(refused)) call fatal_error(refused, exit_deck, row%message)
+               return
+            end if
          end do
-         call plan_run(model, clock, structure, error, shared%estimated)
-         if (allocated(error)) return
+         call plan_run(model, clock, structure, why, shared%estimated)
+         if (allocated(why)) then
+            if (.not. allocated(refused)) call move_alloc(why, refused)
+            return
+         end if
          n_good = n_good + 1
          work(:, 1) = work(:, 1) + structure_work(model, structure, machine%product_rate)
          work(ordering, 1) = work(ordering, 1) + clock%cpu_seconds(phase_assemble)
