@@ -2,8 +2,9 @@
 module axijoint_command_estimate
    use, intrinsic :: iso_fortran_env, only : output_unit
    use axijoint_analysis_core_structure, only : structure_type
-   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck
+   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_memory
    use axijoint_base_kinds, only : wp
+   use axijoint_base_text, only : to_text
    use axijoint_command_estimate_table, only : print_forecast, print_counts, &
       deck_text, study_text
    use axijoint_command_job_lines, only : needs_type, add_needs, print_job_lines
@@ -115,6 +116,7 @@ contains
       !> A wrong deck; a mechanism
       type(error_type), allocatable, intent(out) :: error
 
+      type(error_type), allocatable :: no_room
       type(job_type) :: job
       type(structure_type) :: structure
       type(diagnostics_type) :: diagnostics
@@ -127,12 +129,14 @@ contains
          error = error_type(exit_deck, render(diagnostics, job%source))
          return
       end if
-      call plan_run(job%model, job%timer, structure, error)
+      call plan_run(job%model, job%timer, structure, error, no_room=no_room)
       if (allocated(error)) return
       forecast = forecast_run(job%model, job%source, structure, job%timer, machine, &
                               command%iterations)
       call add_needs(deck, forecast, machine, needs)
       call show(command, deck_text(deck, job%model, structure), job%model, forecast, machine)
+      if (allocated(no_room) .and. .not. (command%counts .or. command%job_lines)) &
+         write (output_unit, '(a)') '  a run here and now would end with exit code '//to_text(exit_memory)//':', no_room%message
    end subroutine estimate_deck
 
    !> Print a forecast as it is wanted

@@ -48,7 +48,7 @@ module axijoint_estimate_forecast
 contains
 
    !> Plan the equations of a job as a run would, and measure how long that takes
-   subroutine plan_run(model, timer, structure, error, estimated)
+   subroutine plan_run(model, timer, structure, error, estimated, no_room)
       !> The job
       type(model_type), intent(in) :: model
       !> Takes the time
@@ -59,6 +59,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Whether errors are estimated; true if absent
       logical, intent(in), optional :: estimated
+      !> How a run would end here and now for want of memory; not allocated if it has the room
+      type(error_type), allocatable, intent(out), optional :: no_room
 
       type(progress_type) :: progress
 
@@ -68,7 +70,12 @@ contains
       call timer%pop()
       if (.not. allocated(error)) return
       ! too little memory here is none of what the job takes
-      if (error%code == exit_memory .and. allocated(structure%equations)) deallocate (error)
+      if (error%code /= exit_memory .or. .not. allocated(structure%equations)) return
+      if (present(no_room)) then
+         call move_alloc(error, no_room)
+      else
+         deallocate (error)
+      end if
    end subroutine plan_run
 
    !> Forecast a run of a planned job

@@ -138,12 +138,16 @@ def memory_changes_nothing(program, folder):
 
 
 def memory_too_small(program, folder):
-    """A limit that one factor does not fit in; one that is no number"""
+    """A limit that one factor does not fit in, which `estimate` tells, too; one that is no number"""
     deck = write(folder, 'fine.dat', RING.replace('1, 1, 8, 20, 20', '1, 1, 8, 70, 70'))
     faults = []
     for limit, code, words in (('40', 6, 'the limit given leaves'), ('much', 2, 'option --memory')):
         ran = program.run('run', deck, '-o', folder, '--memory', limit)
         faults += ran.ended_with(code) + ([] if words in ran.err else [ran.err])
+    words = 'a run here and now would end with exit code 6:\nout of memory'
+    for options, told in ((('--memory', '40'), True), ((), False), (('--memory', '40', '--counts'), False)):
+        ran = program.run('estimate', deck, *options)
+        faults += ran.ended_with(0) + ([] if (words in ran.out) == told else [f'{options}: {ran.out}'])
     return faults
 
 
