@@ -43,11 +43,8 @@ contains
       real(wp), dimension(size(results%modes)) :: unbalanced, scale
       real(wp), dimension(n_resultants, size(results%modes)) :: applied, resultant, reacted
       real(wp), allocatable :: unbalance(:, :, :)
-      ! threads' stacks are small
-      real(wp), allocatable :: left(:, :), joints(:, :), spring(:, :)
-      logical, allocatable :: is_held(:, :)
       integer, allocatable :: part(:)
-      integer :: i, k, node, own(2)
+      integer :: k, own(2)
 
       call new_points(model, results)
       call solid_parts(model%mesh, part)
@@ -55,42 +52,9 @@ contains
       allocate (unbalance(n_resultants, maxval(part), size(results%modes)))
       allocate (results%reaction, results%acting, results%taken, mold=results%displacement)
       call find_solid_forces(model, structure, loading, results)
-      !$omp parallel do schedule(dynamic) private(left, joints, spring, is_held, i, node) &
-      !$omp if (worth_threads(structure%equations))
+      !$omp parallel do schedule(dynamic) if (worth_threads(structure%equations))
       do k = own(1), own(2)
-         associate (mode => results%modes(k))
-            spring = spring_force(k)
-            joints = all_joints(k)
-            is_held = held(model, mode)
-            allocate (left(3, size(spring, 2)))
-            do node = 1, size(left, 2)
-               do i = 1, 3
-                  results%taken(i, node, k) = results%taken(i, node, k) + spring(i, node)
-                  left(i, node) = loading%external(i, node, k) - results%taken(i, node, k) &
-                     - joints(i, node)
-                  results%reaction(i, node, k) = merge(-left(i, node), 0.0_wp, is_held(i, node))
-                  results%acting(i, node, k) = loading%external(i, node, k) &
-                     + results%reaction(i, node, k)
-               end do
-            end do
-            unbalanced(k) = sum(on_equations(structure%equations, k, left)**2)/mode_integral(mode)
-            scale(k) = 0.0_wp  ! displacements and temperatures load without external forces
-            do node = 1, size(left, 2)
-               do i = 1, 3
-                  left(i, node) = left(i, node) + results%reaction(i, node, k)
-                  results%reaction(i, node, k) = results%reaction(i, node, k) - spring(i, node)
-                  scale(k) = scale(k) + abs(peak%external(i, node, k)) &
-                     + abs(peak%right(i, node, k) - peak%external(i, node, k))
-               end do
-            end do
-            applied(:, k) = rigid_resultants(model%mesh%coordinates, mode, &
-                                             loading%external(:, :, k))
-            resultant(:, k) = rigid_resultants(model%mesh%coordinates, mode, peak%external(:, :, k))
-            reacted(:, k) = rigid_resultants(model%mesh%coordinates, mode, &
-                                             results%reaction(:, :, k))
-            unbalance(:, :, k) = part_resultants(model, mode, part, left)
-            deallocate (left)
-         end associate
+         call balance(results%modes(k), k)
       end do
       !$omp end parallel do
       call share_fields(structure%equations, results)
@@ -113,6 +77,47 @@ contains
       end associate
 
    contains
+
+      !> Reactions of one mode, what is left of its loads, and what these are measured by
+      subroutine balance(mode, k)
+         !> The mode, and its place
+         type(mode_type), intent(in) :: mode
+         integer, intent(in) :: k
+
+         ! threads' stacks are small
+         real(wp), allocatable :: left(:, :), joints(:, :), spring(:, :)
+         logical, allocatable :: is_held(:, :)
+         integer :: i, node
+
+         spring = spring_force(k)
+         joints = all_joints(k)
+         is_held = held(model, mode)
+         allocate (left(3, size(spring, 2)))
+         do node = 1, size(left, 2)
+            do i = 1, 3
+               results%taken(i, node, k) = results%taken(i, node, k) + spring(i, node)
+               left(i, node) = loading%external(i, node, k) - results%taken(i, node, k) - joints(i, node)
+               results%reaction(i, node, k) = merge(-left(i, node), 0.0_wp, is_held(i, node))
+               results%acting(i, node, k) = loading%external(i, node, k) + results%reaction(i, node, k)
+            end do
+         end do
+         unbalanced(k) = sum(on_equations(structure%equations, k, left)**2)/mode_integral(mode)
+         scale(k) = 0.0_wp  ! displacements and temperatures load without external forces
+         do node = 1, size(left, 2)
+            do i = 1, 3
+               left(i, node) = left(i, node) + results%reaction(i, node, k)
+               results%reaction(i, node, k) = results%reaction(i, node, k) - spring(i, node)
+               scale(k) = scale(k) + abs(peak%external(i, node, k)) &
+                  + abs(peak%right(i, node, k) - peak%external(i, node, k))
+            end do
+         end do
+         associate (x => model%mesh%coordinates)
+            applied(:, k) = rigid_resultants(x, mode, loading%external(:, :, k))
+            resultant(:, k) = rigid_resultants(x, mode, peak%external(:, :, k))
+            reacted(:, k) = rigid_resultants(x, mode, results%reaction(:, :, k))
+         end associate
+         unbalance(:, :, k) = part_resultants(model, mode, part, left)
+      end subroutine balance
 
       !> Nodal forces of the joints in one mode
       function all_joints(k) result(force)
