@@ -23,48 +23,99 @@ module axijoint_legacy_abaqus_lines
       integer :: card = 0
       !> What it says; of a keyword in capital letters without the asterisk and without parameters
       character(len=:), allocatable :: text, keyword
-      !> Fields between commas: columns, shape (2, fields)
-      integer, allocatable :: place(:, :)
+      !> Fields between commas: columns of the text, shape (2, fields); their cards, and the columns before the text of
+      !> these, shape (2, fields)
+      integer, allocatable :: place(:, :), home(:, :)
    end type line_type
 
 contains
 
-   !> The next line that is no comment; the last line of a keyword or of data with a comma at its end
-   !> goes on in the next, which is left to those who read it
+   !> The next line that is no comment. One of a keyword with a comma at its end goes on in the next that has a
+   !> parameter; one of data that does is left to those who read it
    subroutine next_line(cards, at, line)
       !> The file
       type(cards_type), intent(in) :: cards
-      !> The card before it; its own on return
+      !> The card before it; its last one on return
       integer, intent(inout) :: at
       !> The line
       type(line_type), intent(out) :: line
 
-      integer :: k, from, to
+      character(len=:), allocatable :: text
+      integer :: next
 
-      do
-         if (at >= cards%source%n_cards) return
-         at = at + 1
-         line%text = card_text(cards%source, at)
-         if (len_trim(line%text) == 0) cycle
-         if (index(adjustl(line%text), '**') == 1) cycle
-         exit
-      end do
+      call next_card(cards, at)
+      if (at > cards%source%n_cards) return
       line%card = at
       line%kind = line_data
-      allocate (line%place(2, 0))
-      from = 1
-      do while (from <= len_trim(line%text))
-         to = index(line%text(from:)//',', ',') + from - 2
-         k = verify(line%text(from:to)//'x', ' '//achar(9)) - 1
-         line%place = reshape([line%place, from + k, max(from + k - 1, &
-            from - 1 + len_trim(line%text(from:to)))], [2, size(line%place, 2) + 1])
-         from = to + 2
-      end do
+      line%text = ''
+      allocate (line%place(2, 0), line%home(2, 0))
+      call append(line, card_text(cards%source, at), at)
       if (index(adjustl(line%text), '*') /= 1) return
       line%kind = line_keyword
       line%keyword = upper(field_text(line, 1))
       line%keyword = trim(adjustl(line%keyword(2:)))
+      do while (ends_with_comma(line%text))
+         next = at
+         call next_card(cards, next)
+         if (next > cards%source%n_cards) exit
+         text = card_text(cards%source, next)
+         if (index(text, '=') == 0) exit  ! data after a comma too many
+         call append(line, text, next)
+         at = next
+      end do
    end subroutine next_line
+
+   !> The next card that is no comment and not empty; the one after the last if there is none
+   pure subroutine next_card(cards, at)
+      !> The file
+      type(cards_type), intent(in) :: cards
+      !> The card before it
+      integer, intent(inout) :: at
+
+      character(len=:), allocatable :: text
+
+      do
+         at = at + 1
+         if (at > cards%source%n_cards) return
+         text = card_text(cards%source, at)
+         if (len_trim(text) > 0 .and. index(adjustl(text), '**') /= 1) return
+      end do
+   end subroutine next_card
+
+   !> Whether a line ends with a comma
+   pure logical function ends_with_comma(text)
+      !> The line
+      character(len=*), intent(in) :: text
+
+      integer :: last
+
+      last = verify(text, ' '//achar(9), back=.true.)
+      ends_with_comma = .false.
+      if (last > 0) ends_with_comma = text(last:last) == ','
+   end function ends_with_comma
+
+   !> Append the fields of a card
+   pure subroutine append(line, text, card)
+      !> The line
+      type(line_type), intent(inout) :: line
+      !> The card and its number
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: card
+
+      integer :: k, from, to, before
+
+      before = len(line%text)
+      from = 1
+      do while (from <= len_trim(text))
+         to = index(text(from:)//',', ',') + from - 2
+         k = verify(text(from:to)//'x', ' '//achar(9)) - 1
+         line%place = reshape([line%place, before + from + k, before + max(from + k - 1, &
+            from - 1 + len_trim(text(from:to)))], [2, size(line%place, 2) + 1])
+         line%home = reshape([line%home, card, before], [2, size(line%home, 2) + 1])
+         from = to + 2
+      end do
+      line%text = line%text//text
+   end subroutine append
 
    !> The next line, if it is one of data
    logical function is_data(cards, at, line)
@@ -206,8 +257,9 @@ contains
       if (n < 1 .or. n > size(line%place, 2)) then
          call add_error(cards%diagnostics, line%card, 0, 0, text, allowed=allowed)
       else
-         call add_error(cards%diagnostics, line%card, line%place(1, n), line%place(2, n), text, &
-            found=field_text(line, n), allowed=allowed)
+         associate (card => line%home(1, n), column => line%place(:, n) - line%home(2, n))
+            call add_error(cards%diagnostics, card, column(1), column(2), text, found=field_text(line, n), allowed=allowed)
+         end associate
       end if
    end subroutine fault_of
 

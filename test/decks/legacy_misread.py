@@ -361,6 +361,20 @@ def bad(program, folder, text, ending, place, words):
     return faults + (['a new deck'] if os.path.exists(os.path.join(folder, 'new.dat')) else [])
 
 
+def continued_keywords(program, folder):
+    """A keyword that goes on after a comma at the end of its line is that of one line; data after a comma too many are data"""
+    text = bar('*DLOAD', 'EALL, GRAV, 9.81, 0., -1., 0.', before=('*ELSET, ELSET=EALL', 'LOW, UP'))
+    whole = Converted(program, folder, 'bar.inp', text)
+    apart = [re.sub(', *([A-Z]+=)', r',\n ** between\n  \1', line) if line.startswith('*') else line for line in text.split('\n')]
+    commas = [line + ',' if line in ('*ELASTIC', '*DENSITY', '*DLOAD', '*NODE') else line for line in text.split('\n')]
+    faults = whole.faults
+    for lines in (apart, commas):
+        other = Converted(program, folder, 'bar.inp', '\n'.join(lines))
+        if '\n'.join(lines) == text or other.faults or other.deck != whole.deck:
+            faults.append(f'another deck of\n{lines}')
+    return faults
+
+
 def tests(program):
     """The tests of this module"""
 
@@ -369,6 +383,6 @@ def tests(program):
 
     return ([test(function.__name__.replace('_', ' '), function) for function in (body_loads, gravity_directions, sets_of_nodes, left_out, tables, boundaries_anew,
                       radial_force_on_axis, force_of_harmonics, subcases, titles, headings, force_on_axis,
-                      moved_around, quotes, no_name)]
+                      moved_around, quotes, no_name, continued_keywords)]
             + [test(f'new deck, {name}', unreadable, text, words) for name, text, words in UNREADABLE]
             + [test(name, bad, text, ending, place, words) for name, text, ending, place, words in BAD])
