@@ -129,7 +129,7 @@ contains
       do i = 1, merge(last, 0, last > 1)
          if (is_kept(model%keep(keep_displacement), i, last)) n = n + 2.0_wp*nodal
          if (is_kept(model%keep(keep_joints), i, last)) n = n + joint
-         if (is_kept(model%keep(keep_stress), i, last)) n = n + stress
+         if (is_kept(model%keep(keep_stress), i, last)) n = n + stress + 2.0_wp*nodal  ! smoothed, too
       end do
    end function array_numbers
 
