@@ -19,7 +19,7 @@ class Machine:
     def __init__(self, program, threads):
         with tempfile.TemporaryDirectory() as folder:
             rates = os.path.join(folder, "rates")
-            subprocess.run(["gcc", "-O2", "-fopenmp", os.path.join(HERE, "memory_rates.c"), "-o", rates], check=True)
+            subprocess.run(["gcc", "-O2", "-fopenmp", os.path.join(HERE, "rates", "memory_rates.c"), "-o", rates], check=True)
             found = subprocess.run([rates], check=True, capture_output=True, text=True,
                                    env=os.environ | {"OMP_NUM_THREADS": threads}).stdout
             self.moved, self.fresh = (float(word) for word in found.split())
