@@ -2,9 +2,9 @@
 module axijoint_job_goal
    use omp_lib, only : omp_get_wtime
    use axijoint_analysis_core_remarks, only : remark_on_goal
-   use axijoint_analysis_core_results, only : results_type, round_type, error_share_type
+   use axijoint_analysis_core_results, only : results_type, round_type, error_share_type, source_iteration
    use axijoint_analysis_core_structure, only : structure_type
-   use axijoint_analysis_error_goal, only : goal_error, refine_further, room_for
+   use axijoint_analysis_error_goal, only : goal_error, unknown_source, refine_further, room_for
    use axijoint_base_error, only : error_type, fatal_error, exit_deck, exit_state, exit_stopped
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : show_progress
@@ -15,6 +15,7 @@ module axijoint_job_goal
    use axijoint_job_read, only : read_job
    use axijoint_job_remesh, only : remake_mesh, check_mesh_file
    use axijoint_job_round_record, only : round_bytes, restore_round
+   use axijoint_model_model, only : model_type, method_newton
    use axijoint_model_request, only : refinement_type
    implicit none
    private
@@ -40,7 +41,7 @@ contains
       if (allocated(error)) return
       do k = 1, size(results)
          results(k)%rounds = rounds
-         call remark_on_goal(job%model, refinement, note, results(k))
+         call remark_on_goal(job%model, refinement, note, unknown_source(job%model, results(k)), results(k))
       end do
    end subroutine refine_to_goal
 
@@ -91,7 +92,8 @@ contains
                if (allocated(error)) deallocate (error)
             else
                if (allocated(error) .or. allocated(last%failure)) return
-               if (last%error <= job%model%error_goal%target) return  ! met, or not known
+               if (last%error <= job%model%error_goal%target .and. .not. newton_would_tell(job%model, results)) &
+                  return  ! met, or not known
                if (size(rounds) >= job%model%error_goal%most_rounds) return
                before = refinement
             end if
@@ -113,6 +115,19 @@ contains
          if (allocated(solved)) deallocate (solved)
       end do
    end subroutine run_rounds
+
+   !> Whether the error would be known if the iteration were Newton's
+   pure logical function newton_would_tell(model, results) result(would)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results of its combinations
+      type(results_type), intent(in) :: results(:)
+
+      integer :: k
+
+      would = model%method /= method_newton &
+         .and. any([(unknown_source(model, results(k)), k=1, size(results))] == source_iteration)
+   end function newton_would_tell
 
    !> Refine the job, as far as unknowns are allowed. Harmonics and intervals come in whole numbers:
    !> what has more unknowns than there was room for is refined again with less

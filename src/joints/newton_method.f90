@@ -151,6 +151,7 @@ contains
       if (verdict%converged .and. n_fading(scene%laws, field) == 0) field%fading = 0.0_wp
       call end_watch(course%watch, course%residual, field, path, verdict)
       if (verdict%converged .or. verdict%ran_away .or. .not. verdict%stalled) return
+      if (course%watch%best <= control%tolerance) return  ! it was not rounding that it failed for
       verdict%at_rounding = course%watch%best*residual_norm(condensed%measure, course%residual) &
          <= rounding*residual_norm(condensed%measure, field%excess)*course%watch%steps(course%watch%k)%ratio
    end subroutine balance

@@ -1,6 +1,8 @@
 !> A finished run in a dozen lines, for the terminal
 module axijoint_output_brief
    use axijoint_analysis_core_results, only : results_type
+   use axijoint_analysis_core_totals, only : peak_type, largest_displacement, largest_pressure, &
+      count_states, n_unknowns
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_system, only : peak_memory_mb
    use axijoint_base_text, only : to_text
@@ -12,8 +14,6 @@ module axijoint_output_brief
    use axijoint_output_file_headings, only : mark_not_converged
    use axijoint_output_file_names, only : endings, files_of, file_arrays, file_listing, file_summary
    use axijoint_output_file_pending, only : join_path
-   use axijoint_output_file_totals, only : peak_type, largest_displacement, largest_pressure, &
-      count_states, n_unknowns
    use axijoint_output_listing_budget, only : sum_text, remedy_text, singular_text
    use axijoint_output_table_joint_proportion, only : proportions_text, stiffer_laws_text
    use axijoint_output_table_yield_errors, only : yield_errors_text
@@ -63,7 +63,7 @@ contains
       end if
       if (allocated(results%yield_errors)) &
          text = text//line("error estimates", yield_errors_text(results%yield_errors))
-      text = text// &
+      text = text//remark_lines(results)// &
          line("time, peak memory", seconds_text(job%timer%seconds(phase_total))//" s, "// &
          to_text(nint(peak_memory_mb()))//" MB")// &
          line("files", join_path(job%options%directory, result_name(job, results%combination))// &
@@ -128,6 +128,24 @@ contains
       end if
    end function reason_text
 
+   !> What else the user should know
+   pure function remark_lines(results) result(text)
+      !> Results
+      type(results_type), intent(in) :: results
+      !> A line a remark
+      character(len=:), allocatable :: text
+
+      integer :: k
+
+      text = ""
+      if (.not. allocated(results%remarks)) return
+      do k = 1, size(results%remarks)
+         associate (remark => results%remarks(k))
+            if (.not. (remark%says_why .or. remark%said_elsewhere)) text = text//line("remark", remark%text)
+         end associate
+      end do
+   end function remark_lines
+
    !> Stiffness of the joints beside the bodies, and what stiffer ones would change
    pure function stiffness_lines(model, results) result(text)
       !> The job
@@ -181,7 +199,7 @@ contains
 
       type(peak_type) :: peak
 
-      peak = largest_displacement(results)
+      peak = largest_displacement(results%modes, results%displacement)
       if (peak%place == 0) then
          text = line("largest displacement", "none is finite")
          return

@@ -2,6 +2,7 @@
 module axijoint_output_summary
    use axijoint_analysis_core_results, only : results_type, error_share_type, source_names
    use axijoint_analysis_core_series, only : series_type
+   use axijoint_analysis_core_totals, only : count_states, n_unknowns
    use axijoint_analysis_error_budget, only : sum_of_shares
    use axijoint_base_kinds, only : wp
    use axijoint_base_sha256, only : sha256
@@ -19,7 +20,6 @@ module axijoint_output_summary
    use axijoint_output_file_json, only : json_string, json_number, known_number, json_integers, json_strings
    use axijoint_output_file_run, only : run_type, status_name, status_error
    use axijoint_output_file_text, only : text_file_type
-   use axijoint_output_file_totals, only : count_states, n_unknowns
    use axijoint_output_listing_budget, only : sum_text, laws_at
    use axijoint_output_table_in_situ, only : in_situ_json
    use axijoint_output_table_increments, only : increments_json

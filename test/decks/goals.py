@@ -157,6 +157,25 @@ def limits(program, folder):
     return faults
 
 
+def not_known(program, folder):
+    """A target is not met by what nobody knows: what slip has left of loads that are gone; what the paper's loop leaves of several
+    increments, which Newton's method takes over"""
+    faults = []
+    text = read_text(os.path.join(INPUTS, 'first.dat'))
+    unloaded = text.replace('\nEND', '\nINCREMENTS\n1.0\n-1.0,\nERROR\n0.01\nEND')
+    summary, _ = solved(program, folder, 'unloaded', unloaded)
+    if not any('not met' in message and 'not known' in message for message in summary['messages']):
+        faults.append(f'unloaded: {summary["messages"]}')
+    found = []
+    for method in ('TRANSFER', 'NEWTON'):
+        deck = text.replace('\n    4\n', f'\n4,,,,,,{method}\n', 1).replace(
+            '\nEND', '\nINCREMENTS\n0.5, 0.03\n0.5, 0.03\nERROR\n0.5\nEND')
+        summary, _ = solved(program, folder, method, deck)
+        faults += expected(f'{method}: method', 'newton', summary['method'])
+        found.append(summary['increments'][-1]['largest_displacement'])
+    return faults + close('displacement', found[1], found[0], 0.005*found[1])
+
+
 def told(program, folder):
     """A target that is not met is a warning, once, whatever is shown besides; one that is met is none"""
     faults = []
@@ -222,7 +241,7 @@ def tests(program):
     return ([test('disc', disc), test("the paper's loop", paper_method), test('centroid', centroid), test('blocks that face others', facing),
              test('graded', graded), test('graded blocks conform', conforming),
              test('other divisions', other_divisions),
-             test('limits', limits), test('told', told), test('shared room', shared_room), test('options', swept),
+             test('limits', limits), test('not known', not_known), test('told', told), test('shared room', shared_room), test('options', swept),
              test('loads of a combination', loads_of_combinations)]
             + [test('memory', back_again)]
             + [test(f'case {number}, {nodes} nodes', case, number, nodes, refined)

@@ -22,7 +22,7 @@ module axijoint_analysis_core_in_situ_balance
       scaled_stresses, stress_before
    use axijoint_model_material, only : rule_gauss
    use axijoint_model_mesh, only : edge_nodes, n_elements, n_nodes
-   use axijoint_model_model, only : model_type, can_yield, held_components, on_axis
+   use axijoint_model_model, only : model_type, bodies_yield, can_yield, held_components, on_axis
    use axijoint_model_neighbours, only : neighbours_type, new_neighbours, element_at_edge
    implicit none
    private
@@ -63,8 +63,8 @@ module axijoint_analysis_core_in_situ_balance
 
 contains
 
-   !> Look at the states in which the in-situ stress of a combination comes to act. Jobs whose
-   !> joints can yield depend on the order, so that weight and in-situ stress must come together; of
+   !> Look at the states in which the in-situ stress of a combination comes to act. Jobs whose joints
+   !> or bodies can yield depend on the order, so that weight and in-situ stress must come together; of
    !> others the sum at the end counts
    function in_situ_balance(model, combination) result(findings)
       !> The job
@@ -95,8 +95,8 @@ contains
          .or. findings%parts%pressed > 0.0_wp)
    end function in_situ_balance
 
-   !> Ends of the increments up to the last one that changes the in-situ stress; the end alone if no
-   !> joint can yield; none if no in-situ stress acts
+   !> Ends of the increments up to the last one that changes the in-situ stress; the end alone if
+   !> nothing can yield; none if no in-situ stress acts
    function states_to_check(model, combination) result(states)
       !> The job
       type(model_type), intent(in) :: model
@@ -118,7 +118,7 @@ contains
          before = now
       end do
       states = all_states(:last)
-      if (last > 0 .and. .not. can_yield(model)) states = all_states(size(all_states):)
+      if (last > 0 .and. .not. (can_yield(model) .or. bodies_yield(model))) states = all_states(size(all_states):)
    end function states_to_check
 
    !> Parts, joints and free unknowns

@@ -6,6 +6,7 @@ module axijoint_analysis_core_joint_work
    use axijoint_base_kinds, only : wp, pi
    use axijoint_element_joint_law, only : joint_law_type, state_open
    use axijoint_fe_fourier, only : circle_integral
+   use axijoint_fe_mode, only : mode_type, same_mode
    use axijoint_joints_field, only : joint_field_type, new_joint_field, set_initial_stress
    use axijoint_joints_planes, only : planes_type
    use axijoint_joints_states, only : increment_state_type
@@ -18,8 +19,9 @@ module axijoint_analysis_core_joint_work
 contains
 
    !> Energy in the springs of all joints: of those that can yield on the planes, of others harmonic
-   !> by harmonic. Relative displacements count from the state in situ, whose stress t0 is there
-   !> without them: the energy is (t^2 - t0^2)/2k
+   !> by harmonic. Relative displacements d count from the state in situ, whose stress t0 is there
+   !> without them: the energy is (t^2 - t0^2)/2k. The initial stress of a law loads nothing: what
+   !> balances it outside of the model takes its work on d
    function joint_energy(model, structure, state, displacement) result(energy)
       !> The job
       type(model_type), intent(in) :: model
@@ -33,8 +35,8 @@ contains
       real(wp) :: energy
 
       type(model_joint_point_type), allocatable :: elastic(:)
-      real(wp), allocatable :: jump(:, :)
-      type(joint_field_type) :: in_situ
+      real(wp), allocatable :: jump(:, :), in_situ(:, :), balanced(:, :)
+      type(joint_field_type) :: before
       type(joint_law_type) :: law
       real(wp), allocatable :: weight(:)
       integer :: i, j, k
@@ -42,33 +44,37 @@ contains
       energy = 0.0_wp
       elastic = pack(structure%joint_points, &
                      .not. can_yield_at(model, structure%joint_points%material))
+      in_situ = in_situ_joint_stress(model, elastic, state%case_factor)
       do i = 1, size(structure%modes)
          jump = joint_jump(elastic, displacement(:, :, i))
          do k = 1, size(elastic)
             energy = energy + 0.5_wp*circle_integral(structure%modes(i)%harmonic) &
                *elastic(k)%weight*sum(elastic(k)%base*jump(:, k)**2)
+            if (same_mode(structure%modes(i), mode_type())) &
+               energy = energy + circle_integral(0)*elastic(k)%weight*sum(in_situ(:, k)*jump(:, k))
          end do
       end do
       if (.not. allocated(state%stress)) return
-      in_situ = new_joint_field(size(structure%condensed%points), 1, size(structure%modes), 0)
-      call set_initial_stress(model, structure%condensed%points, state%case_factor, in_situ)
+      before = new_joint_field(size(structure%condensed%points), 1, size(structure%modes), 0)
+      call set_initial_stress(model, structure%condensed%points, state%case_factor, before)
+      balanced = before%initial - before%in_situ
       weight = circle_weights(structure%planes)
       do j = 1, size(weight)
          do k = 1, size(structure%condensed%points)
             associate (point => structure%condensed%points(k))
                law = law_at(point, model%joint_materials(point%material))
-               energy = energy + 0.5_wp*weight(j)*point%weight &
-                  *sum((state%stress(:, k, j)**2 - in_situ%initial(:, k)**2)/law%stiffness, &
-                       law%stiffness > 0.0_wp)
+               energy = energy + weight(j)*point%weight &
+                  *(0.5_wp*sum((state%stress(:, k, j)**2 - before%initial(:, k)**2)/law%stiffness, &
+                               law%stiffness > 0.0_wp) - sum(balanced(:, k)*state%jump(:, k, j)))
             end associate
          end do
       end do
    end function joint_energy
 
    !> Work that shear stress has done on slip from one state to the next, by the mean of both
-   !> stresses: exact if friction does not change in between. Slip is the relative displacement
-   !> less what the springs take; of points that open none counts. Stress in situ is there before
-   !> anything moves
+   !> stresses: exact if friction does not change in between; by the second one where the first pointed
+   !> against the slip, which began after that had turned. Slip is the relative displacement less what
+   !> the springs take; of points that open none counts. Stress in situ is there before anything moves
    function sliding_work(model, structure, before, now) result(work)
       !> The job
       type(model_type), intent(in) :: model
@@ -81,7 +87,7 @@ contains
 
       integer, parameter :: shear(2) = [1, 3]
       real(wp), allocatable :: weight(:), in_situ(:, :)
-      real(wp) :: stress(2), start(2), moved(2)
+      real(wp) :: stress(2), start(2), slip(2)
       integer :: j, k
 
       work = 0.0_wp
@@ -93,17 +99,21 @@ contains
             if (now%state(k, j) == state_open) cycle
             stress = now%stress(shear, k, j)
             start = in_situ(shear, k)
-            moved = now%jump(shear, k, j)
+            slip = now%jump(shear, k, j)
             if (allocated(before%stress)) then
                start = start + before%stress(shear, k, j)
-               moved = moved - before%jump(shear, k, j)
+               slip = slip - before%jump(shear, k, j)
             end if
             associate (point => structure%condensed%points(k))
                associate (law => law_at(point, model%joint_materials(point%material)))
-                  work = work + weight(j)*point%weight*sum(0.5_wp*(start + stress) &
-                     *(moved - (stress - start)/law%stiffness(shear)), &
-                     law%stiffness(shear) > 0.0_wp)
+                  where (law%stiffness(shear) > 0.0_wp)
+                     slip = slip - (stress - start)/law%stiffness(shear)
+                  elsewhere
+                     slip = 0.0_wp
+                  end where
                end associate
+               if (dot_product(start, slip) < 0.0_wp) start = stress
+               work = work + weight(j)*point%weight*dot_product(0.5_wp*(start + stress), slip)
             end associate
          end do
       end do

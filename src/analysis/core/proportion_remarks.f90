@@ -40,6 +40,7 @@ contains
             if (.not. stiffer%known) cycle
             text = 'if ten times as stiff: '//stiffer_text(stiffer)
             remarks = [remarks, remark_type(text)]
+            remarks(size(remarks))%said_elsewhere = .true.
          end associate
       end do
    end function proportion_remarks

@@ -3,7 +3,7 @@ module axijoint_analysis_core_remarks
    use axijoint_analysis_core_motion, only : motion_text
    use axijoint_analysis_core_pins, only : pin_text
    use axijoint_analysis_core_proportion_remarks, only : proportion_remarks
-   use axijoint_analysis_core_results, only : results_type, remark_type
+   use axijoint_analysis_core_results, only : results_type, remark_type, source_names, source_iteration
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text, count_of
@@ -77,7 +77,7 @@ contains
       integer :: i
 
       if (allocated(results%mechanism)) then
-         call add(remarks, results%mechanism)
+         call add(remarks, results%mechanism, elsewhere=.true.)
       else if (.not. results%converged) then
          call add(remarks, 'the last equilibrium was at the load factor '// &
                                          to_text(history%reached))
@@ -251,7 +251,7 @@ contains
                'LAWDETAILS are left out')
          end if
       end if
-      if (results%tolerance > coarse_tolerance) then
+      if (results%tolerance > coarse_tolerance .and. .not. leaves_little(results)) then
          call add(remarks, 'a tolerance of '//to_text(results%tolerance)// &
             ' leaves joint stresses several per cent wrong (default 1E-6)')
       end if
@@ -272,13 +272,15 @@ contains
    end subroutine remark_on_accuracy
 
    !> Whether the rounds of refinement met the target, and if not, why
-   subroutine remark_on_goal(model, refinement, note, results)
+   subroutine remark_on_goal(model, refinement, note, unknown, results)
       !> The job
       type(model_type), intent(in) :: model
       !> How it was refined in the end
       type(refinement_type), intent(in) :: refinement
       !> Why its mesh was not made anew; empty if there is nothing to say
       character(len=*), intent(in) :: note
+      !> Source of error whose share is not known, 0 if all are
+      integer, intent(in) :: unknown
       !> The results, with their rounds
       type(results_type), intent(inout) :: results
 
@@ -288,7 +290,7 @@ contains
          refinement%mesh_file//', which Gmsh made of '//model%error_goal%geometry)
       if (.not. results%converged) return
       associate (last => results%rounds(size(results%rounds)), goal => model%error_goal)
-         if (last%error >= 0.0_wp .and. last%error <= goal%target) return
+         if (last%error >= 0.0_wp .and. last%error <= goal%target .and. unknown == 0) return
          if (allocated(last%failure)) then
             why = 'round '//to_text(size(results%rounds))//' '//last%failure// &
                '; these are the results of round '// &
@@ -297,6 +299,8 @@ contains
             why = 'the error of '//trim(goal_names(goal%quantity))//' is not known'
             if (any(model%truncations%left_out >= 1.0_wp)) &
                why = why//', as some load is concentrated in points'
+         else if (last%error <= goal%target) then
+            why = 'the share of '//trim(source_names(unknown))//' is not known'
          else if (size(results%rounds) >= goal%most_rounds) then
             why = 'so many rounds are allowed'
          else if (len(note) > 0) then
@@ -308,18 +312,35 @@ contains
          end if
          results%missed = 'the error target of '//to_text(100.0_wp*goal%target)//' % was not met in '// &
             count_of(size(results%rounds), 'round')//': '//why
-         call add(results%remarks, results%missed)
+         call add(results%remarks, results%missed, elsewhere=.true.)
       end associate
    end subroutine remark_on_goal
 
+   !> Whether the iteration is known to leave little of joint stress
+   pure logical function leaves_little(results)
+      !> The results
+      type(results_type), intent(in) :: results
+
+      real(wp), parameter :: little = 0.01_wp
+
+      leaves_little = .false.
+      if (.not. allocated(results%budget)) return
+      associate (error => results%budget(source_iteration)%joint_stress)
+         leaves_little = error >= 0.0_wp .and. error <= little
+      end associate
+   end function leaves_little
+
    !> Add a sentence
-   subroutine add(remarks, text)
+   subroutine add(remarks, text, elsewhere)
       !> The sentences
       type(remark_type), allocatable, intent(inout) :: remarks(:)
       !> One more
       character(len=*), intent(in) :: text
+      !> Whether the lines for the screen have it without it; false if absent
+      logical, intent(in), optional :: elsewhere
 
       remarks = [remarks, remark_type(text)]
+      if (present(elsewhere)) remarks(size(remarks))%said_elsewhere = elsewhere
    end subroutine add
 
    !> A mechanism in words

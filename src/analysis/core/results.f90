@@ -70,8 +70,9 @@ module axijoint_analysis_core_results
    type :: remark_type
       !> The sentence
       character(len=:), allocatable :: text
-      !> Whether it says why the results are no equilibrium
-      logical :: says_why = .false.
+      !> Whether it says why the results are no equilibrium, and whether the lines for the screen have what it says
+      !> without it
+      logical :: says_why = .false., said_elsewhere = .false.
    end type remark_type
 
    !> Sources of errors, in the order of the budget, and their sum

@@ -2,17 +2,17 @@
 module axijoint_analysis_error_goal
    use axijoint_analysis_core_results, only : error_share_type, results_type, &
       source_discretization, source_harmonics, &
-      source_planes, source_iteration
+      source_planes, source_iteration, source_solver
    use axijoint_analysis_error_finer_mesh, only : refine_mesh, size_mesh, least
    use axijoint_base_kinds, only : wp
    use axijoint_model_mesh, only : n_nodes
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, method_newton
    use axijoint_model_modes, only : used_modes, greatest_divisor
    use axijoint_model_request, only : error_goal_type, refinement_type, goal_joints, &
       goal_displacement, goal_energy
    implicit none
    private
-   public :: goal_error, refine_further, room_for
+   public :: goal_error, unknown_source, refine_further, room_for
 
    !> How one source of error is brought down
    type :: rule_type
@@ -58,6 +58,27 @@ contains
             size(budget))])
       end associate
    end function goal_error
+
+   !> A source whose share of the quantity that the goal is about is not known; 0 if all are. The solver has none of
+   !> joint stress
+   pure integer function unknown_source(model, results) result(source)
+      !> The job, and its goal
+      type(model_type), intent(in) :: model
+      !> Its results
+      type(results_type), intent(in) :: results
+
+      integer :: i
+
+      source = 0
+      if (.not. allocated(results%budget)) return
+      do i = 1, size(results%budget)
+         associate (share => results%budget(i))
+            if (share%source == source_solver .or. share_of(share, model%error_goal) >= 0.0_wp) cycle
+            source = share%source
+            return
+         end associate
+      end do
+   end function unknown_source
 
    !> Factor on a share
    pure real(wp) function safety_of(share, goal)
@@ -142,6 +163,12 @@ contains
       need = 0.0_wp
       mesh_order = 1.0_wp
       do i = 1, size(budget)
+         if (budget(i)%source == source_iteration .and. share_of(budget(i), model%error_goal) < 0.0_wp .and. &
+             model%method /= method_newton) then
+            refinement%newton = .true.  ! which leaves what can be told
+            changed = .true.
+            cycle
+         end if
          rule = rule_of(budget(i)%source, model%error_goal%quantity)
          excess = rule%safety*share_of(budget(i), &
             model%error_goal)/(max(rule%part, tiny(1.0_wp))*model%error_goal%target)

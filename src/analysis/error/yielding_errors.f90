@@ -70,6 +70,7 @@ contains
       associate (condensed => structure%condensed, scene => history%scene, field => history%field)
          if (.not. judged) then
             call mesh_error_of_held(structure, history, field, results%displacement, mesh_error)
+            if (results%converged) mesh_error%known = mesh_error%known .and. .not. has_moved(structure, history)
             return
          else if (.not. history%method%accumulates) then
             allocate (balanced, source=field)
@@ -96,6 +97,8 @@ contains
             results%joint_errors(2))
          call take_share(structure, history, results, largest, changes%harmonics, others(:, :, :, 2), &
             results%joint_errors(3))
+         ! what slip has left is as wrong as the mesh was under the loads that are gone
+         if (unloaded(history)) mesh_error%known = .false.
       end associate
    end subroutine estimate_yielding_errors
 
@@ -297,6 +300,21 @@ contains
       if (none_left) none_left = maxval([(maxval(abs(history%field%stress(:, :, j) - history%field%initial)), &
          j=1, size(history%field%stress, 3))]) <= little*yielding_scale(structure, history)
    end function nothing_is_left
+
+   !> Whether bodies that joints alone hold stand elsewhere than at first. That is as wrong as the mesh was under the loads
+   !> that moved them
+   logical function has_moved(structure, history)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+
+      real(wp), allocatable :: motion(:, :, :)
+
+      allocate (motion(3, size(history%loading%right, 2), size(structure%modes)), source=0.0_wp)
+      call add_motions(structure%condensed%floating, history%field%offset, motion)
+      has_moved = maxval(abs(motion)) > none*history%largest_elastic
+   end function has_moved
 
    !> Whether all loads were taken away
    pure logical function unloaded(history)

@@ -1,12 +1,12 @@
 !> Displacements and stresses at points of lines
 module axijoint_output_file_line_values
    use axijoint_analysis_core_results, only : results_type
+   use axijoint_analysis_core_totals, only : circle_type, new_circle, total_displacement, total_stress
    use axijoint_base_kinds, only : wp
    use axijoint_fe_shape, only : shape_element
    use axijoint_model_mesh, only : max_element_nodes
    use axijoint_model_model, only : model_type
    use axijoint_model_request, only : line_type, line_point_type
-   use axijoint_output_file_totals, only : circle_type, new_circle, total_displacement, total_stress
    implicit none
    private
    public :: line_displacement, line_stress, line_displacements, line_stresses

@@ -1,7 +1,7 @@
 !> What the listing says about approximations: what was left out without any error, and
 !> the error that each of the others leaves
 module axijoint_output_listing_budget
-   use axijoint_analysis_core_results, only : results_type, error_share_type, source_names
+   use axijoint_analysis_core_results, only : results_type, error_share_type, source_names, source_solver
    use axijoint_analysis_error_budget, only : sum_of_shares, is_known
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text, fine_percent
@@ -228,6 +228,8 @@ contains
       !> Such as 4.62 %, most by discretization (2.31 %)
       character(len=:), allocatable :: text
 
+      text = "not known"
+      if (.not. is_judged(budget, shares)) return
       text = fine_percent(total)
       if (.not. is_known(budget, shares)) text = "at least "//text
       if (total > 0.0_wp) then
@@ -237,6 +239,16 @@ contains
          end associate
       end if
    end function quantity_text
+
+   !> Whether anything but rounding is known
+   pure logical function is_judged(budget, shares)
+      !> The budget
+      type(error_share_type), intent(in) :: budget(:)
+      !> Its shares of a quantity
+      real(wp), intent(in) :: shares(:)
+
+      is_judged = any(shares >= 0.0_wp .and. budget%source /= source_solver)
+   end function is_judged
 
    !> What would halve the largest shares of displacement and of joint stress; empty if there are
    !> none
@@ -250,7 +262,7 @@ contains
 
       text = ""
       place = [maxloc(budget%displacement, 1), maxloc(budget%joint_stress, 1)]
-      if (budget(place(1))%displacement > 0.0_wp) text = budget(place(1))%remedy
+      if (budget(place(1))%displacement > 0.0_wp .and. is_judged(budget, (budget%displacement))) text = budget(place(1))%remedy
       if (.not. budget(place(2))%joint_stress > 0.0_wp .or. place(1) == place(2)) return
       if (len(text) > 0) text = text//"; "
       text = text//budget(place(2))%remedy

@@ -2,6 +2,7 @@
 !> reactions and equilibrium
 module axijoint_output_listing_solution
    use axijoint_analysis_core_results, only : results_type, n_resultants, torque
+   use axijoint_analysis_core_totals, only : circle_type, new_circle, total_displacement, n_unknowns
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_system, only : peak_memory_mb
    use axijoint_base_text, only : to_text
@@ -14,7 +15,6 @@ module axijoint_output_listing_solution
    use axijoint_output_file_headings, only : write_heading, write_result_heading, mark_not_converged
    use axijoint_output_file_row, only : row_type
    use axijoint_output_file_text, only : text_file_type
-   use axijoint_output_file_totals, only : circle_type, new_circle, total_displacement, n_unknowns
    use axijoint_output_listing_choice, only : chosen_places, chosen_lines, none_asked, write_left
    use axijoint_output_listing_extremes, only : extremes_type, begin_table
    implicit none

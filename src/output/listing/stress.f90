@@ -1,6 +1,7 @@
 !> Tables of the listing that show stresses of the solids and of the joints
 module axijoint_output_listing_stress
    use axijoint_analysis_core_results, only : results_type
+   use axijoint_analysis_core_totals, only : circle_type, new_circle, total_stress
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text
    use axijoint_element_joint_law, only : state_stick, state_slip, state_open
@@ -9,7 +10,6 @@ module axijoint_output_listing_stress
    use axijoint_model_request, only : print_stresses, print_nodal, print_states
    use axijoint_output_file_row, only : row_type
    use axijoint_output_file_text, only : text_file_type
-   use axijoint_output_file_totals, only : circle_type, new_circle, total_stress
    use axijoint_output_listing_choice, only : chosen_places, none_asked
    use axijoint_output_listing_extremes, only : extremes_type, begin_table
    implicit none

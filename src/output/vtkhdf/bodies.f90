@@ -1,13 +1,13 @@
 !> The bodies swept through theta, with displacements and stresses: NAME.vtkhdf
 module axijoint_output_vtkhdf_bodies
    use axijoint_analysis_core_results, only : results_type
+   use axijoint_analysis_core_totals, only : new_circle
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : i8
    use axijoint_model_model, only : model_type
    use axijoint_output_file_hdf5, only : hdf5_file_type, kind_real, kind_long
    use axijoint_output_file_hdf5_series, only : hdf5_series_type
    use axijoint_output_file_run, only : run_type
-   use axijoint_output_file_totals, only : new_circle
    use axijoint_output_vtkhdf_grid, only : write_frame, write_steps, write_cell_labels, point_group
    use axijoint_output_vtkhdf_swept_mesh, only : swept_mesh_type, n_points
    use axijoint_output_vtkhdf_swept_section, only : section_type, plane_type, make_section, &

@@ -9,6 +9,7 @@ module axijoint_output_vtkhdf_joints
    use axijoint_analysis_core_increment_fields, only : field_of_state
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_analysis_core_totals, only : circle_type, new_circle, total_displacement
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp, i8
    use axijoint_element_joint_law, only : xi, eta, theta
@@ -18,7 +19,6 @@ module axijoint_output_vtkhdf_joints
    use axijoint_output_file_hdf5, only : hdf5_file_type, kind_real, kind_long
    use axijoint_output_file_hdf5_series, only : hdf5_series_type
    use axijoint_output_file_run, only : run_type
-   use axijoint_output_file_totals, only : circle_type, new_circle, total_displacement
    use axijoint_output_vtkhdf_grid, only : write_frame, write_steps, write_cell_labels, &
       point_group, cell_group
    use axijoint_output_vtkhdf_joint_surface, only : surface_type, make_surface

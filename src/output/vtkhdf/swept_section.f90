@@ -3,12 +3,12 @@
 module axijoint_output_vtkhdf_swept_section
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use axijoint_analysis_core_results, only : results_type, nodal_stress_type
+   use axijoint_analysis_core_totals, only : circle_type
    use axijoint_base_kinds, only : wp
    use axijoint_element_principal, only : principal_stresses
    use axijoint_fe_shape, only : shape_element
    use axijoint_model_mesh, only : n_elements
    use axijoint_model_model, only : model_type, on_axis
-   use axijoint_output_file_totals, only : circle_type
    use axijoint_output_vtkhdf_grid, only : sweep_planes, is_circle
    use axijoint_output_vtkhdf_swept_mesh, only : swept_mesh_type, new_swept_mesh, add_solid
    implicit none

@@ -1,5 +1,5 @@
 !> Sums of harmonics at an angle, and the extreme values of a run
-module axijoint_output_file_totals
+module axijoint_analysis_core_totals
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use axijoint_analysis_core_results, only : results_type
    use axijoint_base_kinds, only : wp, pi
@@ -92,34 +92,59 @@ contains
       n_unknowns = sum(results%solves%n_equations)
    end function n_unknowns
 
-   !> Largest length of the displacement vector at steps of 5 degrees. A node
-   !> whose amplitudes together stay below the largest found is passed over,
-   !> and one that has no finite displacement.
-   pure function largest_displacement(results) result(peak)
-      !> Results
-      type(results_type), intent(in) :: results
+   !> Largest length of the displacement vector at steps of 5 degrees, at the first node that has it. The modes of a
+   !> node together cannot give more than the sum of their amplitudes, by which most nodes need not be looked at
+   pure function largest_displacement(modes, displacement) result(peak)
+      !> The modes
+      type(mode_type), intent(in) :: modes(:)
+      !> Displacement amplitudes, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
       !> Length, node, angle
       type(peak_type) :: peak
 
+      real(wp), parameter :: rounding = 1.0e-12_wp
       type(circle_type) :: circles(0:search_intervals)
-      real(wp) :: length
-      integer :: node, i, last
+      type(peak_type) :: likely
+      real(wp), allocatable :: total(:, :)
+      real(wp) :: most(size(displacement, 2))
+      integer :: node, i, k, last
 
+      if (size(most) == 0 .or. size(modes) == 0) return
       last = search_intervals
-      if (all(results%modes%family == family_symmetric)) last = search_intervals/2
+      if (all(modes%family == family_symmetric)) last = search_intervals/2
       do i = 0, last
-         circles(i) = new_circle(results%modes, 2.0_wp*pi*real(i, wp)/real(search_intervals, wp))
+         circles(i) = new_circle(modes, 2.0_wp*pi*real(i, wp)/real(search_intervals, wp))
       end do
-      do node = 1, size(results%displacement, 2)
-         associate (amplitude => results%displacement(:, node, :))
-            if (.not. all(ieee_is_finite(amplitude))) cycle
-            if (norm2(sum(abs(amplitude), dim=2)) <= peak%value) cycle
-            do i = 0, last
-               length = norm2(total_displacement(amplitude, circles(i)))
-               if (length > peak%value) peak = peak_type(length, node, circles(i)%angle)
-            end do
-         end associate
+      total = abs(displacement(:, :, 1))
+      do k = 2, size(modes)
+         total = total + abs(displacement(:, :, k))
       end do
+      most = (1.0_wp + rounding)*sqrt(sum(total**2, 1))
+      call look(maxloc(most, 1, mask=ieee_is_finite(most)), likely)
+      do node = 1, size(most)
+         if (ieee_is_finite(most(node)) .and. most(node) >= likely%value .and. most(node) > peak%value) &
+            call look(node, peak)
+      end do
+
+   contains
+
+      !> Look round a node
+      pure subroutine look(node, peak)
+         !> The node; 0 if there is none
+         integer, intent(in) :: node
+         !> The largest so far
+         type(peak_type), intent(inout) :: peak
+
+         real(wp) :: length
+         integer :: i
+
+         if (node == 0) return
+         do i = 0, last
+            length = norm2(total_displacement(displacement(:, node, :), circles(i)))
+            if (length > peak%value) peak = peak_type(length, node, circles(i)%angle)
+         end do
+      end subroutine look
+
    end function largest_displacement
 
    !> Largest pressure -sigma of the joint points; its value is negative if
@@ -153,4 +178,4 @@ contains
       count_states = count(results%joint_state == state)
    end function count_states
 
-end module axijoint_output_file_totals
+end module axijoint_analysis_core_totals

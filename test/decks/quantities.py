@@ -1,0 +1,133 @@
+"""What is followed from increment to increment: work, energy and dissipation balance where they must, whatever stress was there before;
+the largest displacement is one number, whoever tells it"""
+import csv
+import json
+import os
+import re
+
+from hard_decks import close, solved
+from plugs import first, plug
+from support import INPUTS, expected, Test, read_text, write
+
+# Two discs, one on the other, with a joint between: pressure from above, where a case is, is a step of its own
+DISCS = """TITLE
+Two discs
+CONTROL
+0,,,2
+MATERIALS
+1,1.0E4,0.3,1.8
+LAWS
+1,1.0E4,1.0E4,1.0E4,{law}
+{before}BLOCKS
+1,1,8,2,2
+0,0,1,1
+2,1,8,2,2
+0,-1,1,0
+FACES
+1,1,0,1,1,1
+2,1,0,0,1,0
+3,2,0,0,1,0
+4,2,0,-1,1,-1
+5,1,1,0,1,1
+6,2,1,-1,1,0
+INTERFACES
+1,2,3
+FIXEDFACES
+4,111
+5,100
+6,100
+{loads}END
+"""
+PRESSED = 'PRESSURES\n1,0,50.\n'
+IN_GROUND = """CASE
+1,ground
+INSITU
+,2.,18.,.5
+PRESSURES
+1,0,18.
+GRAVITY
+-10.,
+CASE
+2,load
+PRESSURES
+1,0,50.
+COMBINE
+1,1,1.,2,1.
+INCREMENTS
+1.,1E-9,,1
+0.5,1E-9,,2
+0.5,1E-9,,2
+"""
+
+
+def last_increment(program, folder, text):
+    """Increments of a deck that converges"""
+    summary, _ = solved(program, folder, 'quantities', text)
+    return summary['increments']
+
+
+def energies(program, folder):
+    """Loads do the work that is stored: elastic joints and others that stick, in the ground, with a stress before that loads nothing"""
+    faults = []
+    for law in (',,ELASTIC', '0.,30.'):
+        for before, loads in (('', PRESSED + 'INCREMENTS\n0.5,1E-9\n0.5,1E-9\n'), ('', IN_GROUND),
+                              ('LAWDETAILS\n1,,,,,,,-1000.\n', PRESSED + 'INCREMENTS\n0.5,1E-9\n0.5,1E-9\n')):
+            if before and 'ELASTIC' in law:
+                continue
+            last = last_increment(program, folder, DISCS.format(law=law, before=before, loads=loads))[-1]
+            faults += close(f'{law} {before}{loads[:4]}: energy', last['work'], last['energy'] + last['dissipated'], 1e-9*last['work'])
+    return faults
+
+
+def dissipation(program, folder):
+    """Friction takes work and gives none back, be all of it turned in one step"""
+    faults = []
+    for friction in ('10.0', '30.0'):
+        text = first(f'1, 1.0E4, 2.0E4, 1.0E4, 0.0, {friction}', 'INCREMENTS', '1.0,', '-1.0,')
+        series = last_increment(program, folder, text)
+        faults += [f'phi = {friction}: {now["dissipated"]} after {before["dissipated"]}' for before, now in zip(series, series[1:])
+                   if now['dissipated'] < before['dissipated']]
+        faults += [] if series[0]['dissipated'] > 0.0 else [f'phi = {friction}: nothing slides']
+    return faults
+
+
+def largest_displacement(program, folder):
+    """Of many harmonics together: on the screen, in summary and table of a study, and of points that are named the largest"""
+    text = read_text(os.path.join(INPUTS, 'first.dat')).replace('\nEND', '\nPOINTS\n1, 0.5, -0.5, 1, rim\nEND')
+    ran = program.run('run', write(folder, 'whole.dat', text), '-o', folder)
+    faults = ran.ended_with(0)
+    told = float(re.search(r'^largest displacement +(\S+)', ran.out, re.MULTILINE).group(1))
+    found = json.loads(read_text(os.path.join(folder, 'whole.json')))['increments'][-1]['largest_displacement']
+    faults += close('on the screen', found, told, 1e-5*found)
+    write(folder, 'rows.csv', 'LAWS 1 PHI\n30.0\n')
+    faults += program.run('study', 'rows.csv', 'whole.dat', folder=folder).ended_with(0)
+    with open(os.path.join(folder, 'rows.study.csv'), encoding='utf-8') as file:
+        row = next(csv.DictReader(file))
+    return faults + close('of the study', found, float(row['largest_displacement']), 1e-12*found)
+
+
+def remarks(program, folder):
+    """What the user should know stands on the screen, too"""
+    text = read_text(os.path.join(INPUTS, 'first.dat')).replace('\nEND', '\nHARMONICS\n1, 4\nEND')
+    ran = program.run('run', write(folder, 'left_out.dat', text), '-o', folder)
+    messages = json.loads(read_text(os.path.join(folder, 'left_out.json')))['messages']
+    said = re.findall(r'^remark +(.+)$', ran.out, re.MULTILINE)
+    faults = [] if any('results may be far off' in line for line in said) else [ran.out]
+    return faults + expected('remarks', messages, said)
+
+
+def fading(program, folder):
+    """A state of cohesion that is not lost in the end is not given up for rounding far below the tolerance"""
+    deck = plug('Fades', [('AXIAL', -0.862305264804), ('MOMENT', 0.84299)], stiffness=(153658.7, 307317.4, 153658.7), friction=35.0,
+                cohesion=1.0, young=(2e4, 5e3), poisson=(0.2, 0.3), above=0.6, head=0.5, nodes=4, across=(2, 3), harmonic=3,
+                details={'slip': 'RESULTANT', 'opening': 'REVERSIBLE', 'dilation': 32.647})
+    ran = program.run('run', write(folder, 'fades.dat', deck.text()), '-o', folder)
+    messages = ' '.join(json.loads(read_text(os.path.join(folder, 'fades.json')))['messages'])
+    found = re.search(r'a tolerance of (\S+) can be reached', messages)
+    return [] if ran.code in (0, 3, 4) and not (found and float(found.group(1)) < 1e-6) else [messages]
+
+
+def tests(program):
+    """The tests of this module"""
+    return [Test(f'quantities: {function.__name__.replace("_", " ")}', lambda folder, function=function: function(program, folder))
+            for function in (energies, dissipation, largest_displacement, remarks, fading)]
