@@ -15,7 +15,7 @@ module axijoint_command_study
    use axijoint_command_run, only : print_error, speaks
    use axijoint_command_study_processes, only : solve_in_processes, &
       worth_processes
-   use axijoint_deck_text_field, only : kind_word
+   use axijoint_deck_text_field, only : kind_word, kind_code
    use axijoint_job_job, only : job_name
    use axijoint_model_model, only : model_type
    use axijoint_output_file_echo, only : deck_text
@@ -427,7 +427,7 @@ contains
          if (.not. table%given(k, number)) cycle
          if (len(text) > 0) text = text//', '
          text = text//trim(table%columns(k)%name)//' = '
-         if (table%columns(k)%kind%kind == kind_word) then
+         if (any(table%columns(k)%kind%kind == [kind_word, kind_code])) then
             text = text//value_text(table, k, number)
          else
             text = text//to_text(table%values(k, number))

@@ -9,13 +9,13 @@ module axijoint_study_directions
 
 contains
 
-   !> Unit vectors: of two cases at equal angles, the first along the first case; of three on a
+   !> Unit vectors: of one case to and fro; of two cases at equal angles, the first along the first case; of three on a
    !> spiral round the sphere (Swinbank and Purser, Q. J. R. Meteorol. Soc. 132, 2006); of more
    !> drawn
    function spread_directions(positive, n) result(directions)
       !> Whether a case acts with positive factors alone, shape (cases)
       logical, intent(in) :: positive(:)
-      !> How many
+      !> How many; of one case there are two, or one, at most
       integer, intent(in) :: n
       !> Shape (cases, n)
       real(wp), allocatable :: directions(:, :)
@@ -24,11 +24,12 @@ contains
       real(wp) :: from, to, angle, height, share
       integer :: i, k
 
+      if (size(positive) == 1) then
+         directions = reshape([1.0_wp, -1.0_wp], [1, min(n, merge(1, 2, positive(1)))])
+         return
+      end if
       allocate (directions(size(positive), n))
       select case (size(positive))
-      case (1)
-         directions(1, :) = 1.0_wp
-         if (.not. positive(1)) directions(1, 2:) = -1.0_wp
       case (2)
          from = merge(-0.5_wp*pi, 0.0_wp, positive(1) .and. .not. positive(2))
          to = from + merge(2.0_wp, merge(0.5_wp, 1.0_wp, all(positive)), .not. any(positive))*pi

@@ -34,6 +34,9 @@ module axijoint_study_envelope
    real(wp), parameter :: left_open = 1.0_wp/64.0_wp
    !> Factors grow to at most this power of two times the first one
    integer, parameter :: most_doublings = 40
+   !> Where even the first of them finds nothing, the search begins anew with so small a part of what had none, so often
+   integer, parameter :: most_beginnings = 3
+   real(wp), parameter :: smaller = 2.0_wp**(-12)
    !> Rounds of a search, each closing in on what the one before it left open
    integer, parameter :: most_rounds = 6
 
@@ -65,12 +68,15 @@ contains
       real(wp), allocatable :: factors(:)
       real(wp) :: before(2)
       integer(i8) :: start, now, rate
-      integer :: k, round
+      integer :: k, round, n_smaller
 
       call system_clock(start, rate)
       capacity%message = ''
       factors = [first, (first*2.0_wp**k, k=0, most_doublings)]
-      do round = 1, most_rounds
+      n_smaller = 0
+      round = 0
+      do while (round < most_rounds)
+         round = round + 1
          before = [capacity%factor, capacity%without]
          call follow(model, structure, control, direction, factors, timer, progress, capacity, &
             error)
@@ -84,8 +90,13 @@ contains
             capacity%factor = before(1)  ! another path came farther
             capacity%without = before(2)
             exit
-         else if (.not. capacity%factor > 0.0_wp .or. &
-                  capacity%without - capacity%factor <= tolerance*capacity%without) then
+         else if (.not. capacity%factor > 0.0_wp) then
+            ! nothing was reached: the first factor may have been far too large
+            if (n_smaller == most_beginnings .or. .not. capacity%without > 0.0_wp) exit
+            n_smaller = n_smaller + 1
+            round = 0
+            factors = [(smaller*capacity%without*2.0_wp**max(0, k - 1), k=0, most_doublings)]
+         else if (capacity%without - capacity%factor <= tolerance*capacity%without) then
             exit
          else
             factors = [path_to(capacity%factor), capacity%without - capacity%factor]

@@ -11,7 +11,7 @@ module axijoint_study_files
    use axijoint_study_quantities, only : name_length
    use axijoint_study_rows, only : row_type
    use axijoint_study_statistics, only : statistics_type, new_statistics, statistic_names
-   use axijoint_study_table, only : study_table_type, value_text
+   use axijoint_study_table, only : study_table_type, value_text, values_on_cards
    use axijoint_study_undertaking, only : undertaking_type, commit_pair
    implicit none
    private
@@ -149,7 +149,7 @@ contains
       call file%attribute('/', 'version', program_version)
       call file%attribute('/', 'columns', joined((table%columns%name)))
       call file%attribute('/', 'quantities', joined(names))
-      call file%write('/varied', merge(table%values, missing(), table%given), &
+      call file%write('/varied', merge(values_on_cards(table), missing(), table%given), &
          'What varies, nan where the value of the deck stays, words by their place among those '// &
          'allowed; (column, row)')
       call file%write('/exit_code', (rows%code), 'Exit code of the job of each row; (row)')

@@ -17,7 +17,7 @@ module axijoint_study_table
       quantile
    implicit none
    private
-   public :: study_table_type, read_study_table, change_entries, value_text
+   public :: study_table_type, read_study_table, change_entries, value_text, values_on_cards
 
    !> Most rows of a study
    integer, parameter :: most_rows = 10000000
@@ -133,9 +133,10 @@ contains
    pure function places_of(text) result(places)
       !> The line
       character(len=*), intent(in) :: text
-      !> The cells, without blanks at their ends
+      !> The cells, without blanks and tabs at their ends, or quotes about all of them
       type(place_type), allocatable :: places(:)
 
+      character(len=*), parameter :: blanks = ' '//achar(9)
       integer :: k, first, last, n
 
       n = count([(text(k:k) == ',', k=1, len(text))]) + 1
@@ -143,8 +144,16 @@ contains
       first = 1
       do k = 1, n
          last = index(text(first:)//',', ',') + first - 2
-         places(k)%first = first + verify(text(first:last)//'.', ' ') - 1
-         places(k)%last = len_trim(text(:last))
+         associate (from => places(k)%first, to => places(k)%last)
+            from = first + verify(text(first:last)//'.', blanks) - 1
+            to = first + verify(text(first:last), blanks, back=.true.) - 1
+            if (to > from) then
+               if (text(from:from) == '"' .and. text(to:to) == '"') then
+                  from = from + 1
+                  to = to - 1
+               end if
+            end if
+         end associate
          if (places(k)%first > last) places(k) = place_type(first, first - 1)
          first = last + 2
       end do
@@ -477,6 +486,9 @@ contains
             call add_error(diagnostics, line, 1, len(text), &
             'nothing says how many rows are drawn', &
                mend='add a column SAMPLES with the number')
+      else if (present(diagnostics) .and. own_value(columns, cells, own_samples, 0) > 0) then
+         call add_error(diagnostics, line, 1, len(text), 'nothing is drawn of which SAMPLES could say how much', &
+            mend='leave SAMPLES blank on this line, or give a distribution, such as NORMAL 30 2')
       end if
       if (present(n_rows)) n_rows = int(min(rows, real(most_rows + 1, wp)))
    end subroutine read_line
@@ -634,5 +646,28 @@ contains
          end if
       end associate
    end function value_text
+
+   !> All values as they would stand on cards, words by their place among those allowed
+   pure function values_on_cards(table) result(values)
+      !> The table
+      type(study_table_type), intent(in) :: table
+      !> Shape (columns, rows)
+      real(wp) :: values(size(table%values, 1), size(table%values, 2))
+
+      integer :: k
+
+      values = table%values
+      do k = 1, size(table%columns)
+         if (table%columns(k)%kind%kind == kind_code) values(k, :) = digits_of(nint(values(k, :)))
+      end do
+   end function values_on_cards
+
+   !> The number of three digits 0 or 1 that a code is written as
+   elemental real(wp) function digits_of(code)
+      !> The code
+      integer, intent(in) :: code
+
+      digits_of = 100.0_wp*ibits(code, 2, 1) + 10.0_wp*ibits(code, 1, 1) + ibits(code, 0, 1)
+   end function digits_of
 
 end module axijoint_study_table

@@ -367,6 +367,7 @@ FAULTS = (
     ('LAWS 1 PHI\n0:100:10\n', 'the friction angle leaves its range', '0 <= phi < 90'),
     ('LAWS 1 PHI\nNORMAL 30\n', 'NORMAL takes 2 numbers', 'UNIFORM low high'),
     ('LAWS 1 PHI\nNORMAL 30 2\n', 'nothing says how many rows are drawn', 'add a column SAMPLES'),
+    ('LAWS 1 PHI, SAMPLES\n30, 10\n', 'nothing is drawn', 'leave SAMPLES blank'),
     ('LAWS 1 PHI, SAMPLES\nNORMAL 30 2, 0\n', 'the number of SAMPLES is too small', '1 to 999999999'),
     ('LAWS 1 PHI, SAMPLES\nNORMAL 60 20, 500\n', 'a value is drawn that the card does not take', 'TRUNCATED'),
     ('LAWS 1 PHI, LAWS 1 phi\n1, 2\n', 'this column is there before', ''),
@@ -482,6 +483,12 @@ def capacities(program, folder):
         found = float(row['capacity'])
         if not -0.003 <= found/(weight*slope) - 1 <= 1e-6 or row['exit_code'] != '4':
             faults.append(f'slides at {found}, not at {weight*slope}: {row}')
+    light = write(folder, 'light.dat', read_text(deck).replace('AXIAL      -2.0', 'AXIAL   -2.0E-7'))
+    rows, more = envelope(program, folder, light, '--cases', '2')
+    faults += more + expected('directions of one case', ['1.0', '-1.0'], [str(float(row['direction of case 2'])) for row in rows])
+    for row in rows:
+        if abs(float(row['capacity'])/(weight*slope*1e-7) - 1) > 0.01:
+            faults.append(f'a light block slides at {row["capacity"]}, not at {weight*slope*1e-7}')
     (row,), more = envelope(program, folder, deck, '--cases', '4+', '--directions', '1', '--tolerance', '0.002')
     faults += more
     exact = 2/3*weight*slope
@@ -506,6 +513,19 @@ def capacities(program, folder):
     return faults
 
 
+def as_written(program, folder):
+    """Heads in quotes, tabs beside commas, symbols of fields; a code is told as it was written"""
+    deck = write(folder, 'first.dat', input_deck('first.dat'))
+    write(folder, 'written.csv', '"BLOCKS 2 n1"\t,\tFACES 4 r1 , FIXEDFACES 1 CODE\n6,2.0\t,101\n,,111\n')
+    ran = program.run('study', 'written.csv', deck, folder=folder)
+    rows = rows_of(os.path.join(folder, 'written.study.csv'))
+    faults = ran.ended_with(4)
+    faults += expected('code', ['101', '111'], [row['FIXEDFACES 1 CODE'] for row in rows])
+    faults += expected('elements', ['6', ''], [row['BLOCKS 2 N1'] for row in rows])
+    faults += expected('exit codes', ['4', '0'], [row['exit_code'] for row in rows])
+    return faults + ([] if 'FIXEDFACES 1 CODE = 101' in ran.err else [ran.err])
+
+
 def tests(program):
     """All of them"""
     found = [Test(f'studies/every field of {deck}', lambda folder, deck=deck: every_field(program, folder, deck))
@@ -518,6 +538,7 @@ def tests(program):
         Test('studies/processes', lambda folder: processes(program, folder)),
         Test('studies/wrong tables', lambda folder: wrong_tables(program, folder)),
         Test('studies/taken names', lambda folder: taken_names(program, folder)),
+        Test('studies/as written', lambda folder: as_written(program, folder)),
         Test('studies/bad rows', lambda folder: bad_rows(program, folder)),
         Test('studies/samples', lambda folder: samples(program, folder)),
         Test('studies/arrays', lambda folder: arrays(program, folder)),

@@ -14,7 +14,7 @@ module axijoint_deck_section_blocks
    use axijoint_deck_text_diagnostics, only : add_error
    use axijoint_deck_text_entry, only : integer_of, real_of, reals_of, is_good, field_fault, &
       card_fault, first_card
-   use axijoint_deck_text_field, only : field_type, integer_field, real_field, described
+   use axijoint_deck_text_field, only : field_type, integer_field, with_symbol, real_field, described
    use axijoint_model_strips, only : grid_type, strip_type, side_ends
    implicit none
    private
@@ -49,11 +49,9 @@ contains
           described(integer_field('the number of nodes per element', 11, 15, 3, 9), &
                     'nodes per element', &
                     limits='3, 4, 6, 8, 9'), &
-          described(integer_field('the number of elements along 1-2', 16, 20, 1, &
-          largest_division), &
+          described(with_symbol(integer_field('the number of elements along 1-2', 16, 20, 1, largest_division), 'n1'), &
                     'n1: elements along side 1-2'), &
-          described(integer_field('the number of elements along 2-3', 21, 25, 1, &
-          largest_division), &
+          described(with_symbol(integer_field('the number of elements along 2-3', 21, 25, 1, largest_division), 'n2'), &
                     'n2: elements along side 2-3'), &
           described(ratio('the ratio along 1-2', 26), &
                     'ratio of the last to the first element along 1-2'), &
@@ -73,7 +71,7 @@ contains
 
       do i = 0, 7
          fields(i + 1) = real_field(axis(mod(i, 2))//' of corner '//to_text(i/2 + 1), 10*i + 1, &
-                                    symbol=axis(mod(i, 2)))
+                                    symbol=axis(mod(i, 2))//to_text(i/2 + 1))
          if (mod(i, 2) == 0) fields(i + 1)%low = 0.0_wp
       end do
       fields%card = 2

@@ -13,7 +13,7 @@ module axijoint_deck_section_faces
    use axijoint_deck_text_common_fields, only : number, body, length
    use axijoint_deck_text_entry, only : integer_of, reals_of, is_good, &
       field_fault, lack_fault, first_card
-   use axijoint_deck_text_field, only : described
+   use axijoint_deck_text_field, only : described, with_symbol
    implicit none
    private
    public :: faces_section, lay_faces, face_ends
@@ -36,11 +36,11 @@ contains
       section%stage = stage_faces
       section%read => read_faces
       section%fields = [number('the face', 1), body(6), &
-                        described([length('r of the first point', 11, 0.0_wp), &
-                                   length('z of the first point', 21)], &
+                        described([with_symbol(length('r of the first point', 11, 0.0_wp), 'r1'), &
+                                   with_symbol(length('z of the first point', 21), 'z1')], &
                                   'r1 z1: first point', limits='r ≥ 0'), &
-                        described([length('r of the last point', 31, 0.0_wp), &
-                                   length('z of the last point', 41)], &
+                        described([with_symbol(length('r of the last point', 31, 0.0_wp), 'r2'), &
+                                   with_symbol(length('z of the last point', 41), 'z2')], &
                                   'r2 z2: last point', limits='r ≥ 0')]
    end function faces_section
 

@@ -4,7 +4,7 @@ module axijoint_deck_text_field
    use axijoint_base_text, only : to_text
    implicit none
    private
-   public :: field_type, integer_field, real_field, word_field, code_field, text_field, described
+   public :: field_type, integer_field, with_symbol, real_field, word_field, code_field, text_field, described
    public :: allowed_text, in_range
    public :: kind_integer, kind_real, kind_word, kind_code, kind_text
    public :: largest_number, largest_real, smallest_real
@@ -97,6 +97,19 @@ contains
       field%required = .not. present(default)
       if (present(default)) field%default = real(default, wp)
    end function integer_field
+
+   !> A field with a symbol
+   pure function with_symbol(field, symbol) result(named)
+      !> The field
+      type(field_type), intent(in) :: field
+      !> Its symbol
+      character(len=*), intent(in) :: symbol
+      !> The same with it
+      type(field_type) :: named
+
+      named = field
+      named%symbol = symbol
+   end function with_symbol
 
    !> A real field, of 10 columns
    pure function real_field(name, first, from, above, to, below, default, symbol) result(field)
