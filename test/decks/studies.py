@@ -516,7 +516,7 @@ def capacities(program, folder):
 def as_written(program, folder):
     """Heads in quotes, tabs beside commas, symbols of fields; a code is told as it was written"""
     deck = write(folder, 'first.dat', input_deck('first.dat'))
-    write(folder, 'written.csv', '"BLOCKS 2 n1"\t,\tFACES 4 r1 , FIXEDFACES 1 CODE\n6,2.0\t,101\n,,111\n')
+    write(folder, 'written.csv', '"BLOCKS 2 n1"\t,\tFACES 4 r2 , FIXEDFACES 1 CODE\n6,2.0\t,101\n,,111\n')
     ran = program.run('study', 'written.csv', deck, folder=folder)
     rows = rows_of(os.path.join(folder, 'written.study.csv'))
     faults = ran.ended_with(4)
