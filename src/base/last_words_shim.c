@@ -249,9 +249,10 @@ void axijoint_signal_stack(void)
 }
 
 /* From now on such signals end in words, too; not where somebody else heeds them, as the run-time library does in
-   a build for debugging */
+   a build for debugging. That nobody reads what is printed any more is no reason to end: exit codes mean something. */
 void axijoint_heed_faults(void)
 {
+   signal(SIGPIPE, SIG_IGN);
    const int numbers[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
    axijoint_signal_stack();
    for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {

@@ -44,8 +44,7 @@ module axijoint_base_stop
 
 contains
 
-   !> From now on SIGTERM, SIGINT and SIGUSR1 are wishes; a second SIGINT ends the program at once,
-   !> and SIGPIPE, of an output that nobody reads any more, does not
+   !> From now on SIGTERM, SIGINT and SIGUSR1 are wishes; a second SIGINT ends the program at once
    subroutine heed_signals(with_others)
       !> Whether several processes work together: what counts is what they agree on
       logical, intent(in) :: with_others

@@ -21,13 +21,11 @@ static void note_signal(int number)
    wish = number;
 }
 
-/* From now on take note of signals, but of none that this process was told to ignore. That nobody
-   reads what is printed any more is no reason to end. Where several processes work together, what
-   counts is the wish that they have agreed on. */
+/* From now on take note of signals, but of none that this process was told to ignore. Where several
+   processes work together, what counts is the wish that they have agreed on. */
 void axijoint_heed_signals(int with_others)
 {
    together = with_others;
-   signal(SIGPIPE, SIG_IGN);
    const int numbers[] = {SIGTERM, SIGINT, SIGUSR1};
    for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
       struct sigaction action, before;

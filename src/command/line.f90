@@ -309,6 +309,10 @@ contains
 
       integer :: stat
 
+      if (len_trim(value) == 0) then  ! such as of a variable of a script that was never set
+         call fatal_error(error, exit_deck, 'option '//option//' has an empty value')
+         return
+      end if
       select case (option)
       case ('-o')
          command%options%directory = value

@@ -57,6 +57,7 @@ CASES = (
     (('run',), 2, '', 'no deck given'),
     (('check',), 2, '', 'no deck given'),
     (('run', FIRST, '-o'), 2, '', 'option -o needs DIR'),
+    (('run', FIRST, '-o', ''), 2, '', 'option -o has an empty value'),
     (('estimate', FIRST, '--iterations', '0'), 2, '', "option --iterations: found '0', allowed is"),
     (('estimate', FIRST, '--estimates'), 2, '', 'options --estimates and --part go with --study TABLE'),
     (('estimate', FIRST, FIRST, '--study', 'rows.csv'), 2, '', 'a study has one table and one deck; use: axijoint estimate'),
@@ -230,6 +231,14 @@ def closed_pipe(program, folder):
     faults = expected('files', ['first.h5', 'first.json', 'first.lis'], sorted(os.listdir(folder)))
     if re.search('Backtrace|Fortran', ran.stderr):
         faults.append(f'found a crash\n{ran.stderr}')
+    bad = write(folder, 'bad.dat', 'TITLE\n')
+    for command, code in ((f'check {FIRST} {bad}', 2), ('help card', 0), (f'estimate {FIRST} {bad}', 2)):
+        reader, writer = os.pipe()
+        os.close(reader)
+        ran = subprocess.run([program.path, *command.split()], cwd=folder, env=program.environment, stdout=writer, stderr=subprocess.PIPE,
+                             check=False, timeout=60)
+        os.close(writer)
+        faults += expected(f'exit code of {command}', code, ran.returncode)
     return faults
 
 
