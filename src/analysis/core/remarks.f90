@@ -92,8 +92,7 @@ contains
       if (history%verdict%at_rounding .and. .not. results%unsettled > 0.0_wp) then
          call add(remarks, 'rounding allows no smaller residual ratio: the stress of open '// &
             'joints so '// &
-                  'stiff is large; a tolerance of '//to_text(10.0_wp*results%residual_ratio)// &
-                  ' can be reached')
+                  'stiff is large; '//within_reach(10.0_wp*results%residual_ratio))
          return
       end if
       if (results%converged .or. allocated(results%mechanism)) return
@@ -119,9 +118,7 @@ contains
           results%mismatch > results%tolerance)) then
          call add(remarks, trim(merge('bodies that yield', 'the joints       ', &
             bodies_yield(model)))//' are balanced to the tolerance, the whole structure is '// &
-            'not: rounding; '// &
-                  'a tolerance of '//to_text(10.0_wp*max(results%residual_ratio, &
-                  results%mismatch))//' can be reached')
+            'not: rounding; '//within_reach(10.0_wp*max(results%residual_ratio, results%mismatch)))
          return
       end if
       if (history%verdict%ran_away) then
@@ -329,6 +326,18 @@ contains
          leaves_little = error >= 0.0_wp .and. error <= little
       end associate
    end function leaves_little
+
+   !> What tolerance could be reached
+   pure function within_reach(tolerance) result(text)
+      !> The tolerance
+      real(wp), intent(in) :: tolerance
+      !> The words
+      character(len=:), allocatable :: text
+
+      text = 'a tolerance of '//to_text(tolerance)//' can be reached'
+      if (.not. tolerance < 1.0_wp) text = 'no tolerance can be reached: stiffnesses out of all proportion, '// &
+         'or next to nothing that holds a part?'
+   end function within_reach
 
    !> Add a sentence
    subroutine add(remarks, text, elsewhere)
