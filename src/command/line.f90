@@ -309,13 +309,11 @@ contains
 
       integer :: stat
 
-      if (len_trim(value) == 0) then  ! such as of a variable of a script that was never set
-         call fatal_error(error, exit_deck, 'option '//option//' has an empty value')
-         return
-      end if
       select case (option)
       case ('-o')
          command%options%directory = value
+         if (len_trim(value) == 0) &  ! such as of a variable of a script that was never set
+            call fatal_error(error, exit_deck, 'option -o has an empty value')
       case ('--solver')
          call find_solver(command%solvers, upper(value), command%options%solver, &
             command%options%solver_given)

@@ -47,8 +47,8 @@ module axijoint_joints_history
       !> How the last step ended, and whether sweeps ran away from a state that Newton's method finds
       type(verdict_type) :: verdict
       logical :: strayed = .false.
-      !> Whether the step at work is tried in all ways
-      logical :: thorough = .true.
+      !> Whether the step at work is tried in all ways, and whether no smaller one follows
+      logical :: thorough = .true., smallest = .false.
       !> Load steps in equilibrium in which cohesion fades over an opening, for the law has no state
       !> without that
       integer :: n_faded = 0

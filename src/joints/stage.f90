@@ -188,6 +188,7 @@ contains
       target = history%ahead(size(history%ahead))
       before = history%field
       history%thorough = target%halvings == merge(few_halvings, most_halvings, target%helps) .or. target%halvings == 0
+      history%smallest = target%halvings == 0
       call stage%try(target%step, history, halvable)
       if (allocated(history%failure)) return
       if (.not. history%verdict%converged .and. halvable .and. target%halvings > 0) then

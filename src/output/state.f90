@@ -23,7 +23,7 @@ module axijoint_output_state
    character(len=*), parameter :: stop_ending = '.STOP', put_aside = '.old'
 
    !> Number of what the bytes of a state mean: another wherever that changes
-   character(len=*), parameter :: layout = '2'
+   character(len=*), parameter :: layout = '3'
 
 contains
 

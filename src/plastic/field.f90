@@ -69,6 +69,8 @@ module axijoint_plastic_field
       !> an increment
       real(wp), allocatable :: dissipation(:, :)
       logical :: begins = .true.
+      !> Whether steps go down the potential by limited-memory BFGS, as the job's method found one without equilibrium
+      logical :: goes_down = .false.
    end type body_field_type
 
 contains

@@ -18,7 +18,7 @@ module axijoint_plastic_increments
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, body_lbfgs, body_transfer
    use axijoint_plastic_bodies, only : bodies_type, new_bodies
    use axijoint_plastic_elastic, only : to_nodes, elastic_response
    use axijoint_plastic_field, only : commit
@@ -144,18 +144,43 @@ contains
       logical, intent(out) :: halvable
 
       halvable = .true.
-      if (allocated(step%steered)) then
-         call steer_to(self, step, history)
-      else
-         call put(self, step, history)
-      end if
+      call begin_step()
       if (allocated(history%failure)) return
       call balance(self, step, history)
       if (allocated(history%failure)) return
+      if (.not. self%bodies%verdict%converged .and. history%smallest .and. may_go_down(self)) then
+         self%bodies%field%goes_down = .true.
+         call begin_step()
+         if (allocated(history%failure)) return
+         call balance(self, step, history)
+         if (allocated(history%failure)) return
+         self%bodies%field%goes_down = self%bodies%verdict%converged
+      end if
       if (allocated(step%steered)) call put_found(self, step, history)
       if (self%bodies%verdict%converged) call commit_step(self, step, history)
       history%verdict%converged = self%bodies%verdict%converged
+
+   contains
+
+      !> Put the loads on, or the displacement that is given instead
+      subroutine begin_step()
+         if (allocated(step%steered)) then
+            call steer_to(self, step, history)
+         else
+            call put(self, step, history)
+         end if
+      end subroutine begin_step
+
    end subroutine try_step
+
+   !> Whether a step that found no equilibrium may yet go down a potential
+   pure logical function may_go_down(stage)
+      !> What the increments act on
+      type(body_increments_type), intent(in) :: stage
+
+      may_go_down = stage%problem%has_potential .and. .not. stage%bodies%field%goes_down &
+         .and. all(stage%model%body_method /= [body_lbfgs, body_transfer])
+   end function may_go_down
 
    !> Iterate the step to the loads that were put on
    subroutine balance(stage, step, history)
@@ -170,7 +195,7 @@ contains
       type(body_control_type) :: control
 
       associate (bodies => stage%bodies, increment => stage%model%increments(history%increment))
-         control%method = stage%model%body_method
+         control%method = merge(body_lbfgs, stage%model%body_method, bodies%field%goes_down)
          control%tolerance = increment%tolerance
          control%most = increment%max_iterations
          if (allocated(stage%problem%joints)) then

@@ -609,6 +609,39 @@ def in_situ_history(folder, program):
     return faults + ran.ended_with(0) + expected('warnings', '', ran.err)
 
 
+def bent(folder, program):
+    """A solid bar of Tresca's criterion, bent by a given rotation of its end until all of it yields: where Anderson's mix stops, the
+    potential leads on, to the plastic moment 4/3 b^3 of unit strength"""
+    steps = 10
+    run(program, folder, f"""TITLE
+A bar that is bent
+CONTROL
+7, , , 2
+MATERIALS
+1, 1000.0, 0.3
+YIELD
+1, TRESCA, 1.0
+BLOCKS
+1, 1, 8, 4, 1
+0, 0, 1, 0.5
+FACES
+1, 1, 0, 0, 1, 0
+2, 1, 0, 0.5, 1, 0.5
+FIXEDFACES
+1, 010
+RESTRAINTS
+1, 101, , , 0, 1
+MOVEDFACES
+2, 1, , 0.0, , , 0.02, , S
+INCREMENTS
+{f"{1/steps}, 1E-6" + chr(10)}END
+""".replace(f'{1/steps}, 1E-6\n', f'{1/steps}, 1E-6\n'*steps))
+    text = read_text(os.path.join(folder, 'yielding.lis'))
+    table = text[text.index('REACTIONS OF SUPPORTED FACES'):]
+    row = next(line.split() for line in table.split('\n') if re.match(r' +1 +[-0-9]', line))
+    return off('moment', abs(float(row[4])), 4/3, 0.02)
+
+
 def pulled(cohesion, factors):
     """A pile in clay, pulled by displacements in units of the load 2 pi R h s_u; its joint is pressed. Clay and pile
     keep their radius at both ends, so that all is shear in vertical planes: the stress is V/(2 pi r h), whatever yields"""
@@ -818,7 +851,7 @@ def tests(program):
             made('joint or soil, Tresca', weaker_of_both('TRESCA')), made('families', families),
             made('harmonics', harmonics), made('back and forth', back_and_forth),
             made('disc in clay', disc_in_clay), made('footing on clay', footing_on_clay),
-            made('errors estimated', estimates), made('odd harmonics', odd_harmonics), made('joint in weight', joint_in_weight), made('history in situ', in_situ_history),
+            made('errors estimated', estimates), made('odd harmonics', odd_harmonics), made('joint in weight', joint_in_weight), made('history in situ', in_situ_history), made('bent', bent),
             made('pulled out', pulled_out), made('found loads beside joints', found_loads),
             made('Newton beside joints', newton_beside_joints),
             made('cohesion that is lost', cohesion_that_is_lost),
