@@ -257,6 +257,13 @@ contains
             ' of the load are not balanced on some part: see EQUILIBRIUM')
       end if
       associate (last => results%path(size(results%path)))
+         associate (laws => model%joint_materials(structure%condensed%points%material)%law)
+            if (last%n_slip > 0 .and. last%n_open > 0 .and. any(laws%cohesion > 0.0_wp .and. laws%dilation > 0.0_wp &
+                                                                .and. laws%opening == opening_reversible)) then
+               call add(remarks, 'cohesion that comes back, beside dilation: other states may be in equilibrium, '// &
+                  'far from this one; steps and mesh decide. BOND in LAWDETAILS lets none come back')
+            end if
+         end associate
          if (last%n_slip + last%n_open > 0 .and. all(model%harmonics > 0)) then
             call add(remarks, 'joints that open or slip act in harmonic 0, '// &
                'which HARMONICS leaves out: results may be far off')
