@@ -13,7 +13,7 @@ module axijoint_analysis_core_remarks
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_watch, only : runaway
    use axijoint_model_model, only : model_type, bodies_yield
-   use axijoint_model_request, only : goal_names, refinement_type
+   use axijoint_model_request, only : goal_names, refinement_type, is_kept, keep_series
    implicit none
    private
    public :: remarks_on, remark_on_goal, mechanism_text
@@ -41,6 +41,7 @@ contains
       type(remark_type), allocatable :: remarks(:)
 
       character(len=:), allocatable :: pins
+      integer :: i
 
       allocate (remarks(0))
       if (size(results%path) > 0) then
@@ -59,6 +60,10 @@ contains
       pins = pin_text(model, structure, history%loading, field, results)
       if (len(pins) > 0) call add(remarks, pins)
       if (allocated(results%stiffer)) remarks = [remarks, proportion_remarks(model, results)]
+      associate (last => size(model%increments))
+         if (.not. all(is_kept(model%keep(keep_series), [(i, i=1, last)], last))) call add(remarks, &
+            'work and dissipation are sums over the increments that SERIES of KEEP keeps: of longer steps than were made')
+      end associate
    end function remarks_on
 
    !> Why the increments ended as they did
