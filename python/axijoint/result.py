@@ -45,8 +45,9 @@ class Result:
         self.path = pathlib.Path(path)
         with h5py.File(self.path, "r") as file:
             self.attributes = {name: text_of(value) for name, value in file.attrs.items()}
-        if self.attributes.get("program") != "axijoint":
-            raise ValueError(f"{path} is no result file of axijoint")
+            whole = {"title", "status", "combination"} <= self.attributes.keys() and "modes" in file
+        if self.attributes.get("program") != "axijoint" or not whole:  # files of studies, or of swept bodies
+            raise ValueError(f"{path} is no result file NAME.h5 of axijoint")
         self.title = self.attributes["title"].strip()
         self.status = self.attributes["status"]
         self.combination = int(self.attributes["combination"])

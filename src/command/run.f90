@@ -14,7 +14,7 @@ module axijoint_command_run
    use axijoint_deck_text_diagnostics, only : diagnostics_type, render
    use axijoint_job_combination, only : solve_combination, combination_label
    use axijoint_job_goal, only : refine_to_goal
-   use axijoint_job_job, only : job_type, job_name, deck_name, standard_input
+   use axijoint_job_job, only : job_type, job_name, deck_name, result_name, standard_input
    use axijoint_job_read, only : read_job
    use axijoint_output_claim, only : claim_type, claim_output, release_output
    use axijoint_output_brief, only : brief_text, status_text, reason_text
@@ -103,6 +103,7 @@ contains
 
       exit_code = exit_ok
       call begin(deck, command, job, error)
+      if (.not. allocated(error)) call check_results(job, command%decks, error)
       call check_stop(error)
       if (.not. allocated(error) .and. speaks(command)) then
          call check_output(job, error)
@@ -304,6 +305,34 @@ contains
       end do
    end subroutine check_names
 
+   !> Results of combinations, of joints swept round the axis and listings of other programs have longer names than the
+   !> deck, which may be those of another
+   subroutine check_results(job, decks, error)
+      !> The job
+      type(job_type), intent(in) :: job
+      !> All decks of this call
+      type(word_type), intent(in) :: decks(:)
+      !> The clash
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: name
+      integer :: i, k
+
+      do i = 1, size(decks)
+         if (job_name(decks(i)%text) == job_name(job%deck)) cycle
+         do k = 1, size(job%model%combinations)
+            name = result_name(job, combination_label(job, k))
+            if (.not. (job_name(decks(i)%text) == name .or. &
+                       (job%model%sweep%wanted .and. job_name(decks(i)%text) == name//'.joints') .or. &
+                       (job%model%old_listing .and. job_name(decks(i)%text) == name//'.owen-hinton'))) cycle
+            call fatal_error(error, exit_deck, 'results would be written to files of '//decks(i)%text//', '// &
+                             job_name(decks(i)%text)//'.*'//new_line('a')// &
+                             'mend: run them one after the other with different -o, or rename one')
+            return
+         end do
+      end do
+   end subroutine check_results
+
    !> Print an error where errors go
    subroutine print_error(deck, error)
       !> Deck; empty if the error belongs to none
@@ -311,7 +340,7 @@ contains
       !> The error
       type(error_type), intent(in) :: error
 
-      if (error%code == exit_deck .and. len(deck) > 0) then
+      if (error%code == exit_deck .and. len(deck) > 0 .and. index(error%message, ': error: ') > 0) then
          write (error_unit, '(a)') error%message  ! names file and line itself
       else if (len(deck) > 0) then
          write (error_unit, '(a)') 'axijoint: '//deck_name(deck)//': '//error%message

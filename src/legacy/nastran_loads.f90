@@ -160,6 +160,10 @@ contains
       direction = [direction(2), -direction(1)]/norm2(direction)
       from = degree*real_in(cards, entry, 6, 0.0_wp)
       to = degree*real_in(cards, entry, 7, 360.0_wp)
+      if (.not. to > from) then
+         call fault_in(cards, entry, 7, 'the second angle is not above the first', 'PHI1 < PHI2, such as 330 and 390 degrees')
+         return
+      end if
       case%n_faces = case%n_faces + 1
       call put(sketch%parts(part_chains), to_text(case%n_faces)//', '//to_text(nodes(1))//', '// &
          to_text(nodes(2)))

@@ -252,6 +252,7 @@ contains
          pictures = pictures_of(name, bodies, surfaces)
          !$omp parallel sections num_threads(min(2, max(omp_get_max_threads(), team%sharers)))
          !$omp section
+         call arrays%mute()
          call write_results(arrays, run, job%source, messages, job%model, results)
          call arrays%finish(unfinished)
          !$omp section

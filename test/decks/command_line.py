@@ -242,6 +242,19 @@ def closed_pipe(program, folder):
     return faults
 
 
+def longer_names(program, folder):
+    """Results of combinations and of swept joints have longer names than their deck: none replaces those of another deck of the call"""
+    faults = []
+    first = read_text(FIRST)
+    combined = first.replace('RESULTANTS', 'CASE\n1, all\nRESULTANTS').replace('\nEND', '\nCOMBINE\n1, 1, 1.0\n2, 1, 0.5\nEND')
+    for decks, options in ((('job.dat', 'job.1.dat'), ()), (('job.1.dat', 'job.dat'), ()), (('swept.dat', 'swept.joints.dat'), ('--vtk',))):
+        for name in decks:
+            write(folder, name, combined if name == 'job.dat' else first)
+        ran = program.run('run', *decks, '--quiet', *options, folder=folder)
+        faults += ran.ended_with(2) + ([] if 'results would be written to files of' in ran.err else [ran.err])
+    return faults + program.run('run', 'swept.dat', 'swept.joints.dat', '--quiet', folder=folder).ended_with(0)
+
+
 def documented_decks(program, folder):
     """The decks of the manuals pass the check without a warning"""
     faults = []
@@ -269,7 +282,7 @@ def input_decks(program, _):
 def tests(program):
     """One test a command line"""
     functions = {'several decks': several_decks, 'lost output': output_lost,
-                 'closed pipe': closed_pipe,
+                 'closed pipe': closed_pipe, 'longer names': longer_names,
                  'standard input': standard_input, '--quiet': quiet, '--verbose': verbose,
                  'environment': environment, 'completion': completed, 'manual page': manual_page, 'decks of the manuals': documented_decks,
                  'decks of inputs': input_decks}

@@ -273,6 +273,7 @@ BAD = (
      'CENTRIF of this line acts on element 101, and not alike on element 1'),
     ('gravity of no set', bar('*DLOAD', 'NONE, GRAV, 10., 0., -1.'), 'inp', r':\d+:1-4', 'there is no set of this name'),
     ('gravity without direction', bar('*DLOAD', ', GRAV, 10.'), 'inp', r':\d+', 'GRAV has no direction'),
+    ('pressure over nothing', ring('PRESAX,1,5.,3,4,330.,30.'), 'bdf', r':\d+:22-24', 'the second angle is not above the first'),
     ('a negative square', bar('*DLOAD', ', CENTRIF, -4., 0., 0., 0., 0., 1., 0.'), 'inp', r':\d+:12-14', 'no square of an angular velocity'),
 )
 

@@ -56,7 +56,10 @@ contains
       integer :: c, i, j, k, s
 
       found = .true.
-      change = pack([(c, c=1, size(excess, 4))], [(any(abs(excess(:, :, :, c)) > 0.0_wp), c=1, size(excess, 4))])
+      allocate (change(0))
+      do c = 1, size(excess, 4)  ! all ranks decide alike
+         if (.not. equations%team%all_of(.not. any(abs(excess(:, :, :, c)) > 0.0_wp))) change = [change, c]
+      end do
       if (size(change) == 0) return
       call new_workspaces(equations, spaces)
       !$omp parallel do schedule(dynamic) private(b, c, i, j, k) num_threads(size(spaces)) &

@@ -241,8 +241,9 @@ contains
          largest = largest_vector(results%modes, displacement)
          if (change%known .and. .not. condensed%shared) then
             call bound_share(structure, history, largest, change, share)
-            if (share%displacement <= wanted%displacement .and. &
-                share%joint_stress <= wanted%joint_stress) return
+            ! each rank has a bound by the factors that it has
+            if (condensed%team%all_of(share%displacement <= wanted%displacement .and. &
+                                      share%joint_stress <= wanted%joint_stress)) return
          end if
          if (.not. change%known) return
          displacement = 0.0_wp

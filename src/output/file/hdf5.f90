@@ -44,6 +44,8 @@ module axijoint_output_file_hdf5
    contains
       !> Create under a temporary name
       procedure :: create
+      !> Let another thread write
+      procedure, nopass :: mute
       !> Make a group
       procedure :: group
       !> Write an array or a text as a dataset
@@ -113,7 +115,7 @@ contains
             ": the HDF5 library does not start"//new_line("a")//"mend: check its installation")
          return
       end if
-      call h5eset_auto_f(0, status)
+      call self%mute()
       call set_last_error(0)
       call self%storage%open(self%failure)
       status = -1
@@ -126,6 +128,13 @@ contains
       call discard(path)  ! a file without its first bytes may be there
       call io_error(error, "open", path, self%failure%errno)
    end subroutine create
+
+   !> The library prints nothing of failures in this thread, which are told in other words; each thread has a say of its own
+   subroutine mute()
+      integer :: status
+
+      call h5eset_auto_f(0, status)
+   end subroutine mute
 
    !> Make a group
    subroutine group(self, name)
