@@ -14,7 +14,7 @@ module axijoint_analysis_static
    use axijoint_analysis_error_budget, only : new_budget
    use axijoint_analysis_error_corrections, only : correct_rounding, keep_claim, solver_keeps_claim
    use axijoint_analysis_error_discretization, only : estimate_discretization
-   use axijoint_analysis_error_largest_values, only : largest_vector
+   use axijoint_analysis_core_totals, only : largest_vector
    use axijoint_analysis_error_plastic_errors, only : estimate_plastic_errors
    use axijoint_analysis_error_stiffer_joints, only : compare_stiffer
    use axijoint_analysis_error_yielding_errors, only : estimate_yielding_errors, yielding_scale

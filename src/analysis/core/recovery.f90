@@ -89,8 +89,9 @@ contains
          logical, allocatable :: is_held(:, :)
          integer :: i, node
 
-         spring = spring_force(k)
-         joints = all_joints(k)
+         spring = spring_force(structure, mode, results%displacement(:, :, k))
+         joints = joint_force(structure%joint_points, mode%harmonic, &
+            stress_amplitude(structure%joint_points, mode, results%displacement(:, :, k), field, k), size(spring, 2))
          is_held = held(model, mode)
          allocate (left(3, size(spring, 2)))
          do node = 1, size(left, 2)
@@ -119,31 +120,23 @@ contains
          unbalance(:, :, k) = part_resultants(model, mode, part, left)
       end subroutine balance
 
-      !> Nodal forces of the joints in one mode
-      function all_joints(k) result(force)
-         !> Place of the mode
-         integer, intent(in) :: k
-         !> Forces on components, shape (3, nodes)
-         real(wp), allocatable :: force(:, :)
-
-         force = joint_force(structure%joint_points, results%modes(k)%harmonic, &
-            stress_amplitude(structure%joint_points, results%modes(k), &
-                             results%displacement(:, :, k), field, k), n_nodes(model%mesh))
-      end function all_joints
-
-      !> Nodal forces that hold the springs in one mode
-      function spring_force(k) result(force)
-         !> Place of the mode
-         integer, intent(in) :: k
-         !> Forces on components, shape (3, nodes)
-         real(wp), allocatable :: force(:, :)
-
-         allocate (force(3, n_nodes(model%mesh)), source=0.0_wp)
-         call add_support_force(structure%support_points, results%modes(k)%harmonic, &
-                                results%displacement(:, :, k), force)
-      end function spring_force
-
    end subroutine recover
+
+   !> Nodal forces that hold the springs in one mode
+   function spring_force(structure, mode, displacement) result(force)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> Displacement amplitudes, shape (3, nodes)
+      real(wp), intent(in) :: displacement(:, :)
+      !> Forces on components, same shape
+      real(wp), allocatable :: force(:, :)
+
+      allocate (force, mold=displacement)
+      force = 0.0_wp
+      call add_support_force(structure%support_points, mode%harmonic, displacement, force)
+   end function spring_force
 
    !> Stresses of the solids, and the nodal forces that balance them
    subroutine find_solid_forces(model, structure, loading, results)

@@ -4,7 +4,7 @@ module axijoint_analysis_core_series
    use axijoint_analysis_core_plastic_fields, only : plastic_fields_type, plastic_work
    use axijoint_analysis_core_results, only : results_type, n_resultants
    use axijoint_analysis_core_structure, only : structure_type
-   use axijoint_analysis_core_totals, only : largest_displacement
+   use axijoint_analysis_core_totals, only : largest_vector
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : state_slip, state_open, eta
    use axijoint_joints_states, only : increment_state_type
@@ -108,9 +108,7 @@ contains
          series%iterations(i) = count(final%path%increment == state%increment)
          series%equilibrium(i) = merge(1, 0, place < size(final%states) .or. final%converged)
          series%residual(i) = residual_of(final, state%increment, now%residual_ratio)
-         associate (peak => largest_displacement(final%modes, now%displacement))
-            series%displacement(i) = max(0.0_wp, peak%value)
-         end associate
+         series%displacement(i) = largest_vector(final%modes, now%displacement)
          if (size(now%joint_state) > 0) then
             series%pressure(i) = max(0.0_wp, maxval(-now%joint_stress(eta, :, :)))
             series%shear(i) = sqrt(maxval(now%joint_stress(1, :, :)**2 + &

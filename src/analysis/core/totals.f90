@@ -8,7 +8,7 @@ module axijoint_analysis_core_totals
    implicit none
    private
    public :: circle_type, new_circle, total_displacement, total_stress, n_unknowns
-   public :: peak_type, largest_displacement, largest_pressure, count_states
+   public :: peak_type, largest_displacement, largest_vector, largest_pressure, count_states
 
    !> Intervals of the circle in the search for the largest displacement
    integer, parameter :: search_intervals = 72
@@ -146,6 +146,19 @@ contains
       end subroutine look
 
    end function largest_displacement
+
+   !> Its length alone; zero if there is none
+   pure real(wp) function largest_vector(modes, displacement) result(largest)
+      !> The modes
+      type(mode_type), intent(in) :: modes(:)
+      !> Displacement amplitudes, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
+
+      type(peak_type) :: peak
+
+      peak = largest_displacement(modes, displacement)
+      largest = max(0.0_wp, peak%value)
+   end function largest_vector
 
    !> Largest pressure -sigma of the joint points; its value is negative if
    !> there is no joint or all joints are in tension

@@ -3,7 +3,8 @@ module axijoint_analysis_error_discretization
    use omp_lib, only : omp_get_wtime
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_structure, only : structure_type
-   use axijoint_analysis_error_largest_values, only : largest_vector, largest_elastic_stress
+   use axijoint_analysis_core_totals, only : largest_vector
+   use axijoint_analysis_error_largest_stress, only : largest_elastic_stress
    use axijoint_analysis_error_solid_error, only : solid_errors
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type, away_from_infinite
    use axijoint_assembly_loading, only : loading_type

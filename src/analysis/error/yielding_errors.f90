@@ -6,7 +6,8 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_error_excess_bound, only : bound_excess_effect
    use axijoint_analysis_error_excess_effect, only : add_excess_effect
-   use axijoint_analysis_error_largest_values, only : largest_vector, largest_elastic_stress
+   use axijoint_analysis_core_totals, only : largest_vector
+   use axijoint_analysis_error_largest_stress, only : largest_elastic_stress
    use axijoint_analysis_fine_difference, only : difference_type, new_difference, &
       room_type, find_difference, share_difference
    use axijoint_analysis_fine_joints, only : fine_excess
