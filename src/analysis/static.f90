@@ -3,18 +3,18 @@ module axijoint_analysis_static
    use axijoint_analysis_core_in_situ_balance, only : in_situ_balance
    use axijoint_analysis_core_increment_fields, only : field_of_state, recover_fields, &
       move_bodies
-   use axijoint_analysis_core_plastic_fields, only : plastic_fields
-   use axijoint_analysis_core_yielding_bodies, only : solve_bodies
    use axijoint_analysis_core_left_out, only : what_was_left_out
    use axijoint_analysis_core_motion, only : motion_text
+   use axijoint_analysis_core_plastic_fields, only : plastic_fields
    use axijoint_analysis_core_remarks, only : remarks_on, mechanism_text
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_solution, only : solve_displacements
    use axijoint_analysis_core_structure, only : structure_type, build_structure
+   use axijoint_analysis_core_totals, only : largest_vector
+   use axijoint_analysis_core_yielding_bodies, only : solve_bodies
    use axijoint_analysis_error_budget, only : new_budget
    use axijoint_analysis_error_corrections, only : correct_rounding, keep_claim, solver_keeps_claim
    use axijoint_analysis_error_discretization, only : estimate_discretization
-   use axijoint_analysis_core_totals, only : largest_vector
    use axijoint_analysis_error_plastic_errors, only : estimate_plastic_errors
    use axijoint_analysis_error_stiffer_joints, only : compare_stiffer
    use axijoint_analysis_error_yielding_errors, only : estimate_yielding_errors, yielding_scale

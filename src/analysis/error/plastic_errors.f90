@@ -6,9 +6,9 @@ module axijoint_analysis_error_plastic_errors
    use omp_lib, only : omp_get_wtime
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_structure, only : structure_type, build_equations
+   use axijoint_analysis_core_totals, only : largest_vector
    use axijoint_analysis_core_yield_errors, only : yield_share_type, loses_displacement, &
       yield_mesh, yield_harmonics, yield_planes, yield_iteration
-   use axijoint_analysis_core_totals, only : largest_vector
    use axijoint_analysis_error_plastic_variants, only : take_more_planes, take_more_harmonics, &
       take_fewer_harmonics, mesh_harmonics
    use axijoint_analysis_fine_mesh, only : fine_mesh_type, prolong

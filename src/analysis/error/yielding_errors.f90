@@ -4,9 +4,9 @@ module axijoint_analysis_error_yielding_errors
    use omp_lib, only : omp_get_max_threads, omp_get_wtime
    use axijoint_analysis_core_results, only : results_type, error_share_type
    use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_analysis_core_totals, only : largest_vector
    use axijoint_analysis_error_excess_bound, only : bound_excess_effect
    use axijoint_analysis_error_excess_effect, only : add_excess_effect
-   use axijoint_analysis_core_totals, only : largest_vector
    use axijoint_analysis_error_largest_stress, only : largest_elastic_stress
    use axijoint_analysis_fine_difference, only : difference_type, new_difference, &
       room_type, find_difference, share_difference
