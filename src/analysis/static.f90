@@ -15,9 +15,11 @@ module axijoint_analysis_static
    use axijoint_analysis_error_budget, only : new_budget
    use axijoint_analysis_error_corrections, only : correct_rounding, keep_claim, solver_keeps_claim
    use axijoint_analysis_error_discretization, only : estimate_discretization
+   use axijoint_analysis_error_iteration_left, only : iteration_left_type
+   use axijoint_analysis_error_joint_shares, only : yielding_scale
    use axijoint_analysis_error_plastic_errors, only : estimate_plastic_errors
    use axijoint_analysis_error_stiffer_joints, only : compare_stiffer
-   use axijoint_analysis_error_yielding_errors, only : estimate_yielding_errors, yielding_scale
+   use axijoint_analysis_error_yielding_errors, only : estimate_yielding_errors
    use axijoint_analysis_fine_difference, only : difference_type, new_difference
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type, new_mesh_error
    use axijoint_assembly_loading, only : new_loading
@@ -206,6 +208,7 @@ contains
       class(keeper_type), intent(inout), optional :: keeper
 
       type(joint_field_type), allocatable :: other
+      type(iteration_left_type) :: left
 
       call run_increments(model, structure%equations, structure%condensed, structure%joint_points, &
                           structure%support_points, combination, history, progress, keeper, &
@@ -243,7 +246,7 @@ contains
       if (allocated(error)) return
       call correct_rounding(model, structure, history, results, error)
       if (allocated(error)) return
-      call keep_claim(model, structure, history, results, error)
+      call keep_claim(model, structure, history, results, left, error)
       call check_stop(error)  ! iterations may have ended for it
       if (allocated(error)) return
       associate (n => size(history%states))
@@ -254,7 +257,7 @@ contains
       results%residuals = history%residuals
       results%residual_part_node = model%mesh%node_label(structure%condensed%measure%part_node)
       call name_idle_motions(model, structure, history, results)
-      if (estimates) call estimate_yielding_errors(structure, history, other, results, mesh_error)
+      if (estimates) call estimate_yielding_errors(structure, history, other, left, results, mesh_error)
       results%plane_angles = structure%planes%angle
    end subroutine solve_joints
 

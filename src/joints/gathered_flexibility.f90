@@ -14,7 +14,7 @@ module axijoint_joints_gathered_flexibility
    !> Numbers of flexibilities that a processor keeps at hand
    real(wp), parameter :: at_hand = 1.0e5_wp
    !> Numbers of flexibilities from which on threads are worth their start
-   real(wp), parameter :: worth_threads = 1.0e5_wp
+   real(wp), parameter :: worth_threads = 4.0e5_wp
    !> What is gathered serves fewer points if it is of so many times as many at most
    real(wp), parameter :: still_serves = 1.25_wp
 

@@ -6,7 +6,8 @@ module axijoint_analysis_error_corrections
    use axijoint_analysis_core_solution, only : solve_displacements
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_error_budget, only : solver_error
-   use axijoint_analysis_error_yielding_errors, only : iteration_error, held_share
+   use axijoint_analysis_error_iteration_left, only : iteration_left_type, iteration_error
+   use axijoint_analysis_error_joint_shares, only : held_share
    use axijoint_assembly_force, only : elastic_joint_stress
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
@@ -138,7 +139,7 @@ contains
 
    !> Iterate on until the errors that iterations leave are what the tolerance claims. What does not
    !> come there has not converged. (The paper's loop claims no more than its residual ratio.)
-   subroutine keep_claim(model, structure, history, results, error)
+   subroutine keep_claim(model, structure, history, results, left, error)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure, condensed
@@ -147,6 +148,8 @@ contains
       type(history_type), intent(inout) :: history
       !> Results with displacements; take those of the state
       type(results_type), intent(inout) :: results
+      !> What was found of what they leave
+      type(iteration_left_type), intent(out) :: left
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
@@ -169,7 +172,7 @@ contains
          if (condensed%proportion <= stiff) wanted%joint_stress = &
             wanted%displacement*max(1.0_wp, slight*held_share(structure, history))
          do k = 0, most_attempts
-            call iteration_error(structure, history, results, wanted, share)
+            call iteration_error(structure, history, results, wanted, share, left)
             excess = share%displacement/wanted%displacement
             if (condensed%proportion <= stiff) &
                excess = max(excess, share%joint_stress/wanted%joint_stress)

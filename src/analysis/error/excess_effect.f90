@@ -1,14 +1,16 @@
 !> What changes of the excess stress of joints do to the displacements
 module axijoint_analysis_error_excess_effect
+   use omp_lib, only : omp_get_wtime
    use axijoint_assembly_equations, only : equations_type, on_equations, expand_mode
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
       release_factor
    use axijoint_assembly_force, only : joint_force
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_joints_joint_errors, only : joint_change_type
    use axijoint_model_joint_points, only : model_joint_point_type
    implicit none
    private
-   public :: add_excess_effect
+   public :: add_excess_effect, find_effects
 
    !> Of one change, or of several, for which each factor is read once
    interface add_excess_effect
@@ -99,5 +101,36 @@ contains
             equations%last_mode)
       end do
    end subroutine add_effects
+
+   !> What changes of the joints do to the displacements, each without rigid motions of floating parts
+   subroutine find_effects(equations, points, n_nodes, changes, effect)
+      !> The equations, factored
+      type(equations_type), intent(inout) :: equations
+      !> Joint points
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Nodes
+      integer, intent(in) :: n_nodes
+      !> The changes; those whose effect is not found are not known, and each took its part of the time
+      type(joint_change_type), intent(inout) :: changes(:)
+      !> Amplitudes, shape (3, nodes, modes, changes)
+      real(wp), allocatable, intent(out) :: effect(:, :, :, :)
+
+      real(wp), allocatable :: excess(:, :, :, :)
+      real(wp) :: start
+      integer :: k
+      logical :: found
+
+      start = omp_get_wtime()
+      allocate (excess(3, size(points), size(equations%modes), size(changes)), source=0.0_wp)
+      do k = 1, size(changes)
+         if (changes(k)%known) excess(:, :, :, k) = changes(k)%excess
+      end do
+      allocate (effect(3, n_nodes, size(equations%modes), size(changes)), source=0.0_wp)
+      call add_effects(equations, points, excess, effect, found)
+      do k = 1, size(changes)
+         changes(k)%known = changes(k)%known .and. found
+         changes(k)%seconds = changes(k)%seconds + (omp_get_wtime() - start)/size(changes)
+      end do
+   end subroutine find_effects
 
 end module axijoint_analysis_error_excess_effect

@@ -12,13 +12,14 @@ module axijoint_analysis_fine_difference
    use axijoint_assembly_loading, only : add_external, still_force
    use axijoint_assembly_node_blocks, only : block_product
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_linalg_lapack, only : daxpy, ddot
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_mesh, only : n_nodes
    implicit none
    private
-   public :: difference_type, room_type, new_difference, find_difference, share_difference
+   public :: difference_type, room_type, most_steps, new_difference, find_difference, share_difference
 
-   !> Steps at most, and the part of nodes and jumps of joints that is left to the blocks alone after a
+   !> Steps at most of a mode, and the part of nodes and jumps of joints that is left to the blocks alone after a
    !> step. `scripts/bench estimates` shows what that does to the estimates
    integer, parameter :: most_steps = 8
    real(wp), parameter :: settled = 0.2_wp
@@ -78,7 +79,7 @@ contains
    end subroutine share_difference
 
    !> Find the difference of the modes of one system
-   subroutine find_difference(level, equations, s, load, displacement, points, excess, room, difference)
+   subroutine find_difference(level, equations, s, load, displacement, points, excess, room, difference, steps)
       !> The fine level
       type(fine_level_type), intent(in) :: level
       !> Equations of the coarse mesh; the factor of the system is there
@@ -96,6 +97,8 @@ contains
       type(room_type), intent(inout) :: room
       !> Takes the difference
       type(difference_type), intent(inout) :: difference
+      !> Steps at most of each mode; as many as it takes if absent
+      integer, intent(in), optional :: steps(:)
 
       logical :: failed
       integer :: i, k
@@ -109,7 +112,11 @@ contains
             k = system%modes(i)
             call left_force(level, equations, k, load, displacement(:, :, k), points, &
                excess(:, :, k), room)
-            call descend(level, equations, k, room, difference)
+            if (present(steps)) then
+               call descend(level, equations, k, steps(k), room, difference)
+            else
+               call descend(level, equations, k, most_steps, room, difference)
+            end if
          end do
       end associate
    end subroutine find_difference
@@ -171,30 +178,29 @@ contains
    !> until what the blocks would add to them is small. That is added without a product for how far to go:
    !> as far as the blocks alone would have gone in the step before. Where the coarse mesh is no guide, until a step is
    !> small
-   subroutine descend(level, equations, k, room, difference)
+   subroutine descend(level, equations, k, steps, room, difference)
       !> The fine level
       type(fine_level_type), intent(in) :: level
       !> Equations of the coarse mesh, factored
       type(equations_type), intent(in) :: equations
-      !> Place of the mode
-      integer, intent(in) :: k
+      !> Place of the mode, and steps at most where the coarse mesh is a guide
+      integer, intent(in) :: k, steps
       !> Factors of the blocks; forces, then what is left of them
       type(room_type), intent(inout) :: room
       !> Takes the difference
       type(difference_type), intent(inout) :: difference
 
       real(wp), allocatable :: jump(:, :)
-      real(wp) :: length, of_blocks
+      real(wp) :: energy(most_steps), of_blocks, length
       integer :: step, n
       logical :: guided, small
 
       associate (harmonic => equations%modes(k)%harmonic, force => room%force, way => room%way, &
-                 pull => room%pull, change => room%external, place => level%stiffness%place, &
+                 pull => room%pull, change => room%external, &
                  conditions => level%conditions(equations%systems(equations%system(k))%class), &
                  displacement => difference%displacement(:, :, k), &
                  jumps => difference%jump(:, :, k))
          n = size(displacement, 2)
-         if (size(level%coarse_points) > 0) n = size(change, 2)  ! jumps are of fine nodes, too
          do step = 1, most_steps
             associate (d => way(:, :, step), kd => pull(:, :, step))
                d = force
@@ -202,50 +208,79 @@ contains
                call hold(conditions, d)
                if (step > 1 .and. guided) then
                   room%u = d
-                  call keep_apart(way(:, :, :step - 1), pull(:, :, :step - 1), room%u)
-                  change(:, :n) = of_blocks*room%u(:, place(:n))
-                  jump = joint_jump(level%coarse_points, change)
-                  if (is_small(change(:, :size(displacement, 2)), displacement) .and. is_small(jump, jumps)) then
-                     displacement = displacement + change(:, :size(displacement, 2))
+                  call keep_apart(way, pull, energy(:step - 1), room%u)
+                  call see_change(level, of_blocks, room%u, n, change, jump)
+                  if (step > steps .or. (is_small(change(:, :n), displacement) .and. is_small(jump, jumps))) then
+                     displacement = displacement + change(:, :n)
                      jumps = jumps + jump
                      exit
                   end if
                end if
                call look_down(level, equations, k, force, room%u, d, of_blocks)
-               call keep_apart(way(:, :, :step - 1), pull(:, :, :step - 1), d)
+               call keep_apart(way, pull, energy(:step - 1), d)
                call block_product(level%stiffness, harmonic, d, kd)
-               length = sum(d*kd)
-               if (.not. length > 0.0_wp) exit
-               if (step == 1) guided = sum(d*force) >= usual*length .and. of_blocks >= usual
-               d = d/sqrt(length)
-               kd = kd/sqrt(length)
-               length = sum(d*force)
-               change(:, :n) = length*d(:, place(:n))
-               jump = joint_jump(level%coarse_points, change)
-               small = is_small(change(:, :size(displacement, 2)), displacement) .and. is_small(jump, jumps)
-               displacement = displacement + change(:, :size(displacement, 2))
+               energy(step) = work(d, kd)
+               if (.not. energy(step) > 0.0_wp) exit
+               length = work(d, force)/energy(step)
+               if (step == 1) guided = length >= usual .and. of_blocks >= usual
+               call see_change(level, length, d, n, change, jump)
+               small = is_small(change(:, :n), displacement) .and. is_small(jump, jumps)
+               displacement = displacement + change(:, :n)
                jumps = jumps + jump
                if (small .and. .not. guided) exit
-               force = force - length*kd
+               call daxpy(size(force), -length, kd, 1, force, 1)
                call take_reactions(conditions, force)
             end associate
          end do
       end associate
    end subroutine descend
 
+   !> Work of forces on displacements, in an order of the sum that is always the same
+   pure real(wp) function work(displacement, force)
+      !> The displacements, and the forces, shape (3, fine nodes)
+      real(wp), intent(in), contiguous :: displacement(:, :), force(:, :)
+
+      work = ddot(size(force), displacement, 1, force, 1)
+   end function work
+
    !> Take from a way what goes along those before it
-   subroutine keep_apart(ways, pulls, d)
-      !> Ways of unit energy and the forces that they take, shape (3, fine nodes, ways)
-      real(wp), intent(in) :: ways(:, :, :), pulls(:, :, :)
+   pure subroutine keep_apart(ways, pulls, energy, d)
+      !> Ways and the forces that they take, shape (3, fine nodes, any), and the work of these on the first of the ways
+      real(wp), intent(in), contiguous :: ways(:, :, :), pulls(:, :, :)
+      real(wp), intent(in) :: energy(:)
       !> The way
       real(wp), intent(inout), contiguous :: d(:, :)
 
       integer :: i
 
-      do i = 1, size(ways, 3)
-         d = d - sum(pulls(:, :, i)*d)*ways(:, :, i)
+      do i = 1, size(energy)
+         call daxpy(size(d), -work(d, pulls(:, :, i))/energy(i), ways(:, :, i), 1, d, 1)
       end do
    end subroutine keep_apart
+
+   !> What going so far does to the nodes and joint points of the coarse mesh
+   pure subroutine see_change(level, length, d, n, change, jump)
+      !> The fine level
+      type(fine_level_type), intent(in) :: level
+      !> How far, and the way, shape (3, fine nodes)
+      real(wp), intent(in) :: length, d(:, :)
+      !> Nodes of the coarse mesh
+      integer, intent(in) :: n
+      !> Takes displacements by number of the node, shape (3, fine nodes): of the nodes of the coarse mesh, and of joints
+      real(wp), intent(inout) :: change(:, :)
+      !> Takes jumps, shape (3, points)
+      real(wp), allocatable, intent(out) :: jump(:, :)
+
+      integer :: k
+
+      change(:, :n) = length*d(:, level%stiffness%place(:n))
+      do k = 1, size(level%coarse_points)
+         associate (nodes => level%coarse_points(k)%nodes(:2*level%coarse_points(k)%n_pairs))
+            change(:, nodes) = length*d(:, level%stiffness%place(nodes))
+         end associate
+      end do
+      jump = joint_jump(level%coarse_points, change)
+   end subroutine see_change
 
    !> Whether a change is small
    pure logical function is_small(change, before)
@@ -264,7 +299,7 @@ contains
       !> Place of the mode
       integer, intent(in) :: k
       !> Forces, shape (3, fine nodes)
-      real(wp), intent(in) :: force(:, :)
+      real(wp), intent(in), contiguous :: force(:, :)
       !> Room for forces and displacements, same shape
       real(wp), intent(inout), contiguous :: rest(:, :)
       !> Displacements of the blocks, then with those of the coarse mesh, same shape
@@ -276,8 +311,8 @@ contains
 
       associate (conditions => level%conditions(equations%systems(equations%system(k))%class))
          call block_product(level%stiffness, equations%modes(k)%harmonic, d, rest)
-         of_blocks = sum(d*rest)
-         if (of_blocks > 0.0_wp) of_blocks = sum(d*force)/of_blocks
+         of_blocks = work(d, rest)
+         if (of_blocks > 0.0_wp) of_blocks = work(d, force)/of_blocks
          rest = force - rest
          call take_reactions(conditions, rest)
          allocate (coarse(3, size(equations%classes(1)%dofs%equation, 2)))
