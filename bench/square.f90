@@ -2,8 +2,8 @@
 module axijoint_bench_square
    use axijoint_base_kinds, only : wp
    use axijoint_fe_element_kind, only : kind_choice_type
-   use axijoint_model_load, only : edge_load_type, ring_load_type, increment_type
-   use axijoint_model_material, only : solid_material_type, joint_material_type
+   use axijoint_model_blank, only : new_model
+   use axijoint_model_material, only : solid_material_type
    use axijoint_model_mesh, only : set_kinds
    use axijoint_model_model, only : model_type
    implicit none
@@ -26,12 +26,8 @@ contains
 
       n_nodes = n_side**2
       n_elements = ((n_side - 1)/2)**2
-      model%title = 'square'
+      model = new_model('square', max_harmonic)
       model%materials = [solid_material_type(label=1, young=1.0_wp, poisson=0.3_wp)]
-      model%max_harmonic = max_harmonic
-      allocate (model%joint_materials(0), model%edge_loads(0), model%ring_loads(0))
-      model%increments = [increment_type()]
-      model%output_angles = [real(wp) ::]
       associate (mesh => model%mesh)
          mesh%node_label = [(i, i=1, n_nodes)]
          mesh%element_label = [(i, i=1, n_elements)]
@@ -39,9 +35,8 @@ contains
          mesh%element_body = spread(1, 1, n_elements)
          mesh%element_size = spread(9, 1, n_elements)
          call set_kinds(mesh, kind_choice_type())
-         allocate (mesh%joint_label(0), mesh%joint_material(0), mesh%joint_size(0))
-         allocate (mesh%joint_nodes(6, 0), mesh%coordinates(2, n_nodes))
-         allocate (mesh%element_nodes(9, n_elements))
+         deallocate (mesh%coordinates, mesh%element_nodes)
+         allocate (mesh%coordinates(2, n_nodes), mesh%element_nodes(9, n_elements))
          do j = 0, n_side - 1
             do i = 0, n_side - 1
                mesh%coordinates(:, 1 + i + j*n_side) = [1.0_wp, 0.0_wp] &
@@ -55,10 +50,8 @@ contains
                mesh%element_nodes(:, k) = 1 + i + di + (j + dj)*n_side
             end do
          end do
-         allocate (model%fixed(3, n_nodes))
          model%fixed = spread(mesh%coordinates(2, :) <= 0.0_wp, 1, 3)
       end associate
    end function square
-
 
 end module axijoint_bench_square
