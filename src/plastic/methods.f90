@@ -11,7 +11,7 @@ module axijoint_plastic_methods
    use axijoint_plastic_field, only : body_field_type
    use axijoint_plastic_joint_side, only : linearize_joints
    use axijoint_plastic_mixing, only : mixing_type, new_mixing, mix
-   use axijoint_plastic_problem, only : problem_type, iterate_type, look, whole_force, resolution
+   use axijoint_plastic_problem, only : problem_type, iterate_type, look, is_balanced
    use axijoint_plastic_quasi_newton, only : curvature_type, new_curvature, quasi_newton_direction
    use axijoint_plastic_residual, only : evaluate, linearize, excess_force
    implicit none
@@ -146,7 +146,7 @@ contains
          if (allocated(problem%joints)) &
             verdict%joints_failed = .not. (problem%joints%verdict%converged .or. problem%joints%verdict%at_rounding)
          verdict%converged = .not. verdict%joints_failed &
-            .and. (iterate%ratio <= control%tolerance .or. iterate%at_rounding)
+            .and. iterate%beyond_rounding <= control%tolerance
          if (verdict%converged) call settle(problem, control%tolerance, field, iterate, &
                                             verdict%converged)
          verdict%ran_away = maxval(abs(field%unknowns)) > course%largest
@@ -190,8 +190,7 @@ contains
       field%unknowns = start + iterate%response
       call evaluate(problem%equations, problem%bodies, problem%planes, problem%load, field, residual)
       residual = excess_force(problem%equations, problem%bodies, field%amplitude - carried)
-      settled = ring_norm(problem%equations, residual) &
-         <= max(tolerance*iterate%scale, resolution*whole_force(problem, field))
+      settled = is_balanced(problem, field, residual, tolerance)
       if (settled) then
          field%carried = carried
          return

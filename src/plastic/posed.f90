@@ -2,12 +2,14 @@
 module axijoint_plastic_posed
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_loading, only : loading_type
+   use axijoint_assembly_rigid_motion, only : solid_parts
    use axijoint_assembly_solid_force, only : solid_force
    use axijoint_base_kinds, only : wp
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : new_joint_field
    use axijoint_joints_history, only : history_type, new_history
    use axijoint_joints_methods, only : new_method
+   use axijoint_model_mesh, only : mesh_type
    use axijoint_model_model, only : model_type
    use axijoint_plastic_bodies, only : bodies_type
    use axijoint_plastic_elastic, only : to_vector
@@ -38,6 +40,7 @@ contains
       problem%bodies => bodies
       problem%planes = body_planes(equations%modes, model%n_body_planes)
       problem%load = no_body_load(equations, bodies)
+      problem%part = parts_of(model%mesh, bodies)
       problem%has_potential = size(condensed%points) == 0 &
          .and. all(abs(bodies%laws%friction - bodies%laws%dilation) <= 0.0_wp)
       if (size(condensed%points) > 0) then
@@ -56,6 +59,35 @@ contains
             history%ahead(0), history%largest_stress(0))
       end if
    end subroutine pose
+
+   !> Part of each node, counted among those that can yield; empty where all nodes are of one part
+   function parts_of(mesh, bodies) result(part)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The bodies
+      type(bodies_type), intent(in) :: bodies
+      !> Zero where nothing can yield
+      integer, allocatable :: part(:)
+
+      integer, allocatable :: solid(:), number(:)
+      integer :: k, n
+
+      call solid_parts(mesh, solid)
+      if (maxval(solid) < 2) then
+         allocate (part(0))
+         return
+      end if
+      allocate (number(maxval(solid)), source=0)
+      n = 0
+      do k = 1, size(bodies%elements)
+         associate (of_body => number(solid(bodies%elements(k)%nodes(1))))
+            if (of_body > 0) cycle
+            n = n + 1
+            of_body = n
+         end associate
+      end do
+      part = number(solid)
+   end function parts_of
 
    !> Loads on the nodes as methods see them
    subroutine take_load(model, problem, loading, load)

@@ -6,21 +6,25 @@ module axijoint_plastic_problem
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_joints_planes, only : planes_type
    use axijoint_plastic_bodies, only : bodies_type
-   use axijoint_plastic_elastic, only : elastic_response, pushed_modes, ring_norm
+   use axijoint_plastic_elastic, only : elastic_response, pushed_modes, ring_norm, to_nodes
    use axijoint_plastic_field, only : body_field_type, body_load_type
    use axijoint_plastic_joint_side, only : joint_side_type, begin_joint_step, balance_joints, &
       steer_joints, add_units, joint_tangent_force
    use axijoint_plastic_residual, only : evaluate, elastic_force
    implicit none
    private
-   public :: slight, problem_type, steering_type, iterate_type, put_load, steer, look, turn, &
-      give_way, go_to_displacement, whole_force, resolution
+   public :: slight, problem_type, steering_type, iterate_type, put_load, steer, look, turn, give_way, go_to_displacement, &
+      note_pushed, is_balanced
 
    !> Increments are repeated so often at most, for the start of the next
    real(wp), parameter :: most_repeated = 10.0_wp
 
    !> Residuals this small beside the forces of the bodies are rounding
    real(wp), parameter :: resolution = 1.0e-11_wp
+
+   !> The same of a part beside the loads on it, which bodies that do not yield may bear; and forces of a part so small beside
+   !> those of all are not judged by themselves
+   real(wp), parameter :: resolution_of_loads = 1.0e-13_wp, of_no_account = 1.0e-12_wp
 
    !> Where a displacement is given, forces below this part of those that it would take if all held are no measure of what
    !> is out of balance: the load that it needs may be none, as in a gap
@@ -51,8 +55,11 @@ module axijoint_plastic_problem
       type(joint_side_type), allocatable :: joints
       !> Norm of the loads that are given, of those that balance each other, too
       real(wp) :: load_norm = 0.0_wp
-      !> Norm of the forces that the step would add if the bodies held
+      !> Norm of the forces that the step would add if the bodies held; and part by part
       real(wp) :: pushed = 0.0_wp
+      real(wp), allocatable :: pushed_parts(:)
+      !> Part of each node, counted among those that can yield, zero of the others; empty where all nodes are of one part
+      integer, allocatable :: part(:)
       !> Norm of the largest loads so far, which no residual is held against more; none if zero
       real(wp) :: peak = 0.0_wp
       !> Whether stresses have a potential, so that tangents are symmetric: plastic strain is normal
@@ -68,11 +75,12 @@ module axijoint_plastic_problem
       !> what the load factor balances
       real(wp), allocatable :: residual(:), response(:)
       !> sqrt(r K^-1 r), and the norm of r over that of the forces of the step: what it adds to
-      !> those of the bodies, or, where these yield, what it would add if they held, up to all
+      !> those of the bodies, or, where these yield, what it would add if they held, up to all. Of the whole, or of the part
+      !> in which it is most: a small load does not hide behind a large one
       real(wp) :: energy = 0.0_wp, ratio = 0.0_wp
-      !> Whether the residual is rounding
-      logical :: at_rounding = .false.
-      !> That norm of forces
+      !> The same where residuals that are rounding do not count
+      real(wp) :: beyond_rounding = 0.0_wp
+      !> That norm of forces of the whole
       real(wp) :: scale = 0.0_wp
    end type iterate_type
 
@@ -94,7 +102,7 @@ contains
       real(wp) :: share
 
       change = load%right - field%right
-      problem%pushed = ring_norm(problem%equations, change)
+      call note_pushed(problem, change, 1.0_wp)
       share = going_on(dot_product(change, field%pushed), dot_product(field%pushed, field%pushed))
       call elastic_response(problem%equations, change - share*field%pushed, response)
       problem%solutions = problem%solutions + 1
@@ -140,8 +148,7 @@ contains
 
       associate (steering => problem%steering)
          step = work - dot_product(steering%load, field%begun)
-         problem%pushed = ring_norm(problem%equations, steering%load) &
-            *abs(step)/dot_product(steering%load, steering%response)
+         call note_pushed(problem, steering%load, abs(step)/dot_product(steering%load, steering%response))
          field%unknowns = field%begun + going_on(step*dot_product(steering%load, field%moved), &
             dot_product(steering%load, field%moved)**2)*field%moved
          if (allocated(problem%joints)) call steer_joints(problem%joints, problem%equations, &
@@ -163,7 +170,7 @@ contains
       !> What it leaves out of balance
       type(iterate_type), intent(inout) :: iterate
 
-      real(wp) :: change, forces, whole, largest
+      real(wp) :: change
 
       if (.not. allocated(iterate%residual)) &
          allocate (iterate%residual, iterate%response, mold=field%unknowns)
@@ -175,19 +182,137 @@ contains
       problem%steering%factor = problem%steering%factor + change
       if (allocated(problem%joints)) call add_joints(problem, field, iterate)
       iterate%energy = sqrt(max(0.0_wp, dot_product(iterate%residual, iterate%response)))
-      whole = whole_force(problem, field)
-      forces = max(force_norm(problem%equations, field%force - field%force_before), &
-         min(problem%pushed, whole))
-      if (.not. problem%pushed > 0.0_wp) forces = max(forces, field%scale)
-      largest = problem%peak
-      if (allocated(problem%steering%load)) largest = max(largest, found_load(problem))
-      if (largest > 0.0_wp) forces = min(forces, largest)
-      if (allocated(problem%steering%load)) forces = max(forces, slight*problem%pushed)
-      iterate%ratio = ring_norm(problem%equations, iterate%residual)
-      iterate%at_rounding = iterate%ratio <= resolution*whole
-      if (iterate%ratio > 0.0_wp) iterate%ratio = iterate%ratio/max(forces, tiny(1.0_wp))
-      iterate%scale = forces
+      call measure(problem, field, iterate%residual, iterate%ratio, iterate%beyond_rounding, iterate%scale)
    end subroutine look
+
+   !> Note the norms of forces that a step would add if the bodies held
+   subroutine note_pushed(problem, force, factor, more)
+      !> The problem
+      type(problem_type), intent(inout) :: problem
+      !> Forces on the unknowns, and what they are multiplied by
+      real(wp), intent(in) :: force(:), factor
+      !> Whether they come to those noted before; false if absent
+      logical, intent(in), optional :: more
+
+      real(wp), allocatable :: of_parts(:)
+      logical :: adds
+
+      adds = .false.
+      if (present(more)) adds = more
+      of_parts = factor*norms_of_parts(problem, on_components(problem, force))
+      if (adds) of_parts = of_parts + problem%pushed_parts
+      problem%pushed = factor*ring_norm(problem%equations, force) + merge(problem%pushed, 0.0_wp, adds)
+      call move_alloc(of_parts, problem%pushed_parts)
+   end subroutine note_pushed
+
+   !> Whether forces are as little out of balance as a tolerance says, or rounding
+   logical function is_balanced(problem, field, residual, tolerance)
+      !> The problem
+      type(problem_type), intent(in) :: problem
+      !> The state, evaluated
+      type(body_field_type), intent(in) :: field
+      !> Forces on the unknowns, and the tolerance on their ratio to those of the step
+      real(wp), intent(in) :: residual(:), tolerance
+
+      real(wp) :: ratio, beyond_rounding, scale
+
+      call measure(problem, field, residual, ratio, beyond_rounding, scale)
+      is_balanced = beyond_rounding <= tolerance
+   end function is_balanced
+
+   !> Hold residual forces against those of the step, of the whole and part by part
+   subroutine measure(problem, field, residual, ratio, beyond_rounding, scale)
+      !> The problem
+      type(problem_type), intent(in) :: problem
+      !> The state, evaluated
+      type(body_field_type), intent(in) :: field
+      !> Forces on the unknowns
+      real(wp), intent(in) :: residual(:)
+      !> The largest ratio; the same where residuals that are rounding do not count; and what that of the whole is held against
+      real(wp), intent(out) :: ratio, beyond_rounding, scale
+
+      real(wp), allocatable :: loads(:), left(:), whole(:), acting(:), forces(:)
+      real(wp) :: most, norm
+      logical, allocatable :: counts(:)
+
+      loads = problem%load%right
+      if (allocated(problem%steering%load)) loads = loads + problem%steering%factor*problem%steering%load
+      most = max(whole_force(problem, field), ring_norm(problem%equations, loads))
+      norm = ring_norm(problem%equations, residual)
+      scale = forces_of_step(problem, force_norm(problem%equations, field%force - field%force_before), &
+         whole_force(problem, field), problem%pushed, ring_norm(problem%equations, loads), field%scale)
+      ratio = 0.0_wp
+      if (norm > 0.0_wp) ratio = norm/max(scale, tiny(1.0_wp))
+      beyond_rounding = merge(ratio, 0.0_wp, norm > resolution*most)
+      if (size(problem%part) == 0) return
+      left = norms_of_parts(problem, on_components(problem, residual))
+      acting = norms_of_parts(problem, on_components(problem, loads))
+      whole = norms_of_parts(problem, field%force)
+      forces = forces_of_step(problem, norms_of_parts(problem, field%force - field%force_before), whole, &
+         problem%pushed_parts, ring_norm(problem%equations, loads), 0.0_wp)
+      counts = forces > of_no_account*most .and. left > max(resolution*whole, resolution_of_loads*acting)
+      ratio = max(ratio, maxval(left/max(forces, tiny(1.0_wp)), mask=counts))
+      beyond_rounding = max(beyond_rounding, maxval(left/max(forces, tiny(1.0_wp)), mask=counts))
+   end subroutine measure
+
+   !> Norm of the forces of a step, which residuals are held against
+   pure elemental real(wp) function forces_of_step(problem, change, whole, pushed, loads, before) result(forces)
+      !> The problem
+      type(problem_type), intent(in) :: problem
+      !> Norms of what the step adds to the forces of the bodies, of all these, and of what it would add if they held
+      real(wp), intent(in) :: change, whole, pushed
+      !> Norm of the loads with the load factor, and what a step without loads is held against
+      real(wp), intent(in) :: loads, before
+
+      real(wp) :: largest
+
+      forces = max(change, min(pushed, whole))
+      if (.not. problem%pushed > 0.0_wp) forces = max(forces, before)
+      largest = problem%peak
+      if (allocated(problem%steering%load)) largest = max(largest, loads)
+      if (largest > 0.0_wp) forces = min(forces, largest)
+      if (allocated(problem%steering%load)) forces = max(forces, slight*pushed)
+   end function forces_of_step
+
+   !> Forces on components from those on the unknowns
+   function on_components(problem, force) result(components)
+      !> The problem
+      type(problem_type), intent(in) :: problem
+      !> The forces
+      real(wp), intent(in) :: force(:)
+      !> Shape (3, nodes, modes); empty where there are no parts to tell
+      real(wp), allocatable :: components(:, :, :)
+
+      integer :: k
+
+      allocate (components(3, size(problem%part), size(problem%equations%modes)))
+      if (size(components) == 0) return
+      do k = 1, size(components, 3)
+         components(:, :, k) = to_nodes(problem%equations, force, k)
+      end do
+   end function on_components
+
+   !> Norms of forces, part by part
+   pure function norms_of_parts(problem, force) result(norms)
+      !> The problem
+      type(problem_type), intent(in) :: problem
+      !> Shape (3, nodes, modes)
+      real(wp), intent(in) :: force(:, :, :)
+      !> One a part that can yield
+      real(wp), allocatable :: norms(:)
+
+      integer :: k, node
+
+      allocate (norms(maxval([0, problem%part])), source=0.0_wp)
+      do k = 1, size(force, 3)
+         do node = 1, size(problem%part)
+            associate (p => problem%part(node))
+               if (p > 0) norms(p) = norms(p) + sum(force(:, node, k)**2)/circle_integral(problem%equations%modes(k)%harmonic)
+            end associate
+         end do
+      end do
+      norms = sqrt(norms)
+   end function norms_of_parts
 
    !> Norm of the loads with the load factor that was found so far
    pure real(wp) function found_load(problem)

@@ -17,14 +17,13 @@ module axijoint_plastic_single_step
    use axijoint_model_load, only : combination_type
    use axijoint_model_model, only : model_type
    use axijoint_plastic_bodies, only : bodies_type, new_bodies
-   use axijoint_plastic_elastic, only : from_nodes, to_nodes, to_vector, pushed_modes, &
-      ring_norm
+   use axijoint_plastic_elastic, only : from_nodes, to_nodes, to_vector, pushed_modes
    use axijoint_plastic_field, only : body_field_type, body_load_type, new_body_field
    use axijoint_plastic_joint_side, only : begin_joint_step
    use axijoint_plastic_methods, only : quasi_newton_step, remembered_steps
    use axijoint_plastic_mixing, only : mixing_type, new_mixing, mix
    use axijoint_plastic_posed, only : pose, take_load
-   use axijoint_plastic_problem, only : problem_type, iterate_type, steer, look
+   use axijoint_plastic_problem, only : problem_type, iterate_type, steer, look, note_pushed
    use axijoint_plastic_quasi_newton, only : curvature_type, new_curvature
    use axijoint_plastic_record, only : on_all_points
    use axijoint_plastic_residual, only : evaluate
@@ -126,7 +125,7 @@ contains
       call note_in_situ(problem, load, field)
       problem%load = load
       problem%load_norm = load_norm(equations, loading)
-      problem%pushed = ring_norm(equations, load%right)
+      call note_pushed(problem, load%right, 1.0_wp)
       field%unknowns = from_nodes(equations, start)
       field%begun = field%unknowns
       if (allocated(loads%steered)) then
@@ -134,8 +133,7 @@ contains
             combination_type(0, loads%steered), direction)
          call steer(problem, to_vector(equations, direction%right))
          problem%steering%factor = loads%factor
-         problem%pushed = problem%pushed &
-            + abs(loads%factor)*ring_norm(equations, problem%steering%load)
+         call note_pushed(problem, problem%steering%load, abs(loads%factor), more=.true.)
       end if
       if (allocated(problem%joints)) then
          call begin_joint_step(problem%joints, pushed_modes(equations, load%right), loading%external)
@@ -213,7 +211,7 @@ contains
          fails = stop_wished() .or. .not. ieee_is_finite(iterate%ratio)
          if (allocated(problem%joints)) fails = fails .or. .not. problem%joints%verdict%converged
          near = way%downhill .or. iterate%ratio <= far
-         found = iterate%at_rounding .or. iterate%ratio <= balanced &
+         found = iterate%beyond_rounding <= balanced &
             .or. (near .and. is_settled(settling, 1.0_wp))
       end associate
       ended = fails .or. found .or. problem%solutions > most

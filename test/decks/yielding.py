@@ -609,6 +609,58 @@ def in_situ_history(folder, program):
     return faults + ran.ended_with(0) + expected('warnings', '', ran.err)
 
 
+def ring_and_block(stiffness, pressure, block_yields=True, together=True):
+    """A thick ring of Mises's material, and a block apart from it that is squeezed by given displacements, far from yielding"""
+    law = f'2, MISES, {stiffness}' if block_yields else '!'
+    case = '' if together else 'CASE\n2\n'
+    combined = '' if together else 'COMBINE\n1, 1, 1.0, 2, 1.0\n'
+    increments = '1.0\n' if together else '1.0, , , 1\n1.0, , , 2\n'
+    squeezed = 'MOVEDFACES\n6, 0, , -1E-3\n'
+    loads = f'PRESSURES\n1, 0, {pressure}\n'
+    return f"""TITLE
+Two parts
+CONTROL
+0, , 2, 2
+MATERIALS
+1, 1E3, 0.3
+2, {stiffness}, 0.3
+YIELD
+1, MISES, 1.0
+{law}
+BLOCKS
+1, 1, 8, 16, 1
+1.0, 0.0, 2.0, 0.1
+2, 2, 8, 2, 2
+0.0, 5.0, 1.0, 6.0
+FACES
+1, 1, 1.0, 0.0, 1.0, 0.1
+3, 1, 1.0, 0.0, 2.0, 0.0
+4, 1, 1.0, 0.1, 2.0, 0.1
+5, 2, 0.0, 5.0, 1.0, 5.0
+6, 2, 0.0, 6.0, 1.0, 6.0
+FIXEDFACES
+3, 010
+4, 010
+5, 010
+CASE
+1
+{squeezed if not together else squeezed + loads}{case}{loads if not together else ''}{combined}INCREMENTS
+{increments}END
+"""
+
+
+def parts(folder, program):
+    """What another part bears hides nothing: forces out of balance are held against those of each part"""
+    def widening(**options):
+        return run(program, folder, ring_and_block(**options))['increments'][-1]['largest_displacement']
+
+    alone = widening(stiffness=1e3, pressure=0.75)
+    faults = off('ring beside a stiff block', widening(stiffness=1e8, pressure=0.75), alone, 1e-5)
+    faults += off('ring after an elastic block', widening(stiffness=1e3, pressure=0.75, block_yields=False, together=False), alone, 1e-5)
+    run(program, folder, ring_and_block(stiffness=1e8, pressure=1.5), codes=(4,))  # collapse: 0.8
+    return faults
+
+
 def bent(folder, program):
     """A solid bar of Tresca's criterion, bent by a given rotation of its end until all of it yields: where Anderson's mix stops, the
     potential leads on, to the plastic moment 4/3 b^3 of unit strength"""
@@ -851,7 +903,7 @@ def tests(program):
             made('joint or soil, Tresca', weaker_of_both('TRESCA')), made('families', families),
             made('harmonics', harmonics), made('back and forth', back_and_forth),
             made('disc in clay', disc_in_clay), made('footing on clay', footing_on_clay),
-            made('errors estimated', estimates), made('odd harmonics', odd_harmonics), made('joint in weight', joint_in_weight), made('history in situ', in_situ_history), made('bent', bent),
+            made('errors estimated', estimates), made('odd harmonics', odd_harmonics), made('joint in weight', joint_in_weight), made('history in situ', in_situ_history), made('bent', bent), made('parts', parts),
             made('pulled out', pulled_out), made('found loads beside joints', found_loads),
             made('Newton beside joints', newton_beside_joints),
             made('cohesion that is lost', cohesion_that_is_lost),
