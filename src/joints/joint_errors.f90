@@ -14,7 +14,7 @@ module axijoint_joints_joint_errors
    implicit none
    private
    public :: joint_change_type, joint_changes_type, find_joint_changes, change_between, &
-      largest_change
+      offset_between, largest_change
 
    !> Intervals between planes are divided by this
    integer, parameter :: finer = 4
@@ -116,8 +116,7 @@ contains
       type(joint_changes_type), intent(inout) :: changes
 
       type(scene_type) :: finer_scene, extended
-      type(joint_field_type), allocatable :: settled, on_more, with_more
-      type(mechanism_type) :: mechanism
+      type(joint_field_type), allocatable :: on_more, with_more
       type(memory_type), allocatable :: memory(:, :)
       real(wp) :: clock
       integer :: n, step
@@ -128,9 +127,6 @@ contains
          return
       end if
       clock = omp_get_wtime()
-      allocate (settled, source=balanced)
-      call find_mechanism(condensed, scene, balanced, .false., mechanism)
-      call settle(condensed, scene, mechanism, settled)
       n = scene%planes%n - 1
       ! for products of harmonics up to 2 M
       step = max(finer, (4*maxval(scene%modes%harmonic) + n - 1)/n)
@@ -143,8 +139,7 @@ contains
       call find_again(condensed, finer_scene, memory, on_more, changes%planes%known)
       changes%planes%stress = largest_change(scene, balanced, on_more, step, judged)
       changes%planes%excess = on_more%excess - balanced%excess
-      call settle(condensed, finer_scene, mechanism, on_more)
-      changes%planes%offset = on_more%offset - settled%offset
+      changes%planes%offset = offset_between(condensed, scene, balanced, finer_scene, on_more)
       changes%planes%seconds = omp_get_wtime() - clock
       clock = omp_get_wtime()
       call add_harmonics(condensed, finer_scene, on_more, extended, with_more)
@@ -153,8 +148,7 @@ contains
          associate (m => size(scene%modes))
             changes%harmonics%stress = largest_change(scene, on_more, with_more, 1, judged)
             changes%harmonics%excess = with_more%excess(:, :, :m) - on_more%excess
-            call settle(condensed, extended, mechanism, with_more)
-            changes%harmonics%offset = with_more%offset - on_more%offset
+            changes%harmonics%offset = offset_between(condensed, finer_scene, on_more, extended, with_more)
             with_more%excess(:, :, :m) = 0.0_wp
          end associate
          associate (jump => jumps(condensed, extended, with_more%excess, free=.false.))
@@ -165,6 +159,32 @@ contains
       end if
       changes%harmonics%seconds = omp_get_wtime() - clock
    end subroutine find_joint_changes
+
+   !> Change of the floating motions from one state to another, but for motions that nothing resists and no load acts on in
+   !> either
+   function offset_between(condensed, scene, before, other_scene, after) result(change)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads of the first state, and of the second
+      type(scene_type), intent(in) :: scene, other_scene
+      !> The states
+      type(joint_field_type), intent(in) :: before, after
+      !> One a motion
+      real(wp), allocatable :: change(:)
+
+      type(joint_field_type), allocatable :: first, second
+      type(mechanism_type) :: mechanism
+
+      allocate (first, source=before)
+      allocate (second, source=after)
+      call find_mechanism(condensed, scene, before, .false., mechanism)
+      call settle(condensed, scene, mechanism, first)
+      call settle(condensed, other_scene, mechanism, second)
+      call find_mechanism(condensed, other_scene, after, .false., mechanism)
+      call settle(condensed, scene, mechanism, first)
+      call settle(condensed, other_scene, mechanism, second)
+      change = second%offset - first%offset
+   end function offset_between
 
    !> No change of a state
    pure function no_change(field) result(change)

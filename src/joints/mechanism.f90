@@ -11,7 +11,7 @@ module axijoint_joints_mechanism
    use axijoint_linalg_lapack, only : symmetric_eigen, singular_values
    implicit none
    private
-   public :: mechanism_type, find_mechanism, settle, stand_still, balance_motions
+   public :: mechanism_type, find_mechanism, settle, stand_still, balance_motions, total_jumps
 
    !> A motion is not resisted if the resistance to it is less than this share of that of sticking
    !> joints

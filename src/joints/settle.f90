@@ -4,6 +4,7 @@ module axijoint_joints_settle
    use axijoint_element_joint_law, only : memory_type, opening_bond
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, mend
+   use axijoint_joints_mechanism, only : mechanism_type, find_mechanism, take_idle_away => settle, total_jumps
    use axijoint_joints_method, only : control_type, verdict_type
    use axijoint_joints_newton, only : newton_type, step_bounds_type, linearize, newton_step, &
       newton_view
@@ -24,6 +25,9 @@ module axijoint_joints_settle
    !> From the beginning of the increment: residual over the loads, and most iterations
    real(wp), parameter :: pass_tolerance = 1.0e-5_wp, near = 0.03_wp
    integer, parameter :: most_iterations = 100
+   !> Jumps so many times larger than those before, and than what loads do where joints hold, are no answer to a small change: a
+   !> part that nothing holds in the end has flown off
+   real(wp), parameter :: far = 1.0e2_wp
 
 contains
 
@@ -41,13 +45,19 @@ contains
       !> Whether a state was found
       logical, intent(out) :: found
 
+      type(joint_field_type), allocatable :: before
       type(iteration_type), allocatable :: path(:)
       type(verdict_type) :: verdict
       type(newton_method_type) :: newton
+      real(wp) :: farthest
 
+      farthest = far*maxval([abs(scene%loads%largest), maxval(abs(scene%loads%free)), maxval(abs(field%jump))])
       if (all(scene%laws%opening /= opening_bond .and. .not. scene%laws%softens)) then
+         allocate (before, source=field)
          call settle(condensed, scene, field, found)
+         if (found) found = is_near(condensed, scene, field, farthest)
          if (found) return
+         field = before
       end if
       call mend(start, field%memory)
       allocate (path(0))
@@ -56,7 +66,30 @@ contains
       ! a law that jumps may have no state; an iterate that is so near tells by how much stresses
       ! change
       found = verdict%converged .or. (verdict%residual%whole <= near .and. .not. verdict%ran_away)
+      if (found) found = is_near(condensed, scene, field, farthest)
    end subroutine find_again
+
+   !> Whether jumps are not too large, but for motions that nothing resists and no load acts on
+   logical function is_near(condensed, scene, field, farthest)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> Jumps that are too large
+      real(wp), intent(in) :: farthest
+
+      type(joint_field_type), allocatable :: rest
+      type(mechanism_type) :: mechanism
+
+      is_near = maxval(abs(field%jump)) <= farthest
+      if (is_near) return
+      call find_mechanism(condensed, scene, field, .false., mechanism)
+      allocate (rest, source=field)
+      call take_idle_away(condensed, scene, mechanism, rest)
+      is_near = maxval(abs(total_jumps(condensed, scene, rest))) <= farthest
+   end function is_near
 
    !> Go so far that what is missing is a small part of what is missing at first
    subroutine settle(condensed, scene, field, found)

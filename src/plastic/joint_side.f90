@@ -11,7 +11,7 @@ module axijoint_plastic_joint_side
    use axijoint_joints_loads, only : put_work
    use axijoint_joints_method, only : method_type, control_type, verdict_type
    use axijoint_joints_newton, only : newton_type, linearize, at_points
-   use axijoint_joints_newton_system, only : linear_type, solve
+   use axijoint_joints_newton_system, only : linear_type, gathering_type, solve
    use axijoint_joints_passes, only : keep_standing
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_planes, only : synthesize, analyse
@@ -66,6 +66,9 @@ contains
       !> External forces on components, shape (3, nodes, modes)
       real(wp), intent(in) :: external(:, :, :)
 
+      type(gathering_type) :: nothing
+
+      side%tangent%gathering = nothing  ! a step has the same bits wherever a run goes on from
       side%field = side%before
       side%field%fading = 0.0_wp
       side%begun = .false.

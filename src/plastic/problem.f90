@@ -271,7 +271,7 @@ contains
       largest = problem%peak
       if (allocated(problem%steering%load)) largest = max(largest, loads)
       if (largest > 0.0_wp) forces = min(forces, largest)
-      if (allocated(problem%steering%load)) forces = max(forces, slight*pushed)
+      if (allocated(problem%steering%load)) forces = max(forces, slight*problem%pushed)
    end function forces_of_step
 
    !> Forces on components from those on the unknowns

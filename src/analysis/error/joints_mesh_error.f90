@@ -13,8 +13,7 @@ module axijoint_analysis_error_joints_mesh_error
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_history, only : history_type
-   use axijoint_joints_joint_errors, only : joint_change_type, change_between
-   use axijoint_joints_mechanism, only : mechanism_type, find_mechanism, settle
+   use axijoint_joints_joint_errors, only : joint_change_type, change_between, offset_between
    use axijoint_joints_scene, only : scene_type
    use axijoint_joints_settle, only : find_again
    use axijoint_model_joint_points, only : model_joint_point_type
@@ -63,8 +62,7 @@ contains
       type(joint_change_type), intent(out) :: answer
 
       type(model_joint_point_type), allocatable :: points(:)
-      type(joint_field_type), allocatable :: after, settled
-      type(mechanism_type) :: mechanism
+      type(joint_field_type), allocatable :: after
       type(scene_type) :: corrected
       real(wp), allocatable :: excess(:, :, :)
       real(wp) :: start
@@ -82,11 +80,7 @@ contains
          if (found) then
             answer = change_between(scene, balanced, after, structure%judged(structure%yielding))
             error%joint_stress = answer%stress
-            allocate (settled, source=balanced)
-            call find_mechanism(condensed, scene, balanced, .false., mechanism)
-            call settle(condensed, scene, mechanism, settled)
-            call settle(condensed, corrected, mechanism, after)
-            answer%offset = after%offset - settled%offset
+            answer%offset = offset_between(condensed, scene, balanced, corrected, after)
          end if
       end associate
       error%seconds = omp_get_wtime() - start

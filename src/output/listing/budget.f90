@@ -205,33 +205,38 @@ contains
       character(len=:), allocatable :: text
 
       type(error_share_type) :: total
+      logical :: at_least
 
       total = sum_of_shares(results%budget)
       text = "nothing that is known leaves an error"
       if (max(total%displacement, total%joint_stress) <= 0.0_wp) return
       associate (budget => results%budget)
-         text = "displacement "//quantity_text(budget, (budget%displacement), total%displacement)
+         ! what joints would answer moves the bodies, too
+         at_least = total%joint_stress >= 0.0_wp .and. .not. is_known(budget, budget%joint_stress)
+         text = "displacement "//quantity_text(budget, (budget%displacement), total%displacement, at_least)
          if (total%joint_stress < 0.0_wp) return
          text = text//"; joint stress "//quantity_text(budget, (budget%joint_stress), &
-            total%joint_stress)
+            total%joint_stress, .false.)
       end associate
       if (.not. has_singular(results)) return
       if (any(results%singular%distance > 0.0_wp)) text = text//", away from infinite ones"
    end function sum_text
 
    !> A quantity in all, and its largest source
-   pure function quantity_text(budget, shares, total) result(text)
+   pure function quantity_text(budget, shares, total, at_least) result(text)
       !> The budget
       type(error_share_type), intent(in) :: budget(:)
       !> Its shares of the quantity, and their sum
       real(wp), intent(in) :: shares(:), total
+      !> Whether something of it is not known in any case
+      logical, intent(in) :: at_least
       !> Such as 4.62 %, most by discretization (2.31 %)
       character(len=:), allocatable :: text
 
       text = "not known"
       if (.not. is_judged(budget, shares)) return
       text = fine_percent(total)
-      if (.not. is_known(budget, shares)) text = "at least "//text
+      if (at_least .or. .not. is_known(budget, shares)) text = "at least "//text
       if (total > 0.0_wp) then
          associate (most => maxloc(shares, 1))
             text = text//", most by "//trim(source_names(budget(most)%source))//" ("// &
