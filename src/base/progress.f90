@@ -5,7 +5,7 @@ module axijoint_base_progress
    use axijoint_base_last_words, only : note_stage
    implicit none
    private
-   public :: progress_type, show_progress, clear_progress
+   public :: progress_type, show_progress, clear_progress, tell_below
 
    !> Widest line; shorter ones are padded so that nothing of an older one stays
    integer, parameter :: width = 78
@@ -28,6 +28,9 @@ module axijoint_base_progress
       integer(i8), private :: start = 0, last = 0
    end type progress_type
 
+   !> Whether a line of progress stands on the terminal, whoever shows it
+   logical, save :: line_stands = .false.
+
 contains
 
    !> Show a text in place of the last one, or below it in a log
@@ -46,6 +49,7 @@ contains
       write (progress%unit, '(2a)', advance='no') achar(13), line
       flush (progress%unit)
       progress%shown = .true.
+      line_stands = .true.
    end subroutine show_progress
 
    !> Add a line to a log, if it is of another stage than the last, or the last is old
@@ -78,6 +82,19 @@ contains
       write (progress%unit, '(3a)', advance='no') achar(13), repeat(' ', width), achar(13)
       flush (progress%unit)
       progress%shown = .false.
+      line_stands = .false.
    end subroutine clear_progress
+
+   !> Tell a line that stays, for those that do not know where progress is shown: what is shown there
+   !> is wiped first
+   subroutine tell_below(text)
+      !> The line
+      character(len=*), intent(in) :: text
+
+      if (line_stands) write (error_unit, '(3a)', advance='no') achar(13), repeat(' ', width), achar(13)
+      line_stands = .false.
+      write (error_unit, '(a)') text
+      flush (error_unit)
+   end subroutine tell_below
 
 end module axijoint_base_progress

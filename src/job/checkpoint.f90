@@ -4,6 +4,7 @@
 module axijoint_job_checkpoint
    use axijoint_base_error, only : error_type, fatal_error, exit_state
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_progress, only : tell_below
    use axijoint_base_state_file, only : state_mark_type, write_state_file
    use axijoint_base_stream, only : writer_type, reader_type, new_reader
    use axijoint_base_text, only : to_text
@@ -51,6 +52,8 @@ module axijoint_job_checkpoint
       logical :: pending = .false., there = .false.
       !> Why the file could not be written; not allocated if it could
       character(len=:), allocatable :: failure
+      !> Whether that was told: once is enough
+      logical, private :: told = .false.
       !> When it was written last [tick], and how long that took [second]
       integer(i8), private :: last = 0
       real(wp), private :: cost = expected_time
@@ -213,7 +216,7 @@ contains
       if (real(now - self%last, wp) >= least*real(rate, wp)) call self%flush()
    end subroutine now_and_then
 
-   !> Write what is pending. A failure does not end the run: the state before stands
+   !> Write what is pending. A failure does not end the run: the state before stands. The first is told
    subroutine flush(self)
       !> The state
       class(checkpoint_type), intent(inout) :: self
@@ -225,7 +228,14 @@ contains
       self%mark%place = self%place
       call write_state_file(self%path, self%mark, self%bytes(), self%failure)
       self%pending = .false.
-      if (.not. allocated(self%failure)) self%there = .true.
+      if (.not. allocated(self%failure)) then
+         self%there = .true.
+      else if (.not. self%told) then
+         self%told = .true.
+         call tell_below('axijoint: warning: the state '//self%path//' cannot be written: '//self%failure// &
+            '; the run goes on, but if it is stopped or dies, --resume '//trim(merge( &
+            'goes on from what was kept before', 'begins anew                      ', self%there)))
+      end if
       call system_clock(self%last, rate)
       self%cost = real(self%last - before, wp)/real(rate, wp)
    end subroutine flush

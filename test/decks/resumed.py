@@ -365,7 +365,7 @@ def written_already(program, folder):
 
 
 def disk_full(program, folder):
-    """A state that cannot be written does not end the run"""
+    """A state that cannot be written does not end the run, which says so once"""
     place = Place(program, folder, 1, False)
     place.deck = write(folder, 'job.dat', JOBS['gap'])
     place.run('--checkpoint', '0')
@@ -375,6 +375,10 @@ def disk_full(program, folder):
         ran = place.run('--checkpoint', '0', NAMES_FAIL=str(n))
         faults += expected('exit code', 0, ran.returncode) + expected(
             'files', sorted(earlier), sorted(place.contents()))
+        state = os.path.join(place.results, 'job.state')
+        if ran.stderr.count('warning') != 1 or f'axijoint: warning: the state {state} cannot be written: ' not in ran.stderr:
+            faults.append(f'the state was not written, and it says: {ran.stderr}')
+        faults += expected('whether anything was kept', n > 2, 'goes on from what was kept before' in ran.stderr)
     return faults
 
 
