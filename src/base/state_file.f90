@@ -4,15 +4,17 @@ module axijoint_base_state_file
    use axijoint_base_kinds, only : i8
    use axijoint_base_process, only : host_name
    use axijoint_base_sha256, only : sha256
-   use axijoint_base_system, only : error_text, process_id, rename_path, unlink_path
+   use axijoint_base_system, only : error_text, path_file, process_id, rename_path, target_kind, unlink_path
    use axijoint_base_text, only : to_text
-   use axijoint_base_whole_file, only : read_whole_file, write_new_file, is_not_there
+   use axijoint_base_whole_file, only : first_bytes, read_whole_file, write_new_file, is_not_there
    implicit none
    private
-   public :: state_mark_type, write_state_file, read_state_file
+   public :: state_mark_type, write_state_file, read_state_file, is_state_file
 
+   !> What a state of any version begins with
+   character(len=*), parameter :: opening = 'axijoint state '
    !> First line, and digits of the hash with the end of its line
-   character(len=*), parameter :: first_line = 'axijoint state 1'
+   character(len=*), parameter :: first_line = opening//'1'
    integer, parameter :: hash_length = 65
    character(len=1), parameter :: nl = new_line('a')
 
@@ -58,6 +60,15 @@ contains
       failure = error_text(errno)
    end subroutine write_state_file
 
+   !> Whether a file is a state of some version, damaged or not; all others are somebody else's
+   logical function is_state_file(path)
+      !> The file
+      character(len=*), intent(in) :: path
+
+      is_state_file = target_kind(path) == path_file
+      if (is_state_file) is_state_file = first_bytes(path, len(opening)) == opening
+   end function is_state_file
+
    !> Read a state
    subroutine read_state_file(path, mark, body, there, failure)
       !> The file
@@ -82,7 +93,7 @@ contains
          failure = 'cannot be read: '//error_text(errno)
          return
       end if
-      if (index(text, 'axijoint state ') /= 1) then
+      if (index(text, opening) /= 1) then
          failure = 'is no state of axijoint'
          return
       end if

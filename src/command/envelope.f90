@@ -77,7 +77,7 @@ contains
          call job%timer%start()
          name = job_name(command%decks(1)%text)//'.envelope'
          call begin_undertaking(command%options%directory, name, [name], &
-            'envelope '//command%decks(1)%text, undertaking, notes, error)
+            'envelope '//command%decks(1)%text, job%source, undertaking, notes, error)
          if (len(notes) > 0) write (error_unit, '(a)') notes
          if (.not. allocated(error)) &
             call search_all(command, job, control, cases, directions, undertaking, found, error)

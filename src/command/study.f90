@@ -96,7 +96,7 @@ contains
          if (speaks(command)) then
             call begin_undertaking(command%options%directory, study%name, &
                claimed_names(study%name, command%part), 'study '//command%decks(1)%text, &
-               study%undertaking, notes, error)
+               study%rows%source, study%undertaking, notes, error, study%table%source)
             if (len(notes) > 0) write (error_unit, '(a)') notes
          end if
          call agree(command, error)

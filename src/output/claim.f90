@@ -1,11 +1,12 @@
 !> Who may write the files of a name: locks, and what runs that died left there
 module axijoint_output_claim
-   use axijoint_base_error, only : error_type
+   use axijoint_base_error, only : error_type, fatal_error, exit_io
    use axijoint_base_lock, only : lock_type, take_lock, release_lock
    use axijoint_base_process, only : host_name, runs_here
-   use axijoint_base_system, only : process_id, unlink_path
+   use axijoint_base_system, only : process_id, same_file, unlink_path
    use axijoint_base_text, only : to_text, count_of
    use axijoint_base_whole_file, only : names_in
+   use axijoint_deck_text_source, only : source_type
    use axijoint_job_combination, only : combination_label
    use axijoint_job_job, only : job_type, job_name, deck_name, result_name
    use axijoint_output_file_names, only : endings, lock_ending, journal_ending, state_ending, &
@@ -14,7 +15,7 @@ module axijoint_output_claim
    use axijoint_output_file_set, only : finish_set
    implicit none
    private
-   public :: claim_type, claim_output, claim_names, release_output
+   public :: claim_type, claim_output, claim_names, release_output, spare_sources
 
    !> Ending of files that are not complete
    character(len=*), parameter :: temporary_ending = '.tmp'
@@ -141,6 +142,46 @@ contains
          names(k + 1) = result_name(job, combination_label(job, k))
       end do
    end function names_of
+
+   !> Refuse a name under which a file of the deck would be replaced, or removed as what an earlier run
+   !> left
+   subroutine spare_sources(directory, name, written, source, what, error)
+      !> Directory of the files
+      character(len=*), intent(in) :: directory
+      !> Their name
+      character(len=*), intent(in) :: name
+      !> Endings of those that are written or removed
+      character(len=*), intent(in) :: written(:)
+      !> The deck, with the files that it includes
+      type(source_type), intent(in) :: source
+      !> What that is, such as "the deck"
+      character(len=*), intent(in) :: what
+      !> The file in danger
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: names
+      logical :: lost
+      integer :: k, ending, first, last
+
+      names = names_in(join_path(directory, '.'), name//'.', temporary_ending)
+      do k = 1, source%n_files
+         lost = .false.
+         do ending = 1, size(written)
+            lost = lost .or. same_file(join_path(directory, name//trim(written(ending))), source%files(k)%path)
+         end do
+         first = 1
+         do while (first <= len(names))
+            last = first + index(names(first:), new_line('a')) - 2
+            if (is_leftover(names(first + len(name):last))) &
+               lost = lost .or. same_file(join_path(directory, names(first:last)), source%files(k)%path)
+            first = last + 2
+         end do
+         if (.not. lost) cycle
+         call fatal_error(error, exit_io, 'the run would overwrite or remove '//source%files(k)%path// &
+            ', a file of '//what//new_line('a')//'mend: another name for that file or the deck, or another directory with -o')
+         return
+      end do
+   end subroutine spare_sources
 
    !> Remove the temporary files of a name, which nobody else may write now. Those of a
    !> process that runs are left alone all the same: somebody may have removed its lock

@@ -11,14 +11,16 @@ module axijoint_output_output
       make_directories
    use axijoint_base_team, only : team_type, take_team
    use axijoint_base_text, only : count_of
-   use axijoint_deck_text_source, only : source_type, card_file
+   use axijoint_deck_text_source, only : source_type
    use axijoint_job_combination, only : combination_label
-   use axijoint_job_job, only : job_type, result_name
+   use axijoint_job_job, only : job_type, job_name, result_name
    use axijoint_model_model, only : model_type
+   use axijoint_output_claim, only : spare_sources
    use axijoint_output_file_echo, only : deck_path
    use axijoint_output_file_hdf5, only : hdf5_file_type
    use axijoint_output_file_names, only : endings, file_arrays, file_listing, file_summary, &
-      file_bodies, file_joints, file_old_listing, files_of, final_path, journal_ending, lock_ending
+      file_bodies, file_joints, file_old_listing, files_of, final_path, journal_ending, lock_ending, &
+      state_ending, stop_ending, put_aside
    use axijoint_output_file_pending, only : join_path, check_name
    use axijoint_output_file_run, only : run_type, new_run, exit_code_of
    use axijoint_output_file_set, only : commit_set
@@ -57,6 +59,9 @@ contains
          call check_place(job%options%directory, result_name(job, combination_label(job, k)), &
             job%source, files_of(job%model), error)
       end do
+      if (allocated(error)) return
+      call spare_sources(job%options%directory, job_name(job%deck), [character(len=16) :: state_ending, &
+         state_ending//put_aside, stop_ending], job%source, "the deck", error)
    end subroutine check_output
 
    !> The same for one combination
@@ -78,7 +83,7 @@ contains
       if (allocated(error)) return
       call check_names(directory, name, files, error)
       if (allocated(error)) return
-      call spare_sources(directory, name, source, files, error)
+      call spare_sources(directory, name, endings(files), source, "the deck", error)
       if (allocated(error)) return
       call note_lock(join_path(directory, name//lock_ending), host_name(), process_id())
       call probe%open(final_path(directory, name, file_summary), error)
@@ -101,36 +106,6 @@ contains
          " for the results cannot be made: "//error_text(errno)//new_line("a")// &
          "mend: make it first, or choose another with -o")
    end subroutine make_place
-
-   !> Refuse to write over the deck or a file that it includes
-   subroutine spare_sources(directory, name, source, files, error)
-      !> Directory of the files
-      character(len=*), intent(in) :: directory
-      !> Name of the job
-      character(len=*), intent(in) :: name
-      !> Cards of the deck
-      type(source_type), intent(in) :: source
-      !> The files, indices of their endings
-      integer, intent(in) :: files(:)
-      !> The file in danger
-      type(error_type), allocatable, intent(out) :: error
-
-      character(len=:), allocatable :: file
-      integer :: card, ending
-
-      file = ""
-      do card = 1, source%n_cards
-         if (card_file(source, card) == file) cycle
-         file = card_file(source, card)
-         do ending = 1, size(files)
-            if (.not. same_file(final_path(directory, name, files(ending)), file)) cycle
-            call fatal_error(error, exit_io, "the results would overwrite "//file// &
-               ", a file of the deck"//new_line("a")// &
-               "mend: another name for the deck, or another directory with -o")
-            return
-         end do
-      end do
-   end subroutine spare_sources
 
    !> Write results, swept bodies, listing and summary. Of processes that share the work the first
    !> one writes, and the others help to find what is written.

@@ -1,26 +1,24 @@
 !> How far a run has come, beside its results: where the state is kept, what an earlier run left
 !> there, and the file by which somebody asks the run to end
 module axijoint_output_state
-   use axijoint_base_error, only : error_type, fatal_error, exit_state
+   use axijoint_base_error, only : error_type, fatal_error, exit_io, exit_state
    use axijoint_base_kinds, only : wp
    use axijoint_base_sha256, only : sha256
-   use axijoint_base_state_file, only : state_mark_type, read_state_file
+   use axijoint_base_state_file, only : state_mark_type, read_state_file, is_state_file
    use axijoint_base_stop, only : heed_file
-   use axijoint_base_system, only : path_kind, path_absent, rename_path, unlink_path
+   use axijoint_base_system, only : path_kind, path_absent, error_text, rename_path, unlink_path
    use axijoint_base_text, only : to_text
    use axijoint_base_version, only : program_name, program_version
-   use axijoint_base_whole_file, only : file_size, read_whole_file
+   use axijoint_base_whole_file, only : file_size, is_not_there, read_whole_file
    use axijoint_deck_text_source, only : source_type
    use axijoint_job_combination, only : combination_label
    use axijoint_job_job, only : job_type, job_name, result_name
-   use axijoint_output_file_names, only : files_of, final_path, file_summary, state_ending
+   use axijoint_output_file_names, only : files_of, final_path, file_summary, state_ending, &
+      stop_ending, put_aside
    use axijoint_output_file_pending, only : join_path
    implicit none
    private
-   public :: begin_state, end_state, stopped_text, note_written, is_written
-
-   !> Ending of a file that asks a run to end, and of a state that a run did not go on from
-   character(len=*), parameter :: stop_ending = '.STOP', put_aside = '.old'
+   public :: begin_state, end_state, stopped_text, note_written, is_written, remove_stop_file
 
    !> Number of what the bytes of a state mean: another wherever that changes
    character(len=*), parameter :: layout = '3'
@@ -38,7 +36,7 @@ contains
       logical, intent(in) :: resume
       !> What was found, a line each
       character(len=:), allocatable, intent(out) :: notes
-      !> The state cannot be gone on from
+      !> The state cannot be gone on from, or a file of its name is in the way
       type(error_type), allocatable, intent(out) :: error
 
       type(state_mark_type) :: mark
@@ -81,31 +79,35 @@ contains
       logical, intent(in) :: resume
       !> What was found, a line each, is added
       character(len=:), allocatable, intent(inout) :: notes
-      !> The state cannot be gone on from
+      !> The state cannot be gone on from, or a file of its name is in the way
       type(error_type), allocatable, intent(out) :: error
 
       type(state_mark_type) :: found
       character(len=:), allocatable :: body, failure, stop_file
       integer :: errno
-      logical :: there
+      logical :: there, removed, foreign
 
-      associate (path => job%checkpoint%path)
-         stop_file = join_path(job%options%directory, job_name(job%deck)//stop_ending)
-         if (path_kind(stop_file) /= path_absent) then
-            call unlink_path(stop_file, errno)
-            call add('a STOP file from before this run was removed: '//stop_file)
-         end if
-         call heed_file(stop_file)
-         call read_state_file(path, found, body, there, failure)
-         if (resume .and. .not. there) call add('there is no state '//path// &
-            ' to go on from: the run begins anew')
-      end associate
-      if (.not. there) return
-      if (resume) then
-         call go_on()
+      stop_file = join_path(job%options%directory, job_name(job%deck)//stop_ending)
+      call remove_stop_file(stop_file, removed, error)
+      if (allocated(error)) return
+      if (removed) call add('a STOP file from before this run was removed: '//stop_file)
+      call heed_file(stop_file)
+      foreign = is_foreign(job%checkpoint%path)
+      there = foreign
+      if (foreign) then
+         failure = 'is no state of axijoint that can be read'
       else
+         call read_state_file(job%checkpoint%path, found, body, there, failure)
+      end if
+      if (resume .and. .not. there) call add('there is no state '//job%checkpoint%path// &
+         ' to go on from: the run begins anew')
+      if (there .and. resume) then
+         call go_on()
+      else if (there) then
          call put_state_aside()
       end if
+      if (.not. allocated(error) .and. is_foreign(job%checkpoint%path//put_aside)) &
+         call add(job%checkpoint%path//put_aside//' is no state of axijoint, and is left as it is')
 
    contains
 
@@ -120,16 +122,29 @@ contains
          end if
          if (allocated(failure)) then
             call fatal_error(error, exit_state, 'the state '//job%checkpoint%path//' '//failure//new_line('a')// &
-               'mend: run without --resume, which begins anew')
+               'mend: run without --resume, which begins anew'//trim(merge(', and move that file away first', &
+               '                               ', foreign)))
             return
          end if
          call add('goes on from '//job%checkpoint%path//', '//found%place//' of '//found%date)
       end subroutine go_on
 
-      !> Keep the state under another name: somebody may have forgotten to go on from it
+      !> Keep the state under another name: somebody may have forgotten to go on from it. What is no
+      !> state is not renamed, nor is another file replaced by one
       subroutine put_state_aside()
          character(len=:), allocatable :: what
 
+         if (foreign) then
+            call fatal_error(error, exit_io, job%checkpoint%path//' '//failure//', and the state of this run '// &
+               'would replace it'//new_line('a')//'mend: move it away, or choose another directory with -o')
+            return
+         end if
+         if (is_foreign(job%checkpoint%path//put_aside)) then
+            call fatal_error(error, exit_io, job%checkpoint%path//put_aside//' is no state of axijoint, and the '// &
+               'state that an earlier run left would replace it'//new_line('a')// &
+               'mend: move it away, choose another directory with -o, or go on from that state with --resume')
+            return
+         end if
          what = ''
          if (.not. allocated(failure)) what = ' ('//found%place//', '//found%date//')'
          call rename_path(job%checkpoint%path, job%checkpoint%path//put_aside, errno)
@@ -147,6 +162,34 @@ contains
       end subroutine add
 
    end subroutine look_for_state
+
+   !> Whether somebody else's file has the name of a state
+   logical function is_foreign(path)
+      !> The name
+      character(len=*), intent(in) :: path
+
+      is_foreign = path_kind(path) /= path_absent .and. .not. is_state_file(path)
+   end function is_foreign
+
+   !> Remove a STOP file from before a run, which it would end at once
+   subroutine remove_stop_file(path, removed, error)
+      !> Its path
+      character(len=*), intent(in) :: path
+      !> Whether there was one
+      logical, intent(out) :: removed
+      !> It cannot be removed
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: errno
+
+      removed = .false.
+      if (path_kind(path) == path_absent) return
+      call unlink_path(path, errno)
+      removed = errno == 0
+      if (.not. (removed .or. is_not_there(errno))) call fatal_error(error, exit_io, path//' would end the run '// &
+         'at once, and cannot be removed: '//error_text(errno)//new_line('a')// &
+         'mend: move it away, or choose another directory with -o')
+   end subroutine remove_stop_file
 
    !> What a state must be of, to be gone on from
    subroutine compare_marks(mark, found, failure)
@@ -198,7 +241,7 @@ contains
       hash = sha256(hashes)
    end function hash_of
 
-   !> The job is done: there is nothing to go on from
+   !> The job is done: there is nothing to go on from. Files of these names that are no states stay
    subroutine end_state(job)
       !> The job
       type(job_type), intent(inout) :: job
@@ -207,8 +250,8 @@ contains
 
       call heed_file('')
       if (.not. allocated(job%checkpoint%path)) return
-      call unlink_path(job%checkpoint%path, errno)
-      call unlink_path(job%checkpoint%path//put_aside, errno)
+      if (is_state_file(job%checkpoint%path)) call unlink_path(job%checkpoint%path, errno)
+      if (is_state_file(job%checkpoint%path//put_aside)) call unlink_path(job%checkpoint%path//put_aside, errno)
    end subroutine end_state
 
    !> How a run was stopped, and how to go on. What is pending is written

@@ -1,12 +1,14 @@
 !> Rows of a study that are done, in the file of a study under way: a line a row, with a checksum,
 !> so that a study that was ended at any moment goes on where it was
 module axijoint_study_journal
-   use axijoint_base_error, only : error_type
+   use axijoint_base_error, only : error_type, fatal_error, exit_io
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_sha256, only : sha256
-   use axijoint_base_system, only : append_to_file, path_kind, path_absent, rename_path, unlink_path
+   use axijoint_base_system, only : append_to_file, path_kind, path_absent, path_file, rename_path, target_kind, unlink_path
    use axijoint_base_text, only : to_text
+   use axijoint_base_whole_file, only : first_bytes
    use axijoint_deck_text_file_bytes, only : read_bytes, line_end, next_line
+   use axijoint_output_file_names, only : aside => put_aside
    use axijoint_output_file_pending, only : io_error
    use axijoint_study_rows, only : row_type
    implicit none
@@ -48,7 +50,7 @@ contains
       type(row_type), intent(inout) :: rows(:)
       !> Where the journal of another study is now; empty if there was none
       character(len=:), allocatable, intent(out) :: put_aside
-      !> The file cannot be written
+      !> The file cannot be written, or is no journal
       type(error_type), allocatable, intent(out) :: error
 
       logical :: there, ours, torn
@@ -62,7 +64,10 @@ contains
          if (torn) call append_to_file(path, new_line('a'), .true., errno)
       else
          if (there) then
-            put_aside = path//'.old'
+            call check_journal(path, error)
+            if (.not. allocated(error)) call check_journal(path//aside, error)
+            if (allocated(error)) return
+            put_aside = path//aside
             call rename_path(path, put_aside, errno)
          end if
          if (errno == 0) &
@@ -71,6 +76,22 @@ contains
       call system_clock(journal%synced)
       if (errno /= 0) call io_error(error, 'write', path, errno)
    end subroutine open_journal
+
+   !> What is renamed, and what is replaced then, is a journal, if only the beginning of one: its writer
+   !> may have died. Other files are somebody else's
+   subroutine check_journal(path, error)
+      !> The file
+      character(len=*), intent(in) :: path
+      !> It is something else
+      type(error_type), allocatable, intent(out) :: error
+
+      if (path_kind(path) == path_absent) return
+      if (target_kind(path) == path_file) then
+         if (index(opening, first_bytes(path, len(opening))) == 1) return
+      end if
+      call fatal_error(error, exit_io, path//' does not hold rows that are done, and rows of this name would '// &
+         'replace it'//new_line('a')//'mend: move it away, or choose another directory with -o')
+   end subroutine check_journal
 
    !> Read a journal that this process does not write
    subroutine read_journal(path, key, n_quantities, rows, there, ours, torn)

@@ -4,10 +4,13 @@ module axijoint_study_undertaking
    use axijoint_base_error, only : error_type, exit_stopped
    use axijoint_base_stop, only : heed_file
    use axijoint_base_system, only : make_directories, unlink_path
-   use axijoint_output_claim, only : claim_type, claim_names, release_output
-   use axijoint_output_file_names, only : endings, file_arrays, journal_ending, table_ending, rows_ending
+   use axijoint_deck_text_source, only : source_type
+   use axijoint_output_claim, only : claim_type, claim_names, release_output, spare_sources
+   use axijoint_output_file_names, only : endings, file_arrays, journal_ending, table_ending, rows_ending, &
+      stop_ending, put_aside
    use axijoint_output_file_pending, only : join_path, io_error, check_name
    use axijoint_output_file_set, only : commit_set
+   use axijoint_output_state, only : remove_stop_file
    implicit none
    private
    public :: undertaking_type, begin_undertaking, end_undertaking, commit_pair
@@ -22,13 +25,10 @@ module axijoint_study_undertaking
       character(len=:), allocatable :: stop_file
    end type undertaking_type
 
-   !> Ending of the file that ends it
-   character(len=*), parameter :: stop_ending = '.STOP'
-
 contains
 
    !> Take a name, and heed its STOP file from now on
-   subroutine begin_undertaking(directory, name, claimed, purpose, undertaking, notes, error)
+   subroutine begin_undertaking(directory, name, claimed, purpose, deck, undertaking, notes, error, table)
       !> Directory, made if it is not there
       character(len=*), intent(in) :: directory
       !> Name of the files without ending
@@ -38,14 +38,19 @@ contains
       character(len=*), intent(in) :: claimed(:)
       !> What it is, a line that others are told
       character(len=*), intent(in) :: purpose
+      !> The deck, whose files stay
+      type(source_type), intent(in) :: deck
       !> What is under way
       type(undertaking_type), intent(out) :: undertaking
       !> What was found and done, a line each; may be empty
       character(len=:), allocatable, intent(out) :: notes
       !> Another process has the name, what has it is no file, or something cannot be written
       type(error_type), allocatable, intent(out) :: error
+      !> The table of a study, which stays, too
+      type(source_type), intent(in), optional :: table
 
       integer :: errno
+      logical :: removed
 
       notes = ''
       undertaking%directory = directory
@@ -59,12 +64,39 @@ contains
       end if
       call check_names(undertaking, error)
       if (.not. allocated(error)) call check_place(join_path(directory, trim(claimed(1)))//rows_ending, error)
+      if (.not. allocated(error)) call spare(undertaking, claimed, deck, 'the deck', error)
+      if (.not. allocated(error) .and. present(table)) call spare(undertaking, claimed, table, 'the table', error)
       if (allocated(error)) return
       call claim_names(directory, claimed, purpose, undertaking%claim, notes, error)
       if (allocated(error)) return
-      call unlink_path(undertaking%stop_file, errno)  ! of an earlier one
+      call remove_stop_file(undertaking%stop_file, removed, error)  ! of an earlier one
+      if (allocated(error)) return
       call heed_file(undertaking%stop_file)
    end subroutine begin_undertaking
+
+   !> Refuse to write over the files of the deck or the table, or to remove them
+   subroutine spare(undertaking, claimed, source, what, error)
+      !> What is under way
+      type(undertaking_type), intent(in) :: undertaking
+      !> Names that are to be taken
+      character(len=*), intent(in) :: claimed(:)
+      !> The deck, or the table
+      type(source_type), intent(in) :: source
+      !> Which of them
+      character(len=*), intent(in) :: what
+      !> The file in danger
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: k
+
+      call spare_sources(undertaking%directory, undertaking%name, [character(len=16) :: table_ending, &
+         endings(file_arrays)], source, what, error)
+      do k = 1, size(claimed)
+         if (allocated(error)) return
+         call spare_sources(undertaking%directory, trim(claimed(k)), [character(len=16) :: rows_ending, &
+            rows_ending//put_aside, stop_ending], source, what, error)
+      end do
+   end subroutine spare
 
    !> What the table and the HDF5 file replace is a regular file, or nothing
    subroutine check_names(undertaking, error)

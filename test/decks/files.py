@@ -113,6 +113,24 @@ def deck_named_like_a_result(program, folder):
     return faults
 
 
+def deck_named_like_what_is_removed(program, folder):
+    """Nor is a deck, or a file that it includes, taken for a state, a STOP file or what an earlier run did not complete"""
+    faults = []
+    deck = read_text(FIRST)
+    for name in ('job.state', 'job.STOP', 'parts.state', 'parts.state.old', 'parts.STOP', 'parts.lis.host.1.tmp'):
+        place = os.path.join(folder, name)
+        included = name.startswith('parts')
+        path = write(place, name, '! nothing\nEND\n' if included else deck)
+        if included:
+            write(place, 'parts.dat', deck.replace('\nFACES', f'\nINCLUDE   {name}\nFACES'))
+        earlier = read_bytes(path)
+        ran = program.run('run', os.path.join(place, 'parts.dat') if included else path, '-o', place)
+        faults += [f'{name}: {fault}' for fault in failed(ran, 5, f'{name}, a file of the deck')]
+        if not os.path.isfile(path) or read_bytes(path) != earlier:
+            faults.append(f'{name}: it was changed')
+    return faults
+
+
 def link(folder):
     """Make a symbolic link to a file, and check in the end that the file is as it was"""
     target = write(folder, 'target', 'kept\n')
@@ -212,6 +230,7 @@ def tests(program):
         'read-only directory': read_only, 'file size limit': file_size_limit,
         'long name': long_name,
         'a deck named like a result': deck_named_like_a_result,
+        'a deck named like what is removed': deck_named_like_what_is_removed,
         'full disk': full_disk, 'memory limit': memory, 'stack limit': stack,
         'output that is lost': lost_output,
         'directory for a file': lambda program, folder: occupied(program, folder, os.mkdir),

@@ -342,6 +342,46 @@ def forgotten(program, folder):
     return faults + expected('exit code', 0, ran.returncode) + runs.same('none')
 
 
+def foreign(program, folder):
+    """A file of somebody else with the name of a state is neither renamed, nor replaced, nor removed"""
+    runs, path = stopped(program, folder)
+    state, text = read_bytes(path), b'states of the soil\n'
+    faults = []
+    for name, others, options, code, words in (
+            ('job.state', {}, (), 5, 'job.state is no state of axijoint'),
+            ('job.state', {}, ('--resume',), 8, 'move that file away first'),
+            ('job.state.old', {}, (), 0, 'job.state.old is no state of axijoint, and is left as it is'),
+            ('job.state.old', {'job.state': state}, (), 5, 'job.state.old is no state of axijoint, and the state'),
+            ('job.state.old', {'job.state': state}, ('--resume',), 0, 'goes on from')):
+        output = f'other{len(os.listdir(folder))}'
+        for file, content in {name: text, **others}.items():
+            write(folder, f'{output}/{file}', content)
+        ran = runs.run(output, *options)
+        found = expected('exit code', code, ran.returncode) + ([] if words in ran.stderr else [ran.stderr])
+        left = {name: text, **(others if code else {})}
+        for file, content in left.items():
+            kept = os.path.join(folder, output, file)
+            if not os.path.isfile(kept) or read_bytes(kept) != content:
+                found.append(f'{file} was changed')
+        faults += [f'{name} {options}: {fault}' for fault in found]
+    os.makedirs(os.path.join(folder, 'folder', 'job.state'))
+    ran = runs.run('folder')
+    return faults + expected('exit code', 5, ran.returncode) + expected(
+        'files', True, os.path.isdir(os.path.join(folder, 'folder', 'job.state')))
+
+
+def stop_folder(program, folder):
+    """A folder that is named like a STOP file cannot be removed: the run says so and does not begin"""
+    runs = Runs(program, folder, JOBS['history'])
+    os.makedirs(os.path.join(folder, 'out', 'job.STOP'))
+    ran = runs.run('out')
+    faults = expected('exit code', 5, ran.returncode)
+    if 'job.STOP would end the run at once, and cannot be removed: ' not in ran.stderr or 'was removed' in ran.stderr:
+        faults.append(ran.stderr)
+    os.rmdir(os.path.join(folder, 'out', 'job.STOP'))
+    return faults + expected('exit code', 0, runs.run('out').returncode)
+
+
 def written_already(program, folder):
     """Of two combinations the first is not solved again, unless its results are not there as they were"""
     runs = Runs(program, folder, JOBS['two combinations'])
@@ -406,6 +446,7 @@ def tests(program):
     """One test a way to be stopped"""
     functions = {'signals': signals, 'interrupted twice': interrupted_twice, 'while reading': while_reading,
                  'STOP file': stop_file, 'states that are refused': refused, 'states that are forgotten': forgotten,
+                 'states of others': foreign, 'STOP folder': stop_folder,
                  'written already': written_already, 'states that cannot be written': disk_full, 'while METIS works': signal_in_metis,
                  '--checkpoint': option_faults}
     found = [Test(f'resumed: {what}', lambda folder, check=check: check(program, folder))

@@ -413,6 +413,30 @@ def taken_names(program, folder):
     return faults + expected('files', ['block.dat', 'rows.csv'], sorted(os.listdir(folder)))
 
 
+def files_of_others(program, folder):
+    """A deck, a table and other files that are named like what a study removes or renames stay, and the study says so"""
+    faults = []
+    content, text = input_deck('block.dat'), 'my rows\n'
+    journal = 'axijoint study, rows that are done; of another\n'
+    for files, deck, words in (
+            ({'rows.study.STOP': content}, 'rows.study.STOP', 'rows.study.STOP, a file of the deck'),
+            ({'rows.study.csv': content}, 'rows.study.csv', 'rows.study.csv, a file of the deck'),
+            ({'rows.study.rows': text}, None, 'rows.study.rows does not hold rows'),
+            ({'rows.study.rows.old': text, 'rows.study.rows': journal}, None, 'rows.study.rows.old does not hold rows')):
+        place = os.path.join(folder, str(len(os.listdir(folder))))
+        paths = {write(place, name, what): what for name, what in files.items()}
+        table = write(place, 'rows.csv', 'LAWS 1 PHI\n30\n')
+        path = os.path.join(place, deck) if deck else write(place, 'block.dat', content)
+        ran = program.run('study', table, path, '-o', place, '--quiet', folder=folder, time_limit=60)
+        faults += [f'{words}: {fault}' for fault in ran.ended_with(5)] + ([] if words in ran.err else [ran.err])
+        for file, what in paths.items():
+            if not os.path.isfile(file) or read_text(file) != what:
+                faults.append(f'{file} was changed')
+    os.makedirs(os.path.join(folder, 'stop', 'rows.study.STOP'))
+    ran = program.run('study', table, path, '-o', 'stop', '--quiet', folder=folder, time_limit=60)
+    return faults + ran.ended_with(5) + ([] if 'rows.study.STOP would end the run at once' in ran.err else [ran.err])
+
+
 def bad_rows(program, folder):
     """Values that a deck cannot have together: the row says so, the others are solved"""
     table = 'MATERIALS 1 E, LAWS 1 kind of law, LAWS 1 phi\n2E4,,\n2E4,ELASTIC,20\n1E4,,\n'
@@ -538,6 +562,7 @@ def tests(program):
         Test('studies/processes', lambda folder: processes(program, folder)),
         Test('studies/wrong tables', lambda folder: wrong_tables(program, folder)),
         Test('studies/taken names', lambda folder: taken_names(program, folder)),
+        Test('studies/files of others', lambda folder: files_of_others(program, folder)),
         Test('studies/as written', lambda folder: as_written(program, folder)),
         Test('studies/bad rows', lambda folder: bad_rows(program, folder)),
         Test('studies/samples', lambda folder: samples(program, folder)),

@@ -7,8 +7,8 @@ module axijoint_output_file_names
    private
    public :: endings, file_arrays, file_listing, file_summary, file_bodies, file_joints, &
       file_old_listing
-   public :: files_of, final_path, journal_ending, lock_ending, state_ending, table_ending, &
-      rows_ending
+   public :: files_of, final_path, journal_ending, lock_ending, state_ending, stop_ending, table_ending, &
+      rows_ending, put_aside
 
    !> Endings of the files
    character(len=16), parameter :: endings(6) = [character(len=16) :: &
@@ -18,9 +18,11 @@ module axijoint_output_file_names
    !> Endings of the table of a study, and of the journal of its rows
    character(len=*), parameter :: table_ending = ".csv", rows_ending = ".rows"
    !> Endings of what is there only while a run is under way, or was not ended: who writes these
-   !> files, which of them are about to get their names, how far it is
+   !> files, which of them are about to get their names, how far it is, and that it shall end
    character(len=*), parameter :: lock_ending = ".lock", journal_ending = ".commit", &
-      state_ending = ".state"
+      state_ending = ".state", stop_ending = ".STOP"
+   !> What is added to the name of a state, or of the rows of a study, that was not gone on from
+   character(len=*), parameter :: put_aside = ".old"
 
 contains
 
