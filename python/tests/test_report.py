@@ -18,6 +18,7 @@ import axijoint
 from axijoint import report
 from axijoint.report import __main__ as command
 from axijoint.report import budget, markup
+import yielding as yielding_decks
 
 try:
     from axijoint import plot
@@ -223,6 +224,16 @@ class Reports(unittest.TestCase):
             self.assertTrue(begin.startswith(b"\x89PNG") if kind == "png" else b"<?xml" in begin)
             self.assertTrue(int(image["width"]) > 0 and int(image["height"]) > 0)
             self.assertTrue(image["alt"].startswith("LAST EQUILIBRIUM BEFORE A MECHANISM: "))
+
+    @unittest.skipIf(plot is None, "matplotlib is not installed")
+    def test_figures_of_bodies_that_yield(self):
+        jobs.run(self.folder, "pile_clay", jobs.input_deck("pile_clay"))
+        jobs.run(self.folder, "beyond", yielding_decks.pile(2, 0, (4.0, 2.0)), exit_code=4)
+        said = [image["alt"] for name in ("pile_clay", "beyond") for image in self.page(name, figures=True).images]
+        for words in ("Yielding. Planes .* plastic strain", "Yield margin. The share of the strength", "Dissipation. Planes .* work",
+                      "Mechanism. Planes .* what the step moved"):
+            self.assertTrue(any(re.search(words, one) for one in said), f"{words}: {said}")
+        self.assertEqual([one for one in said if "Interface unrolled" in one], [])
 
     @unittest.skipIf(plot is None, "matplotlib is not installed")
     def test_large_figures_become_pixels(self):

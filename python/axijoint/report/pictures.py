@@ -20,6 +20,15 @@ NARROW = 600
 NAMES = {"displacement": "Length of the displacement", "sigma_r": "Radial stress σ_r", "sigma_z": "Axial stress σ_z",
          "sigma_theta": "Hoop stress σ_θ", "tau_rz": "Shear stress τ_rz", "tau_rtheta": "Shear stress τ_rθ",
          "tau_ztheta": "Shear stress τ_zθ"}
+# Figures of bodies that yield: caption, and in words what it shows
+YIELDING = {
+    "yielding": ("Yielding", "Planes θ = 0 (right) and θ = 180° (left): the largest equivalent plastic strain in each element."),
+    "yielding_unrolled": ("Yield margin", "The share of the strength that is left, over θ and z, round the circle of the point "
+                          "with the largest plastic strain; black line: the edge of what has yielded."),
+    "dissipation": ("Dissipation", "Planes θ = 0 (right) and θ = 180° (left): the largest work per volume that plastic strain "
+                    "dissipated in each element in the last increment. Near a limit load it shows where the mechanism shears."),
+    "mechanism": ("Mechanism", "Planes θ = 0 (right) and θ = 180° (left): what the step moved that found no equilibrium, "
+                  "enlarged; dashed: at rest.")}
 
 
 def pictures(job, mark):
@@ -61,6 +70,8 @@ def _saved(figure, plot, kind, **options):
 
 def describe(job, name):
     """Caption of a figure, and in words what it shows."""
+    if name in YIELDING:
+        return YIELDING[name]
     kind, _, rest = name.partition("_")
     captions = {"mesh": _mesh, "deformed": _deformed, "contours": _contours, "section": _section, "line": _line,
             "joints": _joints, "convergence": _convergence, "spectrum": _spectrum}
