@@ -1,11 +1,11 @@
-!> Numbers as text, letter case, and words that resemble each other
+!> Numbers as text, letter case, words that resemble each other, names of files
 module axijoint_base_text
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use axijoint_base_kinds, only : wp, i8
    implicit none
    private
    public :: to_text, percent_text, fine_percent, lower, upper, count_of, edit_distance, nearest_word, &
-      did_you_mean
+      did_you_mean, name_of
 
    !> A number as text without blanks
    interface to_text
@@ -243,5 +243,15 @@ contains
       if (100.0_wp*value >= 0.01_wp .and. value < 10.0_wp) write (number, '(f12.2)') 100.0_wp*value
       text = trim(adjustl(number))//" %"
    end function fine_percent
+
+   !> A path without its folders
+   pure function name_of(path) result(name)
+      !> The path
+      character(len=*), intent(in) :: path
+      !> Name of the file
+      character(len=:), allocatable :: name
+
+      name = path(index(path, '/', back=.true.) + 1:)
+   end function name_of
 
 end module axijoint_base_text

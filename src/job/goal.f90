@@ -8,7 +8,7 @@ module axijoint_job_goal
    use axijoint_base_error, only : error_type, fatal_error, exit_deck, exit_state, exit_stopped
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : show_progress
-   use axijoint_base_text, only : to_text
+   use axijoint_base_text, only : to_text, name_of
    use axijoint_deck_text_diagnostics, only : diagnostics_type, render
    use axijoint_job_combination, only : solve_combination
    use axijoint_job_job, only : job_type
@@ -171,7 +171,7 @@ contains
          call read_refined(job, refinement, error)
          if (allocated(error) .and. allocated(refinement%mesh_file)) then
             if (error%code /= exit_deck) return
-            note = 'the deck does not fit '//refinement%mesh_file//', which Gmsh made'
+            note = 'the deck does not fit '//name_of(refinement%mesh_file)//', which Gmsh made'
             deallocate (error)
             refinement = before
             call read_refined(job, refinement, error)

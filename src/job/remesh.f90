@@ -4,7 +4,7 @@ module axijoint_job_remesh
    use axijoint_base_kinds, only : wp
    use axijoint_base_sha256, only : sha256
    use axijoint_base_system, only : error_text, rename_path, unlink_path
-   use axijoint_base_text, only : to_text
+   use axijoint_base_text, only : to_text, name_of
    use axijoint_base_whole_file, only : read_whole_file, write_new_file
    use axijoint_gmsh_size_view, only : size_view
    use axijoint_job_job, only : job_type, job_name
@@ -36,7 +36,7 @@ contains
       !> The sizes cannot be written
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: stem, sizes, mesh, part, bytes, command, by_hand
+      character(len=:), allocatable :: stem, sizes, mesh, part, bytes, by_hand
       integer :: errno, code, status
 
       made = .false.
@@ -45,11 +45,11 @@ contains
       call write_sizes(job, refinement%sizes, sizes, error)
       if (allocated(error)) return
       associate (geometry => job%model%error_goal%geometry)
-         command = 'gmsh -2 '//quoted(geometry)//' -bgm '//quoted(sizes)// &
-            ' -setnumber Mesh.MeshSizeExtendFromBoundary 0'
-         by_hand = command//' -o '//quoted(geometry(:index(geometry, '.', back=.true.) - 1)//mesh_ending)
+         ! notes are part of the results, which do not depend on folders
+         by_hand = command(name_of(geometry), name_of(sizes), &
+            name_of(geometry(:index(geometry, '.', back=.true.) - 1)//mesh_ending))
          if (len(geometry) == 0) then
-            note = 'the deck names no .geo file that Gmsh could make its mesh of anew; '//sizes// &
+            note = 'the deck names no .geo file that Gmsh could make its mesh of anew; '//name_of(sizes)// &
                ' has the sizes of elements wanted (gmsh -bgm)'
             return
          else if (allocated(job%options%team)) then
@@ -60,7 +60,7 @@ contains
          part = stem//'.part'//mesh_ending
          call unlink_path(part, errno)
          code = 0
-         call execute_command_line(command//' -o '//quoted(part)//' >'//quoted(stem//log_ending)// &
+         call execute_command_line(command(geometry, sizes, part)//' >'//quoted(stem//log_ending)// &
                                    ' 2>&1', exitstat=code, cmdstat=status)
          if (status == 0 .and. code == 0) then
             call read_whole_file(part, bytes, errno)
@@ -76,10 +76,21 @@ contains
             note = 'gmsh is not installed; where it is: '//by_hand
             call unlink_path(stem//log_ending, errno)
          else
-            note = 'gmsh made no mesh (see '//stem//log_ending//'): '//by_hand
+            note = 'gmsh made no mesh (see '//name_of(stem//log_ending)//'): '//by_hand
          end if
       end associate
    end subroutine remake_mesh
+
+   !> What has Gmsh make a mesh of sizes that are wanted, for the shell
+   pure function command(geometry, sizes, mesh)
+      !> Files of the geometry and of the sizes; the file that the mesh is written into
+      character(len=*), intent(in) :: geometry, sizes, mesh
+      !> The command
+      character(len=:), allocatable :: command
+
+      command = 'gmsh -2 '//quoted(geometry)//' -bgm '//quoted(sizes)// &
+         ' -setnumber Mesh.MeshSizeExtendFromBoundary 0 -o '//quoted(mesh)
+   end function command
 
    !> Write the view of the sizes under its final name when it is complete
    subroutine write_sizes(job, sizes, path, error)

@@ -128,13 +128,14 @@ def rounds(program, folder):
     mesh = f'deck.round{len(errors)}.msh'
     if not os.path.exists(os.path.join(folder, mesh)) or not any(mesh in text for text in summary['messages']):
         faults.append(f'no {mesh}, or no word of it: {summary["messages"]}')
+    faults += [f'a folder in {text!r}' for text in summary['messages'] if folder in text]
     return faults
 
 
 def sizes(program, folder):
     """Without gmsh the sizes are written, and a message says what to do; the least are where stress is infinite"""
     summary = solve(program, folder, 0.1, there=False)
-    faults = [] if any('gmsh is not installed' in text and "-bgm 'deck.size.pos'" in text.replace(folder + '/', '')
+    faults = [] if any("gmsh is not installed; where it is: gmsh -2 'ring.geo' -bgm 'deck.size.pos' " in text
                        for text in summary['messages']) else [f'found {summary["messages"]}']
     found = sizes_of(os.path.join(folder, 'deck.size.pos'))
     faults += expected('corners', 64, len(found)) + expected('rounds', 1, len(summary['rounds']))
@@ -160,6 +161,7 @@ def words(program, folder):
         faults += expected(f'{name}: rounds', 1, len(summary['rounds']))
         if not any(wanted in text for text in summary['messages']):
             faults.append(f'{name}: expected {wanted!r}, found {summary["messages"]}')
+        faults += [f'{name}: a folder in {text!r}' for text in summary['messages'] if folder in text]
     if 'no mesh of this' not in read_text(os.path.join(folder, 'fails', 'deck.gmsh.log')):
         faults.append('deck.gmsh.log does not say why')
     return faults

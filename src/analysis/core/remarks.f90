@@ -6,7 +6,7 @@ module axijoint_analysis_core_remarks
    use axijoint_analysis_core_results, only : results_type, remark_type, source_names, source_iteration
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_base_kinds, only : wp, degree
-   use axijoint_base_text, only : to_text, count_of
+   use axijoint_base_text, only : to_text, count_of, name_of
    use axijoint_element_joint_law, only : joint_law_type, opening_reversible, eta
    use axijoint_joints_field, only : joint_field_type, n_across_gaps, n_fading
    use axijoint_joints_history, only : history_type
@@ -296,7 +296,7 @@ contains
       character(len=:), allocatable :: why
 
       if (allocated(refinement%mesh_file)) call add(results%remarks, 'the mesh is '// &
-         refinement%mesh_file//', which Gmsh made of '//model%error_goal%geometry)
+         name_of(refinement%mesh_file)//', which Gmsh made of '//name_of(model%error_goal%geometry))
       if (.not. results%converged) return
       associate (last => results%rounds(size(results%rounds)), goal => model%error_goal)
          if (last%error >= 0.0_wp .and. last%error <= goal%target .and. unknown == 0) return
