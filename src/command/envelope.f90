@@ -125,7 +125,7 @@ contains
          if (len(word) > 0) call read_integer(word, label, code)
          k = findloc(model%load_cases%label, label, 1)
          if (code /= token_good .or. k == 0 .or. any(cases == k)) then
-            call fatal_error(error, exit_deck, "axijoint: option --cases: found '"//text// &
+            call fatal_error(error, exit_deck, "option --cases: found '"//text// &
                "', allowed are load cases of the deck, each once: "//known)
             return
          end if

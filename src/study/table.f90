@@ -455,10 +455,12 @@ contains
       type(place_type), allocatable :: places(:)
       character(len=:), allocatable :: text
       real(wp) :: rows
+      logical :: faulty(size(columns))
       integer :: k
 
       text = card_text(source, line)
       places = places_of(text)
+      faulty = .false.
       allocate (cells(size(columns)))
       if (present(diagnostics) .and. size(places) /= size(columns)) then
          call add_error(diagnostics, line, 1, len(text), 'the line has '// &
@@ -474,19 +476,23 @@ contains
             if (present(diagnostics) .and. len(cell%fault) == 0 .and. columns(k)%section == 0 &
                 .and. (size(cell%values) > 1 .or. cell%distribution > 0)) &
                cell%fault = trim(columns(k)%name)//' is one value'
-            if (present(diagnostics) .and. len(cell%fault) > 0) &
+            faulty(k) = len(cell%fault) > 0
+            if (present(diagnostics) .and. faulty(k)) &
                call add_error(diagnostics, line, first, max(first, last), cell%fault, &
                   found=text(first:last), allowed=cell%allowed, mend=cell%mend)
             if (columns(k)%section > 0) rows = rows*max(1, size(cell%values))
          end associate
       end do
+      ! a cell with a fault may be meant as the number, or as the distribution: its fault is told alone
       if (any(cells%distribution > 0)) then
          rows = rows*own_value(columns, cells, own_samples, 0)
-         if (present(diagnostics) .and. own_value(columns, cells, own_samples, 0) == 0) &
+         if (present(diagnostics) .and. own_value(columns, cells, own_samples, 0) == 0 .and. &
+             .not. any(faulty .and. columns%section == 0)) &
             call add_error(diagnostics, line, 1, len(text), &
             'nothing says how many rows are drawn', &
                mend='add a column SAMPLES with the number')
-      else if (present(diagnostics) .and. own_value(columns, cells, own_samples, 0) > 0) then
+      else if (present(diagnostics) .and. own_value(columns, cells, own_samples, 0) > 0 .and. &
+               .not. any(faulty .and. columns%section > 0)) then
          call add_error(diagnostics, line, 1, len(text), 'nothing is drawn of which SAMPLES could say how much', &
             mend='leave SAMPLES blank on this line, or give a distribution, such as NORMAL 30 2')
       end if

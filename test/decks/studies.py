@@ -368,6 +368,8 @@ FAULTS = (
     ('LAWS 1 PHI\nNORMAL 30\n', 'NORMAL takes 2 numbers', 'UNIFORM low high'),
     ('LAWS 1 PHI\nNORMAL 30 2\n', 'nothing says how many rows are drawn', 'add a column SAMPLES'),
     ('LAWS 1 PHI, SAMPLES\n30, 10\n', 'nothing is drawn', 'leave SAMPLES blank'),
+    ('LAWS 1 PHI, SAMPLES\nNORMAL 30 -2, 3\n', 'the deviation, or scale, is not above zero', 'UNIFORM low high'),
+    ('LAWS 1 PHI, SAMPLES\nUNIFORM 30 2, 3\n', 'the upper end is not above the lower', 'UNIFORM low high'),
     ('LAWS 1 PHI, SAMPLES\nNORMAL 30 2, 0\n', 'the number of SAMPLES is too small', '1 to 999999999'),
     ('LAWS 1 PHI, SAMPLES\nNORMAL 60 20, 500\n', 'a value is drawn that the card does not take', 'TRUNCATED'),
     ('LAWS 1 PHI, LAWS 1 phi\n1, 2\n', 'this column is there before', ''),
@@ -391,6 +393,8 @@ def wrong_tables(program, folder):
         ran = program.run('study', path, deck, '-o', folder, folder=folder)
         faults += [f'{table!r}: {fault}' for fault in ran.ended_with(2)]
         faults += [f'{table!r}: {part!r} is not said in\n{ran.err}' for part in said if part not in ran.err]
+        if ran.err.count(': error: ') != 1:
+            faults.append(f'{table!r}: not one error in\n{ran.err}')
         if 'rows' not in said[0] and '^' not in ran.err and 'drawn that' not in said[0]:
             faults.append(f'{table!r}: no place is pointed at in\n{ran.err}')
     left = [name for name in os.listdir(folder) if 'study' in name]
@@ -534,6 +538,7 @@ def capacities(program, folder):
     faults += wrong.ended_with(2)
     if 'allowed are load cases of the deck, each once: 1, 2, 3, 4' not in wrong.err:
         faults.append(wrong.err)
+    faults += expected('names of the program', 1, wrong.err.count('axijoint: '))
     return faults
 
 
