@@ -128,7 +128,7 @@ contains
          return
       end if
       if (cards_per_entry(section) > 1) then
-         out_of_place = fits(source, card, section, 2)
+         out_of_place = fits(source, card, section, 2) .and. .not. has_slips(source, owner, card, section)
          if (out_of_place) call report_lacking(section, card, 1, diagnostics)
          if (out_of_place) return
       end if
@@ -140,6 +140,28 @@ contains
       if (begun%left) call add_error(diagnostics, card, 0, 0, 'a keyword is lacking above this '// &
          'card, which does not fit '//trim(section%name), mend='the cards would fit '//keywords)
    end subroutine judge_place
+
+   !> Whether a card that could be the second of an entry is its first with few faults: if so, the card
+   !> behind it is the second. The values of a free card often fit both
+   logical function has_slips(source, owner, card, section)
+      !> The deck, and the keyword card of each data card
+      type(source_type), intent(in) :: source
+      integer, intent(in) :: owner(:)
+      !> The card
+      integer, intent(in) :: card
+      !> Its section
+      type(section_type), intent(in) :: section
+
+      !> Were it the second, two cards would be lacking: its own first, and that of the card behind it
+      integer, parameter :: most_slips = 2
+      integer :: next
+
+      has_slips = .false.
+      next = card + findloc(owner(card + 1:), owner(card), 1)
+      if (next == card) return
+      if (fits(source, next, section, 1) .or. .not. fits(source, next, section, 2)) return
+      has_slips = card_faults(source, card, section%fields, 1) <= most_slips
+   end function has_slips
 
    !> Whether a card can be read as one of an entry without a fault
    logical function fits(source, card, section, k)
