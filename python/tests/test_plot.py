@@ -120,6 +120,10 @@ class Figures(unittest.TestCase):
             with contextlib.redirect_stderr(io.StringIO()) as said:
                 self.assertEqual(command.main([str(path), "nothing"]), 2)
             self.assertIn("nothing is neither a file nor a kind of figure", said.getvalue())
+            for place, reason in ((str(path), "File exists"), (f"{path}/out", "Not a directory")):
+                with contextlib.redirect_stderr(io.StringIO()) as said:
+                    self.assertEqual(command.main([str(path), "mesh", "-o", place]), 2)
+                self.assertEqual(said.getvalue(), f"plot: -o {place}: no directory can be made there: {reason}\n")
 
     def test_studies(self):
         tables = {"grid": {"LAWS 1 PHI": "0:30:10", "RESULTANTS 1 VALUE": "0.2;0.4", "LAWS 1 C": "0;0.1"},

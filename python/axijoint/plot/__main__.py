@@ -132,7 +132,11 @@ def main(arguments=None):
     if fault:
         print(f"plot: {fault}", file=sys.stderr)
         return 2
-    given.o.mkdir(parents=True, exist_ok=True)
+    try:
+        given.o.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        print(f"plot: -o {given.o}: no directory can be made there: {error.strerror}", file=sys.stderr)
+        return 2
     code = 0
     for path in paths:
         try:
