@@ -51,7 +51,12 @@ WRONG = [(lambda deck: deck.materials(1, 2.1e5, 0.5), "poisson is 0.5: out of ra
          (lambda deck: (deck.control(1), deck.control(1)), "CONTROL stands once"),
          (lambda deck: deck.include("/etc/deck"), "must not be absolute"),
          (lambda deck: deck.gmsh("../a.msh"), "must not contain"),
-         (lambda deck: Deck("x"*81), "the title has 81 letters")]
+         (lambda deck: Deck("x"*81), "the title has 81 letters"),
+         (lambda deck: Deck("END"), "the title 'END' is a keyword alone"),
+         (lambda deck: Deck("control   12"), "is a keyword alone"),
+         (lambda deck: deck.materials(10**9, 1.0, 0.3), "material is 1000000000: out of range; allowed: 1 … 999999999$"),
+         (lambda deck: deck.elements(10**9, 1, nodes=(1, 2, 3)), "out of range; allowed: 1 … 999999999$"),
+         (lambda deck: deck.materials(1, 1e31, 0.3), r"young is 1e\+31: too large; allowed: magnitudes up to 1E30$")]
 
 
 def values_of(card, lines):
@@ -151,6 +156,8 @@ class Cards(unittest.TestCase):
         deck = Deck()
         deck.include("mesh/nodes.inc")
         self.assertIn("\nINCLUDE   mesh/nodes.inc\n", deck.text)
+        for title in ("END of a job", " END", "The END", "Ends"):
+            self.assertEqual(Deck(title).title, title)
         with self.assertRaises(AttributeError):
             Deck().materialz(1, 1.0, 0.3)
 

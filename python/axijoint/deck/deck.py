@@ -23,12 +23,15 @@ class Deck(Cards):
     A name, kind or value that a card cannot have is refused at once, by a TypeError or a DeckError. Cards stand in
     the order of the calls: loads belong to the CASE called before them. Reals keep all their digits.
 
-    title: the title card, 80 letters at most
+    title: the title card, 80 letters at most, not a keyword alone
     """
 
     def __init__(self, title: str = "") -> None:
         if len(title) > MOST_LETTERS or not title.isprintable():
             raise DeckError(f"the title has {len(title)} letters; allowed are {MOST_LETTERS}, on one line")
+        word, _, behind = title.partition(" ")
+        if word.upper() in described() and not behind.strip(" 0123456789"):  # which the program takes for the keyword
+            raise DeckError(f"the title {title!r} is a keyword alone")
         self.title = title
         self._lines: list[str] = []
         self._open = ""

@@ -11,6 +11,8 @@ from collections.abc import Mapping
 from .names import NAMES
 
 LEAST_REAL = 1e-30
+LARGEST_REAL = 1e30
+LARGEST_INTEGER = 999999999
 
 
 class DeckError(ValueError):
@@ -76,7 +78,12 @@ def _check_range(place, field, value, allowed):
     low, high = field["low"], field["high"]
     if value < low or value > high or (field["above_low"] and value == low) \
             or (field["below_high"] and value == high):
-        _refuse(place, value, "out of range", allowed or f"{low:g} … {high:g}")
+        _refuse(place, value, "out of range", allowed or f"{_plain(low)} … {_plain(high)}")
+
+
+def _plain(value):
+    """An end of a range, integers with all their digits."""
+    return f"{value:.0f}" if value == int(value) and abs(value) < LARGEST_REAL else f"{value:g}"
 
 
 def _integer(place, field, value, allowed):
@@ -86,7 +93,8 @@ def _integer(place, field, value, allowed):
         value = operator.index(value)
     except TypeError:
         _refuse(place, value, "no integer", allowed)
-    _check_range(place, field, value, allowed)
+    # a limit of all integers is not among the words of a field
+    _check_range(place, field, value, allowed if value <= LARGEST_INTEGER else "")
     return str(value)
 
 
@@ -101,6 +109,8 @@ def _real(place, field, value, allowed):
         _refuse(place, value, "no finite number", allowed)
     if 0 < abs(number) < LEAST_REAL:
         _refuse(place, value, "too small", "0, or magnitudes from 1E-30")
+    if abs(number) > LARGEST_REAL:
+        _refuse(place, value, "too large", "magnitudes up to 1E30")
     _check_range(place, field, number, allowed)
     return repr(number).upper()
 
