@@ -4,7 +4,7 @@ module axijoint_analysis_core_joint_work
    use axijoint_assembly_force, only : joint_jump
    use axijoint_assembly_unit_loads, only : in_situ_joint_stress
    use axijoint_base_kinds, only : wp, pi
-   use axijoint_element_joint_law, only : joint_law_type, state_open
+   use axijoint_element_joint_law, only : joint_law_type, state_open, eta
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_fe_mode, only : mode_type, same_mode
    use axijoint_joints_field, only : joint_field_type, new_joint_field, set_initial_stress
@@ -74,7 +74,8 @@ contains
    !> Work that shear stress has done on slip from one state to the next, by the mean of both
    !> stresses: exact if friction does not change in between; by the second one where the first pointed
    !> against the slip, which began after that had turned. Slip is the relative displacement less what
-   !> the springs take; of points that open none counts. Stress in situ is there before anything moves
+   !> the springs take; of points that open none counts. What slip lifts by dilation is lifted against the
+   !> normal stress, which takes of that work. Stress in situ is there before anything moves
    function sliding_work(model, structure, before, now) result(work)
       !> The job
       type(model_type), intent(in) :: model
@@ -86,6 +87,8 @@ contains
       real(wp) :: work
 
       integer, parameter :: shear(2) = [1, 3]
+      !> Stress before, over that after, whose direction is rounding
+      real(wp), parameter :: none = 1.0e-9_wp
       real(wp), allocatable :: weight(:), in_situ(:, :)
       real(wp) :: stress(2), start(2), slip(2)
       integer :: j, k
@@ -111,12 +114,40 @@ contains
                   elsewhere
                      slip = 0.0_wp
                   end where
+                  if (law%dilation > 0.0_wp) work = work + weight(j)*point%weight*lifting_work(law, k, j)
                end associate
-               if (dot_product(start, slip) < 0.0_wp) start = stress
+               if (dot_product(start, slip) < -none*norm2(stress)*norm2(slip)) start = stress
                work = work + weight(j)*point%weight*dot_product(0.5_wp*(start + stress), slip)
             end associate
          end do
       end do
+
+   contains
+
+      !> Work of the normal stress on what slip has lifted, negative, per area; none where the joint stood open before
+      real(wp) function lifting_work(law, k, j) result(work)
+         !> Properties of the joint
+         type(joint_law_type), intent(in) :: law
+         !> Point and plane
+         integer, intent(in) :: k, j
+
+         real(wp) :: first, lifted
+
+         work = 0.0_wp
+         first = in_situ(eta, k)
+         lifted = now%jump(eta, k, j)
+         if (allocated(before%stress)) then
+            if (before%state(k, j) == state_open) return
+            first = first + before%stress(eta, k, j)
+            lifted = lifted - before%jump(eta, k, j)
+         else
+            if (law%gap > 0.0_wp) return
+            first = first + law%initial_stress
+         end if
+         lifted = lifted - (now%stress(eta, k, j) - first)/law%stiffness(eta)
+         work = 0.5_wp*(first + now%stress(eta, k, j))*lifted
+      end function lifting_work
+
    end function sliding_work
 
    !> Stress in situ of the joints that can yield, that is new from one state to the next
