@@ -34,6 +34,8 @@ module axijoint_analysis_fine_difference
       real(wp), allocatable :: displacement(:, :, :)
       !> Of the jumps at its joint points, amplitudes, shape (3, points, modes)
       real(wp), allocatable :: jump(:, :, :)
+      !> Whether what was found is made of numbers, shape (modes)
+      logical, allocatable :: known(:)
       !> Time of all threads [second], and share of the time of the solution that went into
       !> factorizations
       real(wp) :: seconds = 0.0_wp, factor_share = 0.0_wp
@@ -63,6 +65,7 @@ contains
 
       allocate (difference%displacement(3, n_nodes, n_modes), source=0.0_wp)
       allocate (difference%jump(3, n_points, n_modes), source=0.0_wp)
+      allocate (difference%known(n_modes), source=.true.)
    end subroutine new_difference
 
    !> Let all ranks know the differences of all modes
@@ -76,6 +79,7 @@ contains
          call equations%team%gather(displacement, size(displacement, kind=i8), equations%last_mode)
          call equations%team%gather(jump, size(jump, kind=i8), equations%last_mode)
       end associate
+      difference%known = equations%team%all_of(all(difference%known))
    end subroutine share_difference
 
    !> Find the difference of the modes of one system
@@ -107,7 +111,10 @@ contains
       associate (system => equations%systems(s))
          call factor_blocks(level%smoother, level%stiffness, system%harmonic, &
             level%conditions(system%class), room%factor, failed)
-         if (failed) return
+         if (failed) then
+            difference%known(system%modes) = .false.
+            return
+         end if
          do i = 1, size(system%modes)
             k = system%modes(i)
             call left_force(level, equations, k, load, displacement(:, :, k), points, &
@@ -117,6 +124,8 @@ contains
             else
                call descend(level, equations, k, most_steps, room, difference)
             end if
+            difference%known(k) = difference%known(k) .and. are_numbers(difference%displacement(:, :, k)) .and. &
+               are_numbers(difference%jump(:, :, k))
          end do
       end associate
    end subroutine find_difference
@@ -220,7 +229,11 @@ contains
                call keep_apart(way, pull, energy(:step - 1), d)
                call block_product(level%stiffness, harmonic, d, kd)
                energy(step) = work(d, kd)
-               if (.not. energy(step) > 0.0_wp) exit
+               if (.not. energy(step) > 0.0_wp) then
+                  ! nothing is left, or what is left is not known
+                  difference%known(k) = energy(step) <= 0.0_wp
+                  exit
+               end if
                length = work(d, force)/energy(step)
                if (step == 1) guided = length >= usual .and. of_blocks >= usual
                call see_change(level, length, d, n, change, jump)
@@ -234,6 +247,14 @@ contains
          end do
       end associate
    end subroutine descend
+
+   !> Whether none is infinite or not a number
+   pure logical function are_numbers(values)
+      !> Amplitudes
+      real(wp), intent(in) :: values(:, :)
+
+      are_numbers = all(abs(values) <= huge(1.0_wp))
+   end function are_numbers
 
    !> Work of forces on displacements, in an order of the sum that is always the same
    pure real(wp) function work(displacement, force)

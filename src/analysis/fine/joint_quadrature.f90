@@ -192,7 +192,7 @@ contains
 
       type(joint_point_type) :: point
       real(wp) :: work(3, course%n), t(n_gauss), w(n_gauss), x, stress(3), matrix(course%n, course%n)
-      integer :: piece, i, j
+      integer :: piece, i, j, node
 
       call gauss_rule(n_gauss, t, w)
       work = 0.0_wp
@@ -212,6 +212,16 @@ contains
             do j = 1, course%n
                work(:, j) = work(:, j) - at%weight*course%stress(:, i)*at%shape(j)
             end do
+         end associate
+      end do
+      ! what a point on the axis has no weight for: its stress does no work, whatever it is
+      do i = 1, course%n
+         associate (at => course%points(i))
+            if (at%weight > epsilon(1.0_wp)*maxval(course%points(:course%n)%weight)) cycle
+            node = maxloc(abs(at%shape(:course%n)), 1)
+            matrix(node, :) = 0.0_wp
+            matrix(node, i) = 1.0_wp
+            work(:, node) = 0.0_wp
          end associate
       end do
       missed = solved(matrix, work)
