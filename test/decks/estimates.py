@@ -1,6 +1,8 @@
-"""Estimates of errors where they are hard to come by: joints that reach the axis"""
+"""Estimates of errors where they are hard to come by: joints that reach the axis, harmonics with gaps between them"""
+import re
+
 from hard_decks import solved
-from support import Test
+from support import Test, expected
 
 # A disc on soil, pressed and pushed sideways, with a joint that reaches the axis
 FOOTING = """TITLE
@@ -34,6 +36,40 @@ INCREMENTS
 1.0,1E-8
 END
 """
+# A peg in a hole, with pressure round the block
+PEG = """TITLE
+Peg in a hole
+CONTROL
+{control}
+MATERIALS
+1,{young},{poisson}
+2,10000,{poisson}
+LAWS
+1,{law}
+BLOCKS
+1,1,8,2,6
+0,-0.5,0.5,1
+2,2,8,3,4
+0.5,0,2,1
+FACES
+1,1,0,-0.5,0.5,-0.5
+2,1,0.5,0,0.5,1
+3,2,0.5,0,0.5,1
+4,2,0.5,1,2,1
+5,2,2,0,2,1
+INTERFACES
+1,2,3
+FIXEDFACES
+4,111
+{more}
+END
+"""
+WAVES = 'PRESSURES\n5,0,0.2\n5,{wave}\nINCREMENTS\n1.0,1E-8'
+
+
+def peg(more, control='6,,,,,,NEWTON', young=10000, poisson=0.2, law='40000,40000,40000,0,30.0'):
+    """A peg in a hole"""
+    return PEG.format(control=control, young=young, poisson=poisson, law=law, more=more)
 
 
 def reaches_axis(program, folder):
@@ -47,7 +83,20 @@ def reaches_axis(program, folder):
     return faults + ([] if 0.3 < found['joint_stress'] < 1.5 else [f'joint stress: estimate {found["joint_stress"]}'])
 
 
+def gaps(program, folder):
+    """Harmonics below the highest that HARMONICS leaves out are named where joints slip; not those that nothing excites, not where
+    joints hold or none are left out"""
+    faults = []
+    slips, holds = '40000,40000,40000,0,30.0', '40000,40000,40000,1E6,30.0'
+    for harmonics, wave, law, wanted in (('0,2,2\n6', '2,0.5', slips, ['4']), ('0\n2,3\n6', '3,0.5', slips, []), ('0,6,2', '2,0.5', slips, []),
+                                         ('0\n3\n5', '3,0.5\nPRESSURES\n5,5,0.1', slips, ['1, 2, 4']), ('0,2,2\n6', '2,0.01', holds, [])):
+        summary, _ = solved(program, folder, 'gaps', peg(f'HARMONICS\n{harmonics}\n' + WAVES.format(wave=wave), law=law))
+        named = re.findall(r'estimates of errors do not know: (.*)', '\n'.join(summary['messages']))
+        faults += expected(f'{harmonics!r}, {wave!r}, {law}: harmonics', wanted, named)
+    return faults
+
+
 def tests(program):
     """The tests of this module"""
-    named = {'joint that reaches the axis': reaches_axis}
+    named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps}
     return [Test(f'estimates: {name}', lambda folder, function=function: function(program, folder)) for name, function in named.items()]

@@ -13,6 +13,7 @@ module axijoint_analysis_core_remarks
    use axijoint_joints_path, only : iteration_type
    use axijoint_joints_watch, only : runaway
    use axijoint_model_model, only : model_type, bodies_yield
+   use axijoint_model_modes, only : greatest_divisor
    use axijoint_model_request, only : goal_names, refinement_type, is_kept, keep_series
    implicit none
    private
@@ -274,11 +275,58 @@ contains
                'which HARMONICS leaves out: results may be far off')
          end if
       end associate
+      call remark_on_gaps(model, results, remarks)
       if (maxval(results%modes%harmonic) + 1 == model%n_planes) then
          call add(remarks, 'w of the highest harmonic vanishes on all planes: '// &
             'nothing of it is transferred (M + 2 planes avoid that)')
       end if
    end subroutine remark_on_accuracy
+
+   !> Harmonics below the highest that HARMONICS leaves out, though joints that opened or slipped excite them: estimates
+   !> compare with more harmonics above M only
+   subroutine remark_on_gaps(model, results, remarks)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The results
+      type(results_type), intent(in) :: results
+      !> The sentences, to be continued
+      type(remark_type), allocatable, intent(inout) :: remarks(:)
+
+      !> So many are named
+      integer, parameter :: most_named = 8
+      integer, allocatable :: left_out(:)
+      integer :: step, k
+
+      if (.not. any(results%path%n_slip + results%path%n_open > 0)) return
+      step = 0
+      do k = 1, size(results%modes)
+         step = greatest_divisor(step, results%modes(k)%harmonic)
+      end do
+      if (step == 0) return
+      allocate (left_out(0))
+      do k = step, maxval(results%modes%harmonic), step
+         if (.not. any(model%harmonics == k)) left_out = [left_out, k]
+      end do
+      if (size(left_out) == 0) return
+      call add(remarks, 'joints that open or slip act in harmonics that HARMONICS leaves out, too, which estimates of errors '// &
+         'do not know: '//list_of(left_out(:min(size(left_out), most_named)))//trim(merge(', ...', '     ', &
+         size(left_out) > most_named)))
+   end subroutine remark_on_gaps
+
+   !> Numbers with commas between them
+   pure function list_of(numbers) result(text)
+      !> The numbers, one at least
+      integer, intent(in) :: numbers(:)
+      !> The list
+      character(len=:), allocatable :: text
+
+      integer :: k
+
+      text = to_text(numbers(1))
+      do k = 2, size(numbers)
+         text = text//', '//to_text(numbers(k))
+      end do
+   end function list_of
 
    !> Whether the rounds of refinement met the target, and if not, why
    subroutine remark_on_goal(model, refinement, note, unknown, results)
