@@ -2,7 +2,7 @@
 module axijoint_job_goal
    use omp_lib, only : omp_get_wtime
    use axijoint_analysis_core_remarks, only : remark_on_goal
-   use axijoint_analysis_core_results, only : results_type, round_type, error_share_type, source_iteration
+   use axijoint_analysis_core_results, only : results_type, round_type, error_share_type, source_iteration, source_harmonics
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_error_goal, only : goal_error, unknown_source, refine_further, room_for
    use axijoint_base_error, only : error_type, fatal_error, exit_deck, exit_state, exit_stopped
@@ -92,7 +92,7 @@ contains
                if (allocated(error)) deallocate (error)
             else
                if (allocated(error) .or. allocated(last%failure)) return
-               if (last%error <= job%model%error_goal%target .and. .not. newton_would_tell(job%model, results)) &
+               if (last%error <= job%model%error_goal%target .and. .not. more_would_tell(job%model, results)) &
                   return  ! met, or not known
                if (size(rounds) >= job%model%error_goal%most_rounds) return
                before = refinement
@@ -116,18 +116,19 @@ contains
       end do
    end subroutine run_rounds
 
-   !> Whether the error would be known if the iteration were Newton's
-   pure logical function newton_would_tell(model, results) result(would)
+   !> Whether the error would be known if the iteration were Newton's, or with harmonics above 1
+   pure logical function more_would_tell(model, results) result(would)
       !> The job
       type(model_type), intent(in) :: model
       !> Results of its combinations
       type(results_type), intent(in) :: results(:)
 
-      integer :: k
+      integer :: unknown(size(results)), k
 
-      would = model%method /= method_newton &
-         .and. any([(unknown_source(model, results(k)), k=1, size(results))] == source_iteration)
-   end function newton_would_tell
+      unknown = [(unknown_source(model, results(k)), k=1, size(results))]
+      would = model%method /= method_newton .and. any(unknown == source_iteration) &
+         .or. model%max_harmonic <= 1 .and. any(unknown == source_harmonics)
+   end function more_would_tell
 
    !> Refine the job, as far as unknowns are allowed. Harmonics and intervals come in whole numbers:
    !> what has more unknowns than there was room for is refined again with less

@@ -103,6 +103,7 @@ contains
       type(error_share_type) :: share
 
       real(wp), allocatable :: amplitude(:)
+      real(wp) :: tail
       integer, allocatable :: harmonic(:)
       integer :: k
 
@@ -121,9 +122,13 @@ contains
       harmonic = results%modes%harmonic
       amplitude = [(sqrt(maxval(sum(results%displacement(:, :, k)**2, 1))), k=1, &
          size(results%modes))]
-      share%displacement = share%displacement &
-                           + ratio(response_tail(harmonic, amplitude), &
-                                   results%discretization%largest_displacement)
+      tail = response_tail(harmonic, amplitude)
+      if (tail < 0.0_wp) then
+         share%displacement = -1.0_wp
+         return
+      end if
+      if (share%displacement >= 0.0_wp) share%displacement = share%displacement &
+         + ratio(tail, results%discretization%largest_displacement)
       share%energy = sqrt(ratio(response_tail(harmonic, results%discretization%energy), &
                                 sum(results%discretization%energy)))
    end function harmonics_share

@@ -30,6 +30,8 @@ module axijoint_analysis_error_goal
    real(wp), parameter :: least_growth = 1.2_wp
    !> Most that harmonics or planes are multiplied by in a round
    real(wp), parameter :: most_numbers = 5.0_wp
+   !> M is multiplied by this where it tells nothing of the harmonics above it: M = 4 has two octaves
+   real(wp), parameter :: telling = 4.0_wp
    !> A source that is brought down is to fall to this part of what is left to it: a round more
    !> costs more
    real(wp), parameter :: aim = 0.8_wp
@@ -104,7 +106,7 @@ contains
       case (goal_joints)
          share_of = share%joint_stress
          ! of loads that M cuts off there is an estimate of the displacements only
-         if (share%load > 0.0_wp) share_of = max(share_of, share%displacement)
+         if (share%load > 0.0_wp) share_of = merge(max(share_of, share%displacement), -1.0_wp, share%displacement >= 0.0_wp)
       case (goal_energy)
          share_of = merge(share%energy, share%displacement, share%energy >= 0.0_wp)
       case default
@@ -167,6 +169,11 @@ contains
              model%method /= method_newton) then
             refinement%newton = .true.  ! which leaves what can be told
             changed = .true.
+            cycle
+         end if
+         if (budget(i)%source == source_harmonics .and. budget(i)%load > 0.0_wp .and. &
+             share_of(budget(i), model%error_goal) < 0.0_wp) then
+            call raise_harmonics(model, min(telling, room), refinement, changed)
             cycle
          end if
          rule = rule_of(budget(i)%source, model%error_goal%quantity)
