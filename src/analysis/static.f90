@@ -278,10 +278,11 @@ contains
       n = 0
       if (results%converged .and. allocated(history%verdict%mechanism%idle)) &
          n = size(history%verdict%mechanism%idle, 2)
-      allocate (results%idle(n))
+      allocate (results%idle(n), results%stands(n))
       if (n == 0) return
       allocate (motion, mold=results%displacement)
       do k = 1, n
+         results%stands(k) = history%verdict%mechanism%stands(k)
          motion = 0.0_wp
          call add_motions(structure%condensed%floating, history%verdict%mechanism%idle(:, k), &
             motion)

@@ -339,6 +339,8 @@ contains
       !> Takes the bytes
       type(writer_type), intent(inout) :: writer
 
+      logical, allocatable :: stands(:, :)
+
       call writer%put(verdict%converged)
       call writer%put(verdict%stalled)
       call writer%put(verdict%at_rounding)
@@ -346,6 +348,8 @@ contains
       call writer%put(verdict%mechanism%loaded)
       call writer%put(verdict%mechanism%motion)
       call writer%put(verdict%mechanism%idle)
+      if (allocated(verdict%mechanism%stands)) stands = reshape(verdict%mechanism%stands, [size(verdict%mechanism%stands), 1])
+      call writer%put(stands)
       call writer%put(verdict%restless)
       call writer%put(verdict%n_passes)
       call writer%put(verdict%residual%ratio)
@@ -361,6 +365,8 @@ contains
       !> The verdict
       type(verdict_type), intent(out) :: verdict
 
+      logical, allocatable :: stands(:, :)
+
       call reader%get(verdict%converged)
       call reader%get(verdict%stalled)
       call reader%get(verdict%at_rounding)
@@ -368,6 +374,8 @@ contains
       call reader%get(verdict%mechanism%loaded)
       call reader%get(verdict%mechanism%motion)
       call reader%get(verdict%mechanism%idle)
+      call reader%get(stands)
+      if (allocated(stands)) verdict%mechanism%stands = stands(:, 1)
       call reader%get(verdict%restless)
       call reader%get(verdict%n_passes)
       call reader%get(verdict%residual%ratio)

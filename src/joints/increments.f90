@@ -354,8 +354,11 @@ contains
 
       type(control_type) :: control
       real(wp), allocatable :: begun(:, :, :)
+      logical :: stood
 
       begun = history%field%jump
+      stood = .true.
+      if (allocated(history%verdict%mechanism%stands)) stood = all(history%verdict%mechanism%stands)
       control = history%control
       control%warm = .true.
       control%damps = .true.
@@ -366,6 +369,9 @@ contains
          history%verdict)
       if (history%verdict%converged) call keep_standing(history%method, condensed, history%scene, control%tolerance, begun, &
          0.0_wp*history%field%excess, history%verdict%mechanism, history%field)
+      ! where they stood a moment ago may not be where the step began
+      if (allocated(history%verdict%mechanism%stands)) &
+         history%verdict%mechanism%stands = history%verdict%mechanism%stands .and. stood
       history%noted = .false.  ! in the place of the last
       call note_residual(condensed, control%now%increment, control%now%load_factor, history)
       history%memory = history%field%memory

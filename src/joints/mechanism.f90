@@ -38,6 +38,8 @@ module axijoint_joints_mechanism
       !> Motions that no load acts on, one column each, of unit elastic work, shape (floating
       !> motions, any)
       real(wp), allocatable :: idle(:, :)
+      !> Whether the parts stand along each of these where they stood when the step began, shape (any)
+      logical, allocatable :: stands(:)
    end type mechanism_type
 
 contains
@@ -62,7 +64,7 @@ contains
       integer :: k, n
 
       n = size(condensed%floating)
-      allocate (mechanism%motion(n), mechanism%idle(n, 0))
+      allocate (mechanism%motion(n), mechanism%idle(n, 0), mechanism%stands(0))
       mechanism%motion = 0.0_wp
       if (n == 0) return
       if (sticking .and. each_adds(scene, field)) then
@@ -86,6 +88,7 @@ contains
             mechanism%motion = mechanism%motion + work*direction
          else
             mechanism%idle = reshape([mechanism%idle, direction], [n, size(mechanism%idle, 2) + 1])
+            mechanism%stands = [mechanism%stands, .false.]
          end if
       end do
    end subroutine find_mechanism
@@ -154,7 +157,7 @@ contains
 
    !> Let the parts stand where they stood when a load step began, along motions that no load acts on, nothing resists and
    !> the step does not push. Those that it pushes stay where it left them
-   subroutine stand_still(condensed, scene, mechanism, begun, change, field)
+   subroutine stand_still(condensed, scene, mechanism, begun, change, field, stands)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads
@@ -167,6 +170,8 @@ contains
       real(wp), intent(in) :: change(:, :, :)
       !> The state; the stresses are those before
       type(joint_field_type), intent(inout) :: field
+      !> Whether they stand there along each motion
+      logical, intent(out) :: stands(:)
 
       real(wp), dimension(size(condensed%floating)) :: work, push, unit, own
       real(wp) :: least
@@ -183,7 +188,8 @@ contains
       end do
       do k = 1, size(mechanism%idle, 2)
          associate (direction => mechanism%idle(:, k))
-            if (abs(dot_product(direction, push)) > least) cycle
+            stands(k) = .not. abs(dot_product(direction, push)) > least
+            if (.not. stands(k)) cycle
             field%offset = field%offset - dot_product(direction, work)*direction
          end associate
       end do

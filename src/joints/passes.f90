@@ -105,23 +105,27 @@ contains
       real(wp), intent(in) :: begun(:, :, :)
       !> What its loads would add to the stress of joints that hold, amplitudes, shape (3, points, modes)
       real(wp), intent(in) :: change(:, :, :)
-      !> Motions that no load acts on and nothing resists
-      type(mechanism_type), intent(in) :: mechanism
+      !> Motions that no load acts on and nothing resists; takes along which of them the parts stand there
+      type(mechanism_type), intent(inout) :: mechanism
       !> State of the joints in equilibrium
       type(joint_field_type), intent(inout) :: field
 
       type(strictest_type) :: found
       type(joint_field_type), allocatable :: standing
       real(wp), allocatable :: residual(:, :, :)
+      logical, allocatable :: stands(:)
 
       if (.not. allocated(mechanism%idle)) return
       if (size(mechanism%idle, 2) == 0) return
       allocate (standing, source=field)
       allocate (residual, mold=field%excess)
-      call stand_still(condensed, scene, mechanism, begun, change, standing)
+      allocate (stands, mold=mechanism%stands)
+      call stand_still(condensed, scene, mechanism, begun, change, standing, stands)
       call method%evaluate(condensed, scene, standing, residual, judged=.true.)
       found = strictest(condensed%measure, scene%loads%reference, residual, paper=method%accumulates)
-      if (found%ratio <= tolerance) field = standing
+      if (.not. found%ratio <= tolerance) return
+      field = standing
+      mechanism%stands = stands
    end subroutine keep_standing
 
 end module axijoint_joints_passes

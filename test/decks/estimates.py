@@ -1,5 +1,5 @@
 """Estimates of errors where they are hard to come by: joints that reach the axis, harmonics with gaps between them, loads of which M
-leaves all but rigid motion out"""
+leaves all but rigid motion out; and what is said of motions that nothing resists"""
 import re
 
 from hard_decks import solved
@@ -66,6 +66,7 @@ FIXEDFACES
 END
 """
 WAVES = 'PRESSURES\n5,0,0.2\n5,{wave}\nINCREMENTS\n1.0,1E-8'
+PUSHED = 'PRESSURES\n5,0,2.0\nRESULTANTS\n1,LATERAL,0.8,0.0\nINCREMENTS\n0.5,1E-8\n0.5,1E-8'
 PATCH = 'SHAPES\n1,PATCH,-20,45\nPRESSURES\n5,0,2.0\nTRACTIONS\n1,,0.97,0.138,0.262,,,,,1\nINCREMENTS\n1.0,1E-6'
 
 
@@ -109,7 +110,21 @@ def rigid_patch(program, folder):
     return faults + ([] if 'not known' not in ran.out else [ran.out])
 
 
+def idle_motion(program, folder):
+    """A peg without friction stands where it stood if that is balanced, too, and only then a remark says so"""
+    faults = []
+    for young, law, details, wanted in ((10000, '40000,40000,40000,0,0.0', '', True),
+                                        (1e10, '14237.8,28475.6,14237.8,0,0.0,PAPER,LOBATTO', 'LAWDETAILS\n1,RESULTANT,REVERSIBLE\n', False)):
+        text = peg(details + PUSHED, control='4,9,,,,,NEWTON', young=young, poisson=0.0, law=law)
+        summary, _ = solved(program, folder, 'idle', text)
+        remarks = [line for line in summary['messages'] if 'nothing resists and nothing loads' in line]
+        faults += expected(f'E = {young}: remarks', 1, len(remarks))
+        faults += expected(f'E = {young}: stands', wanted, any('stood before' in line for line in remarks))
+    return faults
+
+
 def tests(program):
     """The tests of this module"""
-    named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps, 'patch of rigid motion': rigid_patch}
+    named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps, 'patch of rigid motion': rigid_patch,
+             'idle motion': idle_motion}
     return [Test(f'estimates: {name}', lambda folder, function=function: function(program, folder)) for name, function in named.items()]

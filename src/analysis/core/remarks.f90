@@ -90,8 +90,8 @@ contains
       end if
       if (allocated(results%idle)) then
          do i = 1, size(results%idle)
-            call add(remarks, 'nothing resists and nothing loads it: '//trim(results%idle(i))// &
-                     '; it stands where it stood before')
+            call add(remarks, 'nothing resists and nothing loads it: '//trim(results%idle(i))//trim(merge( &
+                     '; it stands where it stood before ', '; it might as well stand elsewhere', results%stands(i))))
          end do
       end if
       if (history%n_faded > 0) call add(remarks, fading_text(history))

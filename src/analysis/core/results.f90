@@ -215,6 +215,8 @@ module axijoint_analysis_core_results
       type(iteration_type), allocatable :: path(:)
       !> Motions that nothing resists and no load acts on, in words
       character(len=80), allocatable :: idle(:)
+      !> Whether the parts stand along each of them where they stood when the last step began, shape (any)
+      logical, allocatable :: stands(:)
       !> What the iterations left out of balance step by step, and a node of each part of the
       !> structure that it is measured on; empty for a linear job
       type(residual_record_type), allocatable :: residuals(:)
