@@ -65,6 +65,43 @@ FIXEDFACES
 {more}
 END
 """
+# A peg without friction in a hole that is closed above it: nothing presses the two together there
+SOCKET = """TITLE
+Peg in a socket
+CONTROL
+12,,,2,,,NEWTON
+MATERIALS
+1,10000,0
+2,10000,0
+LAWS
+1,40000,40000,40000,0,0
+BLOCKS
+1,1,8,2,6
+0,-0.5,0.5,1
+2,2,8,3,4
+0.5,0,2,1
+2,2,8,3,2
+0.5,1,2,1.5
+2,2,8,2,2
+0,1,0.5,1.5
+FACES
+1,1,0,-0.5,0.5,-0.5
+2,1,0.5,0,0.5,1
+3,2,0.5,0,0.5,1
+4,2,0,1.5,2,1.5
+6,1,0,1,0.5,1
+7,2,0,1,0.5,1
+INTERFACES
+1,2,3
+1,6,7
+FIXEDFACES
+4,111
+RESULTANTS
+1,LATERAL,0.12
+INCREMENTS
+1.0,1E-8
+END
+"""
 WAVES = 'PRESSURES\n5,0,0.2\n5,{wave}\nINCREMENTS\n1.0,1E-8'
 PUSHED = 'PRESSURES\n5,0,2.0\nRESULTANTS\n1,LATERAL,0.8,0.0\nINCREMENTS\n0.5,1E-8\n0.5,1E-8'
 PATCH = 'SHAPES\n1,PATCH,-20,45\nPRESSURES\n5,0,2.0\nTRACTIONS\n1,,0.97,0.138,0.262,,,,,1\nINCREMENTS\n1.0,1E-6'
@@ -110,6 +147,15 @@ def rigid_patch(program, folder):
     return faults + ([] if 'not known' not in ran.out else [ran.out])
 
 
+def flies_off(program, folder):
+    """A part that flies off is no answer of the joints to the errors of the mesh: without one, errors are told as the least that they are"""
+    summary, _ = solved(program, folder, 'socket', SOCKET)
+    errors = summary['errors']
+    found, told = errors['sum']['displacement'], errors['in_words']
+    faults = [] if 1e-3 < found < 0.5 else [f'displacement {found}']
+    return faults + ([] if errors['discretization']['joint_stress'] is not None or told.startswith('displacement at least') else [told])
+
+
 def idle_motion(program, folder):
     """A peg without friction stands where it stood if that is balanced, too, and only then a remark says so"""
     faults = []
@@ -126,5 +172,6 @@ def idle_motion(program, folder):
 def tests(program):
     """The tests of this module"""
     named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps, 'patch of rigid motion': rigid_patch,
+             'flies off': flies_off,
              'idle motion': idle_motion}
     return [Test(f'estimates: {name}', lambda folder, function=function: function(program, folder)) for name, function in named.items()]

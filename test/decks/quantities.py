@@ -39,6 +39,48 @@ FIXEDFACES
 {loads}END
 """
 PRESSED = 'PRESSURES\n1,0,50.\n'
+# Two discs, one drawn over the other against springs above, with a joint that dilates by its angle of friction
+LIFTED = """TITLE
+Drawn and lifted
+CONTROL
+1,17
+MATERIALS
+1,1E9,0
+LAWS
+1,1000,2000,1000,0,35
+LAWDETAILS
+1,RESULTANT,,,,35
+BLOCKS
+1,1,8,2,1
+0,-0.5,1,0
+2,1,8,2,1
+0,0,1,0.5
+FACES
+1,1,0,-0.5,1,-0.5
+2,1,0,0,1,0
+3,2,0,0,1,0
+4,2,0,0.5,1,0.5
+INTERFACES
+1,2,3
+FIXEDFACES
+1,111
+4,001,0,,A
+4,010,1
+SPRINGS
+4,500,0,0
+CASE
+1
+RESULTANTS
+4,AXIAL,-4
+CASE
+2
+MOVEDFACES
+4,1,1,,-1,,,,S
+COMBINE
+1,1,1,2,1
+INCREMENTS
+1,1E-9,,1
+"""
 IN_GROUND = """CASE
 1,ground
 INSITU
@@ -91,6 +133,13 @@ def dissipation(program, folder):
     return faults
 
 
+def lifting(program, folder):
+    """Slip that lifts as much as friction resists dissipates nothing: what is done by the load is stored"""
+    last = last_increment(program, folder, LIFTED + 10*'4E-4,1E-9,,2\n' + 'END\n')[-1]
+    faults = close('energy', last['work'], last['energy'] + last['dissipated'], 1e-4*last['work'])
+    return faults + close('dissipated', 0.0, last['dissipated'], 1e-2*last['work'])
+
+
 def largest_displacement(program, folder):
     """Of many harmonics together: on the screen, in summary and table of a study, and of points that are named the largest"""
     text = read_text(os.path.join(INPUTS, 'first.dat')).replace('\nEND', '\nPOINTS\n1, 0.5, -0.5, 1, rim\nEND')
@@ -130,4 +179,4 @@ def fading(program, folder):
 def tests(program):
     """The tests of this module"""
     return [Test(f'quantities: {function.__name__.replace("_", " ")}', lambda folder, function=function: function(program, folder))
-            for function in (energies, dissipation, largest_displacement, remarks, fading)]
+            for function in (energies, dissipation, lifting, largest_displacement, remarks, fading)]

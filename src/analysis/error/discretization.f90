@@ -63,7 +63,7 @@ contains
          estimate%largest_displacement = largest_vector(results%modes, total)
          estimate%displacement = -1.0_wp
          estimate%joint_stress = -1.0_wp
-         if (mesh_error%known .and. mesh_error%from_difference) then
+         if (mesh_error%known) then
             estimate%displacement = ratio(largest_vector(results%modes, mesh_error%displacement), &
                                           estimate%largest_displacement)
             if (results%at_rest) estimate%displacement = 0.0_wp

@@ -18,10 +18,8 @@ module axijoint_analysis_fine_mesh_error
 
    !> Errors left by the mesh
    type :: mesh_error_type
-      !> Whether it was found: a factor that is not kept may lack the memory to be formed again
+      !> Whether it was found: a factor that is not kept may lack the memory to be formed again, and a difference may be no number
       logical :: known = .true.
-      !> Whether the difference that it follows from was found
-      logical :: from_difference = .true.
       !> Of displacements of the nodes, amplitudes, shape (3, nodes, modes); zero where it is not
       !> known
       real(wp), allocatable :: displacement(:, :, :)
@@ -45,8 +43,8 @@ contains
       error%displacement = error_over_difference*difference%displacement
       error%jump = error_over_difference*difference%jump
       error%seconds = difference%seconds
-      error%from_difference = all(difference%known)
-      if (error%from_difference) return
+      error%known = all(difference%known)
+      if (error%known) return
       error%displacement = 0.0_wp
       error%jump = 0.0_wp
    end subroutine new_mesh_error
