@@ -102,6 +102,10 @@ INCREMENTS
 """
 
 
+# Stress in situ and more than the loads that balance it, in one step or two
+AT_ONCE = IN_GROUND[:IN_GROUND.index('CASE\n2')].replace('18.\nGRAVITY', '68.\nGRAVITY') + 'INCREMENTS\n'
+
+
 def last_increment(program, folder, text):
     """Increments of a deck that converges"""
     summary, _ = solved(program, folder, 'quantities', text)
@@ -113,6 +117,7 @@ def energies(program, folder):
     faults = []
     for law in (',,ELASTIC', '0.,30.'):
         for before, loads in (('', PRESSED + 'INCREMENTS\n0.5,1E-9\n0.5,1E-9\n'), ('', IN_GROUND),
+                              ('', AT_ONCE + '1.,1E-9\n'), ('', AT_ONCE + '0.5,1E-9\n0.5,1E-9\n'),
                               ('LAWDETAILS\n1,,,,,,,-1000.\n', PRESSED + 'INCREMENTS\n0.5,1E-9\n0.5,1E-9\n')):
             if before and 'ELASTIC' in law:
                 continue

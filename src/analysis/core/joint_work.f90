@@ -14,7 +14,7 @@ module axijoint_analysis_core_joint_work
    use axijoint_model_model, only : model_type, can_yield_at
    implicit none
    private
-   public :: joint_energy, sliding_work
+   public :: joint_energy, in_situ_shift, sliding_work
 
 contains
 
@@ -70,6 +70,53 @@ contains
          end do
       end do
    end function joint_energy
+
+   !> What energy of joints is gained by no work where stress in situ is new while joints are strained: that changes nothing but
+   !> where their stress counts from
+   function in_situ_shift(model, structure, before, now, displacement) result(energy)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> Both states; the first has no stress if nothing has happened before
+      type(increment_state_type), intent(in) :: before, now
+      !> Displacement amplitudes of the first, shape (3, nodes, modes)
+      real(wp), intent(in) :: displacement(:, :, :)
+      !> The energy [force length]
+      real(wp) :: energy
+
+      type(model_joint_point_type), allocatable :: elastic(:)
+      real(wp), allocatable :: jump(:, :), gained(:, :), weight(:)
+      type(joint_field_type) :: first
+      integer :: i, j, k
+
+      energy = 0.0_wp
+      if (size(model%initial_stresses) == 0 .or. .not. allocated(before%case_factor)) return
+      elastic = pack(structure%joint_points, .not. can_yield_at(model, structure%joint_points%material))
+      gained = in_situ_joint_stress(model, elastic, now%case_factor - before%case_factor)
+      do i = 1, size(structure%modes)
+         if (.not. same_mode(structure%modes(i), mode_type())) cycle
+         jump = joint_jump(elastic, displacement(:, :, i))
+         do k = 1, size(elastic)
+            energy = energy + circle_integral(0)*elastic(k)%weight*sum(gained(:, k)*jump(:, k))
+         end do
+      end do
+      if (.not. allocated(before%stress)) return
+      gained = new_in_situ(model, structure, before, now)
+      first = new_joint_field(size(structure%condensed%points), 1, size(structure%modes), 0)
+      call set_initial_stress(model, structure%condensed%points, before%case_factor, first)
+      weight = circle_weights(structure%planes)
+      do j = 1, size(weight)
+         do k = 1, size(structure%condensed%points)
+            associate (point => structure%condensed%points(k))
+               associate (law => law_at(point, model%joint_materials(point%material)))
+                  energy = energy + weight(j)*point%weight*sum(gained(:, k)*(before%stress(:, k, j) - first%initial(:, k)) &
+                     /law%stiffness, law%stiffness > 0.0_wp)
+               end associate
+            end associate
+         end do
+      end do
+   end function in_situ_shift
 
    !> Work that shear stress has done on slip from one state to the next, by the mean of both
    !> stresses: exact if friction does not change in between; by the second one where the first pointed

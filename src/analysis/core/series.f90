@@ -1,12 +1,15 @@
 !> What is followed from increment to increment: one entry for each
 module axijoint_analysis_core_series
-   use axijoint_analysis_core_joint_work, only : sliding_work
+   use axijoint_analysis_core_joint_work, only : in_situ_shift, sliding_work
    use axijoint_analysis_core_plastic_fields, only : plastic_fields_type, plastic_work
    use axijoint_analysis_core_results, only : results_type, n_resultants
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest_vector
+   use axijoint_assembly_force, only : joint_force
+   use axijoint_assembly_unit_loads, only : in_situ_force, in_situ_joint_stress
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : state_slip, state_open, eta
+   use axijoint_fe_mode, only : mode_type, same_mode
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_model, only : model_type
    implicit none
@@ -96,7 +99,7 @@ contains
       !> The series
       type(series_type), intent(inout) :: series
 
-      real(wp) :: plastic
+      real(wp) :: plastic, before(2)
       integer :: i
 
       i = series%n + 1
@@ -124,8 +127,9 @@ contains
          series%faces(:, :, i) = now%face_reactions
          call interpolate_points(model, now, series%points(:, :, :, i))
          plastic = plastic_work(series%plastic, now%plastic)
-         series%work(i) = mean_work(series%acting, now%acting, series%before, now%displacement)
-         series%stored = series%stored - plastic &
+         before = in_situ_work(model, structure, series, state%case_factor, now)
+         series%work(i) = before(1) + mean_work(series%acting, now%acting, series%before, now%displacement)
+         series%stored = series%stored + before(2) - plastic - in_situ_shift(model, structure, series%state, state, series%before) &
             + mean_work(series%taken, now%taken, series%before, now%displacement)
          series%energy(i) = series%stored + now%joint_energy
          series%dissipated(i) = sliding_work(model, structure, series%state, state) &
@@ -161,6 +165,42 @@ contains
       end do
       work = 0.5_wp*work
    end function mean_work
+
+   !> What the means of both ends lack where stress in situ is new, which is there before anything moves: work of the loads that
+   !> balance it, and what solids take of that
+   function in_situ_work(model, structure, series, case_factor, now) result(work)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> Increments so far
+      type(series_type), intent(in) :: series
+      !> Factors of the load cases
+      real(wp), intent(in) :: case_factor(:)
+      !> Fields of the increment
+      type(results_type), intent(in) :: now
+      !> Both [force length]
+      real(wp) :: work(2)
+
+      type(mode_type), parameter :: axis = mode_type()
+      real(wp) :: gained(size(case_factor)), force(3, size(now%displacement, 2))
+      integer :: k
+
+      work = 0.0_wp
+      if (size(model%initial_stresses) == 0) return
+      gained = case_factor
+      if (allocated(series%state%case_factor)) gained = gained - series%state%case_factor
+      if (.not. any(abs(gained) > 0.0_wp)) return
+      do k = 1, size(now%modes)
+         if (.not. same_mode(now%modes(k), axis)) cycle
+         associate (moved => now%displacement(:, :, k) - series%before(:, :, k), points => structure%joint_points)
+            force = in_situ_force(structure%equations%unit_loads, gained)
+            work(1) = 0.5_wp*sum(force*moved)
+            force = force - joint_force(points, axis%harmonic, in_situ_joint_stress(model, points, gained), size(force, 2))
+            work(2) = 0.5_wp*sum(force*moved)
+         end associate
+      end do
+   end function in_situ_work
 
    !> Residual of the last load step of an increment, if joints were iterated on
    pure real(wp) function residual_of(final, increment, whole) result(residual)

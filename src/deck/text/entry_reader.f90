@@ -128,7 +128,8 @@ contains
          return
       end if
       if (cards_per_entry(section) > 1) then
-         out_of_place = fits(source, card, section, 2) .and. .not. has_slips(source, owner, card, section)
+         out_of_place = fits(source, card, section, 2)
+         if (out_of_place) out_of_place = .not. has_slips(source, owner, card, section)
          if (out_of_place) call report_lacking(section, card, 1, diagnostics)
          if (out_of_place) return
       end if
@@ -159,7 +160,8 @@ contains
       has_slips = .false.
       next = card + findloc(owner(card + 1:), owner(card), 1)
       if (next == card) return
-      if (fits(source, next, section, 1) .or. .not. fits(source, next, section, 2)) return
+      if (fits(source, next, section, 1)) return
+      if (.not. fits(source, next, section, 2)) return
       has_slips = card_faults(source, card, section%fields, 1) <= most_slips
    end function has_slips
 
