@@ -167,13 +167,14 @@ contains
       do k = 1, source%n_files
          lost = .false.
          do ending = 1, size(written)
-            lost = lost .or. same_file(join_path(directory, name//trim(written(ending))), source%files(k)%path)
+            if (same_file(join_path(directory, name//trim(written(ending))), source%files(k)%path)) lost = .true.
          end do
          first = 1
          do while (first <= len(names))
             last = first + index(names(first:), new_line('a')) - 2
-            if (is_leftover(names(first + len(name):last))) &
-               lost = lost .or. same_file(join_path(directory, names(first:last)), source%files(k)%path)
+            if (is_leftover(names(first + len(name):last))) then
+               if (same_file(join_path(directory, names(first:last)), source%files(k)%path)) lost = .true.
+            end if
             first = last + 2
          end do
          if (.not. lost) cycle

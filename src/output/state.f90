@@ -106,7 +106,8 @@ contains
       else if (there) then
          call put_state_aside()
       end if
-      if (.not. allocated(error) .and. is_foreign(job%checkpoint%path//put_aside)) &
+      if (allocated(error)) return
+      if (is_foreign(job%checkpoint%path//put_aside)) &
          call add(job%checkpoint%path//put_aside//' is no state of axijoint, and is left as it is')
 
    contains
@@ -168,7 +169,8 @@ contains
       !> The name
       character(len=*), intent(in) :: path
 
-      is_foreign = path_kind(path) /= path_absent .and. .not. is_state_file(path)
+      is_foreign = path_kind(path) /= path_absent
+      if (is_foreign) is_foreign = .not. is_state_file(path)
    end function is_foreign
 
    !> Remove a STOP file from before a run, which it would end at once
@@ -186,7 +188,8 @@ contains
       if (path_kind(path) == path_absent) return
       call unlink_path(path, errno)
       removed = errno == 0
-      if (.not. (removed .or. is_not_there(errno))) call fatal_error(error, exit_io, path//' would end the run '// &
+      if (removed) return
+      if (.not. is_not_there(errno)) call fatal_error(error, exit_io, path//' would end the run '// &
          'at once, and cannot be removed: '//error_text(errno)//new_line('a')// &
          'mend: move it away, or choose another directory with -o')
    end subroutine remove_stop_file

@@ -148,7 +148,7 @@ contains
          !$omp end parallel do
          call share_difference(equations, difference)
          call new_mesh_error(difference, error)
-         error%known = error%known .and. equations%team%all_of(.not. any(equations%systems%failed))
+         error%known = equations%team%all_of(error%known .and. .not. any(equations%systems%failed))
       end associate
    end subroutine all_differences
 
