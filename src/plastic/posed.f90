@@ -40,7 +40,7 @@ contains
       problem%bodies => bodies
       problem%planes = body_planes(equations%modes, model%n_body_planes)
       problem%load = no_body_load(equations, bodies)
-      problem%part = parts_of(model%mesh, bodies)
+      call find_parts(model%mesh, bodies, problem%part)
       problem%has_potential = size(condensed%points) == 0 &
          .and. all(abs(bodies%laws%friction - bodies%laws%dilation) <= 0.0_wp)
       if (size(condensed%points) > 0) then
@@ -60,23 +60,20 @@ contains
       end if
    end subroutine pose
 
-   !> Part of each node, counted among those that can yield; empty where all nodes are of one part
-   function parts_of(mesh, bodies) result(part)
+   !> Part of each node, counted among those that can yield
+   subroutine find_parts(mesh, bodies, part)
       !> The mesh
       type(mesh_type), intent(in) :: mesh
       !> The bodies
       type(bodies_type), intent(in) :: bodies
-      !> Zero where nothing can yield
-      integer, allocatable :: part(:)
+      !> Zero where nothing can yield; not allocated where all nodes are of one part
+      integer, allocatable, intent(out) :: part(:)
 
       integer, allocatable :: solid(:), number(:)
       integer :: k, n
 
       call solid_parts(mesh, solid)
-      if (maxval(solid) < 2) then
-         allocate (part(0))
-         return
-      end if
+      if (maxval(solid) < 2) return
       allocate (number(maxval(solid)), source=0)
       n = 0
       do k = 1, size(bodies%elements)
@@ -87,7 +84,7 @@ contains
          end associate
       end do
       part = number(solid)
-   end function parts_of
+   end subroutine find_parts
 
    !> Loads on the nodes as methods see them
    subroutine take_load(model, problem, loading, load)

@@ -58,7 +58,7 @@ module axijoint_plastic_problem
       !> Norm of the forces that the step would add if the bodies held; and part by part
       real(wp) :: pushed = 0.0_wp
       real(wp), allocatable :: pushed_parts(:)
-      !> Part of each node, counted among those that can yield, zero of the others; empty where all nodes are of one part
+      !> Part of each node, counted among those that can yield, zero of the others; not allocated where all nodes are of one part
       integer, allocatable :: part(:)
       !> Norm of the largest loads so far, which no residual is held against more; none if zero
       real(wp) :: peak = 0.0_wp
@@ -199,9 +199,10 @@ contains
 
       adds = .false.
       if (present(more)) adds = more
+      problem%pushed = factor*ring_norm(problem%equations, force) + merge(problem%pushed, 0.0_wp, adds)
+      if (.not. allocated(problem%part)) return
       of_parts = factor*norms_of_parts(problem, on_components(problem, force))
       if (adds) of_parts = of_parts + problem%pushed_parts
-      problem%pushed = factor*ring_norm(problem%equations, force) + merge(problem%pushed, 0.0_wp, adds)
       call move_alloc(of_parts, problem%pushed_parts)
    end subroutine note_pushed
 
@@ -244,7 +245,7 @@ contains
       ratio = 0.0_wp
       if (norm > 0.0_wp) ratio = norm/max(scale, tiny(1.0_wp))
       beyond_rounding = merge(ratio, 0.0_wp, norm > resolution*most)
-      if (size(problem%part) == 0) return
+      if (.not. allocated(problem%part)) return
       left = norms_of_parts(problem, on_components(problem, residual))
       acting = norms_of_parts(problem, on_components(problem, loads))
       whole = norms_of_parts(problem, field%force)
@@ -276,17 +277,16 @@ contains
 
    !> Forces on components from those on the unknowns
    function on_components(problem, force) result(components)
-      !> The problem
+      !> The problem, with parts
       type(problem_type), intent(in) :: problem
       !> The forces
       real(wp), intent(in) :: force(:)
-      !> Shape (3, nodes, modes); empty where there are no parts to tell
+      !> Shape (3, nodes, modes)
       real(wp), allocatable :: components(:, :, :)
 
       integer :: k
 
       allocate (components(3, size(problem%part), size(problem%equations%modes)))
-      if (size(components) == 0) return
       do k = 1, size(components, 3)
          components(:, :, k) = to_nodes(problem%equations, force, k)
       end do
@@ -294,7 +294,7 @@ contains
 
    !> Norms of forces, part by part
    pure function norms_of_parts(problem, force) result(norms)
-      !> The problem
+      !> The problem, with parts
       type(problem_type), intent(in) :: problem
       !> Shape (3, nodes, modes)
       real(wp), intent(in) :: force(:, :, :)
@@ -303,7 +303,7 @@ contains
 
       integer :: k, node
 
-      allocate (norms(maxval([0, problem%part])), source=0.0_wp)
+      allocate (norms(maxval(problem%part)), source=0.0_wp)
       do k = 1, size(force, 3)
          do node = 1, size(problem%part)
             associate (p => problem%part(node))
