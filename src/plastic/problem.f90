@@ -22,8 +22,8 @@ module axijoint_plastic_problem
    !> Residuals this small beside the forces of the bodies are rounding
    real(wp), parameter :: resolution = 1.0e-11_wp
 
-   !> The same of a part beside the loads on it, which bodies that do not yield may bear; and forces of a part so small beside
-   !> those of all are not judged by themselves
+   !> The same of a part beside the loads on it, which bodies that do not yield may bear; and forces of a step, or in it of a
+   !> part, so small beside those of all are no measure
    real(wp), parameter :: resolution_of_loads = 1.0e-13_wp, of_no_account = 1.0e-12_wp
 
    !> Where a displacement is given, forces below this part of those that it would take if all held are no measure of what
@@ -232,28 +232,29 @@ contains
       !> The largest ratio; the same where residuals that are rounding do not count; and what that of the whole is held against
       real(wp), intent(out) :: ratio, beyond_rounding, scale
 
-      real(wp), allocatable :: loads(:), left(:), whole(:), acting(:), forces(:)
-      real(wp) :: most, norm
-      logical, allocatable :: counts(:)
+      real(wp), allocatable :: left(:), acting(:), whole(:), forces(:)
+      real(wp) :: loads, most, worst
 
-      loads = problem%load%right
-      if (allocated(problem%steering%load)) loads = loads + problem%steering%factor*problem%steering%load
-      most = max(whole_force(problem, field), ring_norm(problem%equations, loads))
-      norm = ring_norm(problem%equations, residual)
+      loads = ring_norm(problem%equations, found_load(problem))
+      most = max(whole_force(problem, field), loads)
+      ratio = ring_norm(problem%equations, residual)
       scale = forces_of_step(problem, force_norm(problem%equations, field%force - field%force_before), &
-         whole_force(problem, field), problem%pushed, ring_norm(problem%equations, loads), field%scale)
-      ratio = 0.0_wp
-      if (norm > 0.0_wp) ratio = norm/max(scale, tiny(1.0_wp))
-      beyond_rounding = merge(ratio, 0.0_wp, norm > resolution*most)
+         whole_force(problem, field), problem%pushed, loads, field%scale)
+      if (scale <= of_no_account*most) scale = most
+      beyond_rounding = ratio/max(scale, tiny(1.0_wp))
+      ! what is no number, or infinite, is no rounding
+      if (ratio <= resolution*most .and. most <= huge(1.0_wp)) beyond_rounding = 0.0_wp
+      ratio = ratio/max(scale, tiny(1.0_wp))
       if (.not. allocated(problem%part)) return
       left = norms_of_parts(problem, on_components(problem, residual))
-      acting = norms_of_parts(problem, on_components(problem, loads))
+      acting = norms_of_parts(problem, on_components(problem, found_load(problem)))
       whole = norms_of_parts(problem, field%force)
       forces = forces_of_step(problem, norms_of_parts(problem, field%force - field%force_before), whole, &
-         problem%pushed_parts, ring_norm(problem%equations, loads), 0.0_wp)
-      counts = forces > of_no_account*most .and. left > max(resolution*whole, resolution_of_loads*acting)
-      ratio = max(ratio, maxval(left/max(forces, tiny(1.0_wp)), mask=counts))
-      beyond_rounding = max(beyond_rounding, maxval(left/max(forces, tiny(1.0_wp)), mask=counts))
+         problem%pushed_parts, loads, 0.0_wp)
+      worst = maxval([0.0_wp, pack(left/max(forces, tiny(1.0_wp)), forces > of_no_account*most &
+         .and. left > max(resolution*whole, resolution_of_loads*acting))])
+      if (worst > ratio) ratio = worst
+      if (worst > beyond_rounding) beyond_rounding = worst
    end subroutine measure
 
    !> Norm of the forces of a step, which residuals are held against
@@ -314,13 +315,15 @@ contains
       norms = sqrt(norms)
    end function norms_of_parts
 
-   !> Norm of the loads with the load factor that was found so far
-   pure real(wp) function found_load(problem)
-      !> The problem, steered
+   !> Loads on the unknowns, with the load factor that was found so far if they are steered
+   pure function found_load(problem) result(load)
+      !> The problem
       type(problem_type), intent(in) :: problem
+      !> The loads
+      real(wp), allocatable :: load(:)
 
-      found_load = ring_norm(problem%equations, &
-         problem%load%right + problem%steering%factor*problem%steering%load)
+      load = problem%load%right
+      if (allocated(problem%steering%load)) load = load + problem%steering%factor*problem%steering%load
    end function found_load
 
    !> Norm of the forces of the bodies
@@ -364,7 +367,7 @@ contains
       real(wp) :: change, norm
 
       norm = max(problem%load_norm, problem%peak)
-      if (allocated(problem%steering%load)) norm = max(norm, found_load(problem))
+      if (allocated(problem%steering%load)) norm = max(norm, ring_norm(problem%equations, found_load(problem)))
       call balance_joints(problem%joints, problem%equations, field%unknowns + iterate%response, &
                           problem%load%held, norm, force)
       call turn(problem, force, response, change)
