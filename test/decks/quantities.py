@@ -39,6 +39,46 @@ FIXEDFACES
 {loads}END
 """
 PRESSED = 'PRESSURES\n1,0,50.\n'
+# Two discs, pressed and then pushed sideways
+SHEARED = """TITLE
+Pressed, then sheared
+CONTROL
+2,33
+MATERIALS
+1,{young},0.2
+LAWS
+1,{stiffness},{stiffness},{stiffness},0,30
+LAWDETAILS
+1,COMPONENTS
+BLOCKS
+1,1,8,8,2
+0,-0.5,1,0
+2,1,8,8,2
+0,0,1,0.5
+FACES
+1,1,0,0,1,0
+2,2,0,0,1,0
+3,1,0,-0.5,1,-0.5
+4,2,0,0.5,1,0.5
+INTERFACES
+1,1,2
+FIXEDFACES
+3,111
+CASE
+1
+RESULTANTS
+4,AXIAL,{pressed}
+CASE
+2
+RESULTANTS
+4,LATERAL,{pushed},0
+COMBINE
+1,1,1,2,1
+INCREMENTS
+1,,,1
+1,,,2
+END
+"""
 # Two discs, one drawn over the other against springs above, with a joint that dilates by its angle of friction
 LIFTED = """TITLE
 Drawn and lifted
@@ -138,6 +178,15 @@ def dissipation(program, folder):
     return faults
 
 
+def dissipation_in_units(program, folder):
+    """Shear that is rounding before joints slip does not decide what is dissipated, in other units either"""
+    found = []
+    for unit in (1.0, 3.7):
+        text = SHEARED.format(young=1e4*unit, stiffness=1e3*unit, pressed=-unit, pushed=0.5*unit)
+        found.append(last_increment(program, folder, text)[-1]['dissipated']/unit)
+    return close('dissipated', found[0], found[1], 1e-6*found[0]) + ([] if found[0] > 0.0 else ['nothing slides'])
+
+
 def lifting(program, folder):
     """Slip that lifts as much as friction resists dissipates nothing: what is done by the load is stored"""
     last = last_increment(program, folder, LIFTED + 10*'4E-4,1E-9,,2\n' + 'END\n')[-1]
@@ -184,4 +233,4 @@ def fading(program, folder):
 def tests(program):
     """The tests of this module"""
     return [Test(f'quantities: {function.__name__.replace("_", " ")}', lambda folder, function=function: function(program, folder))
-            for function in (energies, dissipation, lifting, largest_displacement, remarks, fading)]
+            for function in (energies, dissipation, dissipation_in_units, lifting, largest_displacement, remarks, fading)]
