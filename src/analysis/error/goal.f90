@@ -75,12 +75,24 @@ contains
       if (.not. allocated(results%budget)) return
       do i = 1, size(results%budget)
          associate (share => results%budget(i))
-            if (share%source == source_solver .or. share_of(share, model%error_goal) >= 0.0_wp) cycle
+            if (share%source == source_solver) cycle
+            if (share_of(share, model%error_goal) >= 0.0_wp .and. .not. lacks_answer(share, results)) cycle
             source = share%source
             return
          end associate
       end do
    end function unknown_source
+
+   !> Whether joints had no answer to the errors of the mesh: what that would move is lacking in those of displacements
+   pure logical function lacks_answer(share, results)
+      !> The share
+      type(error_share_type), intent(in) :: share
+      !> Results with a budget
+      type(results_type), intent(in) :: results
+
+      lacks_answer = share%source == source_discretization .and. share%joint_stress < 0.0_wp &
+         .and. any(results%budget%joint_stress >= 0.0_wp)
+   end function lacks_answer
 
    !> Factor on a share
    pure real(wp) function safety_of(share, goal)
