@@ -11,7 +11,7 @@ import sys
 import tempfile
 from dataclasses import dataclass, replace
 
-from goals import COARSE, COARSE_8, Row  # before the next, which puts the module of the deck tests before this one
+from goals import COARSE, COARSE_8, Row
 import estimate_scenes as scenes
 from found_errors import displacement_error, joint_error, read
 
