@@ -230,7 +230,23 @@ def fading(program, folder):
     return [] if ran.code in (0, 3, 4) and not (found and float(found.group(1)) < 1e-6) else [messages]
 
 
+def smaller_steps(program, folder):
+    """Increments that are halved where joints slip are named, as results depend on the path; others are not"""
+    faults = []
+    for iterations in (5, 20):
+        text = read_text(os.path.join(INPUTS, 'first.dat')).replace('LATERAL       0.4', 'LATERAL       4.0')
+        text = text.replace('\nEND', f'\nINCREMENTS\n0.1,1E-6\n0.9,1E-6,{iterations}\nEND')
+        faults += program.run('run', write(folder, 'steps.dat', text), '-o', folder).ended_with(0)
+        summary = json.loads(read_text(os.path.join(folder, 'steps.json')))
+        steps = [step['increment'] for step in summary['residuals']]
+        named = [re.match(r'increments? ([0-9, ]+) in smaller steps', line).group(1) for line in summary['messages'] if 'smaller' in line]
+        faults += expected(f'named of {iterations} iterations', [str(i) for i in (1, 2) if steps.count(i) > 1], named)
+        faults += expected(f'steps in {iterations} iterations', iterations == 20, len(steps) == 2)
+    return faults
+
+
 def tests(program):
     """The tests of this module"""
     return [Test(f'quantities: {function.__name__.replace("_", " ")}', lambda folder, function=function: function(program, folder))
-            for function in (energies, dissipation, dissipation_in_units, lifting, largest_displacement, remarks, fading)]
+            for function in (energies, dissipation, dissipation_in_units, lifting, largest_displacement, remarks, fading,
+                             smaller_steps)]

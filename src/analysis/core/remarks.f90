@@ -23,6 +23,8 @@ module axijoint_analysis_core_remarks
    real(wp), parameter :: stiffest = 1.0e4_wp
    !> Tolerances above this deserve a word
    real(wp), parameter :: coarse_tolerance = 1.0e-3_wp
+   !> So many harmonics or increments are named
+   integer, parameter :: most_named = 8
 
 contains
 
@@ -66,6 +68,26 @@ contains
             'work and dissipation are sums over the increments that SERIES of KEEP keeps: of longer steps than were made')
       end associate
    end function remarks_on
+
+   !> Increments that were halved where joints slip: the path is another one then
+   subroutine remark_on_steps(results, remarks)
+      !> The results
+      type(results_type), intent(in) :: results
+      !> The sentences, to be continued
+      type(remark_type), allocatable, intent(inout) :: remarks(:)
+
+      integer, allocatable :: halved(:)
+      integer :: i
+
+      if (.not. (results%converged .and. any(results%path%n_slip > 0))) return
+      halved = [(i, i=1, maxval(results%residuals%increment))]
+      halved = pack(halved, [(count(results%residuals%increment == i) > 1, i=1, size(halved))])
+      if (size(halved) == 0) return
+      call add(remarks, trim(merge('increment ', 'increments', size(halved) == 1))//' '// &
+         list_of(halved(:min(size(halved), most_named)))//trim(merge(', ...', '     ', size(halved) > most_named))// &
+         ' in smaller steps, as no equilibrium was found at once: what slips depends on the path, of which estimates of errors '// &
+         'know nothing; more increments show how much')
+   end subroutine remark_on_steps
 
    !> Why the increments ended as they did
    subroutine remark_on_end(model, structure, history, results, remarks)
@@ -276,6 +298,7 @@ contains
          end if
       end associate
       call remark_on_gaps(model, results, remarks)
+      call remark_on_steps(results, remarks)
       if (maxval(results%modes%harmonic) + 1 == model%n_planes) then
          call add(remarks, 'w of the highest harmonic vanishes on all planes: '// &
             'nothing of it is transferred (M + 2 planes avoid that)')
@@ -292,8 +315,6 @@ contains
       !> The sentences, to be continued
       type(remark_type), allocatable, intent(inout) :: remarks(:)
 
-      !> So many are named
-      integer, parameter :: most_named = 8
       integer, allocatable :: left_out(:)
       integer :: step, k
 
