@@ -16,11 +16,14 @@ contains
       type(deck_type), intent(inout), target :: deck
 
       logical :: heavy, expands
+      logical, allocatable :: used(:)
       integer :: i, k
 
-      associate (used => deck%model%materials(deck%model%mesh%element_material))
-         heavy = any(used%density > 0.0_wp)
-         expands = any([(any(abs(used(i)%expansion) > 0.0_wp), i=1, size(used))])
+      associate (materials => deck%model%materials)
+         allocate (used(size(materials)), source=.false.)
+         used(deck%model%mesh%element_material) = .true.
+         heavy = any(used .and. materials%density > 0.0_wp)
+         expands = any([(used(i) .and. any(abs(materials(i)%expansion) > 0.0_wp), i=1, size(used))])
       end associate
       do k = 1, size(deck%sections%tables)
          associate (needs => deck%source%sections(k)%needs, table => deck%sections%tables(k))

@@ -21,8 +21,6 @@ module axijoint_deck_check_mesh
    real(wp), parameter :: hanging_distance = 1.0e-3_wp
    !> Room for neighbours of a point
    integer, parameter :: most_near = 64
-   !> Threads are woken for more nodes than this
-   integer, parameter :: worth_threads = 5000
 
 contains
 
@@ -117,52 +115,47 @@ contains
       call refine_order(order, group)
    end subroutine order_by_place
 
-   !> Report nodes of one body that nearly coincide
-   subroutine check_near(draft, group, edges, tree, diagnostics)
+   !> Report nodes of one body that nearly coincide. Those on outer edges are looked at: a node elsewhere is surrounded by its
+   !> elements, and what comes near to it without being of these overlaps them
+   subroutine check_near(draft, group, edges, outer, tree, diagnostics)
       !> The mesh
       type(draft_type), intent(in) :: draft
       !> Number of each node's place
       integer, intent(in) :: group(:)
       !> Edges
       type(edge_table_type), intent(in) :: edges
-      !> All nodes
+      !> Nodes on outer edges, and the tree of their places
+      integer, intent(in) :: outer(:)
       type(point_tree_type), intent(in) :: tree
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
       real(wp), allocatable :: shortest(:)
-      logical, allocatable :: alone(:)
-      integer :: node, i, other, n_found, found(most_near)
+      integer :: i, k, n_found, found(most_near)
 
       call shortest_edges(draft, edges, shortest)
-      allocate (alone(draft%n_nodes), source=.true.)
-      !$omp parallel do private(found, n_found) if (draft%n_nodes > worth_threads)
-      do node = 1, draft%n_nodes
-         if (.not. draft%node_good(node) .or. shortest(node) >= huge(1.0_wp)) cycle
-         call points_near(tree, draft%position(:, node), least_distance*shortest(node), found, n_found)
-         alone(node) = n_found == 1  ! itself
-      end do
-      !$omp end parallel do
-      do node = 1, draft%n_nodes
-         if (alone(node)) cycle
-         call points_near(tree, draft%position(:, node), least_distance*shortest(node), found, &
-            n_found)
-         do i = 1, n_found
-            other = found(i)
-            if (other >= node .or. group(other) == group(node) .or. .not. draft%node_good(other)) &
-               cycle
-            if (draft%node_body(other) /= draft%node_body(node)) cycle
-            call add_error(diagnostics, draft%node_card(node), 0, 0, &
-                           'nodes '//to_text(draft%node_label(other))//' and '// &
-                           to_text(draft%node_label(node))//' of body '// &
-                           to_text(draft%node_body(node))// &
-                           ' nearly coincide', &
-                           found='a distance of '// &
-                           to_text(norm2(draft%position(:, node) - draft%position(:, other)))// &
-                           ', '//place_text(draft%position(:, node)), &
-                           allowed='at least 0.001 of the shortest edge there, '// &
-                           to_text(shortest(node)))
-         end do
+      do i = 1, size(outer)
+         associate (node => outer(i))
+            if (.not. draft%node_good(node)) cycle
+            call points_near(tree, draft%position(:, node), least_distance*shortest(node), found, n_found)
+            do k = 1, n_found
+               associate (other => outer(found(k)))
+                  if (other >= node .or. group(other) == group(node) .or. .not. draft%node_good(other)) &
+                     cycle
+                  if (draft%node_body(other) /= draft%node_body(node)) cycle
+                  call add_error(diagnostics, draft%node_card(node), 0, 0, &
+                                 'nodes '//to_text(draft%node_label(other))//' and '// &
+                                 to_text(draft%node_label(node))//' of body '// &
+                                 to_text(draft%node_body(node))// &
+                                 ' nearly coincide', &
+                                 found='a distance of '// &
+                                 to_text(norm2(draft%position(:, node) - draft%position(:, other)))// &
+                                 ', '//place_text(draft%position(:, node)), &
+                                 allowed='at least 0.001 of the shortest edge there, '// &
+                                 to_text(shortest(node)))
+               end associate
+            end do
+         end associate
       end do
    end subroutine check_near
 
@@ -197,14 +190,15 @@ contains
 
    !> Report nodes that lie on an outer edge of their body without being its nodes:
    !> the mesh would gape there
-   subroutine check_hanging(draft, group, edges, tree, diagnostics)
+   subroutine check_hanging(draft, group, edges, outer, tree, diagnostics)
       !> The mesh
       type(draft_type), intent(in) :: draft
       !> Number of each node's place
       integer, intent(in) :: group(:)
       !> Edges
       type(edge_table_type), intent(in) :: edges
-      !> All nodes
+      !> Nodes on outer edges, and the tree of their places
+      integer, intent(in) :: outer(:)
       type(point_tree_type), intent(in) :: tree
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
@@ -222,6 +216,7 @@ contains
             length = norm2(side)
             if (.not. length > 0.0_wp) cycle
             call points_near(tree, a + 0.5_wp*side, 0.499_wp*length, found, n_found)
+            found(:n_found) = outer(found(:n_found))
             do k = 1, n_found
                ! its own, misplaced
                if (any(draft%element_nodes(:, edges%element(i)) == found(k))) cycle

@@ -7,7 +7,7 @@ module axijoint_deck_mesh_edges
    use axijoint_fe_shape, only : n_corners
    implicit none
    private
-   public :: edge_table_type, new_edge_table, check_edges, find_edge, outer_edge
+   public :: edge_table_type, new_edge_table, check_edges, find_edge, outer_edge, outer_nodes
 
    !> Edges of all elements; an edge inside a body is there once for each element
    type :: edge_table_type
@@ -120,6 +120,25 @@ contains
       end do
       edge = 0
    end function find_edge
+
+   !> Nodes on outer edges, each once
+   pure function outer_nodes(table, n_nodes) result(nodes)
+      !> The edges
+      type(edge_table_type), intent(in) :: table
+      !> Number of nodes
+      integer, intent(in) :: n_nodes
+      !> The nodes
+      integer, allocatable :: nodes(:)
+
+      logical, allocatable :: outer(:)
+      integer :: i
+
+      allocate (outer(0:n_nodes), source=.false.)
+      do i = 1, table%n
+         if (table%twin(i) == 0) outer(table%nodes(:, i)) = .true.
+      end do
+      nodes = pack([(i, i=1, n_nodes)], outer(1:))
+   end function outer_nodes
 
    !> An edge in the direction in which a face runs
    pure function outer_edge(draft, table, edge, first) result(directed)
