@@ -108,6 +108,14 @@ def built_in(setting, poisson=0.3):
     return scene.add("FIXEDFACES", "1, 111").add("RESULTANTS", "2, LATERAL, 1").text()
 
 
+def pier(setting):
+    """A soft pier on ground that is nearly incompressible, pressed and pushed sideways"""
+    scene = Scene("Pier", setting).add("MATERIALS", "1, 500, 0.3", "2, 1e4, 0.49")
+    scene.block(1, 1, 6, 4, (0, 0, 1, .5), (2, 1)).block(1, 2, 6, 8, (0, -2, 1, 0), (2, 2))
+    scene.block(1, 2, 6, 8, (1, -2, 3, 0), (1, 2)).add("FACES", "1, 1, 0, .5, 1, .5", "2, 1, 0, -2, 3, -2")
+    return scene.add("FIXEDFACES", "2, 111").add("RESULTANTS", "1, AXIAL, -4", "1, LATERAL, 1").text()
+
+
 def skew(setting, m=2):
     """Four distorted blocks"""
     scene = Scene("Distorted quadrilaterals", setting).add("HARMONICS", str(m)).add("MATERIALS", "1, 2e4, 0.3")

@@ -80,6 +80,7 @@ def mesh_rows():
         yield row("heated plug", scenes.heated, setting)
     for kind in ("4B", "8R"):
         yield row("built in, nu = 0.49", scenes.built_in, replace(linear, kind=kind), poisson=0.49)
+        yield row("soft pier on nu = 0.49", scenes.pier, replace(linear, kind=kind), replace(linear, kind=kind).fine(n=3))
     for kind, mesh in (("3", "peg_3"), ("4", "peg_4"), ("6", "peg_6"), ("6", "peg_6_graded")):
         yield Row("mesh", f"peg, Gmsh, {mesh[4:]}", scenes.peg, Setting(kind), Setting().fine(), {"mesh": mesh + ".msh"}, {})
 

@@ -1,5 +1,6 @@
 """Estimates of errors where they are hard to come by: joints that reach the axis, harmonics with gaps between them, loads of which M
 leaves all but rigid motion out; and what is said of motions that nothing resists"""
+import math
 import re
 
 from hard_decks import solved
@@ -35,6 +36,30 @@ RESULTANTS
 1,LATERAL,0.4
 INCREMENTS
 1.0,1E-8
+END
+"""
+# A soft pier on ground of nearly constant volume
+PIER = """TITLE
+Pier
+CONTROL
+1,,,{order},,{formulation}
+MATERIALS
+1,500,0.3
+2,10000,0.499
+BLOCKS
+1,1,{nodes},{across},{low}
+0,0,1,0.5
+1,2,{nodes},{across},{high}
+0,-2,1,0
+1,2,{nodes},{across},{high}
+1,-2,3,0
+FACES
+1,1,0,0.5,1,0.5
+2,1,0,-2,3,-2
+FIXEDFACES
+2,111
+RESULTANTS
+{load}
 END
 """
 # A peg in a hole, with pressure round the block
@@ -175,9 +200,30 @@ def idle_motion(program, folder):
     return faults
 
 
+def nearly_incompressible(program, folder):
+    """Soft bodies on those of nearly constant volume, by elements that do not lock: near to the errors by finer meshes"""
+    def along(text, name):
+        """Displacements at theta = 0 by place, and the estimate"""
+        summary, tables = solved(program, folder, name, text)
+        rows = [row for mode in ('m = 0', 'm = 1') for row in tables.get(mode, [])]
+        moved = {}
+        for row in rows:
+            before = moved.get((row['r'], row['z']), (0.0, 0.0))
+            moved[row['r'], row['z']] = (before[0] + row['u'], before[1] + row['v'])
+        return moved, summary['errors']['sum']['displacement']
+
+    faults = []
+    for order, formulation, nodes, load in ((2, '', 8, '1,AXIAL,-4.0'), (2, '', 9, '1,LATERAL,1.0'), (3, 'BBAR', 4, '1,LATERAL,1.0')):
+        pier = {'order': order, 'formulation': formulation, 'nodes': nodes, 'load': load}
+        coarse, told = along(PIER.format(across=6, low=4, high=8, **pier), 'coarse')
+        fine, _ = along(PIER.format(across=24, low=16, high=32, **pier), 'fine')
+        true = max(math.dist(coarse[place], fine[place]) for place in coarse)/max(math.hypot(*vector) for vector in fine.values())
+        faults += [] if 0.4 < true/told < 2.5 else [f'{nodes} nodes {formulation}: true {true:.4f}, told {told:.4f}']
+    return faults
+
+
 def tests(program):
     """The tests of this module"""
     named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps, 'patch of rigid motion': rigid_patch,
-             'flies off': flies_off,
-             'idle motion': idle_motion}
+             'flies off': flies_off, 'idle motion': idle_motion, 'nearly incompressible': nearly_incompressible}
     return [Test(f'estimates: {name}', lambda folder, function=function: function(program, folder)) for name, function in named.items()]

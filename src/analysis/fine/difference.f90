@@ -19,13 +19,13 @@ module axijoint_analysis_fine_difference
    private
    public :: difference_type, room_type, most_steps, new_difference, find_difference, share_difference
 
-   !> Steps at most of a mode, and the part of nodes and jumps of joints that is left to the blocks alone after a
-   !> step. `scripts/bench estimates` shows what that does to the estimates
-   integer, parameter :: most_steps = 8
+   !> Steps at most of a mode, turns at most, and the part of nodes and jumps of joints that is left to the blocks alone
+   !> after a step. `scripts/bench estimates` shows what that does to the estimates
+   integer, parameter :: most_steps = 8, most_turns = 16
    real(wp), parameter :: settled = 0.2_wp
    !> The first step, and the blocks alone in it, go so far at least where the coarse mesh moves the fine one as it does
    !> itself. It does not where elements of constant volume cannot follow: in nearly incompressible bodies the one or the
-   !> other went backwards to 0.43 (4-node B-bar and 8-node reduced), in 220 other modes 0.59 to 1.2
+   !> other went backwards to 0.43 (4-node B-bar, 8- and 9-node reduced), in 220 other modes 0.59 to 1.2
    real(wp), parameter :: usual = 0.5_wp
 
    !> The difference
@@ -139,7 +139,7 @@ contains
 
       if (allocated(room%force)) return
       allocate (room%force(3, n), room%external(3, n), room%u(3, n))
-      allocate (room%way(3, n, most_steps), room%pull(3, n, most_steps))
+      allocate (room%way(3, n, most_turns), room%pull(3, n, most_turns))
    end subroutine make_room
 
    !> Forces that a coarse solution leaves on the fine mesh
@@ -185,8 +185,8 @@ contains
 
    !> Displacements under forces: steps that blocks and the coarse mesh make together, as many as it takes
    !> until what the blocks would add to them is small. That is added without a product for how far to go:
-   !> as far as the blocks alone would have gone in the step before. Where the coarse mesh is no guide, until a step is
-   !> small
+   !> as far as the blocks alone would have gone in the step before. Where the coarse mesh is no guide, blocks
+   !> and coarse mesh go by turns
    subroutine descend(level, equations, k, steps, room, difference)
       !> The fine level
       type(fine_level_type), intent(in) :: level
@@ -202,10 +202,8 @@ contains
       real(wp), allocatable :: jump(:, :)
       real(wp) :: energy(most_steps), of_blocks, length
       integer :: step, n
-      logical :: guided, small
 
-      associate (harmonic => equations%modes(k)%harmonic, force => room%force, way => room%way, &
-                 pull => room%pull, change => room%external, &
+      associate (force => room%force, way => room%way, pull => room%pull, change => room%external, &
                  conditions => level%conditions(equations%systems(equations%system(k))%class), &
                  displacement => difference%displacement(:, :, k), &
                  jumps => difference%jump(:, :, k))
@@ -215,7 +213,7 @@ contains
                d = force
                call solve_blocks(level%smoother, room%factor, d)
                call hold(conditions, d)
-               if (step > 1 .and. guided) then
+               if (step > 1) then
                   room%u = d
                   call keep_apart(way, pull, energy(:step - 1), room%u)
                   call see_change(level, of_blocks, room%u, n, change, jump)
@@ -227,7 +225,7 @@ contains
                end if
                call look_down(level, equations, k, force, room%u, d, of_blocks)
                call keep_apart(way, pull, energy(:step - 1), d)
-               call block_product(level%stiffness, harmonic, d, kd)
+               call block_product(level%stiffness, equations%modes(k)%harmonic, d, kd)
                energy(step) = work(d, kd)
                if (.not. energy(step) > 0.0_wp) then
                   ! nothing is left, or what is left is not known
@@ -235,18 +233,75 @@ contains
                   exit
                end if
                length = work(d, force)/energy(step)
-               if (step == 1) guided = length >= usual .and. of_blocks >= usual
+               if (step == 1 .and. .not. (length >= usual .and. of_blocks >= usual)) then
+                  call descend_by_turns(level, equations, k, room, difference)
+                  return
+               end if
                call see_change(level, length, d, n, change, jump)
-               small = is_small(change(:, :n), displacement) .and. is_small(jump, jumps)
                displacement = displacement + change(:, :n)
                jumps = jumps + jump
-               if (small .and. .not. guided) exit
                call daxpy(size(force), -length, kd, 1, force, 1)
                call take_reactions(conditions, force)
             end associate
          end do
       end associate
    end subroutine descend
+
+   !> The same where the coarse mesh moves the fine one otherwise than that does itself: blocks and coarse mesh by turns,
+   !> each as far as the energy falls, until neither adds much
+   subroutine descend_by_turns(level, equations, k, room, difference)
+      !> The fine level
+      type(fine_level_type), intent(in) :: level
+      !> Equations of the coarse mesh, factored
+      type(equations_type), intent(in) :: equations
+      !> Place of the mode
+      integer, intent(in) :: k
+      !> Factors of the blocks; forces, then what is left of them
+      type(room_type), intent(inout) :: room
+      !> Takes the difference
+      type(difference_type), intent(inout) :: difference
+
+      real(wp), allocatable :: jump(:, :)
+      real(wp) :: energy(most_turns), length
+      integer :: turn, n
+      logical :: small, was_small
+
+      associate (force => room%force, way => room%way, pull => room%pull, change => room%external, &
+                 conditions => level%conditions(equations%systems(equations%system(k))%class), &
+                 displacement => difference%displacement(:, :, k), &
+                 jumps => difference%jump(:, :, k))
+         n = size(displacement, 2)
+         was_small = .false.
+         do turn = 1, most_turns
+            associate (d => way(:, :, turn), kd => pull(:, :, turn))
+               d = force
+               if (mod(turn, 2) == 1) then
+                  call solve_blocks(level%smoother, room%factor, d)
+               else
+                  call follow_coarse_mesh(level, equations, k, d)
+               end if
+               call hold(conditions, d)
+               call keep_apart(way, pull, energy(:turn - 1), d)
+               call block_product(level%stiffness, equations%modes(k)%harmonic, d, kd)
+               energy(turn) = work(d, kd)
+               if (.not. energy(turn) > 0.0_wp) then
+                  difference%known(k) = energy(turn) <= 0.0_wp
+                  return
+               end if
+               length = work(d, force)/energy(turn)
+               call see_change(level, length, d, n, change, jump)
+               small = is_small(change(:, :n), displacement) .and. is_small(jump, jumps)
+               displacement = displacement + change(:, :n)
+               jumps = jumps + jump
+               if (small .and. was_small) return
+               was_small = small
+               call daxpy(size(force), -length, kd, 1, force, 1)
+               call take_reactions(conditions, force)
+            end associate
+         end do
+         difference%known(k) = .false.  ! more would follow
+      end associate
+   end subroutine descend_by_turns
 
    !> Whether none is infinite or not a number
    pure logical function are_numbers(values)
@@ -328,22 +383,36 @@ contains
       !> How far the blocks alone would go
       real(wp), intent(out) :: of_blocks
 
-      real(wp), allocatable :: coarse(:, :), displacement(:, :)
-
       associate (conditions => level%conditions(equations%systems(equations%system(k))%class))
          call block_product(level%stiffness, equations%modes(k)%harmonic, d, rest)
          of_blocks = work(d, rest)
          if (of_blocks > 0.0_wp) of_blocks = work(d, force)/of_blocks
          rest = force - rest
          call take_reactions(conditions, rest)
-         allocate (coarse(3, size(equations%classes(1)%dofs%equation, 2)))
-         allocate (displacement, mold=coarse)
-         call restrict(level%parents, rest, coarse)
-         call solve_mode(equations, k, coarse, displacement)
-         call prolong(level%parents, displacement, rest)
+         call follow_coarse_mesh(level, equations, k, rest)
          d = d + rest
          call hold(conditions, d)
       end associate
    end subroutine look_down
+
+   !> What the coarse mesh does under forces on the fine one
+   subroutine follow_coarse_mesh(level, equations, k, vectors)
+      !> The fine level
+      type(fine_level_type), intent(in) :: level
+      !> Equations of the coarse mesh, factored
+      type(equations_type), intent(in) :: equations
+      !> Place of the mode
+      integer, intent(in) :: k
+      !> Forces, then displacements, shape (3, fine nodes)
+      real(wp), intent(inout), contiguous :: vectors(:, :)
+
+      real(wp), allocatable :: coarse(:, :), displacement(:, :)
+
+      allocate (coarse(3, size(equations%classes(1)%dofs%equation, 2)))
+      allocate (displacement, mold=coarse)
+      call restrict(level%parents, vectors, coarse)
+      call solve_mode(equations, k, coarse, displacement)
+      call prolong(level%parents, displacement, vectors)
+   end subroutine follow_coarse_mesh
 
 end module axijoint_analysis_fine_difference
