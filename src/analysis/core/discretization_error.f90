@@ -25,6 +25,10 @@ module axijoint_analysis_core_discretization_error
       real(wp) :: displacement = 0.0_wp
       !> Largest error of a joint stress over the largest joint stress; negative without joints
       real(wp) :: joint_stress = -1.0_wp
+      !> Largest joint stress of each mode, shape (modes), and what errors of joint stress are measured by, where it is
+      !> judged [stress]; zero without joints
+      real(wp), allocatable :: joint_amplitude(:)
+      real(wp) :: joint_scale = 0.0_wp
       !> Time that the estimate took [second]
       real(wp) :: seconds = 0.0_wp
    end type discretization_error_type

@@ -41,8 +41,7 @@ contains
          call take(results%joint_errors(1), budget(source_iteration))
       else
          budget(source_planes:source_iteration)%displacement = 0.0_wp
-         if (size(results%joint_stress) > 0) &
-            budget(source_harmonics:source_iteration)%joint_stress = 0.0_wp
+         if (size(results%joint_stress) > 0) budget(source_planes:source_iteration)%joint_stress = 0.0_wp
       end if
       budget(source_solver) = error_share_type(source=source_solver, &
          remedy='less contrast of the stiffnesses')
@@ -111,6 +110,7 @@ contains
       share%remedy = 'harmonics: M = '//to_text(max(1, nint(1.4142*model%max_harmonic)))// &
          ' in CONTROL'
       share%displacement = 0.0_wp
+      if (size(results%joint_stress) > 0) share%joint_stress = 0.0_wp
       if (yields) call take(results%joint_errors(3), share)
       share%load = 0.0_wp
       do k = 1, size(model%truncations)
@@ -122,16 +122,30 @@ contains
       harmonic = results%modes%harmonic
       amplitude = [(sqrt(maxval(sum(results%displacement(:, :, k)**2, 1))), k=1, &
          size(results%modes))]
-      tail = response_tail(harmonic, amplitude)
-      if (tail < 0.0_wp) then
-         share%displacement = -1.0_wp
-         return
-      end if
-      if (share%displacement >= 0.0_wp) share%displacement = share%displacement &
-         + ratio(tail, results%discretization%largest_displacement)
-      share%energy = sqrt(ratio(response_tail(harmonic, results%discretization%energy), &
-                                sum(results%discretization%energy)))
+      associate (solution => results%discretization)
+         call add_tail(harmonic, amplitude, solution%largest_displacement, share%displacement)
+         call add_tail(harmonic, solution%joint_amplitude, solution%joint_scale, share%joint_stress)
+         tail = response_tail(harmonic, solution%energy)
+         if (tail >= 0.0_wp) share%energy = sqrt(ratio(tail, sum(solution%energy)))
+      end associate
    end function harmonics_share
+
+   !> Add what harmonics above M would bring to an error, which is not known if that is not
+   pure subroutine add_tail(harmonic, amplitude, scale, error)
+      !> Harmonic of each mode, and its amplitude, shape (modes)
+      integer, intent(in) :: harmonic(:)
+      real(wp), intent(in) :: amplitude(:)
+      !> What the error is a part of
+      real(wp), intent(in) :: scale
+      !> The error; negative if it is not known
+      real(wp), intent(inout) :: error
+
+      real(wp) :: tail
+
+      if (error < 0.0_wp) return
+      tail = response_tail(harmonic, amplitude)
+      error = merge(error + ratio(tail, scale), -1.0_wp, tail >= 0.0_wp)
+   end subroutine add_tail
 
    !> Take an estimate of the joints
    pure subroutine take(error, share)

@@ -61,6 +61,7 @@ contains
          if (size(field%offset) > 0) &
             call add_motions(structure%condensed%floating, field%offset, total)
          estimate%largest_displacement = largest_vector(results%modes, total)
+         call note_joint_stress()
          estimate%displacement = -1.0_wp
          estimate%joint_stress = -1.0_wp
          if (mesh_error%known) then
@@ -74,9 +75,25 @@ contains
 
    contains
 
+      !> Largest joint stresses of each mode, and of all
+      subroutine note_joint_stress()
+         integer :: i
+
+         associate (estimate => results%discretization, points => structure%joint_points)
+            estimate%joint_amplitude = [(0.0_wp, i=1, size(results%modes))]
+            if (size(points) == 0) return
+            do i = 1, size(results%modes)
+               estimate%joint_amplitude(i) = maxval(maxval(abs(stress_amplitude(points, results%modes(i), &
+                  results%displacement(:, :, i), field, i)), 1), mask=structure%judged)
+            end do
+            estimate%joint_scale = max(yielding_stress, &
+               maxval(maxval(maxval(abs(results%joint_stress), 3), 1), mask=structure%judged))
+         end associate
+      end subroutine note_joint_stress
+
       !> Error of joint stresses, relative; negative if there are no joints or if it is not known
       real(wp) function joint_stress_error() result(error)
-         real(wp) :: largest, scale
+         real(wp) :: largest
          integer, allocatable :: elastic(:)
 
          error = -1.0_wp
@@ -89,10 +106,8 @@ contains
          largest = max(0.0_wp, largest, largest_elastic_stress( &
             structure%joint_points(elastic), new_view(results%plane_angles, results%modes), &
             mesh_error%jump(:, elastic, :)))
-         scale = maxval(maxval(maxval(abs(results%joint_stress), 3), 1), mask=structure%judged)
-         scale = max(scale, yielding_stress)
          if (.not. all(structure%judged)) largest = away_from_infinite*largest
-         error = ratio(largest, scale)
+         error = ratio(largest, results%discretization%joint_scale)
       end function joint_stress_error
 
       !> Energy of the joints in one mode
