@@ -272,6 +272,12 @@ contains
       deallocate (extended%loads%free)
       allocate (extended%loads%free(3, size(condensed%points), n + size(above)), source=0.0_wp)
       extended%loads%free(:, :, :n) = scene%loads%free
+      if (allocated(scene%loads%reference%forces)) then  ! nothing loads the modes above
+         associate (forces => scene%loads%reference%forces)
+            extended%loads%reference%forces = reshape([forces, spread(maxval(forces, 2), 2, size(above))], &
+               [size(forces, 1), n + size(above)])
+         end associate
+      end if
       allocate (with_more, source=field)
       with_more%excess = 0.0_wp*extended%loads%free
       with_more%excess(:, :, :n) = field%excess

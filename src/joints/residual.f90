@@ -247,21 +247,23 @@ contains
       norm = sqrt(sum(squares(measure, stress)))
    end function residual_norm
 
-   !> Squares of the forces of joint stress, part by part and mode by mode
+   !> Squares of the forces of joint stress, part by part and mode by mode. Modes above those of the equations have the
+   !> unknowns of the last of these
    pure function squares(measure, stress) result(squared)
       !> The measure
       type(measure_type), intent(in) :: measure
       !> Amplitudes of the stress, shape (3, points, modes)
       real(wp), intent(in) :: stress(:, :, :)
       !> Shape (parts, modes)
-      real(wp) :: squared(size(measure%part_node), size(measure%integral))
+      real(wp) :: squared(size(measure%part_node), size(stress, 3))
 
       real(wp), allocatable :: force(:)
-      integer :: i, k, l, p
+      integer :: i, k, l, p, like
 
       squared = 0.0_wp
       do k = 1, size(squared, 2)
-         associate (rows => measure%rows(measure%class(k)))
+         like = min(k, size(measure%class))
+         associate (rows => measure%rows(measure%class(like)))
             allocate (force(size(rows%part)), source=0.0_wp)
             do p = 1, size(stress, 2)
                do i = 1, 3
@@ -272,7 +274,7 @@ contains
                end do
             end do
             do l = 1, size(force)
-               squared(rows%part(l), k) = squared(rows%part(l), k) + measure%integral(k)*force(l)**2
+               squared(rows%part(l), k) = squared(rows%part(l), k) + measure%integral(like)*force(l)**2
             end do
             deallocate (force)
          end associate
