@@ -11,6 +11,7 @@ module axijoint_plastic_single_step
    use axijoint_base_stop, only : stop_wished
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : set_initial_stress
+   use axijoint_joints_floating, only : add_motions
    use axijoint_joints_history, only : history_type
    use axijoint_joints_residual, only : load_norm
    use axijoint_model_joint_points, only : model_joint_point_type
@@ -144,7 +145,7 @@ contains
       if (present(reference)) settling%reference = reference
       call begin_way(problem, field, way)
       do
-         call take_displacement(equations, field, load, state%displacement)
+         call take_displacement(problem, field, load, way%iterate, state%displacement)
          call find_value(model, problem, field, loads, loading, way%iterate, state)
          if (.not. (allocated(loads%steered) .or. loads%held)) &
             settling%size = maxval(abs(field%unknowns))
@@ -219,24 +220,31 @@ contains
       found = found .and. .not. fails
    end subroutine judge
 
-   !> Displacement amplitudes of the state
-   subroutine take_displacement(equations, field, load, displacement)
-      !> The equations
-      type(equations_type), intent(in) :: equations
+   !> Displacement amplitudes of the state. Beside joints, what is left moves the parts that these alone hold, however little
+   !> it is, and their rigid motions may be apart
+   subroutine take_displacement(problem, field, load, iterate, displacement)
+      !> The problem
+      type(problem_type), intent(in) :: problem
       !> The state
       type(body_field_type), intent(in) :: field
       !> The loads, with displacements that are given
       type(body_load_type), intent(in) :: load
+      !> What the state leaves out of balance
+      type(iterate_type), intent(in) :: iterate
       !> Shape (3, nodes, modes)
       real(wp), allocatable, intent(inout) :: displacement(:, :, :)
 
+      real(wp), allocatable :: moved(:)
       integer :: k
 
+      moved = field%unknowns
+      if (allocated(problem%joints)) moved = moved + iterate%response
       if (.not. allocated(displacement)) allocate (displacement, mold=field%force)
       do k = 1, size(displacement, 3)
-         displacement(:, :, k) = to_nodes(equations, field%unknowns, k)
+         displacement(:, :, k) = to_nodes(problem%equations, moved, k)
       end do
       if (allocated(load%held)) displacement = displacement + load%held
+      if (allocated(problem%joints)) call add_motions(problem%joints%condensed%floating, problem%joints%field%offset, displacement)
    end subroutine take_displacement
 
    !> The value; of loads by virtual work on the displacements themselves, whose error is of second

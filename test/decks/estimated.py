@@ -103,6 +103,59 @@ PRESSURES
 3,,1,,,2
 END
 """
+# A pile without friction in ground that may have a strength
+SMOOTH_PILE = """TITLE
+Smooth pile in ground that could yield
+CONTROL
+3,,,2{method}
+MATERIALS
+1,3E7,0.2
+2,3E4,0.3
+{strength}LAWS
+1,1E5,3E5,1E5,0,0
+BLOCKS
+1,1,8,2,4
+0,-3,0.5,0
+1,1,8,2,1
+0,0,0.5,0.5
+2,2,8,5,4,20
+0.5,-3,8,0
+2,2,8,2,4,,0.3
+0,-8,0.5,-3
+2,2,8,5,4,20,0.3
+0.5,-8,8,-3
+FACES
+1,1,0.5,-3,0.5,0
+2,2,0.5,-3,0.5,0
+3,1,0,-3,0.5,-3
+4,2,0,-3,0.5,-3
+5,1,0,0.5,0.5,0.5
+6,2,0,-8,8,-8
+7,2,8,-8,8,0
+8,2,0.5,0,8,0
+INTERFACES
+1,1,2
+1,3,4
+FIXEDFACES
+6,111
+7,101
+CASE
+1
+PRESSURES
+8,0,50
+RESULTANTS
+5,AXIAL,-50
+CASE
+2
+RESULTANTS
+5,LATERAL,20
+COMBINE
+1,1,1,2,1
+INCREMENTS
+1,,,1
+1,,,2
+END
+"""
 # A peg in a hole, with pressure round the block
 PEG = """TITLE
 Peg in a hole
@@ -270,6 +323,16 @@ def pressed_bonds(program, folder):
     return [fault for loads in ((2.0, 0.2), (20.0, 0.8)) for fault in more_harmonics(program, folder, make(*loads), 0.5)]
 
 
+def smooth_pile(program, folder):
+    """Parts that joints alone hold are moved by the errors as much where bodies could yield as where they cannot"""
+    told = []
+    for method, strength in (('', ''), (',,,,NEWTON', 'YIELD\n2,TRESCA,1E5\n')):
+        summary, _ = solved(program, folder, 'smooth', SMOOTH_PILE.format(method=method, strength=strength))
+        shares = summary['yielding']['errors'] if strength else summary['errors']
+        told.append(shares['sum']['displacement'])
+    return [] if 0.3 < told[1]/told[0] < 3.0 else [f'{told}']
+
+
 def nearly_incompressible(program, folder):
     """Soft bodies on those of nearly constant volume, by elements that do not lock: near to the errors by finer meshes"""
     def along(text, name):
@@ -296,5 +359,6 @@ def tests(program):
     """The tests of this module"""
     named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps, 'patch of rigid motion': rigid_patch,
              'flies off': flies_off, 'idle motion': idle_motion, 'nearly incompressible': nearly_incompressible,
-             'load beyond M': load_beyond, 'pressed bonds': pressed_bonds}
+             'load beyond M': load_beyond, 'pressed bonds': pressed_bonds,
+             'smooth pile': smooth_pile}
     return [Test(f'estimates: {name}', lambda folder, function=function: function(program, folder)) for name, function in named.items()]
