@@ -111,6 +111,7 @@ contains
       call timer%push(phase_joints)
       if (bodies_yield(model)) then
          call solve_bodies(model, structure, combination, history, results, progress, error, keeper)
+         if (.not. allocated(error)) call name_idle_motions(model, structure, history, results)
       else if (size(structure%yielding) > 0) then
          call solve_joints(model, structure, combination, estimates, history, mesh_error, results, &
             progress, error, keeper)

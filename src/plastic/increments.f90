@@ -22,7 +22,7 @@ module axijoint_plastic_increments
    use axijoint_plastic_bodies, only : bodies_type, new_bodies
    use axijoint_plastic_elastic, only : to_nodes, elastic_response
    use axijoint_plastic_field, only : commit
-   use axijoint_plastic_joint_side, only : commit_joints
+   use axijoint_plastic_joint_side, only : commit_joints, find_joint_motion
    use axijoint_plastic_methods, only : body_control_type, balance_bodies
    use axijoint_plastic_problem, only : problem_type
    use axijoint_plastic_record, only : snapshot, bytes_of, read_bytes
@@ -291,6 +291,11 @@ contains
          do k = 1, size(bodies%failing, 3)
             bodies%failing(:, :, k) = to_nodes(self%equations, field%unknowns - field%begun, k)
          end do
+         ! where joints ran away, what the bodies did meanwhile does not tell the motion
+         if (allocated(self%problem%joints)) then
+            if (self%problem%joints%verdict%ran_away .or. self%problem%joints%verdict%mechanism%loaded) &
+               call find_joint_motion(self%problem%joints, self%equations, bodies%failing)
+         end if
          call elastic_response(self%equations, self%problem%load%right - field%right, elastic)
          if (maxval(abs(elastic)) > 0.0_wp) bodies%growth = &
             maxval(abs(field%unknowns - field%begun))/maxval(abs(elastic))

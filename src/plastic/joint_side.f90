@@ -8,6 +8,7 @@ module axijoint_plastic_joint_side
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, commit_field, mend
+   use axijoint_joints_floating, only : add_motions
    use axijoint_joints_loads, only : put_work
    use axijoint_joints_method, only : method_type, control_type, verdict_type
    use axijoint_joints_newton, only : newton_type, linearize, at_points
@@ -17,11 +18,11 @@ module axijoint_plastic_joint_side
    use axijoint_joints_planes, only : synthesize, analyse
    use axijoint_joints_residual, only : set_reference
    use axijoint_joints_scene, only : scene_type, given_work_type, elastic_stress, rounded_stress
-   use axijoint_plastic_elastic, only : to_vector, to_nodes, from_nodes
+   use axijoint_plastic_elastic, only : to_vector, to_nodes, from_nodes, elastic_response
    implicit none
    private
    public :: joint_side_type, begin_joint_step, steer_joints, balance_joints, linearize_joints, &
-      joint_tangent_force, add_units, commit_joints
+      joint_tangent_force, add_units, commit_joints, find_joint_motion
 
    !> What the linear solution of the joints leaves of its right side
    real(wp), parameter :: linear_tolerance = 1.0e-4_wp
@@ -211,6 +212,33 @@ contains
       end do
       force = to_vector(equations, nodal)
    end function force_of
+
+   !> Motion to which joints did not come to equilibrium: that which nothing resists, if a load acts on one, or where they
+   !> ran away to
+   subroutine find_joint_motion(side, equations, displacement)
+      !> The joints
+      type(joint_side_type), intent(in) :: side
+      !> The equations, assembled
+      type(equations_type), intent(inout) :: equations
+      !> Amplitudes, shape (3, nodes, modes)
+      real(wp), intent(inout) :: displacement(:, :, :)
+
+      real(wp), allocatable :: force(:), response(:)
+      integer :: k
+
+      if (side%verdict%mechanism%loaded) then
+         displacement = 0.0_wp
+         call add_motions(side%condensed%floating, side%verdict%mechanism%motion, displacement)
+         return
+      end if
+      force = force_of(side, equations, side%field%excess - side%before%excess, size(displacement, 2))
+      allocate (response, mold=force)
+      call elastic_response(equations, force, response)
+      do k = 1, size(displacement, 3)
+         displacement(:, :, k) = to_nodes(equations, response, k)
+      end do
+      call add_motions(side%condensed%floating, side%field%offset - side%before%offset, displacement)
+   end subroutine find_joint_motion
 
    !> Find the laws about the last equilibrium: only Newton's method asks for them
    subroutine linearize_joints(side)

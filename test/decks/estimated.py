@@ -333,6 +333,17 @@ def smooth_pile(program, folder):
     return [] if 0.3 < told[1]/told[0] < 3.0 else [f'{told}']
 
 
+def turning_pile(program, folder):
+    """A motion that no joint resists is named beside bodies that could yield: as a mechanism if a load acts on it, else in a remark"""
+    faults = []
+    for load, code, wanted in (('5,TORQUE,1', 4, 'the part with node 1 turns about z'),
+                               ('5,LATERAL,20,30', 0, 'nothing resists and nothing loads it: the part with node 1 turns about z')):
+        text = SMOOTH_PILE.format(method=',,,,NEWTON', strength='YIELD\n2,TRESCA,1E5\n').replace('5,LATERAL,20', load)
+        summary, _ = solved(program, folder, 'turning', text, code)
+        faults += [] if any(wanted in line for line in summary['messages']) else [f'{load}: {summary["messages"]}']
+    return faults
+
+
 def nearly_incompressible(program, folder):
     """Soft bodies on those of nearly constant volume, by elements that do not lock: near to the errors by finer meshes"""
     def along(text, name):
@@ -360,5 +371,5 @@ def tests(program):
     named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps, 'patch of rigid motion': rigid_patch,
              'flies off': flies_off, 'idle motion': idle_motion, 'nearly incompressible': nearly_incompressible,
              'load beyond M': load_beyond, 'pressed bonds': pressed_bonds,
-             'smooth pile': smooth_pile}
+             'smooth pile': smooth_pile, 'turning pile': turning_pile}
     return [Test(f'estimates: {name}', lambda folder, function=function: function(program, folder)) for name, function in named.items()]

@@ -65,7 +65,7 @@ contains
       results%tolerance = model%increments(size(model%increments))%tolerance
       results%path = history%path
       results%states = history%states
-      allocate (results%residuals(0), results%residual_part_node(0), results%idle(0), results%stands(0))
+      allocate (results%residuals(0), results%residual_part_node(0))
       allocate (results%displacement, mold=history%loading%right)
       associate (state => results%states(size(results%states)))
          call load_plastic_strain(model, structure, state, history%loading)
