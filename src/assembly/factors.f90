@@ -11,6 +11,7 @@ module axijoint_assembly_factors
    use axijoint_base_large_pages, only : use_large_pages
    use axijoint_base_memory, only : require_memory, free_memory, give_back_memory
    use axijoint_base_text, only : to_text
+   use axijoint_fe_element_kind, only : is_reduced, reduced_hint
    use axijoint_linalg_lapack, only : use_one_blas_thread
    use axijoint_linalg_symmetric_matrix, only : infinity_norm
    use axijoint_model_model, only : model_type
@@ -318,6 +319,7 @@ contains
                    new_line('a')// &
                    'mend: is a restraint missing, is a joint stiffness zero or out of all '// &
                    'proportion to the bodies, or a material far softer than the rest?'
+         if (any(is_reduced(model%mesh%kinds))) message = message//new_line('a')//'      '//reduced_hint
       end associate
    end function pivot_message
 

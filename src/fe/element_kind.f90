@@ -4,7 +4,7 @@ module axijoint_fe_element_kind
    private
    public :: element_kind_type, element_kind, kind_choice_type, chosen_kind, find_kind
    public :: formulation_type, formulations, formulation_names, formulation_plain, formulation_bbar
-   public :: is_reduced, locks, full_order
+   public :: is_reduced, locks, full_order, reduced_hint
 
    !> What an element takes for its strains
    type :: formulation_type
@@ -30,6 +30,9 @@ module axijoint_fe_element_kind
    character(len=5), parameter :: formulation_names(size(formulations)) = formulations%name
    !> Order of the full rule of quadratic elements; what is less is the reduced rule
    integer, parameter :: full_order = 3
+   !> What to ask where a structure with such elements is not stiff
+   character(len=*), parameter :: reduced_hint = 'the reduced rule (2 in columns 16-20 of CONTROL) leaves some '// &
+      'motions of 8- and 9-node elements without stiffness: is it better with 3?'
 
    !> A kind of element
    type :: element_kind_type

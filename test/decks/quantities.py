@@ -39,6 +39,25 @@ FIXEDFACES
 {loads}END
 """
 PRESSED = 'PRESSURES\n1,0,50.\n'
+# A disc of 9-node elements with the reduced rule, on a smooth floor
+REDUCED = """TITLE
+Disc
+CONTROL
+0,,,2
+MATERIALS
+1,1000,0.3
+BLOCKS
+1,1,9,{n},{n}
+0,0,1,1
+FACES
+1,1,0,1,1,1
+2,1,0,0,1,0
+FIXEDFACES
+2,010
+PRESSURES
+1,0,1
+END
+"""
 # Two discs, pressed and then pushed sideways
 SHEARED = """TITLE
 Pressed, then sheared
@@ -230,6 +249,16 @@ def fading(program, folder):
     return [] if ran.code in (0, 3, 4) and not (found and float(found.group(1)) < 1e-6) else [messages]
 
 
+def reduced_rule(program, folder):
+    """A rule that leaves elements without stiffness is named where that ends the run or spoils it"""
+    faults = []
+    for n, code in ((4, 3), (1, 4)):
+        ran = program.run('run', write(folder, 'reduced.dat', REDUCED.format(n=n)), '-o', folder)
+        faults += ran.ended_with(code)
+        faults += [] if 'the reduced rule (2 in columns 16-20 of CONTROL)' in ran.out + ran.err else [ran.out + ran.err]
+    return faults
+
+
 def smaller_steps(program, folder):
     """Increments that are halved where joints slip are named, as results depend on the path; others are not"""
     faults = []
@@ -249,4 +278,4 @@ def tests(program):
     """The tests of this module"""
     return [Test(f'quantities: {function.__name__.replace("_", " ")}', lambda folder, function=function: function(program, folder))
             for function in (energies, dissipation, dissipation_in_units, lifting, largest_displacement, remarks, fading,
-                             smaller_steps)]
+                             smaller_steps, reduced_rule)]

@@ -8,6 +8,7 @@ module axijoint_analysis_core_remarks
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text, count_of, name_of
    use axijoint_element_joint_law, only : joint_law_type, opening_reversible, eta
+   use axijoint_fe_element_kind, only : is_reduced, reduced_hint
    use axijoint_joints_field, only : joint_field_type, n_across_gaps, n_fading
    use axijoint_joints_history, only : history_type
    use axijoint_joints_path, only : iteration_type
@@ -59,6 +60,8 @@ contains
                   to_text(results%residual_ratio)//'): stiffnesses out of all proportion?')
       end if
       if (.not. (results%converged .or. allocated(results%mechanism))) remarks(size(remarks))%says_why = .true.
+      if (.not. results%converged .and. size(results%path) == 0 .and. any(is_reduced(model%mesh%kinds))) &
+         call add(remarks, reduced_hint)
       if (size(results%path) > 0) call remark_on_accuracy(model, structure, field, results, remarks)
       pins = pin_text(model, structure, history%loading, field, results)
       if (len(pins) > 0) call add(remarks, pins)
