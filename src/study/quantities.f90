@@ -2,6 +2,7 @@
 module axijoint_study_quantities
    use axijoint_analysis_core_results, only : results_type, error_share_type, n_resultants
    use axijoint_analysis_core_series, only : series_type
+   use axijoint_analysis_core_yield_errors, only : yield_share_type, sum_of_yield_shares
    use axijoint_analysis_error_budget, only : sum_of_shares
    use axijoint_base_kinds, only : wp, pi
    use axijoint_base_text, only : to_text
@@ -72,6 +73,7 @@ contains
       real(wp), allocatable :: values(:, :)
 
       type(error_share_type) :: total
+      type(yield_share_type) :: of_bodies
       integer :: i, n
 
       n = size(general) + size(estimates) + 1
@@ -90,6 +92,9 @@ contains
          total = sum_of_shares(results%budget)
          values(size(general) + 1:size(general) + 2, series%n) = &
             [total%displacement, total%joint_stress]
+      else if (allocated(results%yield_errors)) then
+         of_bodies = sum_of_yield_shares(results%yield_errors)
+         values(size(general) + 1, series%n) = of_bodies%displacement
       end if
       values(n, series%n) = largest_mises(results)
 

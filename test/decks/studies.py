@@ -10,6 +10,7 @@ import signal
 import subprocess
 import time
 
+from hard_decks import close
 from solvers import RING
 from support import HERE, INPUTS, Test, expected, input_deck, python_with, read_text, write
 
@@ -176,7 +177,7 @@ def planes(program, folder):
 
 
 def yielding(program, folder):
-    """A body that yields in every other row, with estimates of errors, which it has none of: elastic rows have theirs"""
+    """A body that yields in every other row, with estimates of errors: each row has its own"""
     text = input_deck('first.dat').replace('\nLAWS', '\n    2     3.0E4      0.17\nYIELD\n    2     MISES       1.0\nLAWS', 1)
     deck = write(folder, 'yielding.dat', text)
     for order in ('1\n2\n1\n', '2\n1\n2\n'):
@@ -186,7 +187,10 @@ def yielding(program, folder):
         for row, material in zip(rows, order.split()):
             one = changed(text, 'YIELD', 0, 1, 5, material)
             faults += program.run('run', write(folder, 'one.dat', one), '-o', folder, '--quiet', folder=folder).ended_with(0)
-            faults += compared(row, json.loads(read_text(os.path.join(folder, 'one.json'))), f'material {material}')
+            summary = json.loads(read_text(os.path.join(folder, 'one.json')))
+            faults += compared(row, summary, f'material {material}')
+            told = (summary.get('yielding') or summary)['errors']['sum']['displacement']
+            faults += close(f'error, material {material}', told, float(row['error_displacement']), 1e-12)
         if faults:
             return faults
         os.remove(os.path.join(folder, 'yielding.study.csv'))
