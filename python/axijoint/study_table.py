@@ -31,9 +31,11 @@ def table_text(columns: Columns) -> str:
     if len(set(lengths.values())) > 1:
         raise ValueError("columns differ in length: " + ", ".join(f"{name} {n}" for name, n in lengths.items()))
     lines = next(iter(lengths.values()), 1)
-    rows = [[_text(name, cells[k] if isinstance(cells, list) else cells) for name, cells in found.items()]
+    rows = [", ".join(_text(name, cells[k] if isinstance(cells, list) else cells) for name, cells in found.items())
             for k in range(lines)]
-    return "\n".join([", ".join(_plain("head", name) for name in names), *(", ".join(row) for row in rows), ""])
+    # a line of one empty cell would be a blank line, which is none of the table
+    rows = [row if row.strip() else '""' for row in rows]
+    return "\n".join([", ".join(_plain("head", name) for name in names), *rows, ""])
 
 
 def _cells(column: Any) -> Any:

@@ -34,6 +34,10 @@ class Texts(unittest.TestCase):
             "SAMPLES, LAWS 1 PHI, CONTROL planes, MATERIALS 1 E, LAWS 1 C", "8, NORMAL 30 2, 8, 20000, 0; 0.1",
             "8, NORMAL 30 2, 16, 1e-05, 0:1:0.5", "8, NORMAL 30 2, , , "])
 
+    def test_an_empty_cell_of_one_column_is_a_line(self):
+        for cell in (None, np.nan, "", " "):
+            self.assertEqual(table_text({"LAWS 1 PHI": [25, cell]}), 'LAWS 1 PHI\n25\n""\n')
+
     def test_all_digits_are_kept(self):
         for value in (1/3, 1e300, np.nextafter(1.0, 2.0), 2**53 + 2.0):
             self.assertEqual(float(table_text({"LAWS 1 C": value}).splitlines()[1]), value)
@@ -209,6 +213,11 @@ class Studies(unittest.TestCase):
                 self.assertTrue(found.rows["message"][1])
                 self.assertTrue(np.isnan(found.rows["work"][1]))
                 self.assertTrue(np.isnan(found.rows["LAWS 1 PHI"][0]))
+
+    def test_the_value_of_the_deck_in_a_table_of_one_column(self):
+        found = axijoint.study(DECK, {"LAWS 1 PHI": [20, None, np.nan, "", 10]}, threads=1)
+        np.testing.assert_array_equal(found.rows["LAWS 1 PHI"], [20, np.nan, np.nan, np.nan, 10])
+        self.assertEqual(list(found.increments), [1, 1, 1, 1, 1])
 
     def test_files_of_other_kinds(self):
         result = axijoint.run(DECK, self.folder/"run", threads=1)
