@@ -225,6 +225,7 @@ contains
          call compare_loops(model, structure%condensed, history, results%other_loop, other)
       results%path = history%path
       results%strayed = history%strayed
+      results%reached = history%reached
       results%exchanged(1) = history%exchanged
       results%increment_seconds = history%seconds
       results%tolerance = model%increments(size(model%increments))%tolerance

@@ -4,7 +4,7 @@ module axijoint_study_envelope
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_static, only : analyse_combination
-   use axijoint_base_error, only : error_type, exit_ok, exit_not_converged
+   use axijoint_base_error, only : error_type, exit_ok, exit_not_converged, exit_singular
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_progress, only : progress_type
    use axijoint_base_timer, only : timer_type
@@ -37,8 +37,11 @@ module axijoint_study_envelope
    !> Where even the first of them finds nothing, the search begins anew with so small a part of what had none, so often
    integer, parameter :: most_beginnings = 3
    real(wp), parameter :: smaller = 2.0_wp**(-12)
-   !> Rounds of a search, each closing in on what the one before it left open
-   integer, parameter :: most_rounds = 6
+   !> Paths that close in on what is open, at most
+   integer, parameter :: most_rounds = 8
+   !> Where a path comes no farther than the farthest one: the parts of what is open that the next ones go to first, one
+   !> after the other. Joints slip otherwise on the way there, and what depends on rounding goes otherwise
+   real(wp), parameter :: detours(3) = [0.5_wp, 0.25_wp, 0.75_wp]
 
 contains
 
@@ -65,46 +68,87 @@ contains
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
+      type(capacity_type) :: found
       real(wp), allocatable :: factors(:)
-      real(wp) :: before(2)
+      real(wp) :: greatest, share
       integer(i8) :: start, now, rate
-      integer :: k, round, n_smaller
+      integer :: k, round, n_smaller, n_detours
 
       call system_clock(start, rate)
-      capacity%message = ''
       factors = [first, (first*2.0_wp**k, k=0, most_doublings)]
-      n_smaller = 0
-      round = 0
-      do while (round < most_rounds)
-         round = round + 1
-         before = [capacity%factor, capacity%without]
-         call follow(model, structure, control, direction, factors, timer, progress, capacity, &
+      do n_smaller = 0, most_beginnings
+         call follow(model, structure, control, direction, factors, timer, progress, capacity, error)
+         if (allocated(error)) return
+         if (capacity%factor > 0.0_wp .or. .not. capacity%without > 0.0_wp) exit
+         ! nothing was reached: the first factor may have been far too large
+         factors = [(smaller*capacity%without*2.0_wp**max(0, k - 1), k=0, most_doublings)]
+      end do
+      greatest = sum(factors)
+      n_detours = 0
+      do round = 1, most_rounds
+         if (.not. capacity%factor > 0.0_wp .or. capacity%code == exit_ok) exit
+         if (is_closed(capacity, tolerance)) exit
+         if (n_detours > size(detours)) exit
+         share = 0.0_wp
+         if (n_detours > 0) share = detours(n_detours)
+         found%n_increments = capacity%n_increments
+         call follow(model, structure, control, direction, path_within(capacity, share, greatest), timer, progress, found, &
             error)
          if (allocated(error)) return
-         if (capacity%code == exit_ok) then
-            if (round == 1) exit
-            ! smaller steps came beyond what larger ones did not reach: on from there
-            factors = [path_to(capacity%factor), &
-                       (capacity%factor*2.0_wp**(k - 5), k=0, most_doublings)]
-         else if (capacity%factor < before(1)) then
-            capacity%factor = before(1)  ! another path came farther
-            capacity%without = before(2)
-            exit
-         else if (.not. capacity%factor > 0.0_wp) then
-            ! nothing was reached: the first factor may have been far too large
-            if (n_smaller == most_beginnings .or. .not. capacity%without > 0.0_wp) exit
-            n_smaller = n_smaller + 1
-            round = 0
-            factors = [(smaller*capacity%without*2.0_wp**max(0, k - 1), k=0, most_doublings)]
-         else if (capacity%without - capacity%factor <= tolerance*capacity%without) then
-            exit
-         else
-            factors = [path_to(capacity%factor), capacity%without - capacity%factor]
-         end if
+         capacity%n_increments = found%n_increments
+         n_detours = n_detours + 1
+         if (.not. is_better(found, capacity)) cycle
+         capacity = found
+         n_detours = 0
       end do
       call system_clock(now)
       capacity%seconds = real(now - start, wp)/rate
    end subroutine search_direction
+
+   !> Whether a mechanism ends the path, and so little is open that no other path is needed. Where the iteration found
+   !> nothing, another path may come farther
+   pure logical function is_closed(capacity, tolerance)
+      !> What the path came to
+      type(capacity_type), intent(in) :: capacity
+      !> Part of the factor that may be left open
+      real(wp), intent(in) :: tolerance
+
+      is_closed = capacity%code == exit_singular .and. &
+                  capacity%without - capacity%factor <= tolerance*capacity%without
+   end function is_closed
+
+   !> Whether a path came farther than another, or as far, and tells more of what is beyond
+   pure logical function is_better(path, other)
+      !> What they came to
+      type(capacity_type), intent(in) :: path, other
+
+      is_better = path%factor > other%factor
+      if (is_better .or. path%factor < other%factor) return
+      is_better = path%without < other%without
+      if (path%code == exit_singular .neqv. other%code == exit_singular) is_better = path%code == exit_singular
+   end function is_better
+
+   !> Increments of a load that go to a part of what is open, through the rest of it, and on, for this path may come
+   !> beyond what another did not reach
+   pure function path_within(capacity, share, greatest) result(factors)
+      !> What is open
+      type(capacity_type), intent(in) :: capacity
+      !> The part
+      real(wp), intent(in) :: share
+      !> Where nothing ends the path
+      real(wp), intent(in) :: greatest
+      !> The increments
+      real(wp), allocatable :: factors(:)
+
+      real(wp) :: open
+      integer :: k, n
+
+      open = capacity%without - capacity%factor
+      n = 0
+      if (greatest > capacity%without) n = ceiling(log(greatest/capacity%without)/log(2.0_wp)) + 6
+      factors = [path_to(capacity%factor + share*open), (1.0_wp - share)*open, &
+                 (capacity%without*2.0_wp**(k - 6), k=1, n)]
+   end function path_within
 
    !> Increments of a load that end at a factor: half of it, half of the rest, ...
    pure function path_to(factor) result(factors)
@@ -134,7 +178,7 @@ contains
       !> Times of the phases, and where progress is shown
       type(timer_type), intent(inout) :: timer
       type(progress_type), intent(inout) :: progress
-      !> Takes the ends of what is open
+      !> Takes the ends of what is open, and what ends the path
       type(capacity_type), intent(inout) :: capacity
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
@@ -142,7 +186,7 @@ contains
       type(model_type), target :: loaded
       type(results_type) :: results
       type(increment_type) :: increment
-      real(wp) :: base, reached
+      real(wp) :: base
       integer :: k, n_base, last
 
       loaded = model
@@ -166,23 +210,21 @@ contains
       capacity%n_increments = capacity%n_increments + size(results%states)
       capacity%message = ''
       if (allocated(results%mechanism)) capacity%message = results%mechanism
+      capacity%factor = sum(factors)
+      capacity%without = 0.0_wp
+      if (capacity%code == exit_ok) return
+      capacity%factor = 0.0_wp
       base = sum(model%increments%factor)
       last = size(results%states)
-      if (capacity%code == exit_ok) then
-         capacity%factor = sum(factors)
-         capacity%without = 0.0_wp
-         return
-      end if
-      reached = results%states(last)%load_factor
-      if (.not. allocated(results%mechanism)) then
-         reached = 0.0_wp
-         if (last > 1) reached = results%states(last - 1)%load_factor
-      end if
-      if (results%states(last)%increment <= n_base) return  ! what comes first is not carried
       k = results%states(last)%increment - n_base
-      capacity%factor = max(0.0_wp, reached - base)
-      capacity%without = min(sum(factors(:k)), capacity%factor + left_open*factors(k))
-      if (.not. allocated(results%mechanism)) capacity%without = sum(factors(:k))
+      if (k <= 0) return  ! what comes first is not carried
+      capacity%factor = max(0.0_wp, results%reached - base)
+      if (allocated(results%mechanism)) then
+         capacity%without = min(sum(factors(:k)), capacity%factor + left_open*factors(k))
+      else
+         ! the step that failed, which may be a part of the increment
+         capacity%without = min(sum(factors(:k)), results%states(last)%load_factor - base)
+      end if
    end subroutine follow
 
 end module axijoint_study_envelope

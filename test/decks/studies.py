@@ -6,6 +6,7 @@ import json
 import math
 import os
 import random
+import re
 import signal
 import subprocess
 import time
@@ -546,6 +547,25 @@ def capacities(program, folder):
     return faults
 
 
+def paths_of_an_envelope(program, folder):
+    """A block that slides and tips over at once: paths of other steps end elsewhere. What is told of a direction is of
+    one path, the farthest, and less than the tolerance is open"""
+    deck = write(folder, 'block.dat', input_deck('block.dat').replace('    8   33', '    2   33'))
+    faults = []
+    for tolerance in ('0.015', '0.01'):
+        rows, more = envelope(program, folder, deck, '--cases', '2+,3+', '--directions', '4', '--tolerance', tolerance)
+        faults += more
+        for row in rows:
+            found, without = float(row['capacity']), float(row['no equilibrium from'])
+            if row['exit_code'] != '4' or not 0 < without - found <= float(tolerance)*without:
+                faults.append(f'no mechanism, or more than {tolerance} open: {row}')
+            # the weight comes first
+            said = re.search('beyond the load factor ([0-9.]+):', row['mechanism'])
+            if not said or abs(float(said.group(1)) - 1 - found) > 1e-5*found:
+                faults.append(f'not the mechanism of this capacity: {row}')
+    return faults
+
+
 def as_written(program, folder):
     """Heads in quotes, tabs beside commas, symbols of fields; a code is told as it was written"""
     deck = write(folder, 'first.dat', input_deck('first.dat'))
@@ -577,6 +597,7 @@ def tests(program):
         Test('studies/samples', lambda folder: samples(program, folder)),
         Test('studies/arrays', lambda folder: arrays(program, folder)),
         Test('studies/envelope of a block', lambda folder: capacities(program, folder)),
+        Test('studies/paths of an envelope', lambda folder: paths_of_an_envelope(program, folder)),
         Test('studies/shared', lambda folder: shared(program, folder)),
         Test('studies/STOP file', lambda folder: stop_file(program, folder)),
         Test('studies/little memory', lambda folder: little_memory(program, folder)),

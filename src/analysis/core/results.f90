@@ -157,6 +157,9 @@ module axijoint_analysis_core_results
       character(len=:), allocatable :: mechanism
       !> Whether sweeps ran away from a state that Newton's method finds: the results are of the last equilibrium then, too
       logical :: strayed = .false.
+      !> Sum of the load factors of the last step in equilibrium, where joints open or slip: an increment
+      !> that failed may have been reached in part
+      real(wp) :: reached = 0.0_wp
       !> Number of the load combination; 0 if there is one only
       integer :: combination = 0
       !> Modes that were solved, ascending
