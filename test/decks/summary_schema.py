@@ -1,13 +1,13 @@
-"""Summaries are what doc/summary.schema.json says: of linear jobs, histories, combinations, refined jobs, errors"""
+"""Summaries are what doc/summary.schema.json says: of linear jobs, histories, combinations, refined jobs, bonded bodies, errors"""
 import glob
 import json
 import os
 
-from support import HERE, Test, read_text
+from support import HERE, Test, input_deck, read_text, write
 
 SCHEMA = os.path.join(HERE, '..', '..', 'doc', 'summary.schema.json')
 DECKS = (('inputs', 'first.dat'), ('inputs', 'chimney.dat'), ('inputs', 'monopile.dat'),
-         ('inputs/hard', 'ground_stress.dat'), ('test/decks/good', 'yield_column.dat'),
+         ('inputs/hard', 'ground_stress.dat'), ('inputs/gallery', 'lined_shaft.dat'), ('test/decks/good', 'yield_column.dat'),
          ('test/decks/bad', 'keep_all_number.dat'))
 KINDS = {'null': type(None), 'boolean': bool, 'integer': int, 'number': (int, float), 'string': str, 'array': list,
          'object': dict}
@@ -49,10 +49,14 @@ def summaries(program, folder):
     schema = json.loads(read_text(SCHEMA))
     for where, name in DECKS:
         program.run('run', os.path.join(HERE, '..', '..', where, name), '-o', '.', folder=folder)
+    refined = write(folder, 'refined.dat', input_deck('first.dat').replace('\nEND', '\nERROR\n       1.0\nEND'))
+    program.run('run', refined, '-o', '.', folder=folder)
     paths = sorted(glob.glob(os.path.join(folder, '*.json')))
-    found = [f'{os.path.basename(path)}: {fault}' for path in paths
+    keys = set().union(*(json.loads(read_text(path)) for path in paths))
+    found = [f'no summary has {key}' for key in schema['properties'] if key not in keys]
+    found += [f'{os.path.basename(path)}: {fault}' for path in paths
              for fault in faults_of(json.loads(read_text(path)), schema)]
-    return found + ([] if len(paths) > len(DECKS) else [f'found {len(paths)} summaries'])
+    return found + ([] if len(paths) > len(DECKS) + 1 else [f'found {len(paths)} summaries'])
 
 
 def schema_judges(_program, _folder):
