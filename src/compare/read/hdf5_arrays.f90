@@ -7,7 +7,7 @@ module axijoint_compare_read_hdf5_arrays
       h5fclose_f, &
       h5f_acc_rdonly_f, h5lexists_f, h5dopen_f, h5dclose_f, h5dread_f, h5dget_space_f, h5sclose_f, &
       h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5t_native_double, &
-      h5aopen_by_name_f, &
+      h5aopen_by_name_f, h5oopen_f, h5oclose_f, &
       h5aread_f, h5aclose_f, h5aget_type_f, h5tget_size_f, h5tclose_f
    implicit none
    private
@@ -15,6 +15,9 @@ module axijoint_compare_read_hdf5_arrays
 
    !> A handle that is not open
    integer(hid_t), parameter :: no_handle = -1_hid_t
+
+   !> What is said of what is there and cannot be read
+   character(len=*), parameter :: damaged = ' cannot be read: the file is damaged'
 
    !> A result file; after a failure nothing is read
    type :: result_file_type
@@ -84,19 +87,34 @@ contains
       call note_reading('')
    end subroutine close_file
 
-   !> Whether there is a dataset or group
+   !> Whether there is a dataset or group. One whose name is there and that cannot be opened is damaged
    logical function has(self, name)
       !> The file
-      class(result_file_type), intent(in) :: self
-      !> Absolute path in the file, whose group is there
+      class(result_file_type), intent(inout) :: self
+      !> Absolute path in the file; a group of it may lack as well
       character(len=*), intent(in) :: name
 
-      integer :: status
+      integer(hid_t) :: object
+      integer :: status, last
 
       has = .false.
       if (len(self%failure) > 0) return
       call note_reading(self%path)
-      call h5lexists_f(self%file, name, has, status)
+      last = 1
+      do while (last < len(name))
+         ! from group to group, for a name in a group that lacks is an error
+         last = index(name(last + 1:)//'/', '/') + last - 1
+         call h5lexists_f(self%file, name(:last), has, status)
+         if (status >= 0 .and. .not. has) exit
+         if (status >= 0) call h5oopen_f(self%file, name(:last), object, status)
+         if (status < 0) then
+            has = .false.
+            self%failure = name(:last)//damaged
+            exit
+         end if
+         call h5oclose_f(object, status)
+         last = last + 1
+      end do
       call note_reading('')
    end function has
 
@@ -150,8 +168,9 @@ contains
       call note_reading(self%path)
       call h5dopen_f(self%file, name, dataset, status)
       if (status < 0) then
-         self%failure = 'the file has no '//name
          call note_reading('')
+         if (.not. self%has(name) .and. len(self%failure) == 0) self%failure = 'the file has no '//name
+         if (len(self%failure) == 0) self%failure = name//damaged
          return
       end if
       call h5dget_space_f(dataset, space, status)
@@ -169,7 +188,7 @@ contains
       else
          status = -1
       end if
-      if (status < 0) self%failure = name//' cannot be read: the file is damaged'
+      if (status < 0) self%failure = name//damaged
       call h5sclose_f(space, status)
       call h5dclose_f(dataset, status)
       call note_reading('')

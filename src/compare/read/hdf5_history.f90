@@ -42,7 +42,7 @@ contains
 
       if (.not. (listing%aligned .and. other%aligned)) return
       call file%open(listing%path)
-      if (is_there(file, '/history/increment')) then
+      if (file%has('/history/increment')) then
          call add_increments_table(file, listing)
          call add_resultants_of_increments(file, listing)
          call add_points(file, listing)
@@ -52,7 +52,7 @@ contains
          '/cuts/label', motion_columns(), .false.)
       if (file%has('/yield')) call add_yield(file, listing)
       do k = 1, size(passed_over)
-         if (is_there(file, trim(passed_over(k)))) call pass_over(listing, trim(passed_over(k)))
+         if (file%has(trim(passed_over(k)))) call pass_over(listing, trim(passed_over(k)))
       end do
       call drop_empty_tables(listing)
       if (len(file%failure) > 0) &
@@ -60,21 +60,10 @@ contains
       call file%close()
    end subroutine add_history
 
-   !> Whether a dataset is there, whose group may lack as well
-   logical function is_there(file, name)
-      !> The file
-      type(result_file_type), intent(in) :: file
-      !> Absolute path in it
-      character(len=*), intent(in) :: name
-
-      is_there = file%has(name(:index(name(2:), '/')))
-      if (is_there) is_there = file%has(name)
-   end function is_there
-
    !> Whether a dataset can be compared; it is named if it is too large
    logical function can_compare(file, listing, name)
       !> The file
-      type(result_file_type), intent(in) :: file
+      type(result_file_type), intent(inout) :: file
       !> Takes the name
       type(listing_type), intent(inout) :: listing
       !> Absolute path in the file
