@@ -2,7 +2,7 @@
 module axijoint_command_job_lines
    use, intrinsic :: iso_fortran_env, only : output_unit
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_base_text, only : to_text
+   use axijoint_base_text, only : to_text, lower
    use axijoint_command_line, only : command_type
    use axijoint_estimate_forecast, only : forecast_type, whole_seconds
    use axijoint_estimate_machine, only : machine_type
@@ -58,13 +58,32 @@ contains
       !> What the largest deck needs
       type(needs_type), intent(in) :: needs
 
-      write (output_unit, '(a)') '#SBATCH --job-name='//needs%name, &
+      write (output_unit, '(a)') '#SBATCH --job-name='//one_word(needs%name), &
          '#SBATCH --nodes=1', '#SBATCH --ntasks=1', &
          '#SBATCH --cpus-per-task='//to_text(max(command%threads, needs%threads)), &
          '#SBATCH --mem='//to_text(asked_megabytes(needs%memory))//'M', &
          '#SBATCH --time='//clock_text(asked_seconds(needs%seconds)), &
          '#SBATCH --signal=B:USR1@120', '#SBATCH --requeue', '#SBATCH --open-mode=append'
    end subroutine print_job_lines
+
+   !> A name as sbatch takes it: it divides lines at blanks, and gives quotes, #, backslashes and more a meaning of
+   !> their own, so that all but letters, digits and a few marks become _
+   pure function one_word(name) result(word)
+      !> The name
+      character(len=*), intent(in) :: name
+      !> The same in one word
+      character(len=len(name)) :: word
+
+      character(len=*), parameter :: plain = 'abcdefghijklmnopqrstuvwxyz0123456789._-+'
+      !> Bytes from here on are parts of letters that ASCII lacks
+      integer, parameter :: beyond_ascii = 128
+      integer :: k
+
+      word = name
+      do k = 1, len(name)
+         if (index(plain, lower(name(k:k))) == 0 .and. ichar(name(k:k)) < beyond_ascii) word(k:k) = '_'
+      end do
+   end function one_word
 
    !> Time to ask for [second]
    pure integer(i8) function asked_seconds(seconds)

@@ -8,7 +8,7 @@ import subprocess
 
 from hard_scenes import example
 from listing import all_rows
-from support import INPUTS, Test, read_text, write
+from support import INPUTS, Test, expected, read_text, write
 
 # Of Linux: whether the system gives large pages to a process and those that it starts
 PR_SET_THP_DISABLE = 41
@@ -268,6 +268,9 @@ def job_lines(program, folder):
     # what the program takes when it starts differs by some pages from start to start
     if not asked['small'] < asked['large'] or abs(asked['large'] - asked['axijoint']) > 2:
         faults.append(f'memory {asked}')
+    named = write(folder, "my deck's #2.v2.dat", RING.replace('1, 1, 8, 20, 20', '1, 1, 8, 2, 2'))
+    lines = program.run('estimate', named, '--slurm').out.splitlines()
+    faults += expected('name of the job', '#SBATCH --job-name=my_deck_s__2.v2', lines[0])
     ran = program.run('estimate', small, write(folder, 'bad.dat', 'TITLE\n'), '--slurm')
     return faults + ([] if ran.code == 2 and '#SBATCH' not in ran.out else [f'a wrong deck: {ran.code}, {ran.out!r}'])
 
