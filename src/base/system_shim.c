@@ -123,10 +123,13 @@ void axijoint_ignore_file_size_signal(void)
 /* Large arrays go back to the system as soon as they are freed. By itself the
    library keeps ever larger ones for later, up to 32 MiB, and then less memory
    is free than the factors were planned for. Small ones stay: fetching their pages
-   again and again is a tenth of the time of a small job. */
+   again and again is a tenth of the time of a small job. Where addresses are limited, threads
+   have one heap: each heap of their own would reserve 64 MiB. */
 void axijoint_return_freed_memory(void)
 {
 #ifdef M_MMAP_THRESHOLD
+   struct rlimit space;
+   if (getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY) mallopt(M_ARENA_MAX, 1);
    mallopt(M_MMAP_THRESHOLD, 4 << 20);
    mallopt(M_TRIM_THRESHOLD, 4 << 20);
 #endif

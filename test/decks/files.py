@@ -1,11 +1,13 @@
 """Result files that cannot be written, and memory that does not suffice"""
 import os
+import re
 import resource
 import subprocess
 
 from support import EarlierResults, INPUTS, Test, expected, read_bytes, read_text, write
 
 FIRST = os.path.realpath(os.path.join(INPUTS, 'first.dat'))
+MANUAL = os.path.join(INPUTS, '..', 'doc', 'user.md')
 MEBIBYTE = 2**20
 # A mesh whose factor takes some 500 MiB
 LARGE = """TITLE
@@ -187,6 +189,19 @@ def memory(program, folder):
     return faults
 
 
+def little_memory(program, folder):
+    """A small job runs within the address space that the manual says, and a program with all checks, whose code is
+    larger, within little more"""
+    said = re.search(r'small job runs within (\d+) MiB on one thread and (\d+) MiB on two, `check` within (\d+)',
+                     read_text(MANUAL))
+    faults = []
+    for words, limit in zip((['run', '--threads', '1'], ['run', '--threads', '2'], ['check']), said.groups()):
+        ran = program.run(words[0], FIRST, *words[1:], *(['-o', folder] if words[0] == 'run' else []),
+                          limits=[(resource.RLIMIT_AS, (int(limit) + 32)*MEBIBYTE)])
+        faults += [f'{" ".join(words)}, {limit} MiB: {fault}' for fault in ran.ended_with(0)]
+    return faults
+
+
 def stack(program, folder):
     """The stack cannot grow"""
     deck = write(folder, 'job.dat', read_text(FIRST))
@@ -231,7 +246,7 @@ def tests(program):
         'long name': long_name,
         'a deck named like a result': deck_named_like_a_result,
         'a deck named like what is removed': deck_named_like_what_is_removed,
-        'full disk': full_disk, 'memory limit': memory, 'stack limit': stack,
+        'full disk': full_disk, 'memory limit': memory, 'memory limit of small jobs': little_memory, 'stack limit': stack,
         'output that is lost': lost_output,
         'directory for a file': lambda program, folder: occupied(program, folder, os.mkdir),
         'pipe for a file': lambda program, folder: occupied(program, folder, os.mkfifo),
