@@ -3,7 +3,7 @@ import os
 import re
 
 import listing
-from support import Test, expected, input_deck, read_text, write
+from support import HERE, INPUTS, Test, expected, input_deck, read_text, write
 
 # Tables of the whole listing by their words on cards; values by their columns
 TABLES = {'AMPLITUDE': 'm = ', 'TOTALS': 'theta = ', 'STRESSES': 'stresses, theta = ', 'NODAL': 'nodal stresses, theta = ', 'STATES': 'joints'}
@@ -126,7 +126,24 @@ def orders(program, folder):
     return faults
 
 
+def width(program, folder):
+    """No listing is wider than 132 columns: errors of several hundred per cent, bodies that yield, increments, elements
+    that have yielded and errors where no equilibrium was found"""
+    good = os.path.join(HERE, 'good')
+    column = read_text(os.path.join(good, 'yield_column.dat')).replace('500.0', '').replace('YIELDDEPTH\n    1       3.0       0.0\n', '')
+    decks = [os.path.join(INPUTS, 'hard', 'rigid_joints.dat'), os.path.join(INPUTS, 'pile_clay.dat'), os.path.join(good, 'cuts.dat'),
+             write(folder, 'limit.dat', column)]
+    program.run('run', *decks, '-o', folder, folder=folder, time_limit=300)
+    faults = []
+    for deck in decks:
+        name = os.path.splitext(os.path.basename(deck))[0]
+        text = read_text(os.path.join(folder, f'{name}.lis'))
+        faults += [f'{name}: {len(line)} columns: {line}' for line in text.split('\n') if len(line) > 132]
+    found = [line for line in read_text(os.path.join(folder, 'limit.lis')).split('\n') if line.endswith(' ***') and line[:10].strip().isdigit()]
+    return faults + expected('increments that are marked', 1, len(found))
+
+
 def tests(program):
     """The tests of this module"""
     return [Test(f'print: {name}', lambda folder, check=check: check(program, folder)) for name, check in {
-        'rows': chosen_rows, 'extremes': extremes, 'none': no_table, 'long tables': long_tables, 'orders': orders}.items()]
+        'rows': chosen_rows, 'extremes': extremes, 'none': no_table, 'long tables': long_tables, 'orders': orders, 'width': width}.items()]

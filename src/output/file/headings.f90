@@ -3,7 +3,7 @@ module axijoint_output_file_headings
    use axijoint_output_file_text, only : text_file_type
    implicit none
    private
-   public :: write_heading, write_result_heading, write_lines, rule, mark_not_converged, width
+   public :: write_heading, write_result_heading, write_lines, write_sentence, rule, mark_not_converged, width
 
    !> Columns of the listing
    integer, parameter :: width = 132
@@ -71,6 +71,26 @@ contains
          first = last + 2
       end do
    end subroutine write_lines
+
+   !> A sentence behind a margin; where one line is too narrow, what follows its first semicolon goes on in the next
+   subroutine write_sentence(file, margin, sentence)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> What stands before both lines
+      character(len=*), intent(in) :: margin
+      !> The sentence
+      character(len=*), intent(in) :: sentence
+
+      integer :: semicolon
+
+      semicolon = index(sentence, "; ")
+      if (len(margin//sentence) <= width .or. semicolon == 0) then
+         call write_lines(file, margin, sentence)
+      else
+         call write_lines(file, margin, sentence(:semicolon))
+         call write_lines(file, margin, sentence(semicolon + 2:))
+      end if
+   end subroutine write_sentence
 
    !> Last byte not beyond `last` that ends a UTF-8 character
    pure integer function cut(text, last)

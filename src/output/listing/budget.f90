@@ -8,7 +8,7 @@ module axijoint_output_listing_budget
    use axijoint_model_mesh, only : n_joints
    use axijoint_model_model, only : model_type
    use axijoint_output_file_columns, only : known_column
-   use axijoint_output_file_headings, only : write_heading, write_result_heading
+   use axijoint_output_file_headings, only : write_heading, write_result_heading, write_sentence
    use axijoint_output_file_text, only : text_file_type
    implicit none
    private
@@ -54,7 +54,7 @@ contains
          call file%put(share_line(results%budget(i)))
       end do
       call file%put(share_line(sum_of_shares(results%budget)))
-      call file%put("  "//sum_text(results))
+      call write_sentence(file, "  ", sum_text(results))
       if (len(remedy_text(results%budget)) > 0) &
          call file%put("  about half with "//remedy_text(results%budget))
    end subroutine write_budget

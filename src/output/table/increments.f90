@@ -23,6 +23,8 @@ contains
       !> The series
       type(series_type), intent(in) :: series
 
+      !> Behind a row, where there is no room for words
+      character(len=*), parameter :: mark = "***"
       character(len=20) :: numbers
       integer :: i
 
@@ -31,15 +33,14 @@ contains
       call file%put("  (largest amplitude of displacement; largest pressure in joints; work of "// &
          "loads and given displacements, elastic energy,")
       call file%put("  work dissipated by sliding and plastic strain: forces by the mean of both ends)")
+      if (any(series%equilibrium /= 1)) call file%put("  "//mark//": not in equilibrium")
       call file%put(" increment iterations   load factor       residual   displacement       "// &
          "pressure           work         energy     dissipated")
       do i = 1, series%n
          write (numbers, format_increment) series%increment(i), series%iterations(i)
          call file%put(numbers//columns([series%load_factor(i), series%residual(i), &
             series%displacement(i), series%pressure(i), series%work(i), series%energy(i), &
-            series%dissipated(i)], wide)// &
-            trim(merge("                       ", " *** not in equilibrium", &
-                       series%equilibrium(i) == 1)))
+            series%dissipated(i)], wide)//merge("    ", " "//mark, series%equilibrium(i) == 1))
       end do
    end subroutine write_increment_table
 

@@ -8,7 +8,7 @@ module axijoint_output_table_yield_errors
    use axijoint_base_text, only : to_text, fine_percent
    use axijoint_output_file_columns, only : known_column
    use axijoint_output_file_hdf5, only : hdf5_file_type
-   use axijoint_output_file_headings, only : write_result_heading
+   use axijoint_output_file_headings, only : write_result_heading, write_sentence
    use axijoint_output_file_json, only : json_string, known_number
    use axijoint_output_file_text, only : text_file_type
    implicit none
@@ -45,7 +45,7 @@ contains
          end do
          call file%put("  "//merge("sum (at least)", "sum           ", some_unknown(errors))// &
                        share_text(sum_of_yield_shares(errors)))
-         call file%put("  "//yield_errors_text(errors))
+         call write_sentence(file, "  ", yield_errors_text(errors))
          if (errors%turned_back .or. errors%at_limit) return
          do i = 1, size(way)
             call file%put("  "//trim(way(i)))

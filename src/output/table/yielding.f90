@@ -44,8 +44,9 @@ contains
       call write_result_heading(file, "YIELDING", results%converged)
       call file%put("  (method "//trim(body_method_names(model%body_method))//"; "// &
          to_text(size(results%plastic%angles))//" planes; elastic solutions of all "// &
-         "harmonics; Gauss points that planes were needed for, % of those that can yield;")
-      call file%put("  points that have yielded on any plane; work dissipated by plastic strain)")
+         "harmonics; Gauss points that planes were needed for,")
+      call file%put("  % of those that can yield; points that have yielded on any plane; work dissipated "// &
+         "by plastic strain)")
       call file%put(" increment iterations solutions    load factor      on planes   yielded     "// &
          "dissipated")
       do i = 1, size(results%states)
@@ -72,8 +73,8 @@ contains
       character(len=10) :: label
       integer :: first, last, e, place(2)
 
-      call write_result_heading(file, "ELEMENTS THAT HAVE YIELDED (largest equivalent plastic "// &
-         "strain, sqrt(2/3 e:e); yield margin: 1 without shear, 0 at yield)", results%converged)
+      call write_result_heading(file, "ELEMENTS THAT HAVE YIELDED", results%converged)
+      call file%put("  (largest equivalent plastic strain, sqrt(2/3 e:e); yield margin: 1 without shear, 0 at yield)")
       call file%put("   element    plastic strain          at r              z    theta [deg]   "// &
          "least margin")
       associate (fields => results%plastic, element => results%point_element)
