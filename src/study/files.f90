@@ -98,26 +98,49 @@ contains
       end do
    end subroutine write_csv
 
-   !> A text as a cell of a CSV file
+   !> A text as a cell of a CSV file, on one line: many readers take a line for a row
    pure function quoted(text) result(cell)
       !> The text
       character(len=*), intent(in) :: text
       !> The cell
       character(len=:), allocatable :: cell
 
+      character(len=:), allocatable :: line
       integer :: k
 
-      if (scan(text, ',"'//new_line('a')) == 0) then
-         cell = text
+      line = on_one_line(text)
+      if (scan(line, ',"') == 0) then
+         cell = line
          return
       end if
       cell = '"'
-      do k = 1, len(text)
-         if (text(k:k) == '"') cell = cell//'"'
-         cell = cell//text(k:k)
+      do k = 1, len(line)
+         if (line(k:k) == '"') cell = cell//'"'
+         cell = cell//line(k:k)
       end do
       cell = cell//'"'
    end function quoted
+
+   !> Lines side by side, without the blanks at their ends
+   pure function on_one_line(text) result(line)
+      !> The lines
+      character(len=*), intent(in) :: text
+      !> Divided by ` / `
+      character(len=:), allocatable :: line
+
+      integer :: first, last
+
+      line = ''
+      first = 1
+      do while (first <= len(text))
+         last = first + index(text(first:)//new_line('a'), new_line('a')) - 2
+         if (len_trim(text(first:last)) > 0) then
+            if (len(line) > 0) line = line//' / '
+            line = line//trim(adjustl(text(first:last)))
+         end if
+         first = last + 2
+      end do
+   end function on_one_line
 
    !> All increments of all rows
    subroutine write_arrays(file, table, names, rows, statistics)

@@ -456,7 +456,17 @@ def bad_rows(program, folder):
     faults += expected('exit codes', ['0', '2', '0'], [row['exit_code'] for row in rows])
     if 'row 2' not in ran.err or not rows[1]['message']:
         faults.append(f'nothing is said of row 2: {ran.err}')
-    return faults
+    # its lines stand side by side, so that a line is a row; what another process left of it is told alike
+    again = os.path.join(folder, 'again')
+    faults += program.run('study', path, os.path.join(INPUTS, 'case3_balanced.dat'), '-o', again, '--part', '1/1', folder=folder).crash()
+    ran = program.run('study', path, os.path.join(INPUTS, 'case3_balanced.dat'), '-o', again, folder=folder)
+    faults += ran.ended_with(2)
+    for place in (folder, again):
+        text = read_text(os.path.join(place, 'rows.study.csv'))
+        faults += expected('lines', 4, len(text.splitlines()))
+        if ' / allowed: ' not in text:
+            faults.append(text)
+    return faults + expected('message', rows[1]['message'], rows_of(os.path.join(again, 'rows.study.csv'))[1]['message'])
 
 
 def samples(program, folder):
