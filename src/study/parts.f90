@@ -1,11 +1,12 @@
 !> Parts of a study, which processes solve each by itself, and their journals
 module axijoint_study_parts
-   use axijoint_base_error, only : exit_memory
+   use axijoint_base_error, only : error_type, exit_memory
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_base_system, only : path_kind, path_absent, unlink_path
+   use axijoint_base_system, only : unlink_path
    use axijoint_base_text, only : to_text
    use axijoint_base_whole_file, only : names_in
-   use axijoint_output_file_names, only : lock_ending, rows_ending
+   use axijoint_output_claim, only : claim_type, claim_names, release_output
+   use axijoint_output_file_names, only : rows_ending
    use axijoint_output_file_pending, only : join_path
    use axijoint_study_journal, only : read_journal
    use axijoint_study_rows, only : row_type
@@ -118,8 +119,8 @@ contains
       end do
    end subroutine gather_parts
 
-   !> Remove the journals of parts: their rows stand in the files of the study. Those of another
-   !> study stay, and those that others write now
+   !> Remove the journals of parts, and the locks of those that died: their rows stand in the files of the study. Those of
+   !> another study stay, and those that others write now
    subroutine remove_parts(directory, name, key, n_quantities, n_own)
       !> As for `gather_parts`
       character(len=*), intent(in) :: directory, name, key
@@ -128,8 +129,10 @@ contains
       integer, intent(in) :: n_own
 
       type(row_type) :: none(0)
-      character(len=:), allocatable :: names, path
-      logical :: there, ours, torn, own
+      type(claim_type) :: claim
+      type(error_type), allocatable :: in_use
+      character(len=:), allocatable :: names, part, path, notes
+      logical :: there, ours, torn
       integer :: first, last, errno
 
       names = names_in(directory, name//'.', rows_ending)
@@ -137,12 +140,16 @@ contains
       do while (first < len(names))
          last = first + index(names(first:), new_line('a')) - 2
          path = join_path(directory, names(first:last))
-         own = index(names(first:last), 'of'//to_text(n_own)//rows_ending) > 0
+         part = names(first:last - len(rows_ending))
          first = last + 2
-         if (path_kind(path(:len(path) - len(rows_ending))//lock_ending) /= path_absent .and. &
-            .not. own) cycle
          call read_journal(path, key, n_quantities, none, there, ours, torn)
-         if (ours) call unlink_path(path, errno)
+         if (.not. ours) cycle
+         if (index(part//rows_ending, 'of'//to_text(n_own)//rows_ending) == 0) then
+            call claim_names(directory, [part], 'study', claim, notes, in_use)
+            if (allocated(in_use)) cycle
+         end if
+         call unlink_path(path, errno)
+         call release_output(claim)
       end do
    end subroutine remove_parts
 

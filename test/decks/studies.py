@@ -344,6 +344,29 @@ def killed(program, folder, rounds, n_processes, lines='0:38/20, 0:0.4/5, 0.2;0.
     return faults + expected('journals that are left', [], left)
 
 
+def dead_parts(program, folder):
+    """A whole study removes what parts left that were killed, with their locks, and nothing of one that lives"""
+    deck = os.path.join(INPUTS, 'case3_balanced.dat')
+    path = write(folder, 'table.csv', CASE3.format(lines='0:38/200, 0;0.2, 0.2;0.4'))
+    parts, faults = {}, []
+    try:
+        for k in (1, 2):
+            parts[k] = subprocess.Popen([program.path, 'study', path, deck, '-o', folder, '--part', f'{k}/3', '--quiet'],
+                                        env=program.environment, stderr=subprocess.DEVNULL)
+            while parts[k].poll() is None and rows_in_journals(folder, f'table.study.{k}of3') < 5:
+                time.sleep(0.01)
+            parts[k].send_signal(signal.SIGKILL if k == 1 else signal.SIGSTOP)
+        parts[1].wait()
+        faults += program.run('study', path, deck, '-o', folder, '--quiet', folder=folder, time_limit=300).crash()
+        left = sorted(name for name in os.listdir(folder) if name.startswith('table.study.'))
+        faults += expected('files', ['table.study.2of3.lock', 'table.study.2of3.rows', 'table.study.csv', 'table.study.h5'], left)
+    finally:
+        for process in parts.values():
+            process.kill()
+            process.wait()
+    return faults
+
+
 def rows_in_journals(folder, name):
     """Number of rows that stand in the journals of a study and its parts"""
     rows = set()
@@ -609,6 +632,7 @@ def tests(program):
         Test('studies/envelope of a block', lambda folder: capacities(program, folder)),
         Test('studies/paths of an envelope', lambda folder: paths_of_an_envelope(program, folder)),
         Test('studies/shared', lambda folder: shared(program, folder)),
+        Test('studies/dead parts', lambda folder: dead_parts(program, folder)),
         Test('studies/STOP file', lambda folder: stop_file(program, folder)),
         Test('studies/little memory', lambda folder: little_memory(program, folder)),
         Test('studies/killed', lambda folder: killed(program, folder, 8, '1', '0:38/5, 0;0.2, 0.2;0.4')),
