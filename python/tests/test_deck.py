@@ -46,7 +46,7 @@ WRONG = [(lambda deck: deck.materials(1, 2.1e5, 0.5), "poisson is 0.5: out of ra
          (lambda deck: deck.faces(1, first=(0, 0, 0), last=(1, 1)), "first takes 2 values at most; there are 3"),
          (lambda deck: deck.fixedfaces(1, 111.0), "three digits for u, v, w"),
          (lambda deck: deck.interfaces(face_a=1, face_b=2, name="a,b"), "without commas"),
-         (lambda deck: deck.points(1, (0, 0), name="x"*17), "more than 15 letters"),
+         (lambda deck: deck.points(1, (0, 0), name="x"*17), "more than 16 letters"),
          (lambda deck: deck.gravity(), "nothing is given"),
          (lambda deck: (deck.control(1), deck.control(1)), "CONTROL stands once"),
          (lambda deck: deck.include("/etc/deck"), "must not be absolute"),
@@ -160,6 +160,19 @@ class Cards(unittest.TestCase):
             self.assertEqual(Deck(title).title, title)
         with self.assertRaises(AttributeError):
             Deck().materialz(1, 1.0, 0.3)
+
+    def test_texts_may_fill_their_columns(self):
+        deck = Deck()
+        deck.points(1, (0, 0), body=1, name="x"*16)
+        deck.points(2, (0, 0), body=1, name="y"*15)
+        deck.case(1, name="z"*75)
+        self.assertEqual(deck.text.splitlines()[3:-1], [
+            "    1, 0.0, 0.0, 1, xxxxxxxxxxxxxxxx", "    2       0.0       0.0    1 yyyyyyyyyyyyyyy",
+            "CASE", f"    1, {'z'*75}"])
+
+    def test_a_title_may_be_blank(self):
+        self.assertEqual(Deck().text.splitlines(), ["TITLE", "", "END"])
+        self.assertEqual(Deck("").title, "")
 
     def test_ends_of_ranges_are_those_of_the_program(self):
         def told(poisson, friction):

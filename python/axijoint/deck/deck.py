@@ -80,7 +80,7 @@ class Deck(Cards):
     @property
     def text(self) -> str:
         """All cards, from TITLE to END."""
-        return "\n".join(["TITLE", self.title or "!", *self._lines, "END", ""])
+        return "\n".join(["TITLE", self.title, *self._lines, "END", ""])
 
     def __str__(self) -> str:
         return self.text

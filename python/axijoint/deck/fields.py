@@ -138,8 +138,8 @@ def _text(place, field, value, _):
     if not (text.isascii() and text.isprintable()) or set(text) & set(",!"):
         _refuse(place, value, "no text of a card", "ASCII without commas and exclamation marks")
     first, last = field["columns"]
-    if len(text) > last - first:
-        _refuse(place, value, f"more than {last - first} letters")
+    if len(text) > last - first + 1:
+        _refuse(place, value, f"more than {last - first + 1} letters")
     return text
 
 
