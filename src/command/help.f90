@@ -72,6 +72,7 @@ contains
       do k = 1, size(topic%options)
          if (topic%options(k)%name == '--') cycle
          option = ' ['//option_text(topic%options(k))//']'
+         if (topic%options(k)%required) option = ' '//option_text(topic%options(k))
          if (len(text) - index(nl//text, nl, back=.true.) + 1 + len(option) > width) &
             text = text//nl//repeat(' ', indent - 1)
          text = text//option

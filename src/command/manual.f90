@@ -24,6 +24,8 @@ module axijoint_command_manual
       !> What its value is, and the words, separated by blanks, if it is one of some
       integer :: takes = takes_anything
       character(len=80) :: words = ''
+      !> Whether the command cannot do without it
+      logical :: required = .false.
    end type option_type
 
    !> A command
@@ -200,7 +202,7 @@ contains
          'NAME.envelope.csv, a line a direction, and NAME.envelope.h5. A search that was ended '// &
          'goes on where it was.', &
          [option_type('--cases', 'LIST', 'load cases, divided by commas; 1+ with positive '// &
-                      'factors alone'), &
+                      'factors alone', required=.true.), &
           option_type('--directions', 'N', 'directions (default: 24)'), &
           option_type('--tolerance', 'T', 'part of a capacity that may be left open (default: '// &
                       '0.01)'), &

@@ -14,6 +14,7 @@ CASES = (
     (('help',), 0, 'usage: axijoint COMMAND', ''),
     (('--help',), 0, 'usage: axijoint COMMAND', ''),
     (('help', 'run'), 0, '-o DIR', ''),
+    (('help', 'envelope'), 0, 'usage: axijoint envelope DECK --cases LIST [--directions N]', ''),
     (('help', 'check'), 0, 'usage: axijoint check DECK...', ''),
     (('help', 'card'), 0, '\n  NODES         nodes one by one\n', ''),
     (('help', 'card', 'nodes'), 0, 'NODES: nodes one by one (any number)\n\n  1–5 I    node\n', ''),
@@ -279,13 +280,21 @@ def input_decks(program, _):
     return checked.ended_with(0) + expected('warnings', '', checked.err)
 
 
+def values_of_options(program, _):
+    """`scripts/run` takes no value of an option for a deck: it knows all options of `run` that have one"""
+    usage = program.run('help', 'run').out.split('\n\n')[0]
+    wanted = sorted(re.findall(r'\[(--?[a-z]+) [A-Z]', usage))
+    known = re.search(r'^ *(-o .*)\) value_follows=true', read_text(os.path.join(HERE, '..', '..', 'scripts', 'run')), re.M)
+    return expected('options with a value', wanted, sorted(known.group(1).split(' | ')))
+
+
 def tests(program):
     """One test a command line"""
     functions = {'several decks': several_decks, 'lost output': output_lost,
                  'closed pipe': closed_pipe, 'longer names': longer_names,
                  'standard input': standard_input, '--quiet': quiet, '--verbose': verbose,
                  'environment': environment, 'completion': completed, 'manual page': manual_page, 'decks of the manuals': documented_decks,
-                 'decks of inputs': input_decks}
+                 'decks of inputs': input_decks, 'values of options': values_of_options}
     return [Test('command line: ' + (' '.join(case[0]) or 'none'),
                  lambda folder, case=case: case_faults(program, folder, *case))
             for case in CASES] + [
