@@ -11,10 +11,13 @@ module axijoint_gmsh_format_2
 
 contains
 
-   !> Read $Nodes: number, x, y, z
-   pure subroutine read_nodes_2(scanner, mesh, fault)
-      !> The scanner, on the line $Nodes
+   !> Read $Nodes: number, x, y, z; or $ParametricNodes: these, then the entity and coordinates on it, which are
+   !> passed over
+   pure subroutine read_nodes_2(scanner, section, mesh, fault)
+      !> The scanner, on the line that opens the section
       type(scanner_type), intent(inout) :: scanner
+      !> Name of the section
+      character(len=*), intent(in) :: section
       !> The mesh
       type(gmsh_mesh_type), intent(inout) :: mesh
       !> What is wrong
@@ -22,18 +25,18 @@ contains
 
       integer :: i, n
 
-      call data_line(scanner, 'Nodes', 'lines', 0, 1, fault)
+      call data_line(scanner, section, 'lines', 0, 1, fault)
       call read_count(scanner, 'the number of nodes', n, fault)
       call end_line(scanner, 'the number of nodes', fault)
       call make_node_room(mesh, n)
       do i = 1, n
-         call data_line(scanner, 'Nodes', 'nodes', i - 1, n, fault)
+         call data_line(scanner, section, 'nodes', i - 1, n, fault)
          call add_tag(scanner, mesh, fault)
          call read_position(scanner, mesh%position(:, i), fault)
-         call end_line(scanner, 'the number of the node, x, y, z', fault)
+         if (section == 'Nodes') call end_line(scanner, 'the number of the node, x, y, z', fault)
          if (allocated(fault)) return
       end do
-      call end_section(scanner, 'Nodes', fault)
+      call end_section(scanner, section, fault)
    end subroutine read_nodes_2
 
    !> Read $Elements: number, type, number of tags, tags (the first is the physical group), nodes

@@ -50,8 +50,10 @@ contains
          case ('$Entities')
             call read_entities(scanner, mesh, entities, fault)
          case ('$Nodes')
-            if (version == 2) call read_nodes_2(scanner, mesh, fault)
+            if (version == 2) call read_nodes_2(scanner, word(2:), mesh, fault)
             if (version == 4) call read_nodes_4(scanner, mesh, fault)
+         case ('$ParametricNodes')  ! of format 2.2 with Mesh.SaveParametric=1; 4.1 has $Nodes then, too
+            call read_nodes_2(scanner, word(2:), mesh, fault)
          case ('$Elements')
             if (version == 2) call read_elements_2(scanner, mesh, fault)
             if (version == 4) call read_elements_4(scanner, entities, mesh, fault)
@@ -131,7 +133,7 @@ contains
                              'unpartition')
       else if (word == '$Elements' .and. .not. allocated(mesh%node_tag)) then
          fault = token_fault(scanner, 'the elements come before the nodes')
-      else if ((word == '$Nodes' .and. allocated(mesh%node_tag)) &
+      else if (((word == '$Nodes' .or. word == '$ParametricNodes') .and. allocated(mesh%node_tag)) &
                .or. (word == '$Elements' .and. allocated(mesh%element_tag))) then
          fault = token_fault(scanner, 'the section '//word//' is there twice')
       end if

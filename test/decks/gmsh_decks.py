@@ -159,6 +159,7 @@ FAULTS_2 = {
                  '12:1-9: error: the elements come before the nodes'),
     'no elements': (FORMAT_2[FORMAT_2.index('$Elements'):], '', '21: error: the file has no section $Elements'),
     'nodes alone lacking': (FORMAT_2[FORMAT_2.index('$Nodes'):], '', '11: error: the file has no section $Nodes'),
+    'parametric nodes, too': ('$EndNodes\n', '$EndNodes\n$ParametricNodes\n', '22:1-16: error: the section $ParametricNodes is there twice'),
     'nodes twice': ('$EndNodes\n', '$EndNodes\n$Nodes\n', '22:1-6: error: the section $Nodes is there twice'),
     'elements more': ('6\n1 15', '7\n1 15', '30: error: $Elements announces 7 elements, but has 6'),
     'elements fewer': ('6\n1 15', '5\n1 15', '29: error: $Elements has more lines than it announces'),
@@ -239,6 +240,8 @@ WAYS = {
     'rounding of zeros': FORMAT_2.replace('3 2 0 0', '3 2 0 -1e-13').replace('6 2 1 0', '6 2 1 2e-13'),
     'elements of no group': FORMAT_2.replace('\n6\n1 15', '\n7\n7 1 2 0 9 4 5\n1 15'),
     'a clockwise element': FORMAT_4.replace('6 2 3 6 5', '6 2 5 6 3'),
+    'parametric nodes': FORMAT_2.replace('Nodes\n', 'ParametricNodes\n').replace('1 0.5 0 0\n', '1 0.5 0 0 0 1\n')
+                        .replace('2 1 0 0\n', '2 1 0 0 1 2 0.25\n').replace('5 1 1 0\n', '5 1 1 0 2 1 0.5 1.5\n'),
     'all forms of reals': FORMAT_2.replace(' 0.5 ', ' +5.0E-01 ').replace(' 2 0 0', ' 20.0000000000000000000e-1 -0 0.')
                                   .replace(' 1 1 0', ' 1. .01d+2 0.0'),
 }
