@@ -40,7 +40,8 @@ def tests(program):
     if python_with('numpy, h5py'):
         found += [Test(f'documents/python of {name}', lambda folder, name=name: python_faults(program, name, folder))
                   for name in PYTHON]
-    return found + [Test('documents/keywords', lambda folder: keyword_faults(program, folder)),
+    return found + [Test('documents/harmonics', lambda folder: harmonics_faults(program, folder)),
+                    Test('documents/keywords', lambda folder: keyword_faults(program, folder)),
                     Test('documents/folders', folder_faults)]
 
 
@@ -145,6 +146,19 @@ def output_faults(program, name, folder):
                          for text in (lines, ran.out.splitlines()))
         faults += expected(f'output {number}', wanted, found)
     return faults
+
+
+def harmonics_faults(program, folder):
+    """Rows of the table of M in doc/user.md that are not what the first deck of inputs gives"""
+    faults = []
+    rows = re.findall(r'^\| (\d+) \| ([\d.]+) \| ([\d.]+) \| [\d.]+ \|$', text_of('doc/user.md').partition('| M | ')[2], re.MULTILINE)
+    for harmonic, *wanted in rows:
+        cards = read_text(os.path.join(INPUTS, 'first.dat')).split('\n')
+        cards[[card.split(' ')[0] for card in cards].index('CONTROL') + 1] = f'{harmonic:>5}'
+        ran = program.run('run', write(folder, f'{harmonic}.dat', '\n'.join(cards)), '-o', folder)
+        found = [re.search(rf'^largest {what} +([\d.]+)', ran.out, re.MULTILINE).group(1) for what in ('displacement', 'pressure')]
+        faults += expected(f'M = {harmonic}', wanted, found)
+    return faults + ([] if rows else ['found no table of M'])
 
 
 def keyword_faults(program, folder):
