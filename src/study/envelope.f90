@@ -38,10 +38,10 @@ module axijoint_study_envelope
    integer, parameter :: most_beginnings = 3
    real(wp), parameter :: smaller = 2.0_wp**(-12)
    !> Paths that close in on what is open, at most
-   integer, parameter :: most_rounds = 8
+   integer, parameter :: most_rounds = 12
    !> Where a path comes no farther than the farthest one: the parts of what is open that the next ones go to first, one
    !> after the other. Joints slip otherwise on the way there, and what depends on rounding goes otherwise
-   real(wp), parameter :: detours(3) = [0.5_wp, 0.25_wp, 0.75_wp]
+   real(wp), parameter :: detours(7) = [0.5_wp, 0.25_wp, 0.75_wp, 0.125_wp, 0.375_wp, 0.625_wp, 0.875_wp]
 
 contains
 
@@ -92,14 +92,14 @@ contains
          share = 0.0_wp
          if (n_detours > 0) share = detours(n_detours)
          found%n_increments = capacity%n_increments
-         call follow(model, structure, control, direction, path_within(capacity, share, greatest), timer, progress, found, &
-            error)
+         factors = path_within(capacity, share, tolerance, greatest)
+         call follow(model, structure, control, direction, factors, timer, progress, found, error)
          if (allocated(error)) return
          capacity%n_increments = found%n_increments
          n_detours = n_detours + 1
-         if (.not. is_better(found, capacity)) cycle
+         if (.not. is_better(found, capacity, tolerance)) cycle
          capacity = found
-         n_detours = 0
+         if (capacity%without - capacity%factor > tolerance*capacity%without) n_detours = 0
       end do
       call system_clock(now)
       capacity%seconds = real(now - start, wp)/rate
@@ -117,24 +117,35 @@ contains
                   capacity%without - capacity%factor <= tolerance*capacity%without
    end function is_closed
 
-   !> Whether a path came farther than another, or as far, and tells more of what is beyond
-   pure logical function is_better(path, other)
+   !> Whether a path came farther than another, or as far, and tells more of what is beyond. A mechanism tells more than an
+   !> iteration that found nothing: for it a path may fall short by what may be left open
+   pure logical function is_better(path, other, tolerance)
       !> What they came to
       type(capacity_type), intent(in) :: path, other
+      !> Part of the factor that may be left open
+      real(wp), intent(in) :: tolerance
 
-      is_better = path%factor > other%factor
-      if (is_better .or. path%factor < other%factor) return
-      is_better = path%without < other%without
-      if (path%code == exit_singular .neqv. other%code == exit_singular) is_better = path%code == exit_singular
+      if (is_closed(path, tolerance) .and. other%code == exit_not_converged) then
+         is_better = path%factor >= (1.0_wp - tolerance)*other%factor
+      else if (path%factor < other%factor .or. path%factor > other%factor) then
+         is_better = path%factor > other%factor
+      else if (path%code == exit_singular .neqv. other%code == exit_singular) then
+         is_better = path%code == exit_singular
+      else
+         is_better = path%without < other%without
+      end if
    end function is_better
 
    !> Increments of a load that go to a part of what is open, through the rest of it, and on, for this path may come
-   !> beyond what another did not reach
-   pure function path_within(capacity, share, greatest) result(factors)
+   !> beyond what another did not reach. Where an iteration found nothing, no less than may be left open is gone through
+   !> in other steps: what it is that numbers cannot tell apart there is not asked more and more closely
+   pure function path_within(capacity, share, tolerance, greatest) result(factors)
       !> What is open
       type(capacity_type), intent(in) :: capacity
       !> The part
       real(wp), intent(in) :: share
+      !> Part of the factor that may be left open
+      real(wp), intent(in) :: tolerance
       !> Where nothing ends the path
       real(wp), intent(in) :: greatest
       !> The increments
@@ -144,9 +155,10 @@ contains
       integer :: k, n
 
       open = capacity%without - capacity%factor
+      if (capacity%code == exit_not_converged) open = max(open, tolerance*capacity%without)
       n = 0
       if (greatest > capacity%without) n = ceiling(log(greatest/capacity%without)/log(2.0_wp)) + 6
-      factors = [path_to(capacity%factor + share*open), (1.0_wp - share)*open, &
+      factors = [path_to(capacity%without - (1.0_wp - share)*open), (1.0_wp - share)*open, &
                  (capacity%without*2.0_wp**(k - 6), k=1, n)]
    end function path_within
 
