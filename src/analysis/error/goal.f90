@@ -189,8 +189,8 @@ contains
             cycle
          end if
          rule = rule_of(budget(i)%source, model%error_goal%quantity)
-         excess = rule%safety*share_of(budget(i), &
-            model%error_goal)/(max(rule%part, tiny(1.0_wp))*model%error_goal%target)
+         if (.not. rule%part > 0.0_wp) cycle  ! nothing can be done about it
+         excess = rule%safety*share_of(budget(i), model%error_goal)/(rule%part*model%error_goal%target)
          if (.not. excess > aim) cycle
          excess = excess/aim
          select case (budget(i)%source)
