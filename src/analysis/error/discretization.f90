@@ -40,20 +40,18 @@ contains
       !> Results, stresses and all; takes the estimate
       type(results_type), intent(inout) :: results
 
-      real(wp), allocatable :: error(:, :), energy(:, :), total(:, :, :)
+      real(wp), allocatable :: error(:, :), energy(:, :), in_joints(:), total(:, :, :)
       real(wp) :: start
       integer :: k
 
       start = omp_get_wtime()
       call solid_errors(model, structure%equations, loading%initial, results%displacement, &
          results%stress, error, energy)
+      call note_joints(structure, field, yielding_stress, results, in_joints)
       associate (estimate => results%discretization)
          estimate%error_energy = sum(error, 2)
-         estimate%energy = sum(energy, 2) + [(joint_energy(k) + &
-            spring_energy(structure%support_points, results%modes(k), &
-                                                                          results%displacement(:, &
-                                                                          :, k)), &
-                                              k=1, size(results%modes))]
+         estimate%energy = sum(energy, 2) + in_joints + [(spring_energy(structure%support_points, results%modes(k), &
+            results%displacement(:, :, k)), k=1, size(results%modes))]
          estimate%mode_relative = sqrt(ratio(estimate%error_energy, estimate%energy))
          estimate%relative = sqrt(ratio(sum(estimate%error_energy), sum(estimate%energy)))
          estimate%element = ratio(sum(error, 1), sum(estimate%energy))
@@ -61,7 +59,6 @@ contains
          if (size(field%offset) > 0) &
             call add_motions(structure%condensed%floating, field%offset, total)
          estimate%largest_displacement = largest_vector(results%modes, total)
-         call note_joint_stress()
          estimate%displacement = -1.0_wp
          estimate%joint_stress = -1.0_wp
          if (mesh_error%known) then
@@ -74,22 +71,6 @@ contains
       end associate
 
    contains
-
-      !> Largest joint stresses of each mode, and of all
-      subroutine note_joint_stress()
-         integer :: i
-
-         associate (estimate => results%discretization, points => structure%joint_points)
-            estimate%joint_amplitude = [(0.0_wp, i=1, size(results%modes))]
-            if (size(points) == 0) return
-            do i = 1, size(results%modes)
-               estimate%joint_amplitude(i) = maxval(maxval(abs(stress_amplitude(points, results%modes(i), &
-                  results%displacement(:, :, i), field, i)), 1), mask=structure%judged)
-            end do
-            estimate%joint_scale = max(yielding_stress, &
-               maxval(maxval(maxval(abs(results%joint_stress), 3), 1), mask=structure%judged))
-         end associate
-      end subroutine note_joint_stress
 
       !> Error of joint stresses, relative; negative if there are no joints or if it is not known
       real(wp) function joint_stress_error() result(error)
@@ -110,27 +91,41 @@ contains
          error = ratio(largest, results%discretization%joint_scale)
       end function joint_stress_error
 
-      !> Energy of the joints in one mode
-      real(wp) function joint_energy(k)
-         !> Place of the mode
-         integer, intent(in) :: k
-
-         real(wp), allocatable :: stress(:, :)
-         integer :: i
-
-         allocate (stress, source=stress_amplitude(structure%joint_points, results%modes(k), &
-                                                   results%displacement(:, :, k), field, k))
-         joint_energy = 0.0_wp
-         do i = 1, size(structure%joint_points)
-            associate (point => structure%joint_points(i))
-               joint_energy = joint_energy + 0.5_wp*point%weight*energy_density( &
-                  stress(:, i), point%stiffness)
-            end associate
-         end do
-         joint_energy = mode_integral(results%modes(k))*joint_energy
-      end function joint_energy
-
    end subroutine estimate_discretization
+
+   !> Joints in each mode: energy and largest stress, and the stress that errors are measured by
+   subroutine note_joints(structure, field, yielding_stress, results, energy)
+      !> Joints
+      type(structure_type), intent(in) :: structure
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> Stress that errors of joints that yield are measured by
+      real(wp), intent(in) :: yielding_stress
+      !> Results with stresses of joints; takes the stresses
+      type(results_type), intent(inout) :: results
+      !> Energy, shape (modes)
+      real(wp), allocatable, intent(out) :: energy(:)
+
+      real(wp), allocatable :: stress(:, :)  ! threads have small stacks
+      integer :: i, k
+
+      allocate (energy(size(results%modes)), source=0.0_wp)
+      associate (estimate => results%discretization, points => structure%joint_points)
+         estimate%joint_amplitude = energy
+         if (size(points) == 0) return
+         allocate (stress(3, size(points)))
+         do k = 1, size(results%modes)
+            stress(:, :) = stress_amplitude(points, results%modes(k), results%displacement(:, :, k), field, k)
+            do i = 1, size(points)
+               energy(k) = energy(k) + 0.5_wp*points(i)%weight*energy_density(stress(:, i), points(i)%stiffness)
+            end do
+            energy(k) = mode_integral(results%modes(k))*energy(k)
+            estimate%joint_amplitude(k) = max(0.0_wp, maxval(maxval(abs(stress), 1), mask=structure%judged))
+         end do
+         estimate%joint_scale = max(yielding_stress, &
+            maxval(maxval(maxval(abs(results%joint_stress), 3), 1), mask=structure%judged))
+      end associate
+   end subroutine note_joints
 
    !> Energy of the springs in one mode
    pure real(wp) function spring_energy(supports, mode, displacement) result(energy)
