@@ -115,7 +115,7 @@ def converted(program, folder, name):
     faults += program.run('run', new, '-o', folder).ended_with(code)
     if name == 'disc.dat':
         factor = json.loads(read_text(os.path.join(folder, 'disc.json')))['increments'][-1]['load_factor']
-        if f'{factor:.2f} for 72' not in read_text(os.path.join(HERE, '..', '..', 'doc', 'legacy.md')):
+        if f'{factor:.1f} for 72' not in read_text(os.path.join(HERE, '..', '..', 'doc', 'legacy.md')):
             faults.append(f'the disc stops at {factor}, which doc/legacy.md does not say')
     one, two = (json.loads(read_text(os.path.join(folder, f'{stem}.json'))) for stem in (name[:-4], 'new'))
     return faults + [f'{key} differs' for key in ('increments', 'iterations', 'residual_ratio', 'largest_displacement')
