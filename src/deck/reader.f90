@@ -21,7 +21,7 @@ module axijoint_deck_reader
    use axijoint_deck_mesh_arrange, only : sort_nodes_and_elements, sort_joints
    use axijoint_deck_mesh_bonds, only : merge_bonded, check_bonded_joints
    use axijoint_deck_mesh_draft, only : draft_type, new_draft, corners_known
-   use axijoint_deck_mesh_edges, only : edge_table_type, new_edge_table, outer_nodes, check_edges
+   use axijoint_deck_mesh_edges, only : edge_table_type, new_edge_table, check_edges
    use axijoint_deck_mesh_places, only : group_places, new_point_tree, point_tree_type, same_place
    use axijoint_deck_property_properties, only : properties_type, new_properties
    use axijoint_deck_registry, only : all_sections, all_readers
@@ -298,7 +298,7 @@ contains
       logical, intent(out) :: tiles
 
       type(point_tree_type) :: tree
-      integer, allocatable :: group(:), outer(:)
+      integer, allocatable :: group(:)
       integer :: errors_before
 
       tiles = .false.
@@ -311,11 +311,10 @@ contains
          call check_edges(draft, edges, diagnostics)
          if (diagnostics%n_errors > errors_before) return
          group = group_places(draft%position(:, :draft%n_nodes), same_place*draft%extent)
-         outer = outer_nodes(edges, draft%n_nodes)
-         tree = new_point_tree(draft%position(:, outer))
+         tree = new_point_tree(draft%position(:, :draft%n_nodes))
          call check_coincident(draft, group, diagnostics)
-         call check_near(draft, group, edges, outer, tree, diagnostics)
-         call check_hanging(draft, group, edges, outer, tree, diagnostics)
+         call check_near(draft, group, edges, tree, diagnostics)
+         call check_hanging(draft, group, edges, tree, diagnostics)
          tiles = diagnostics%n_errors == errors_before
          call move_alloc(group, deck%group)
       end associate

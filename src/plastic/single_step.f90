@@ -144,9 +144,15 @@ contains
       end if
       if (present(reference)) settling%reference = reference
       call begin_way(problem, field, way)
+      allocate (state%displacement, mold=field%force)
       do
-         call take_displacement(problem, field, load, way%iterate, state%displacement)
+         call take_displacement(problem, field%unknowns, load, state%displacement)
          call find_value(model, problem, field, loads, loading, way%iterate, state)
+         ! what is left moves the parts that joints alone hold, however little it is, and their rigid motions may be apart
+         if (allocated(problem%joints)) then
+            call take_displacement(problem, field%unknowns + way%iterate%response, load, state%displacement)
+            call add_motions(problem%joints%condensed%floating, problem%joints%field%offset, state%displacement)
+         end if
          if (.not. (allocated(loads%steered) .or. loads%held)) &
             settling%size = maxval(abs(field%unknowns))
          call note(settling, state%value)
@@ -220,31 +226,23 @@ contains
       found = found .and. .not. fails
    end subroutine judge
 
-   !> Displacement amplitudes of the state. Beside joints, what is left moves the parts that these alone hold, however little
-   !> it is, and their rigid motions may be apart
-   subroutine take_displacement(problem, field, load, iterate, displacement)
+   !> Displacement amplitudes of unknowns
+   subroutine take_displacement(problem, unknowns, load, displacement)
       !> The problem
       type(problem_type), intent(in) :: problem
-      !> The state
-      type(body_field_type), intent(in) :: field
+      !> The unknowns
+      real(wp), intent(in) :: unknowns(:)
       !> The loads, with displacements that are given
       type(body_load_type), intent(in) :: load
-      !> What the state leaves out of balance
-      type(iterate_type), intent(in) :: iterate
       !> Shape (3, nodes, modes)
-      real(wp), allocatable, intent(inout) :: displacement(:, :, :)
+      real(wp), intent(out) :: displacement(:, :, :)
 
-      real(wp), allocatable :: moved(:)
       integer :: k
 
-      moved = field%unknowns
-      if (allocated(problem%joints)) moved = moved + iterate%response
-      if (.not. allocated(displacement)) allocate (displacement, mold=field%force)
       do k = 1, size(displacement, 3)
-         displacement(:, :, k) = to_nodes(problem%equations, moved, k)
+         displacement(:, :, k) = to_nodes(problem%equations, unknowns, k)
       end do
       if (allocated(load%held)) displacement = displacement + load%held
-      if (allocated(problem%joints)) call add_motions(problem%joints%condensed%floating, problem%joints%field%offset, displacement)
    end subroutine take_displacement
 
    !> The value; of loads by virtual work on the displacements themselves, whose error is of second

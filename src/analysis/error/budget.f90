@@ -124,7 +124,9 @@ contains
          size(results%modes))]
       associate (solution => results%discretization)
          call add_tail(harmonic, amplitude, solution%largest_displacement, share%displacement)
-         call add_tail(harmonic, solution%joint_amplitude, solution%joint_scale, share%joint_stress)
+         ! joints that stay elastic may carry nothing at the angles where their stress is known
+         call add_tail(harmonic, solution%joint_amplitude, max(solution%joint_scale, maxval(solution%joint_amplitude)), &
+            share%joint_stress)
          tail = response_tail(harmonic, solution%energy)
          if (tail >= 0.0_wp) share%energy = sqrt(ratio(tail, sum(solution%energy)))
       end associate

@@ -117,8 +117,6 @@ contains
       select case (goal%quantity)
       case (goal_joints)
          share_of = share%joint_stress
-         ! of loads that M cuts off there is an estimate of the displacements only
-         if (share%load > 0.0_wp) share_of = merge(max(share_of, share%displacement), -1.0_wp, share%displacement >= 0.0_wp)
       case (goal_energy)
          share_of = merge(share%energy, share%displacement, share%energy >= 0.0_wp)
       case default

@@ -143,7 +143,7 @@ contains
 
       if (allocated(room%force)) return
       allocate (room%force(3, n), room%external(3, n), room%u(3, n))
-      allocate (room%way(3, n, most_turns), room%pull(3, n, most_turns))
+      allocate (room%way(3, n, most_steps), room%pull(3, n, most_steps))
    end subroutine make_room
 
    !> Forces that a coarse solution leaves on the fine mesh
@@ -206,13 +206,15 @@ contains
       real(wp), allocatable :: jump(:, :)
       real(wp) :: energy(most_steps), of_blocks, length
       integer :: step, n
-      logical :: guided, small
+      logical :: guided, small, astray
 
+      astray = .false.
       associate (force => room%force, way => room%way, pull => room%pull, change => room%external, &
                  conditions => level%conditions(equations%systems(equations%system(k))%class), &
                  displacement => difference%displacement(:, :, k), &
                  jumps => difference%jump(:, :, k))
          n = size(displacement, 2)
+         guided = .true.
          do step = 1, most_steps
             associate (d => way(:, :, step), kd => pull(:, :, step))
                d = force
@@ -239,10 +241,8 @@ contains
                end if
                length = work(d, force)/energy(step)
                if (step == 1) then
-                  if (.not. length >= no_guide) then
-                     call descend_by_turns(level, equations, k, room, difference)
-                     return
-                  end if
+                  astray = .not. length >= no_guide
+                  if (astray) exit
                   guided = length >= usual .and. of_blocks >= usual
                end if
                call see_change(level, length, d, n, change, jump)
@@ -255,17 +255,20 @@ contains
             end associate
          end do
       end associate
+      if (astray) call descend_by_turns(level, equations, k, steps > 1, room, difference)
    end subroutine descend
 
    !> The same where the coarse mesh moves the fine one otherwise than that does itself: blocks and coarse mesh by turns,
    !> each as far as the energy falls, until neither adds much
-   subroutine descend_by_turns(level, equations, k, room, difference)
+   subroutine descend_by_turns(level, equations, k, counts, room, difference)
       !> The fine level
       type(fine_level_type), intent(in) :: level
       !> Equations of the coarse mesh, factored
       type(equations_type), intent(in) :: equations
       !> Place of the mode
       integer, intent(in) :: k
+      !> Whether the mode has so much of the forces that nothing is known if it is not
+      logical, intent(in) :: counts
       !> Factors of the blocks; forces, then what is left of them
       type(room_type), intent(inout) :: room
       !> Takes the difference
@@ -276,6 +279,11 @@ contains
       integer :: turn, n
       logical :: small, was_small
 
+      if (size(room%way, 3) < most_turns) then
+         n = size(room%force, 2)
+         deallocate (room%way, room%pull)
+         allocate (room%way(3, n, most_turns), room%pull(3, n, most_turns))
+      end if
       associate (force => room%force, way => room%way, pull => room%pull, change => room%external, &
                  conditions => level%conditions(equations%systems(equations%system(k))%class), &
                  displacement => difference%displacement(:, :, k), &
@@ -309,7 +317,7 @@ contains
                call take_reactions(conditions, force)
             end associate
          end do
-         difference%known(k) = .false.  ! more would follow
+         if (counts) difference%known(k) = .false.  ! more would follow
       end associate
    end subroutine descend_by_turns
 

@@ -161,6 +161,7 @@ contains
       integer(hid_t) :: dataset, space
       integer(hsize_t) :: extents(4), largest(4)
       integer :: status, rank
+      logical :: there
 
       extent = 0
       allocate (values(0))
@@ -169,7 +170,8 @@ contains
       call h5dopen_f(self%file, name, dataset, status)
       if (status < 0) then
          call note_reading('')
-         if (.not. self%has(name) .and. len(self%failure) == 0) self%failure = 'the file has no '//name
+         there = self%has(name)
+         if (.not. there .and. len(self%failure) == 0) self%failure = 'the file has no '//name
          if (len(self%failure) == 0) self%failure = name//damaged
          return
       end if

@@ -5,9 +5,10 @@ module axijoint_deck_check_mesh
    use axijoint_base_sort, only : refine_order
    use axijoint_base_text, only : to_text, count_of
    use axijoint_deck_mesh_draft, only : draft_type, place_text
-   use axijoint_deck_mesh_edges, only : edge_table_type
+   use axijoint_deck_mesh_edges, only : edge_table_type, on_outer_edges
    use axijoint_deck_mesh_places, only : point_tree_type, points_near
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, add_warning
+   use axijoint_fe_shape, only : n_corners
    implicit none
    private
    public :: snap_to_axis, check_used, check_coincident, check_near, check_hanging, check_touching
@@ -115,49 +116,115 @@ contains
       call refine_order(order, group)
    end subroutine order_by_place
 
-   !> Report nodes of one body that nearly coincide. Those on outer edges are looked at: a node elsewhere is surrounded by its
-   !> elements, and what comes near to it without being of these overlaps them
-   subroutine check_near(draft, group, edges, outer, tree, diagnostics)
+   !> Report nodes of one body that nearly coincide: of any node one that lies on an outer edge, and of nodes of the same or of
+   !> neighbouring elements. A node elsewhere is surrounded by its elements, and where others cover these, one of the two has
+   !> outer edges there
+   subroutine check_near(draft, group, edges, tree, diagnostics)
       !> The mesh
       type(draft_type), intent(in) :: draft
       !> Number of each node's place
       integer, intent(in) :: group(:)
       !> Edges
       type(edge_table_type), intent(in) :: edges
-      !> Nodes on outer edges, and the tree of their places
-      integer, intent(in) :: outer(:)
+      !> All nodes
       type(point_tree_type), intent(in) :: tree
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
       real(wp), allocatable :: shortest(:)
-      integer :: i, k, n_found, found(most_near)
+      logical, allocatable :: outer(:)
+      integer :: node, k, n_found, found(most_near)
 
       call shortest_edges(draft, edges, shortest)
-      do i = 1, size(outer)
-         associate (node => outer(i))
-            if (.not. draft%node_good(node)) cycle
-            call points_near(tree, draft%position(:, node), least_distance*shortest(node), found, n_found)
-            do k = 1, n_found
-               associate (other => outer(found(k)))
-                  if (other >= node .or. group(other) == group(node) .or. .not. draft%node_good(other)) &
-                     cycle
-                  if (draft%node_body(other) /= draft%node_body(node)) cycle
-                  call add_error(diagnostics, draft%node_card(node), 0, 0, &
-                                 'nodes '//to_text(draft%node_label(other))//' and '// &
-                                 to_text(draft%node_label(node))//' of body '// &
-                                 to_text(draft%node_body(node))// &
-                                 ' nearly coincide', &
-                                 found='a distance of '// &
-                                 to_text(norm2(draft%position(:, node) - draft%position(:, other)))// &
-                                 ', '//place_text(draft%position(:, node)), &
-                                 allowed='at least 0.001 of the shortest edge there, '// &
-                                 to_text(shortest(node)))
-               end associate
+      outer = on_outer_edges(edges, draft%n_nodes)
+      do node = 1, draft%n_nodes
+         if (.not. outer(node)) cycle
+         call points_near(tree, draft%position(:, node), least_distance*shortest(node), found, n_found)
+         do k = 1, n_found
+            if (found(k) == node .or. (outer(found(k)) .and. found(k) > node)) cycle
+            call compare_nodes(draft, group, found(k), node, shortest(node), diagnostics)
+         end do
+      end do
+      call check_slivers_inside(draft, group, edges, outer, shortest, diagnostics)
+   end subroutine check_near
+
+   !> The same of nodes inside a body: across an element, and across an edge of two
+   subroutine check_slivers_inside(draft, group, edges, outer, shortest, diagnostics)
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> Number of each node's place
+      integer, intent(in) :: group(:)
+      !> Edges
+      type(edge_table_type), intent(in) :: edges
+      !> Whether a node lies on an outer edge: these are looked at already
+      logical, intent(in) :: outer(:)
+      !> Shortest edge of the elements at each node
+      real(wp), intent(in) :: shortest(:)
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      integer :: i, k, l, corners(2)
+
+      do i = 1, draft%n_elements
+         if (n_corners(draft%element_size(i)) < 4) cycle
+         do k = 1, 2
+            call look(draft%element_nodes(k, i), draft%element_nodes(k + 2, i))
+         end do
+      end do
+      do i = 1, edges%n
+         if (edges%twin(i) <= i) cycle
+         associate (one => edges%element(i), other => edges%element(edges%twin(i)))
+            corners = [n_corners(draft%element_size(one)), n_corners(draft%element_size(other))]
+            do k = 1, corners(1)
+               if (any(edges%nodes(:2, i) == draft%element_nodes(k, one))) cycle
+               do l = 1, corners(2)
+                  if (any(edges%nodes(:2, i) == draft%element_nodes(l, other))) cycle
+                  call look(draft%element_nodes(k, one), draft%element_nodes(l, other))
+               end do
             end do
          end associate
       end do
-   end subroutine check_near
+
+   contains
+
+      !> Look at two nodes
+      subroutine look(a, b)
+         integer, intent(in) :: a, b
+
+         if (a == 0 .or. b == 0 .or. a == b) return
+         if (outer(a) .or. outer(b)) return
+         if (any(abs(draft%position(:, b) - draft%position(:, a)) > least_distance*min(shortest(a), shortest(b)))) return
+         call compare_nodes(draft, group, min(a, b), max(a, b), shortest(max(a, b)), diagnostics)
+      end subroutine look
+
+   end subroutine check_slivers_inside
+
+   !> Report two nodes of one body that lie nearer to each other than their elements allow
+   subroutine compare_nodes(draft, group, other, node, shortest, diagnostics)
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> Number of each node's place
+      integer, intent(in) :: group(:)
+      !> The nodes; the card of the second is named
+      integer, intent(in) :: other, node
+      !> Shortest edge there
+      real(wp), intent(in) :: shortest
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      if (group(other) == group(node) .or. .not. all(draft%node_good([other, node]))) return
+      if (draft%node_body(other) /= draft%node_body(node)) return
+      call add_error(diagnostics, draft%node_card(node), 0, 0, &
+                     'nodes '//to_text(draft%node_label(other))//' and '// &
+                     to_text(draft%node_label(node))//' of body '// &
+                     to_text(draft%node_body(node))// &
+                     ' nearly coincide', &
+                     found='a distance of '// &
+                     to_text(norm2(draft%position(:, node) - draft%position(:, other)))// &
+                     ', '//place_text(draft%position(:, node)), &
+                     allowed='at least 0.001 of the shortest edge there, '// &
+                     to_text(shortest))
+   end subroutine compare_nodes
 
    !> Length of the shortest edge of the elements at each node, those across from it
    !> included (thin elements are no error); huge where there is none
@@ -190,15 +257,14 @@ contains
 
    !> Report nodes that lie on an outer edge of their body without being its nodes:
    !> the mesh would gape there
-   subroutine check_hanging(draft, group, edges, outer, tree, diagnostics)
+   subroutine check_hanging(draft, group, edges, tree, diagnostics)
       !> The mesh
       type(draft_type), intent(in) :: draft
       !> Number of each node's place
       integer, intent(in) :: group(:)
       !> Edges
       type(edge_table_type), intent(in) :: edges
-      !> Nodes on outer edges, and the tree of their places
-      integer, intent(in) :: outer(:)
+      !> All nodes
       type(point_tree_type), intent(in) :: tree
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
@@ -216,7 +282,6 @@ contains
             length = norm2(side)
             if (.not. length > 0.0_wp) cycle
             call points_near(tree, a + 0.5_wp*side, 0.499_wp*length, found, n_found)
-            found(:n_found) = outer(found(:n_found))
             do k = 1, n_found
                ! its own, misplaced
                if (any(draft%element_nodes(:, edges%element(i)) == found(k))) cycle

@@ -7,7 +7,7 @@ module axijoint_deck_mesh_edges
    use axijoint_fe_shape, only : n_corners
    implicit none
    private
-   public :: edge_table_type, new_edge_table, check_edges, find_edge, outer_edge, outer_nodes
+   public :: edge_table_type, new_edge_table, check_edges, find_edge, outer_edge, on_outer_edges
 
    !> Edges of all elements; an edge inside a body is there once for each element
    type :: edge_table_type
@@ -121,24 +121,25 @@ contains
       edge = 0
    end function find_edge
 
-   !> Nodes on outer edges, each once
-   pure function outer_nodes(table, n_nodes) result(nodes)
+   !> Whether nodes lie on outer edges
+   pure function on_outer_edges(table, n_nodes) result(outer)
       !> The edges
       type(edge_table_type), intent(in) :: table
       !> Number of nodes
       integer, intent(in) :: n_nodes
-      !> The nodes
-      integer, allocatable :: nodes(:)
-
+      !> One a node
       logical, allocatable :: outer(:)
-      integer :: i
 
-      allocate (outer(0:n_nodes), source=.false.)
+      integer :: i, k
+
+      allocate (outer(n_nodes), source=.false.)
       do i = 1, table%n
-         if (table%twin(i) == 0) outer(table%nodes(:, i)) = .true.
+         if (table%twin(i) /= 0) cycle
+         do k = 1, 3
+            if (table%nodes(k, i) > 0) outer(table%nodes(k, i)) = .true.
+         end do
       end do
-      nodes = pack([(i, i=1, n_nodes)], outer(1:))
-   end function outer_nodes
+   end function on_outer_edges
 
    !> An edge in the direction in which a face runs
    pure function outer_edge(draft, table, edge, first) result(directed)
