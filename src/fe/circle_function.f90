@@ -5,7 +5,7 @@ module axijoint_fe_circle_function
    implicit none
    private
    public :: circle_function_type, new_patch, new_cosine, new_table
-   public :: fourier_coefficients, mean_square, value_at, share_left_out
+   public :: fourier_coefficients, mean_square, value_at, share_left_out, are_alike
 
    !> A function that is linear piece by piece, plus one cosine; zero outside the
    !> pieces. Either part may be lacking
@@ -167,6 +167,16 @@ contains
       end do
       if (f%harmonic >= 0) value = value + cosine_of_degrees(f%harmonic*(angle - f%angle))
    end function value_at
+
+   !> Whether two functions are the same
+   pure logical function are_alike(f, g)
+      !> The functions
+      type(circle_function_type), intent(in) :: f, g
+
+      are_alike = f%harmonic == g%harmonic .and. abs(f%angle - g%angle) <= 0.0_wp .and. size(f%from) == size(g%from)
+      if (are_alike) are_alike = all(abs(f%from - g%from) + abs(f%to - g%to) + abs(f%first - g%first) &
+         + abs(f%last - g%last) <= 0.0_wp)
+   end function are_alike
 
    !> Root mean square of what some harmonics leave of a function, over that of the
    !> function (Parseval). Below the square root of the rounding errors it is 0

@@ -1,6 +1,7 @@
 !> Loads as Fourier amplitudes, supports that yield, load cases and increments
 module axijoint_model_load
    use axijoint_base_kinds, only : wp
+   use axijoint_fe_circle_function, only : circle_function_type
    use axijoint_fe_mode, only : mode_type
    implicit none
    private
@@ -123,6 +124,8 @@ module axijoint_model_load
       real(wp) :: left_out = 0.0_wp
       !> Load case (index)
       integer :: case = 1
+      !> How it goes round the circle; not allocated if it is concentrated in points
+      type(circle_function_type), allocatable :: course
    end type truncation_type
 
    !> A load increment in the tradition of Owen and Hinton

@@ -7,6 +7,7 @@ module axijoint_analysis_error_budget
    use axijoint_analysis_error_response_tail, only : response_tail
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
+   use axijoint_fe_circle_function, only : are_alike
    use axijoint_joints_residual, only : ratio
    use axijoint_model_model, only : model_type
    implicit none
@@ -123,29 +124,62 @@ contains
       amplitude = [(sqrt(maxval(sum(results%displacement(:, :, k)**2, 1))), k=1, &
          size(results%modes))]
       associate (solution => results%discretization)
-         call add_tail(harmonic, amplitude, solution%largest_displacement, share%displacement)
+         call add_tail(largest_tail(model, case_factor, harmonic, amplitude), solution%largest_displacement, share%displacement)
          ! joints that stay elastic may carry nothing at the angles where their stress is known
-         call add_tail(harmonic, solution%joint_amplitude, max(solution%joint_scale, maxval(solution%joint_amplitude)), &
-            share%joint_stress)
+         call add_tail(largest_tail(model, case_factor, harmonic, solution%joint_amplitude), &
+            max(solution%joint_scale, maxval(solution%joint_amplitude)), share%joint_stress)
          tail = response_tail(harmonic, solution%energy)
          if (tail >= 0.0_wp) share%energy = sqrt(ratio(tail, sum(solution%energy)))
       end associate
    end function harmonics_share
 
-   !> Add what harmonics above M would bring to an error, which is not known if that is not
-   pure subroutine add_tail(harmonic, amplitude, scale, error)
+   !> What harmonics above M would add to the response, by that of the loads which is most; negative if it is not known
+   pure real(wp) function largest_tail(model, case_factor, harmonic, amplitude) result(tail)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Factors of its load cases, shape (cases)
+      real(wp), intent(in) :: case_factor(:)
       !> Harmonic of each mode, and its amplitude, shape (modes)
       integer, intent(in) :: harmonic(:)
       real(wp), intent(in) :: amplitude(:)
-      !> What the error is a part of
-      real(wp), intent(in) :: scale
+
+      integer :: k
+
+      tail = -1.0_wp
+      do k = 1, size(model%truncations)
+         associate (cut => model%truncations(k))
+            if (.not. (cut%left_out > 0.0_wp .and. abs(case_factor(cut%case)) > 0.0_wp)) cycle
+            if (allocated(cut%course)) then
+               if (is_like_the_last(model, k)) cycle
+               tail = max(tail, response_tail(harmonic, amplitude, cut%course))
+            else
+               tail = max(tail, response_tail(harmonic, amplitude))
+            end if
+         end associate
+      end do
+   end function largest_tail
+
+   !> Whether a load goes round the circle as the one before it
+   pure logical function is_like_the_last(model, k) result(is_like)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Place of the load, one that goes round the circle
+      integer, intent(in) :: k
+
+      is_like = k > 1
+      if (is_like) is_like = allocated(model%truncations(k - 1)%course) &
+         .and. model%truncations(k)%case == model%truncations(max(1, k - 1))%case
+      if (is_like) is_like = are_alike(model%truncations(k)%course, model%truncations(k - 1)%course)
+   end function is_like_the_last
+
+   !> Add what harmonics above M would bring to an error, which is not known if that is not
+   pure subroutine add_tail(tail, scale, error)
+      !> What they would bring, and what the error is a part of
+      real(wp), intent(in) :: tail, scale
       !> The error; negative if it is not known
       real(wp), intent(inout) :: error
 
-      real(wp) :: tail
-
       if (error < 0.0_wp) return
-      tail = response_tail(harmonic, amplitude)
       error = merge(error + ratio(tail, scale), -1.0_wp, tail >= 0.0_wp)
    end subroutine add_tail
 

@@ -2,6 +2,8 @@
 !> course of the harmonics up to M
 module axijoint_analysis_error_response_tail
    use axijoint_base_kinds, only : wp
+   use axijoint_fe_circle_function, only : circle_function_type, fourier_coefficients
+   use axijoint_model_modes, only : greatest_divisor
    implicit none
    private
    public :: response_tail
@@ -9,16 +11,22 @@ module axijoint_analysis_error_response_tail
    !> The sums over the octaves of harmonics fall at least by this factor, about 1/sqrt(2): that of
    !> amplitudes that fall with m^(-3/2), between a load that jumps and the response to it
    real(wp), parameter :: slowest = 0.7_wp
+   !> Bounds of the power of m with which the response to a load of harmonic m falls, and the power if the response does not
+   !> tell it
+   real(wp), parameter :: least_power = 1.0_wp, most_power = 3.0_wp, usual_power = 1.5_wp
 
 contains
 
-   !> Sum of the amplitudes above M: the sums over (M, 2M], (2M, 4M] ... are taken to fall on by the
+   !> Sum of the amplitudes above M. If it is known how the load goes round the circle, those of its harmonics times a power of
+   !> m that the response up to M tells; else the sums over (M, 2M], (2M, 4M] ... are taken to fall on by the
    !> factor from (M/4, M/2] to (M/2, M]. Negative if it is not known, as up to M = 1: harmonics 0 and 1, which move parts as
    !> rigid, tell nothing of those above
-   pure real(wp) function response_tail(harmonic, amplitude) result(tail)
+   pure real(wp) function response_tail(harmonic, amplitude, course) result(tail)
       !> Harmonic of each mode, and its amplitude, shape (modes)
       integer, intent(in) :: harmonic(:)
       real(wp), intent(in) :: amplitude(:)
+      !> The load
+      type(circle_function_type), intent(in), optional :: course
 
       real(wp) :: upper, lower, factor
       integer :: m
@@ -31,6 +39,62 @@ contains
       factor = slowest
       if (upper < slowest*lower) factor = upper/lower
       tail = upper*factor/(1.0_wp - factor)
+      if (present(course)) call follow_load(course, m, step_of(harmonic, amplitude), upper, lower, tail)
    end function response_tail
+
+   !> The number that all harmonics of the response are multiples of: loads may cancel each other in others
+   pure integer function step_of(harmonic, amplitude) result(step)
+      !> Harmonic of each mode, and its amplitude, shape (modes)
+      integer, intent(in) :: harmonic(:)
+      real(wp), intent(in) :: amplitude(:)
+
+      !> Rounding of the response
+      real(wp), parameter :: none = 1.0e-9_wp
+      integer :: k
+
+      step = 0
+      do k = 1, size(harmonic)
+         if (amplitude(k) > none*maxval(amplitude)) step = greatest_divisor(step, harmonic(k))
+      end do
+      step = max(1, step)
+   end function step_of
+
+   !> The same from the harmonics of the load, if it has any in (M/2, M]
+   pure subroutine follow_load(course, m, step, upper, lower, tail)
+      !> The load
+      type(circle_function_type), intent(in) :: course
+      !> M, and the number that all harmonics of the response are multiples of
+      integer, intent(in) :: m, step
+      !> Amplitudes of the response in (M/2, M], and in (M/4, M/2]
+      real(wp), intent(in) :: upper, lower
+      !> Takes the sum
+      real(wp), intent(inout) :: tail
+
+      !> Rounding of the harmonics of a load
+      real(wp), parameter :: none = 1.0e-12_wp
+      real(wp), allocatable :: load(:), powers(:)  ! threads have small stacks
+      real(wp) :: a, b, power, factor
+      integer :: k
+
+      allocate (load(4*m), source=0.0_wp)
+      do k = step, 4*m, step
+         call fourier_coefficients(course, k, a, b)
+         load(k) = hypot(a, b)
+      end do
+      associate (of_upper => sum(load(m/2 + 1:m)), of_lower => sum(load(m/4 + 1:m/2)))
+         if (.not. of_upper > none*maxval(load)) return
+         power = usual_power
+         ! harmonics 0 and 1 move parts as rigid
+         if (m > 3 .and. upper > 0.0_wp .and. lower > 0.0_wp .and. of_lower > none*maxval(load)) &
+            power = log(lower/of_lower*of_upper/upper)/log(2.0_wp)
+      end associate
+      power = min(most_power, max(least_power, power))
+      powers = load*[(real(k, wp)**(-power), k=1, 4*m)]
+      associate (next => sum(powers(m + 1:2*m)), last => sum(powers(2*m + 1:)))
+         factor = slowest
+         if (last < slowest*next) factor = last/next
+         tail = upper*(next + last/(1.0_wp - factor))/sum(powers(m/2 + 1:m))
+      end associate
+   end subroutine follow_load
 
 end module axijoint_analysis_error_response_tail

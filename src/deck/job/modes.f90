@@ -151,7 +151,7 @@ contains
                                     to_text(integer_of(card, 1))
       name = name//', shape '//to_text(integer_of(card, field))
       left_out = share_left_out(f, card%deck%harmonics)
-      call add_truncation(card%deck%loads%truncations, name, left_out, card%case)
+      call add_truncation(card%deck%loads%truncations, name, left_out, card%case, f)
       if (left_out < 1.0_wp) return
       call add_warning(card%diagnostics, first_card(card), 0, 0, &
                        'the harmonics in use have no part of the load', &

@@ -58,7 +58,7 @@ contains
    end function shares_of
 
    !> Add what the harmonics leave of a load
-   pure subroutine add_truncation(truncations, name, left_out, case)
+   pure subroutine add_truncation(truncations, name, left_out, case, course)
       !> The list
       type(truncation_list_type), intent(inout) :: truncations
       !> The load in words
@@ -67,6 +67,8 @@ contains
       real(wp), intent(in) :: left_out
       !> Load case (index)
       integer, intent(in) :: case
+      !> How it goes round the circle; absent if it is concentrated in points
+      type(circle_function_type), intent(in), optional :: course
 
       type(truncation_type), allocatable :: larger(:)
       integer :: k
@@ -78,11 +80,13 @@ contains
             call move_alloc(truncations%entries(k)%name, larger(k)%name)
             larger(k)%left_out = truncations%entries(k)%left_out
             larger(k)%case = truncations%entries(k)%case
+            call move_alloc(truncations%entries(k)%course, larger(k)%course)
          end do
          call move_alloc(larger, truncations%entries)
       end if
       truncations%n = truncations%n + 1
       truncations%entries(truncations%n) = truncation_type(name, left_out, case)
+      if (present(course)) truncations%entries(truncations%n)%course = course
    end subroutine add_truncation
 
    !> Shares of a load in harmonic 1 along the direction theta0: the symmetric load turned
