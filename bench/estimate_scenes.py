@@ -41,7 +41,7 @@ class Scene:
 
     def __init__(self, title, setting):
         self.setting = setting
-        order = (3 if setting.kind == "4B" else 2, 2 if setting.kind == "8R" else 3)
+        order = (3 if setting.kind == "4B" else 2, 2 if setting.kind.endswith("R") else 3)
         self.lines = ["TITLE", title, "CONTROL", f"{setting.harmonic}, {setting.planes}, 2, {order[1]}, , "
                       f"{'BBAR' if setting.kind == '4B' else ''}, {setting.method}"]
 
@@ -108,12 +108,41 @@ def built_in(setting, poisson=0.3):
     return scene.add("FIXEDFACES", "1, 111").add("RESULTANTS", "2, LATERAL, 1").text()
 
 
-def pier(setting):
-    """A soft pier on ground that is nearly incompressible, pressed and pushed sideways"""
-    scene = Scene("Pier", setting).add("MATERIALS", "1, 500, 0.3", "2, 1e4, 0.49")
-    scene.block(1, 1, 6, 4, (0, 0, 1, .5), (2, 1)).block(1, 2, 6, 8, (0, -2, 1, 0), (2, 2))
-    scene.block(1, 2, 6, 8, (1, -2, 3, 0), (1, 2)).add("FACES", "1, 1, 0, .5, 1, .5", "2, 1, 0, -2, 3, -2")
+def soft(setting, shape="pier", poisson=0.49):
+    """A soft pier on ground that is nearly incompressible, a soft layer on it, or a ring of that in a soft one; pressed and pushed
+    sideways"""
+    scene = Scene(f"Soft, {shape}", setting).add("MATERIALS", "1, 500, 0.3", f"2, 1e4, {poisson:g}")
+    if shape == "ring":
+        scene.block(1, 2, 4, 6, (1, 0, 1.5, 1), (0, 2)).block(1, 1, 6, 6, (1.5, 0, 3, 1), (2, 2))
+        scene.add("FACES", "1, 1, 1, 1, 1.5, 1", "2, 1, 3, 0, 3, 1")
+    else:
+        scene.block(1, 1, 6, 4, (0, 0, 1, .5), (2, 1)).block(1, 2, 6, 8, (0, -2, 1, 0), (2, 2))
+        if shape == "layer":
+            scene.block(1, 1, 6, 4, (1, 0, 3, .5), (1, 1))
+        scene.block(1, 2, 6, 8, (1, -2, 3, 0), (1, 2)).add("FACES", "1, 1, 0, .5, 1, .5", "2, 1, 0, -2, 3, -2")
     return scene.add("FIXEDFACES", "2, 111").add("RESULTANTS", "1, AXIAL, -4", "1, LATERAL, 1").text()
+
+
+def jacks(setting):
+    """A lining in ground that presses on it, and two jacks that press on parts of it"""
+    scene = Scene("Jacks", setting).add("MATERIALS", "1, 3e4, 0.2", "2, 1e3, 0.3").law(1, 2e3, 0.0, 30.0, RESULTANT)
+    scene.block(1, 1, 4, 1, (2, 0, 2.2, .2)).block(2, 2, 16, 1, (2.2, 0, 20, .2), (0, 0))
+    scene.add("FACES", "1, 1, 2.2, 0, 2.2, .2", "2, 2, 2.2, 0, 2.2, .2", "3, 1, 2, 0, 2, .2", "4, 1, 2, 0, 2.2, 0",
+              "5, 1, 2, .2, 2.2, .2", "6, 2, 2.2, 0, 20, 0", "7, 2, 2.2, .2, 20, .2", "8, 2, 20, 0, 20, .2")
+    scene.add("INTERFACES", "1, 1, 2").add("FIXEDFACES", *(f"{face}, 010" for face in (4, 5, 6, 7)), "8, 111, 1, 9999")
+    scene.add("SHAPES", "1, PATCH, -20, 20", "2, PATCH, 160, 200")
+    return scene.add("PRESSURES", "8, 0, 1.5", "3, , 1, , , 1", "3, , 1, , , 2").text()
+
+
+def raft(setting):
+    """A raft on ground under its weight, and a column on a part of it"""
+    scene = Scene("Raft", setting).add("MATERIALS", "1, 3e4, 0.2", "2, 50, 0.3").law(1, 200, 0.0, 30.0, RESULTANT)
+    scene.block(1, 1, 4, 2, (0, 0, 3, .6)).block(1, 1, 2, 2, (3, 0, 4, .6)).block(1, 1, 2, 2, (4, 0, 5, .6))
+    for first, last, n in ((0, 3, 4), (3, 4, 2), (4, 5, 2), (5, 20, 6)):
+        scene.block(2, 2, n, 6, (first, -15, last, 0), (1 if first == 5 else 0, 2))
+    scene.add("FACES", "1, 1, 0, 0, 5, 0", "2, 2, 0, 0, 5, 0", "3, 1, 0, .6, 5, .6", "4, 1, 3, .6, 4, .6", "5, 2, 0, -15, 20, -15",
+              "6, 2, 20, -15, 20, 0").add("INTERFACES", "1, 1, 2").add("FIXEDFACES", "5, 111", "6, 101")
+    return scene.add("SHAPES", "1, PATCH, -12, 12").add("PRESSURES", "3, 0, .1", "4, , 1, , , 1").text()
 
 
 def skew(setting, m=2):

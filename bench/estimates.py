@@ -16,6 +16,7 @@ from found_errors import displacement_error, joint_error, read
 
 MESHES = os.path.join(os.path.dirname(os.path.realpath(__file__)), "meshes")
 BAND, SHARE, MOST = (0.5, 2.0), 0.9, 3.0
+MOST_BY_LOADS = 2.0  # what M cuts off loads is told by how these go on: the zeros of a patch are not seen, but it is no less than half
 ROUNDING = 1e-9  # a relative error below is that of the arithmetic, and not judged
 KINDS = ("3", "4", "4B", "6", "8", "8R", "9")
 
@@ -80,7 +81,11 @@ def mesh_rows():
         yield row("heated plug", scenes.heated, setting)
     for kind in ("4B", "8R"):
         yield row("built in, nu = 0.49", scenes.built_in, replace(linear, kind=kind), poisson=0.49)
-        yield row("soft pier on nu = 0.49", scenes.pier, replace(linear, kind=kind), replace(linear, kind=kind).fine(n=3))
+    for kind in ("4B", "8R", "9R"):
+        for shape in ("pier", "layer", "ring"):
+            for poisson in (0.49, 0.499):
+                yield row(f"soft {shape} and nu = {poisson:g}", scenes.soft, replace(linear, kind=kind), linear.fine(n=3), shape=shape,
+                          poisson=poisson)
     for kind, mesh in (("3", "peg_3"), ("4", "peg_4"), ("6", "peg_6"), ("6", "peg_6_graded")):
         yield Row("mesh", f"peg, Gmsh, {mesh[4:]}", scenes.peg, Setting(kind), Setting().fine(), {"mesh": mesh + ".msh"}, {})
 
@@ -107,6 +112,14 @@ def harmonic_rows():
         for m in (4, 8):
             setting = Setting(kind, harmonic=m, planes=12*m + 1)
             yield Row("harmonics", f"{name}, M = {m}", scene, setting, replace(setting, harmonic=min(24, 4*m)), options)
+
+
+def load_rows():
+    """Loads on parts of the circle: many more harmonics, on the same mesh and planes"""
+    for name, scene in (("lining with jacks", scenes.jacks), ("raft with a column", scenes.raft)):
+        for m in (2, 3, 4, 6, 8, 10, 12, 16, 24):
+            setting = Setting("8", harmonic=m, planes=65)
+            yield Row("loads", f"{name}, M = {m}", scene, setting, replace(setting, harmonic=64))
 
 
 def plane_rows():
@@ -162,7 +175,7 @@ class Runs:
         if None in paths:
             return None
         own, better = map(read, paths)
-        estimate = own.summary["errors"]["discretization" if row.source == "mesh" else row.source]
+        estimate = own.summary["errors"][{"mesh": "discretization", "loads": "harmonics"}.get(row.source, row.source)]
         pairs = [(displacement_error(own, better), estimate["displacement"])]
         true = joint_error(own, better)
         pairs.append(None if true is None else (true, estimate["joint_stress"]))
@@ -189,13 +202,20 @@ def shown(pair):
 def verdict(found):
     """A line for each source and whether the bars are met"""
     met = True
-    for source in [*dict.fromkeys(source for source, _ in found), "all"]:
+    by_loads = np.array([ratio for source, ratio in found if source == "loads"])
+    found = [(source, ratio) for source, ratio in found if source != "loads"]
+    for source in [*dict.fromkeys(source for source, _ in found), *(["all"] if found else [])]:
         ratios = np.array([ratio for own, ratio in found if source in (own, "all")])
         share, most = np.mean((ratios >= BAND[0]) & (ratios <= BAND[1])), ratios.max()
         good = share >= SHARE and most <= MOST
         print(f"{source:10} {len(ratios):4d} figures, {100*share:5.1f} % within {BAND[0]:g} and {BAND[1]:g}, "
               f"largest {most:.2f}, least {ratios.min():.2f}, median {np.median(ratios):.2f}: {'met' if good else 'MISSED'}")
         met = good if source == "all" else met
+    if len(by_loads) > 0:
+        good = by_loads.max() <= MOST_BY_LOADS
+        print(f"{'loads':10} {len(by_loads):4d} figures, largest {by_loads.max():.2f}, least {by_loads.min():.2f}, median "
+              f"{np.median(by_loads):.2f}: {'met' if good else 'MISSED'}")
+        met = met and good
     return met
 
 
@@ -205,13 +225,13 @@ def main():
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--only", default="")
     args = parser.parse_args()
-    rows = [*mesh_rows(), *harmonic_rows(), *plane_rows(), *iteration_rows()]
+    rows = [*mesh_rows(), *harmonic_rows(), *load_rows(), *plane_rows(), *iteration_rows()]
     rows = [row for row in rows if args.only in f"{row.source}: {row.name}"]
     if args.quick:
         rows = rows[::6]
     print(f"True error over its estimate, displacement (largest error over the largest) and joint stress (the same)\n"
-          f"Bars: of all figures {100*SHARE:g} % between {BAND[0]:g} and {BAND[1]:g}, none above {MOST:g}\n"
-          f"{len(rows)} rows; * outside the band, ! above {MOST:g}\n")
+          f"Bars: of all figures {100*SHARE:g} % between {BAND[0]:g} and {BAND[1]:g}, none above {MOST:g}; of loads on parts of the "
+          f"circle none above {MOST_BY_LOADS:g}\n{len(rows)} rows; * outside the band, ! above {MOST:g}\n")
     print(f"{'source':10} {'scene':46} {'disp. true':>10} {'estimate':>10} {'ratio':>8}    {'joint true':>10} "
           f"{'estimate':>10} {'ratio':>8}   [%]")
     found, failed = [], 0

@@ -72,7 +72,7 @@ contains
 
       !> Rounding of the harmonics of a load
       real(wp), parameter :: none = 1.0e-12_wp
-      real(wp), allocatable :: load(:), powers(:)  ! threads have small stacks
+      real(wp), allocatable :: load(:)  ! threads have small stacks
       real(wp) :: a, b, power, factor
       integer :: k
 
@@ -81,20 +81,41 @@ contains
          call fourier_coefficients(course, k, a, b)
          load(k) = hypot(a, b)
       end do
-      associate (of_upper => sum(load(m/2 + 1:m)), of_lower => sum(load(m/4 + 1:m/2)))
-         if (.not. of_upper > none*maxval(load)) return
-         power = usual_power
-         ! harmonics 0 and 1 move parts as rigid
-         if (m > 3 .and. upper > 0.0_wp .and. lower > 0.0_wp .and. of_lower > none*maxval(load)) &
-            power = log(lower/of_lower*of_upper/upper)/log(2.0_wp)
-      end associate
-      power = min(most_power, max(least_power, power))
-      powers = load*[(real(k, wp)**(-power), k=1, 4*m)]
-      associate (next => sum(powers(m + 1:2*m)), last => sum(powers(2*m + 1:)))
+      if (.not. sum(load(m/2 + 1:m)) > none*maxval(load)) return
+      power = usual_power
+      ! harmonics 0 and 1 move parts as rigid
+      if (m > 3 .and. upper > 0.0_wp .and. lower > 0.0_wp .and. sum(load(m/4 + 1:m/2)) > none*maxval(load)) &
+         power = power_of(load, m, upper/lower)
+      load = load*[(real(k, wp)**(-power), k=1, 4*m)]
+      associate (next => sum(load(m + 1:2*m)), last => sum(load(2*m + 1:)))
          factor = slowest
          if (last < slowest*next) factor = last/next
-         tail = upper*(next + last/(1.0_wp - factor))/sum(powers(m/2 + 1:m))
+         tail = upper*(next + last/(1.0_wp - factor))/sum(load(m/2 + 1:m))
       end associate
    end subroutine follow_load
+
+   !> Power of m that harmonics of a load are divided by to fall from (M/4, M/2] to (M/2, M] as the response does
+   pure real(wp) function power_of(load, m, fall) result(power)
+      !> Harmonics of the load from 1 on, some in both octaves, and M
+      real(wp), intent(in) :: load(:)
+      integer, intent(in) :: m
+      !> Sum over the second octave, over that of the first
+      real(wp), intent(in) :: fall
+
+      real(wp) :: least, most
+      integer :: i, k
+
+      least = least_power
+      most = most_power
+      do i = 1, 20  ! halves of what is open; the sums fall apart with the power
+         power = 0.5_wp*(least + most)
+         if (sum(load(m/2 + 1:m)*[(real(k, wp)**(-power), k=m/2 + 1, m)]) &
+             > fall*sum(load(m/4 + 1:m/2)*[(real(k, wp)**(-power), k=m/4 + 1, m/2)])) then
+            least = power
+         else
+            most = power
+         end if
+      end do
+   end function power_of
 
 end module axijoint_analysis_error_response_tail

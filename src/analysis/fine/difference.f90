@@ -27,9 +27,8 @@ module axijoint_analysis_fine_difference
    !> itself. It does not where elements of constant volume cannot follow: in nearly incompressible bodies the one or the
    !> other went backwards to 0.43 (4-node B-bar, 8- and 9-node reduced), in 220 other modes 0.59 to 1.2
    real(wp), parameter :: usual = 0.5_wp
-   !> A first step shorter than this goes astray: of 71 loads on soft bodies beside nearly incompressible ones, steps of both
-   !> together told errors of 32 that were less than half or more than twice, up to 86 times, as large; by turns of 8, 0.3 to
-   !> 3.2 times as large
+   !> A first step shorter than this goes astray, where soft bodies lie beside nearly incompressible ones (the soft piers, layers
+   !> and rings of `scripts/bench estimates`): more steps of both together came to a tenth of the difference or less
    real(wp), parameter :: no_guide = 1.0_wp/3.0_wp
 
    !> The difference
@@ -205,54 +204,39 @@ contains
 
       real(wp), allocatable :: jump(:, :)
       real(wp) :: energy(most_steps), of_blocks, length
-      integer :: step, n
+      integer :: step
       logical :: guided, small, astray
 
       astray = .false.
-      associate (force => room%force, way => room%way, pull => room%pull, change => room%external, &
-                 conditions => level%conditions(equations%systems(equations%system(k))%class), &
-                 displacement => difference%displacement(:, :, k), &
-                 jumps => difference%jump(:, :, k))
-         n = size(displacement, 2)
-         guided = .true.
+      guided = .true.
+      associate (force => room%force, way => room%way, conditions => level%conditions(equations%systems(equations%system(k))%class))
          do step = 1, most_steps
-            associate (d => way(:, :, step), kd => pull(:, :, step))
-               d = force
-               call solve_blocks(level%smoother, room%factor, d)
-               call hold(conditions, d)
-               if (step > 1 .and. guided) then
-                  room%u = d
-                  call keep_apart(way, pull, energy(:step - 1), room%u)
-                  call see_change(level, of_blocks, room%u, n, change, jump)
-                  if (step > steps .or. (is_small(change(:, :n), displacement) .and. is_small(jump, jumps))) then
-                     displacement = displacement + change(:, :n)
-                     jumps = jumps + jump
-                     exit
-                  end if
-               end if
-               call look_down(level, equations, k, force, room%u, d, of_blocks)
-               call keep_apart(way, pull, energy(:step - 1), d)
-               call block_product(level%stiffness, equations%modes(k)%harmonic, d, kd)
-               energy(step) = work(d, kd)
-               if (.not. energy(step) > 0.0_wp) then
-                  ! nothing is left, or what is left is not known
-                  difference%known(k) = energy(step) <= 0.0_wp
+            way(:, :, step) = force
+            call solve_blocks(level%smoother, room%factor, way(:, :, step))
+            call hold(conditions, way(:, :, step))
+            if (step > 1 .and. guided) then
+               room%u = way(:, :, step)
+               call keep_apart(way(:, :, :step - 1), room%pull(:, :, :step - 1), energy(:step - 1), room%u)
+               call see_change(level, of_blocks, room%u, size(difference%displacement, 2), room%external, jump)
+               if (step > steps .or. is_small(room%external, jump, difference, k)) then
+                  call add_change(room%external, jump, k, difference)
                   exit
                end if
-               length = work(d, force)/energy(step)
-               if (step == 1) then
-                  astray = .not. length >= no_guide
-                  if (astray) exit
-                  guided = length >= usual .and. of_blocks >= usual
-               end if
-               call see_change(level, length, d, n, change, jump)
-               small = is_small(change(:, :n), displacement) .and. is_small(jump, jumps)
-               displacement = displacement + change(:, :n)
-               jumps = jumps + jump
-               if (small .and. .not. guided) exit
-               call daxpy(size(force), -length, kd, 1, force, 1)
-               call take_reactions(conditions, force)
-            end associate
+            end if
+            call look_down(level, equations, k, force, room%u, way(:, :, step), of_blocks)
+            call find_length(level, equations%modes(k)%harmonic, step, room, energy, length)
+            if (.not. energy(step) > 0.0_wp) then
+               ! nothing is left, or what is left is not known
+               difference%known(k) = energy(step) <= 0.0_wp
+               exit
+            end if
+            if (step == 1) then
+               astray = .not. length >= no_guide
+               if (astray) exit
+               guided = length >= usual .and. of_blocks >= usual
+            end if
+            call go(level, equations, k, length, step, room, difference, small)
+            if (small .and. .not. guided) exit
          end do
       end associate
       if (astray) call descend_by_turns(level, equations, k, steps > 1, room, difference)
@@ -274,7 +258,6 @@ contains
       !> Takes the difference
       type(difference_type), intent(inout) :: difference
 
-      real(wp), allocatable :: jump(:, :)
       real(wp) :: energy(most_turns), length
       integer :: turn, n
       logical :: small, was_small
@@ -284,42 +267,77 @@ contains
          deallocate (room%way, room%pull)
          allocate (room%way(3, n, most_turns), room%pull(3, n, most_turns))
       end if
-      associate (force => room%force, way => room%way, pull => room%pull, change => room%external, &
-                 conditions => level%conditions(equations%systems(equations%system(k))%class), &
-                 displacement => difference%displacement(:, :, k), &
-                 jumps => difference%jump(:, :, k))
-         n = size(displacement, 2)
-         was_small = .false.
+      was_small = .false.
+      associate (d => room%way, conditions => level%conditions(equations%systems(equations%system(k))%class))
          do turn = 1, most_turns
-            associate (d => way(:, :, turn), kd => pull(:, :, turn))
-               d = force
-               if (mod(turn, 2) == 1) then
-                  call solve_blocks(level%smoother, room%factor, d)
-               else
-                  call follow_coarse_mesh(level, equations, k, d)
-               end if
-               call hold(conditions, d)
-               call keep_apart(way, pull, energy(:turn - 1), d)
-               call block_product(level%stiffness, equations%modes(k)%harmonic, d, kd)
-               energy(turn) = work(d, kd)
-               if (.not. energy(turn) > 0.0_wp) then
-                  difference%known(k) = energy(turn) <= 0.0_wp
-                  return
-               end if
-               length = work(d, force)/energy(turn)
-               call see_change(level, length, d, n, change, jump)
-               small = is_small(change(:, :n), displacement) .and. is_small(jump, jumps)
-               displacement = displacement + change(:, :n)
-               jumps = jumps + jump
-               if (small .and. was_small) return
-               was_small = small
-               call daxpy(size(force), -length, kd, 1, force, 1)
-               call take_reactions(conditions, force)
-            end associate
+            d(:, :, turn) = room%force
+            if (mod(turn, 2) == 1) then
+               call solve_blocks(level%smoother, room%factor, d(:, :, turn))
+            else
+               call follow_coarse_mesh(level, equations, k, d(:, :, turn))
+            end if
+            call hold(conditions, d(:, :, turn))
+            call find_length(level, equations%modes(k)%harmonic, turn, room, energy, length)
+            if (.not. energy(turn) > 0.0_wp) then
+               difference%known(k) = energy(turn) <= 0.0_wp
+               return
+            end if
+            call go(level, equations, k, length, turn, room, difference, small)
+            if (small .and. was_small) return
+            was_small = small
          end do
-         if (counts) difference%known(k) = .false.  ! more would follow
       end associate
+      if (counts) difference%known(k) = .false.  ! more would follow
    end subroutine descend_by_turns
+
+   !> Make a way orthogonal to those before it, and find how far the energy falls along it
+   subroutine find_length(level, harmonic, i, room, energy, length)
+      !> The fine level
+      type(fine_level_type), intent(in) :: level
+      !> Harmonic m, and the way
+      integer, intent(in) :: harmonic, i
+      !> Forces that are left, and ways; takes the forces that the way takes
+      type(room_type), intent(inout) :: room
+      !> Work of each way; takes that of this one
+      real(wp), intent(inout) :: energy(:)
+      !> How far; 0 if the work is not positive
+      real(wp), intent(out) :: length
+
+      length = 0.0_wp
+      associate (d => room%way(:, :, i), kd => room%pull(:, :, i))
+         call keep_apart(room%way(:, :, :i - 1), room%pull(:, :, :i - 1), energy(:i - 1), d)
+         call block_product(level%stiffness, harmonic, d, kd)
+         energy(i) = work(d, kd)
+         if (energy(i) > 0.0_wp) length = work(d, room%force)/energy(i)
+      end associate
+   end subroutine find_length
+
+   !> Go so far along a way
+   subroutine go(level, equations, k, length, i, room, difference, small)
+      !> The fine level
+      type(fine_level_type), intent(in) :: level
+      !> The equations, for the modes
+      type(equations_type), intent(in) :: equations
+      !> Place of the mode
+      integer, intent(in) :: k
+      !> How far, and the way
+      real(wp), intent(in) :: length
+      integer, intent(in) :: i
+      !> Ways and the forces that they take; takes what is left of the forces
+      type(room_type), intent(inout) :: room
+      !> Takes the change
+      type(difference_type), intent(inout) :: difference
+      !> Whether it is small
+      logical, intent(out) :: small
+
+      real(wp), allocatable :: jump(:, :)
+
+      call see_change(level, length, room%way(:, :, i), size(difference%displacement, 2), room%external, jump)
+      small = is_small(room%external, jump, difference, k)
+      call add_change(room%external, jump, k, difference)
+      call daxpy(size(room%force), -length, room%pull(:, :, i), 1, room%force, 1)
+      call take_reactions(level%conditions(equations%systems(equations%system(k))%class), room%force)
+   end subroutine go
 
    !> Whether none is infinite or not a number
    pure logical function are_numbers(values)
@@ -376,13 +394,42 @@ contains
       jump = joint_jump(level%coarse_points, change)
    end subroutine see_change
 
-   !> Whether a change is small
-   pure logical function is_small(change, before)
-      !> The change, and what would be changed
+   !> Whether a change of a mode is small beside what it comes to
+   pure logical function is_small(change, jump, difference, k)
+      !> The change at the nodes, those of the coarse mesh first, and of the jumps, shape (3, any)
+      real(wp), intent(in) :: change(:, :), jump(:, :)
+      !> What is changed, and the place of the mode
+      type(difference_type), intent(in) :: difference
+      integer, intent(in) :: k
+
+      associate (u => difference%displacement(:, :, k), d => difference%jump(:, :, k))
+         is_small = is_part(change(:, :size(u, 2)), u)
+         if (is_small) is_small = is_part(jump, d)
+      end associate
+   end function is_small
+
+   !> Whether a change is no more than a part of what it comes to
+   pure logical function is_part(change, before)
+      !> The change, and what is changed
       real(wp), intent(in) :: change(:, :), before(:, :)
 
-      is_small = maxval(abs(change)) <= settled*maxval(abs(before + change))
-   end function is_small
+      is_part = maxval(abs(change)) <= settled*maxval(abs(before + change))
+   end function is_part
+
+   !> Add a change of a mode
+   pure subroutine add_change(change, jump, k, difference)
+      !> The change at the nodes, those of the coarse mesh first, and of the jumps, shape (3, any)
+      real(wp), intent(in) :: change(:, :), jump(:, :)
+      !> Place of the mode
+      integer, intent(in) :: k
+      !> Takes it
+      type(difference_type), intent(inout) :: difference
+
+      associate (u => difference%displacement(:, :, k))
+         u = u + change(:, :size(u, 2))
+      end associate
+      difference%jump(:, :, k) = difference%jump(:, :, k) + jump
+   end subroutine add_change
 
    !> A way down: what the blocks make of forces, and what the coarse mesh does then
    subroutine look_down(level, equations, k, force, rest, d, of_blocks)
