@@ -17,7 +17,8 @@ import estimate_decks
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 RECORD = os.path.join(HERE, "history.csv")
-COLUMNS = ("processor", "commit", "threads", "job", "unknowns", "processor_seconds", "seconds", "error_percent", "load")
+COLUMNS = ("processor", "commit", "threads", "job", "unknowns", "processor_seconds", "seconds", "error_percent", "load",
+           "kernels")
 PHASES = ("read", "assemble", "factor", "joints", "recover", "write")
 
 
@@ -139,11 +140,20 @@ def by_turns(rounds, *runs):
 
 
 def processor():
-    """The make of the processor, and that it has no AVX-512: some hosts call very different makes by one name"""
+    """The make of the processor: its name, family and model where that names no product, since some hosts call very different
+    makes by one name; and that it has no AVX-512"""
     with open("/proc/cpuinfo", encoding="utf-8") as file:
         text = file.read()
-    names = re.findall(r"^model name\s*:\s*(.*)", text, re.MULTILINE)
-    return (names[0].strip() if names else "unknown") + ("" if re.search(r"\bavx512f\b", text) else " without AVX-512")
+    name, family, model = ((re.findall(rf"^{key}\s*:\s*(.*)", text, re.MULTILINE) or [""])[0].strip()
+                           for key in ("model name", "cpu family", "model"))
+    if not re.search(r"\d", name):
+        name = f"{name} family {family} model {model}"
+    return name + ("" if re.search(r"\bavx512f\b", text) else " without AVX-512")
+
+
+def kernels():
+    """Kernels of matrix products that are asked for: by the user, or as the program does (scripts/environment)"""
+    return os.environ.get("OPENBLAS_CORETYPE", "as the library chooses")
 
 
 def commit():
@@ -166,12 +176,12 @@ def record(rows):
             writer.writerow(COLUMNS)
         for job, run in rows:
             writer.writerow([processor(), commit(), threads(), job, run.unknowns, f"{run.processor:.3f}", f"{run.clock:.3f}",
-                             f"{run.error:.3g}", f"{os.getloadavg()[0]:.1f}"])
+                             f"{run.error:.3g}", f"{os.getloadavg()[0]:.1f}", kernels()])
 
 
 def head():
     """What the figures are of"""
-    print(f"{processor()}, {threads()} threads, load average {os.getloadavg()[0]:.1f}, commit {commit()}")
+    print(f"{processor()}, kernels {kernels()}, {threads()} threads, load average {os.getloadavg()[0]:.1f}, commit {commit()}")
 
 
 def whole(args):
@@ -266,13 +276,13 @@ def history(args):
 
 
 def check(args):
-    """Some jobs beside the last line of the same make of processor and number of threads"""
+    """Some jobs beside the last line of the same make of processor, number of threads and, where it tells them, kernels"""
     head()
     if not os.path.exists(RECORD):
         raise SystemExit("there is no bench/history.csv yet: scripts/bench whole --record writes it")
     with open(RECORD, encoding="utf-8") as file:
         last = {row["job"]: row for row in csv.DictReader(file)
-                if row["processor"] == processor() and row["threads"] == threads()}
+                if (row["processor"], row["threads"]) == (processor(), threads()) and row["kernels"] in ("", kernels())}
     if not last:
         raise SystemExit("bench/history.csv has no line of this make and number of threads yet: scripts/bench whole --record")
     print(f"{'job':18} {'processor':>9} {'before':>8} {'ratio':>6}  estimated error, before  commit")

@@ -6,6 +6,7 @@ module axijoint_mpi_team
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_stop, only : own_wish, agree_wish
    use axijoint_base_team, only : team_type
+   use axijoint_mpi_trial, only : trial_numbers
    use mpi_f08
    implicit none
    private
@@ -60,7 +61,7 @@ contains
       call MPI_Init_thread(MPI_THREAD_FUNNELED, provided)
       call new_team(MPI_COMM_WORLD, team)
       allocate (team%bytes, source=0_i8)
-      call demand_same_kernels(team)
+      call demand_same_bits(team)
       if (team%rank > 0) then
          open (unit=output_unit, file='/dev/null', action='write')
          open (unit=error_unit, file='/dev/null', action='write')
@@ -97,24 +98,31 @@ contains
       call MPI_Comm_free(machine)
    end subroutine new_team
 
-   !> Numbers that all ranks compute must be the same bit for bit, or they would not decide alike.
-   !> OpenBLAS has other kernels for other processors
-   subroutine demand_same_kernels(team)
+   !> Numbers that all ranks compute must be the same bit for bit, or they would not decide alike. Libraries have other
+   !> kernels for other processors
+   subroutine demand_same_bits(team)
       !> All processes
       type(mpi_team_type), intent(in) :: team
 
       character(len=name_length) :: here, there
+      real(wp), allocatable :: own(:), of_first(:)
+      logical :: differs, one_differs
 
       here = kernels()
       there = here
+      call trial_numbers(own)
+      of_first = own
       call MPI_Bcast(there, name_length, MPI_CHARACTER, 0, team%communicator)
-      if (here == there) return
-      write (error_unit, '(a, i0, a)') 'axijoint: rank ', team%rank, ' has a processor for '// &
-         'which OpenBLAS computes otherwise ('//trim(here)//') than on rank 0 ('//trim(there)// &
-         ')'//new_line('a')//'mend: set OPENBLAS_CORETYPE=HASWELL for all ranks, '// &
-         'or take machines of one kind'
+      call MPI_Bcast(of_first, size(of_first), MPI_DOUBLE_PRECISION, 0, team%communicator)
+      differs = any(abs(own - of_first) > 0.0_wp)
+      call MPI_Allreduce(differs, one_differs, 1, MPI_LOGICAL, MPI_LOR, team%communicator)
+      if (.not. one_differs) return
+      if (.not. differs) call MPI_Barrier(team%communicator)  ! the end comes from another
+      write (error_unit, '(a, i0, a)') 'axijoint: rank ', team%rank, ' computes other last digits than rank 0: its '// &
+         'processor is another (kernels of OpenBLAS: '//trim(here)//', on rank 0 '//trim(there)//')'//new_line('a')// &
+         'mend: take machines of one kind; OPENBLAS_CORETYPE=HASWELL for all ranks may make them alike'
       call MPI_Abort(team%communicator, 2)
-   end subroutine demand_same_kernels
+   end subroutine demand_same_bits
 
    !> Name of the processor that OpenBLAS has kernels for
    function kernels() result(name)

@@ -4,7 +4,7 @@
 !> A block has the numbers of `element/blocks` that are not zero for all: A or S of each pair of components
 !> of K_m = c_m (A + m S + m^2 C), then C of those that A couples.
 module axijoint_assembly_node_blocks
-   use omp_lib, only : omp_get_max_threads
+   use omp_lib, only : omp_get_max_threads, omp_in_parallel
    use axijoint_assembly_support, only : support_point_type, support_stiffness
    use axijoint_assembly_element_stiffness, only : integrands_type, new_integrands, max_unknowns, max_blocks
    use axijoint_assembly_repeated_elements, only : shapes_type, find_shapes, integrated_type, new_integrated, find_blocks
@@ -129,12 +129,15 @@ contains
 
       type(shapes_type) :: shapes
       integer :: k, n, n_ranges
+      logical :: within
 
+      within = omp_in_parallel()
       allocate (blocks%parts(block_size, size(blocks%column, kind=i8)))
       call zero_large_pages(blocks%parts)
       call find_shapes(model%mesh, shapes)
       n = size(blocks%place)
-      n_ranges = merge(omp_get_max_threads(), 1, n_elements(model%mesh) > least_elements)
+      n_ranges = 1
+      if (n_elements(model%mesh) > least_elements .and. .not. within) n_ranges = omp_get_max_threads()
       !$omp parallel do schedule(static, 1) if (n_ranges > 1)
       do k = 1, n_ranges
          call assemble_rows(blocks, model, shapes, joint_points, support_points, 1 + range_end(n, k - 1, n_ranges), &

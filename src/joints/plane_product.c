@@ -1,5 +1,9 @@
 /* Excess stress that slopes on the planes make of jumps, of some points at once in single precision: harmonics are summed on a few
  * planes, multiplied by the slopes there, and what that gives to each harmonic is added up, before the next planes. */
+#include <stdint.h>
+
+/* linalg/doubles_at_once.c */
+int32_t axijoint_doubles_at_once(void);
 
 /* Planes that are taken together, points that arrays have a multiple of, and components: two that are even and one that is odd in a
  * symmetric mode */
@@ -68,17 +72,18 @@ void axijoint_plane_product(int most, int modes, int planes, long lead, const fl
 #define BY(name, several)                                                                                            \
    for (int first = 0; first < points_together; first += (several))                                                  \
       name(modes, planes, lead, forth, back, slope + first, jump + first, excess + first)
+   const int there = 2 * axijoint_doubles_at_once(), at_once = most < there ? most : there;
 #if defined(__x86_64__)
-   if (most >= 16 && __builtin_cpu_supports("avx512f")) {
+   if (at_once >= 16) {
       BY(by_sixteen, 16);
       return;
    }
-   if (most >= 8 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+   if (at_once >= 8) {
       BY(by_eight, 8);
       return;
    }
 #else
-   (void)most;
+   (void)at_once;
 #endif
    BY(by_four, 4);
 }

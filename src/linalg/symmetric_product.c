@@ -4,7 +4,11 @@
  * product reads no faster than one of the whole matrix. Eight columns are taken together: their part of the product
  * above the diagonal, and what the rows above give to them, in the same pass. What is added up in which order depends
  * on how many numbers a processor takes at once. */
+#include <stdint.h>
 #include <string.h>
+
+/* doubles_at_once.c */
+int32_t axijoint_doubles_at_once(void);
 
 /* Columns that are taken together, and what numbers of rows are a multiple of */
 enum { columns = 8, aligned_rows = 16 };
@@ -77,18 +81,19 @@ PRODUCT(by_four, , four, ADD_FOUR)
  * `to`. Not more than `most` rows are taken at once. */
 void axijoint_symmetric_product(int most, int from, int to, const float *a, const float *x, float *y)
 {
+   const int there = 2 * axijoint_doubles_at_once(), at_once = most < there ? most : there;
    memset(y, 0, sizeof(float) * (size_t)((to + aligned_rows - 1) / aligned_rows * aligned_rows));
 #if defined(__x86_64__)
-   if (most >= 16 && __builtin_cpu_supports("avx512f")) {
+   if (at_once >= 16) {
       by_sixteen(from, to, a, x, y);
       return;
    }
-   if (most >= 8 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+   if (at_once >= 8) {
       by_eight(from, to, a, x, y);
       return;
    }
 #else
-   (void)most;
+   (void)at_once;
 #endif
    by_four(from, to, a, x, y);
 }

@@ -18,8 +18,8 @@ typedef struct {
    int64_t n;
    /* Of a plan: the lower triangle by columns in the order of the factor, and where the value of
       each entry is found. So a factorization gathers its values and has nothing to transpose. */
-   int64_t *start, *row;
-   int32_t *from;
+   int64_t *start;
+   int32_t *row, *from;
    /* Of a factor: room for the solution of one right-hand side, so that none is refused for want
       of memory: the unknowns in the order of the factor, and the rows of a supernode */
    double *permuted, *rows;
@@ -41,6 +41,9 @@ static void *allocate(size_t bytes) {
 #endif
    return malloc(bytes);
 }
+
+/* Numbers behind a factor, and behind the rows of a supernode, that the solution may reach (panel.f90) */
+static const size_t beyond = 8;
 
 /* A handle with the settings of all factorizations; null if there is no memory */
 static handle_type *new_handle(int64_t n) {
@@ -117,66 +120,56 @@ static char *find_followers(int64_t n, const int64_t *start, const int32_t *colu
 
 /* Symbolic factor of the pattern: that of the columns that follow none, a third of the entries, is the same */
 static void analyse(handle_type *plan, const int64_t *start, const int32_t *column) {
-   int64_t i, k, n = plan->n, kept = 0;
+   int64_t i, k, n = plan->n, kept = 0, *row = NULL;
    char *follows = find_followers(n, start, column);
    cholmod_sparse a;
    if (!follows) return;
    for (i = 0; i < n; i++) {
       plan->start[i] = kept;
-      for (k = start[i] - 1; k < start[i + 1] - 1; k++)
-         if (!follows[column[k] - 1] || column[k] - 1 >= i - 1) plan->row[kept++] = (int64_t)column[k] - 1;
+      for (k = start[i] - 1; k < start[i + 1] - 1; k++) kept += !follows[column[k] - 1] || column[k] - 1 >= i - 1;
    }
    plan->start[n] = kept;
+   row = malloc(sizeof *row * (size_t)(kept + 1));
+   if (row) {
+      kept = 0;
+      for (i = 0; i < n; i++)
+         for (k = start[i] - 1; k < start[i + 1] - 1; k++)
+            if (!follows[column[k] - 1] || column[k] - 1 >= i - 1) row[kept++] = (int64_t)column[k] - 1;
+      a = view(n, plan->start, row, NULL, 1); /* the lower triangle by rows is upper by columns */
+      plan->factor = cholmod_l_analyze(&a, &plan->common);
+   }
+   free(row);
    free(follows);
-   a = view(n, plan->start, plan->row, NULL, 1); /* the lower triangle by rows is upper by columns */
-   plan->factor = cholmod_l_analyze(&a, &plan->common);
 }
 
-/* Arrange the pattern in the order of the factor; 1 if there is no memory. A column takes its
-   entries by ascending rows: those of the row of the matrix that becomes the first row come
-   first. */
+/* Arrange the pattern by columns in the order of the factor; 1 if there is no memory */
 static int arrange(handle_type *plan, const int64_t *start, const int32_t *column) {
-   const int64_t *order = plan->factor->Perm;
-   int64_t n = plan->n, entries = start[n] - 1, i, k;
-   int64_t *place = malloc(sizeof *place * (size_t)(n + 1)), *end = malloc(sizeof *end * (size_t)(n + 2));
-   int64_t *upper_start = malloc(sizeof *upper_start * (size_t)(n + 1));
-   int32_t *upper = malloc(sizeof *upper * (size_t)(entries + 1));
-   int32_t *upper_from = malloc(sizeof *upper_from * (size_t)(entries + 1));
-   int ok = place && end && upper_start && upper && upper_from;
+   const int64_t *order = plan->factor->Perm, n = plan->n;
+   int32_t *place = malloc(sizeof *place * (size_t)(n + 1));
+   int64_t *next = calloc((size_t)n + 1, sizeof *next), i, k;
+   const int ok = place && next;
    if (ok) {
-      for (k = 0; k < n; k++) place[order[k]] = k;
-      /* all entries by their larger place: columns of the upper triangle, not sorted */
-      memset(end, 0, sizeof *end * (size_t)(n + 2));
+      for (k = 0; k < n; k++) place[order[k]] = (int32_t)k;
       for (i = 0; i < n; i++)
          for (k = start[i] - 1; k < start[i + 1] - 1; k++) {
-            int64_t a = place[i], b = place[column[k] - 1];
-            end[(a > b ? a : b) + 1]++;
+            const int32_t a = place[i], b = place[column[k] - 1];
+            next[a < b ? a : b]++;
          }
-      for (k = 0; k < n; k++) end[k + 1] += end[k];
-      memcpy(upper_start, end, sizeof *end * (size_t)(n + 1));
+      plan->start[0] = 0;
+      for (k = 0; k < n; k++) {
+         plan->start[k + 1] = plan->start[k] + next[k];
+         next[k] = plan->start[k];
+      }
       for (i = 0; i < n; i++)
          for (k = start[i] - 1; k < start[i + 1] - 1; k++) {
-            int64_t a = place[i], b = place[column[k] - 1], to = end[a > b ? a : b]++;
-            upper[to] = (int32_t)(a > b ? b : a);
-            upper_from[to] = (int32_t)k;
-         }
-      /* transposed, its rows ascend */
-      memset(plan->start, 0, sizeof *plan->start * (size_t)(n + 1));
-      for (k = 0; k < entries; k++) plan->start[upper[k] + 1]++;
-      for (k = 0; k < n; k++) plan->start[k + 1] += plan->start[k];
-      memcpy(end, plan->start, sizeof *end * (size_t)(n + 1));
-      for (i = 0; i < n; i++)
-         for (k = upper_start[i]; k < upper_start[i + 1]; k++) {
-            int64_t to = end[upper[k]]++;
-            plan->row[to] = i;
-            plan->from[to] = upper_from[k];
+            const int32_t a = place[i], b = place[column[k] - 1];
+            const int64_t to = next[a < b ? a : b]++;
+            plan->row[to] = a < b ? b : a;
+            plan->from[to] = (int32_t)k;
          }
    }
    free(place);
-   free(end);
-   free(upper_start);
-   free(upper);
-   free(upper_from);
+   free(next);
    return !ok;
 }
 
@@ -227,7 +220,7 @@ void *axijoint_cholmod_analyse(int64_t n, const int64_t *start, const int32_t *c
 /* Room for the solution of one right-hand side; 1 if there is no memory */
 static int reserve(handle_type *handle) {
    handle->permuted = malloc(sizeof(double) * (size_t)(handle->n + 1));
-   handle->rows = malloc(sizeof(double) * (most_rows(handle->factor) + 1));
+   handle->rows = malloc(sizeof(double) * (most_rows(handle->factor) + beyond));
    return !handle->permuted || !handle->rows;
 }
 
@@ -238,9 +231,10 @@ static handle_type *new_factor(const handle_type *plan, int large) {
    handle->factor = cholmod_l_copy_factor(plan->factor, &handle->common);
    if (handle->factor) { /* CHOLMOD frees the memory by free, too */
       cholmod_factor *l = handle->factor;
-      size_t bytes = sizeof(double) * l->xsize;
+      size_t bytes = sizeof(double) * (l->xsize + beyond);
       l->x = large ? allocate(bytes) : malloc(bytes);
       if (l->x) {
+         memset((double *)l->x + l->xsize, 0, sizeof(double) * beyond);
          l->xtype = CHOLMOD_REAL;
          if (!reserve(handle)) return handle;
       }
@@ -337,7 +331,7 @@ static const int64_t few = 4;
 static int solve_together(const handle_type *handle, int64_t n_rhs, double *b) {
    axijoint_let_fail(1);
    double *permuted = malloc(sizeof(double) * (size_t)(handle->n * n_rhs));
-   double *rows = malloc(sizeof(double) * (most_rows(handle->factor) + 1));
+   double *rows = malloc(sizeof(double) * (most_rows(handle->factor) + beyond));
    axijoint_let_fail(-1);
    int code = !permuted || !rows;
    if (!code) solve_few(handle, n_rhs, b, permuted, rows);

@@ -42,8 +42,8 @@ module axijoint_solver_supernodal
    !> The same for Fortran, and where a factorization stands
    type :: progress_type
       integer(c_int64_t), pointer, contiguous :: column(:), first_row(:), first_number(:), row(:)
-      integer(c_int64_t), pointer, contiguous :: matrix_start(:), matrix_row(:)
-      integer(c_int32_t), pointer, contiguous :: from(:)
+      integer(c_int64_t), pointer, contiguous :: matrix_start(:)
+      integer(c_int32_t), pointer, contiguous :: matrix_row(:), from(:)
       !> Order, supernodes, and rows of the highest of them
       integer :: n = 0, n_supernodes = 0, most_rows = 0
       !> Supernode of each column
@@ -89,7 +89,8 @@ contains
       call view(structure%first_number, m + 1_i8, at%first_number)
       call view(structure%row, at%first_row(m), at%row)
       call view(structure%matrix_start, n + 1_i8, at%matrix_start)
-      call view(structure%matrix_row, at%matrix_start(n), at%matrix_row)
+      call c_f_pointer(structure%matrix_row, at%matrix_row, [at%matrix_start(n)])
+      at%matrix_row(0:) => at%matrix_row
       call c_f_pointer(structure%from, at%from, [at%matrix_start(n)])
       at%from(0:) => at%from
       at%most_rows = int(maxval([0_i8, at%first_row(1:) - at%first_row(:m - 1)]))

@@ -4,7 +4,7 @@ module axijoint_analysis_core_structure
    use axijoint_analysis_core_footprint, only : footprint_type, data_footprint
    use axijoint_analysis_core_results, only : ordering_type
    use axijoint_analysis_fine_level, only : fine_level_type, lay_out_level, is_laid_out, bytes_to_come, form_stiffness, &
-      take_conditions, take_fine_model
+      form_by_one, take_conditions, take_fine_model
    use axijoint_analysis_fine_mesh, only : fine_mesh_type, new_fine_mesh
    use axijoint_analysis_fine_singular_places, only : singular_place_type, find_singular_places, &
       judged_points
@@ -17,7 +17,7 @@ module axijoint_analysis_core_structure
    use axijoint_assembly_unit_loads, only : new_unit_loads
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_base_memory, only : require_memory
+   use axijoint_base_memory, only : require_memory, free_memory
    use axijoint_base_progress, only : progress_type, show_progress
    use axijoint_base_text, only : to_text
    use axijoint_base_stop, only : check_stop
@@ -134,7 +134,8 @@ contains
    end subroutine expect_estimates
 
    !> Plan the equations, lay out what estimates of errors need, and find the sections at the cuts: none waits for the
-   !> others
+   !> others. Orders and analysis are for one thread; another integrates the fine level meanwhile if that takes little of the
+   !> memory that is shared out after the planning
    subroutine plan_levels(model, structure, progress, error)
       !> The job
       type(model_type), intent(in) :: model
@@ -145,6 +146,8 @@ contains
       !> A mechanism, or out of memory
       type(error_type), allocatable, intent(out) :: error
 
+      !> Part of the memory
+      real(wp), parameter :: small_part = 0.1_wp
       real(wp) :: start
       integer :: n_threads
 
@@ -157,6 +160,9 @@ contains
          start = omp_get_wtime()
          if (structure%estimated) call lay_out_level(model, structure%fine)
          call find_singular(model, structure)
+         if (n_threads > 1 .and. structure%estimated .and. .not. allocated(model%team)) then
+            if (bytes_to_come(structure%fine) <= small_part*free_memory(model%memory_limit)) call form_stiffness(structure%fine)
+         end if
          structure%fine%seconds = (omp_get_wtime() - start)/n_threads
          !$omp end task
       end if
@@ -201,7 +207,7 @@ contains
       end associate
    end subroutine judge_points
 
-   !> Integrate the fine level
+   !> Integrate the fine level, unless it is already, and take what the equations say of it
    subroutine form_fine_level(model, structure)
       !> The job
       type(model_type), intent(in) :: model
@@ -214,9 +220,9 @@ contains
       associate (team => structure%equations%team)
          if (team%size > 1 .and. team%sharers == team%size .and. .not. reuses_factors(model)) then
             ! telling it takes less than forming it where memory is shared
-            call form_stiffness(team, structure%fine, formed_by=structure%equations%least_busy)
-         else
-            call form_stiffness(team, structure%fine)
+            call form_by_one(team, structure%fine, structure%equations%least_busy)
+         else if (bytes_to_come(structure%fine) > 0) then
+            call form_stiffness(structure%fine)
          end if
       end associate
       call take_conditions(structure%equations, structure%fine)

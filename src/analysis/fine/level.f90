@@ -22,7 +22,7 @@ module axijoint_analysis_fine_level
    use axijoint_order_graph, only : graph_type
    implicit none
    private
-   public :: fine_level_type, fine_load_type, lay_out_level, is_laid_out, bytes_to_come, form_stiffness, &
+   public :: fine_level_type, fine_load_type, lay_out_level, is_laid_out, bytes_to_come, form_stiffness, form_by_one, &
       take_conditions, take_fine_model, new_fine_load
    public :: share_stiffness
 
@@ -93,27 +93,36 @@ contains
       is_laid_out = allocated(level%stiffness%column)
    end function is_laid_out
 
-   !> Bytes that its stiffness will take, once it is laid out
+   !> Bytes that its stiffness will take, once it is laid out; none if it is there
    pure integer(i8) function bytes_to_come(level)
       !> The fine level
       type(fine_level_type), intent(in) :: level
 
-      bytes_to_come = storage_size(1.0_wp)/8*block_size*size(level%stiffness%column, kind=i8)
+      bytes_to_come = 0
+      if (.not. allocated(level%stiffness%parts)) &
+         bytes_to_come = storage_size(1.0_wp)/8*block_size*size(level%stiffness%column, kind=i8)
    end function bytes_to_come
 
-   !> Integrate the stiffness, unless another rank does
-   subroutine form_stiffness(team, level, formed_by)
+   !> Integrate the stiffness
+   subroutine form_stiffness(level)
+      !> The fine level
+      type(fine_level_type), intent(inout) :: level
+
+      call assemble_blocks(level%stiffness, level%model, level%joint_points, level%support_points)
+   end subroutine form_stiffness
+
+   !> Let one rank integrate the stiffness, for `share_stiffness` to tell the others
+   subroutine form_by_one(team, level, rank)
       !> Ranks that work on the job
       class(team_type), intent(in) :: team
       !> The fine level
       type(fine_level_type), intent(inout) :: level
-      !> The rank that forms the stiffness, for `share_stiffness` to tell the others; each for itself if absent
-      integer, intent(in), optional :: formed_by
+      !> The one
+      integer, intent(in) :: rank
 
-      if (present(formed_by)) level%formed_by = formed_by
-      if (.not. is_told(level, team)) &
-         call assemble_blocks(level%stiffness, level%model, level%joint_points, level%support_points)
-   end subroutine form_stiffness
+      level%formed_by = rank
+      if (.not. is_told(level, team)) call form_stiffness(level)
+   end subroutine form_by_one
 
    !> Whether this rank will be told the stiffness
    pure logical function is_told(level, team)
