@@ -145,6 +145,17 @@ def raft(setting):
     return scene.add("SHAPES", "1, PATCH, -12, 12").add("PRESSURES", "3, 0, .1", "4, , 1, , , 1").text()
 
 
+def point_force(setting, body="tube", direction="0, 0, 1"):
+    """A force at one point: on the edge of a tube, along its circle, or of a pile in ground without joints"""
+    scene = Scene("Point force", setting)
+    if body == "tube":
+        scene.add("MATERIALS", "1, 2e5, 0.3").block(1, 1, 1, 8, (1.9, 0, 2, 8)).add("FACES", "1, 1, 1.9, 0, 2, 0").add("FIXEDFACES", "1, 111")
+        return scene.add("POINTLOADS", f"43, 20, {direction}").text()
+    scene.add("MATERIALS", "1, 2e5, 0.3", "2, 2e3, 0.3").block(1, 1, 2, 4, (0, -4, .6, 0)).block(1, 1, 2, 2, (0, 0, .6, 1)).block(1, 2, 4, 4, (.6, -4, 6, 0), (1, 0))
+    scene.add("FACES", "1, 1, 0, -4, .6, -4", "2, 1, .6, -4, 6, -4", "3, 1, 6, -4, 6, 0").add("FIXEDFACES", "1, 111", "2, 111", "3, 111")
+    return scene.add("POINTLOADS", f"53, 20, {direction}").text()
+
+
 def skew(setting, m=2):
     """Four distorted blocks"""
     scene = Scene("Distorted quadrilaterals", setting).add("HARMONICS", str(m)).add("MATERIALS", "1, 2e4, 0.3")

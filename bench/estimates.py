@@ -120,6 +120,12 @@ def load_rows():
         for m in (2, 3, 4, 6, 8, 10, 12, 16, 24):
             setting = Setting("8", harmonic=m, planes=65)
             yield Row("loads", f"{name}, M = {m}", scene, setting, replace(setting, harmonic=64))
+    for body, directions in (("tube", ("0, 0, 1",)), ("pile", ("1, 0, 0", "0, 1, 0", "0, 0, 1"))):
+        for direction in directions:
+            for m in (2, 3, 4, 6, 8, 12, 16, 24):
+                setting = Setting("8", harmonic=m, planes=65)
+                yield Row("loads", f"{body}, force ({direction}) at a point, M = {m}", scenes.point_force, setting,
+                          replace(setting, harmonic=100), {"body": body, "direction": direction})
 
 
 def plane_rows():

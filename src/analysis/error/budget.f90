@@ -4,7 +4,7 @@ module axijoint_analysis_error_budget
    use axijoint_analysis_core_results, only : results_type, error_share_type, &
       source_discretization, source_harmonics, &
       source_planes, source_iteration, source_solver, source_sum
-   use axijoint_analysis_error_response_tail, only : response_tail
+   use axijoint_analysis_error_response_tail, only : response_tail, tail_of_points
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
    use axijoint_fe_circle_function, only : are_alike
@@ -153,7 +153,7 @@ contains
                if (is_like_the_last(model, k)) cycle
                tail = max(tail, response_tail(harmonic, amplitude, cut%course))
             else
-               tail = max(tail, response_tail(harmonic, amplitude))
+               tail = max(tail, tail_of_points(harmonic, amplitude))
             end if
          end associate
       end do

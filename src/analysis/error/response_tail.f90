@@ -6,7 +6,7 @@ module axijoint_analysis_error_response_tail
    use axijoint_model_modes, only : greatest_divisor
    implicit none
    private
-   public :: response_tail
+   public :: response_tail, tail_of_points
 
    !> The sums over the octaves of harmonics fall at least by this factor, about 1/sqrt(2): that of
    !> amplitudes that fall with m^(-3/2), between a load that jumps and the response to it
@@ -14,6 +14,9 @@ module axijoint_analysis_error_response_tail
    !> Bounds of the power of m with which the response to a load of harmonic m falls, and the power if the response does not
    !> tell it
    real(wp), parameter :: least_power = 1.0_wp, most_power = 3.0_wp, usual_power = 1.5_wp
+   !> The bounds under forces at points: near them all bodies answer alike, whatever they do as a whole, as a tube that bends,
+   !> until harmonics are as short as elements
+   real(wp), parameter :: near_points(2) = [usual_power, 2.0_wp]
 
 contains
 
@@ -42,6 +45,27 @@ contains
       if (present(course)) call follow_load(course, m, step_of(harmonic, amplitude), upper, lower, tail)
    end function response_tail
 
+   !> The same under forces at points, whose harmonics are all alike. Negative if no harmonic in (M/2, M] answers
+   pure real(wp) function tail_of_points(harmonic, amplitude) result(tail)
+      !> Harmonic of each mode, and its amplitude, shape (modes)
+      integer, intent(in) :: harmonic(:)
+      real(wp), intent(in) :: amplitude(:)
+
+      real(wp), allocatable :: load(:)
+      real(wp) :: upper, lower
+      integer :: m, step
+
+      tail = -1.0_wp
+      m = maxval(harmonic)
+      upper = sum(amplitude, mask=harmonic > m/2)
+      lower = sum(amplitude, mask=harmonic > m/4 .and. harmonic <= m/2)
+      if (m <= 1 .or. .not. upper > 0.0_wp) return
+      allocate (load(4*m), source=0.0_wp)
+      step = step_of(harmonic, amplitude)
+      load(step::step) = 1.0_wp
+      call follow(load, m, upper, lower, near_points, tail)
+   end function tail_of_points
+
    !> The number that all harmonics of the response are multiples of: loads may cancel each other in others
    pure integer function step_of(harmonic, amplitude) result(step)
       !> Harmonic of each mode, and its amplitude, shape (modes)
@@ -59,7 +83,7 @@ contains
       step = max(1, step)
    end function step_of
 
-   !> The same from the harmonics of the load, if it has any in (M/2, M]
+   !> The same from the harmonics of the load
    pure subroutine follow_load(course, m, step, upper, lower, tail)
       !> The load
       type(circle_function_type), intent(in) :: course
@@ -70,10 +94,8 @@ contains
       !> Takes the sum
       real(wp), intent(inout) :: tail
 
-      !> Rounding of the harmonics of a load
-      real(wp), parameter :: none = 1.0e-12_wp
       real(wp), allocatable :: load(:)  ! threads have small stacks
-      real(wp) :: a, b, power, factor
+      real(wp) :: a, b
       integer :: k
 
       allocate (load(4*m), source=0.0_wp)
@@ -81,32 +103,53 @@ contains
          call fourier_coefficients(course, k, a, b)
          load(k) = hypot(a, b)
       end do
+      call follow(load, m, upper, lower, [least_power, most_power], tail)
+   end subroutine follow_load
+
+   !> The same from the harmonics of a load, if it has any in (M/2, M]
+   pure subroutine follow(load, m, upper, lower, bounds, tail)
+      !> Its harmonics from 1 to 4 M
+      real(wp), intent(inout) :: load(:)
+      !> M
+      integer, intent(in) :: m
+      !> Amplitudes of the response in (M/2, M], and in (M/4, M/2]; bounds of the power of m with which it falls
+      real(wp), intent(in) :: upper, lower, bounds(2)
+      !> Takes the sum
+      real(wp), intent(inout) :: tail
+
+      !> Rounding of the harmonics of a load
+      real(wp), parameter :: none = 1.0e-12_wp
+      real(wp) :: power, factor
+      integer :: k
+
       if (.not. sum(load(m/2 + 1:m)) > none*maxval(load)) return
       power = usual_power
       ! harmonics 0 and 1 move parts as rigid
       if (m > 3 .and. upper > 0.0_wp .and. lower > 0.0_wp .and. sum(load(m/4 + 1:m/2)) > none*maxval(load)) &
-         power = power_of(load, m, upper/lower)
+         power = power_of(load, m, upper/lower, bounds)
       load = load*[(real(k, wp)**(-power), k=1, 4*m)]
       associate (next => sum(load(m + 1:2*m)), last => sum(load(2*m + 1:)))
          factor = slowest
          if (last < slowest*next) factor = last/next
          tail = upper*(next + last/(1.0_wp - factor))/sum(load(m/2 + 1:m))
       end associate
-   end subroutine follow_load
+   end subroutine follow
 
    !> Power of m that harmonics of a load are divided by to fall from (M/4, M/2] to (M/2, M] as the response does
-   pure real(wp) function power_of(load, m, fall) result(power)
+   pure real(wp) function power_of(load, m, fall, bounds) result(power)
       !> Harmonics of the load from 1 on, some in both octaves, and M
       real(wp), intent(in) :: load(:)
       integer, intent(in) :: m
       !> Sum over the second octave, over that of the first
       real(wp), intent(in) :: fall
+      !> Bounds of the power
+      real(wp), intent(in) :: bounds(2)
 
       real(wp) :: least, most
       integer :: i, k
 
-      least = least_power
-      most = most_power
+      least = bounds(1)
+      most = bounds(2)
       do i = 1, 20  ! halves of what is open; the sums fall apart with the power
          power = 0.5_wp*(least + most)
          if (sum(load(m/2 + 1:m)*[(real(k, wp)**(-power), k=m/2 + 1, m)]) &
