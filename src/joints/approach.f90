@@ -16,8 +16,9 @@ module axijoint_joints_approach
    !> Pressure at the points that touch, as a share of the joint stress that the load would give if
    !> all joints held
    real(wp), parameter :: touch = 1.0e-3_wp
-   !> Contacts that are followed: so many for each motion
-   integer, parameter :: most_contacts = 4
+   !> Contacts that are followed at most: so many for each motion. A gap round a body closes point by point, and where that ends
+   !> is where friction begins
+   integer, parameter :: most_contacts = 40
    !> Jumps that are rounding of a motion along the joint, over the largest: they close nothing
    real(wp), parameter :: rounding = 1.0e-10_wp
 

@@ -222,6 +222,45 @@ INCREMENTS
 END
 """
 WAVES = 'PRESSURES\n5,0,0.2\n5,{wave}\nINCREMENTS\n1.0,1E-8'
+PULLED_RING = """TITLE
+A soft ring pressed on a shaft and pulled
+CONTROL
+2, 9
+MATERIALS
+1, 1000.0, 0.3
+2, 50.0, 0.2
+LAWS
+1, 20.0, 40.0, 40.0, 0.0, 30.0
+BLOCKS
+1, 2, 4, 1, 3
+0.2, 0.0, 0.5, 1.0
+2, 1, 4, 2, 3
+0.5, 0.0, 0.8, 1.0
+FACES
+1, 1, 0.5, 0.0, 0.5, 1.0
+2, 2, 0.5, 0.0, 0.5, 1.0
+3, 2, 0.8, 0.0, 0.8, 1.0
+4, 1, 0.2, 0.0, 0.5, 0.0
+5, 2, 0.5, 0.0, 0.8, 0.0
+INTERFACES
+1, 1, 2
+FIXEDFACES
+4, 111
+CASE
+1,
+PRESSURES
+3, 0, 1.0
+CASE
+2,
+RESULTANTS
+3, LATERAL, 0.55
+COMBINE
+1, 1, 1.0, 2, 1.0
+INCREMENTS
+1.0, 1E-8, , 1
+1.0, 1E-8, , 2
+END
+"""
 PUSHED = 'PRESSURES\n5,0,2.0\nRESULTANTS\n1,LATERAL,0.8,0.0\nINCREMENTS\n0.5,1E-8\n0.5,1E-8'
 BONDED = ('LAWDETAILS\n1,RESULTANT,BOND\nCASE\n1\nPRESSURES\n5,0,{pressure}\nCASE\n2\nRESULTANTS\n1,LATERAL,{lateral}\n'
           'COMBINE\n1,1,1,2,1\nINCREMENTS\n1,1E-8,,1\n1,1E-8,,2')
@@ -317,6 +356,18 @@ def load_beyond(program, folder):
     return faults + ([] if summary['errors']['sum']['joint_stress'] < 0.02 else [f'not within the target: {summary["errors"]["sum"]}'])
 
 
+def slip_of_larger_loads(program, folder):
+    """What was wrong under loads that are gone stays in the slip: errors are told as the least that they are, where any was"""
+    faults = []
+    for more, wanted in (('', False), ('-0.3, 1E-8, , 2\n', True), ('-1.0, 1E-8, , 2\n', True), ('-1.5, 1E-8, , 2\n', True), ('0.2, 1E-8, , 2\n', False)):
+        summary, _ = solved(program, folder, 'ring', PULLED_RING.replace('END', more + 'END'))
+        faults += expected(f'{more}: at least', 2 if wanted else 0, summary['errors']['in_words'].count('at least'))
+        faults += expected(f'{more}: remark', wanted, any('slipped under larger loads' in line for line in summary['messages']))
+    smooth = PULLED_RING.replace(', 0.0, 30.0\n', ', 0.0, 0.0\n').replace('END', '-0.5, 1E-8, , 2\nEND')
+    summary, _ = solved(program, folder, 'smooth', smooth.replace('FIXEDFACES\n4, 111', 'FIXEDFACES\n4, 111\n5, 001'))
+    return faults + expected('nothing slips', 0, summary['errors']['in_words'].count('at least'))
+
+
 def pressed_bonds(program, folder):
     """Large loads beside a small one do not hide what harmonics leave of joints with bonds"""
     def make(pressure, lateral):
@@ -373,6 +424,6 @@ def tests(program):
     """The tests of this module"""
     named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps, 'patch of rigid motion': rigid_patch,
              'flies off': flies_off, 'idle motion': idle_motion, 'nearly incompressible': nearly_incompressible,
-             'load beyond M': load_beyond, 'pressed bonds': pressed_bonds,
+             'load beyond M': load_beyond, 'pressed bonds': pressed_bonds, 'slip of larger loads': slip_of_larger_loads,
              'smooth pile': smooth_pile, 'turning pile': turning_pile}
     return [Test(f'estimates: {name}', lambda folder, function=function: function(program, folder)) for name, function in named.items()]

@@ -223,6 +223,46 @@ def slips_under_own_stress(program, folder):
             + close('a small pressure', found[0], found[2], 1e-3*abs(found[0])))
 
 
+GAP = """TITLE
+A block between two, a gap above it
+CONTROL
+1, 9
+MATERIALS
+1, 330.0, 0.2
+2, 370.0, 0.3
+LAWS
+1, 300.0, 300.0, 300.0, , , ELASTIC
+2, 7000.0, 14000.0, 7000.0, 0, 30
+LAWDETAILS
+2, COMPONENTS, REVERSIBLE, , , , 1E-3
+BLOCKS
+1, 1, 4, 2, 1
+0, -0.5, 1, 0
+2, 2, 4, 2, 2
+0, 0, 1, 0.7
+3, 1, 4, 2, 1
+0, 0.7, 1, 1.2
+FACES
+1, 1, 0, -0.5, 1, -0.5
+2, 1, 0, 0, 1, 0
+3, 2, 0, 0, 1, 0
+4, 2, 0, 0.7, 1, 0.7
+5, 3, 0, 0.7, 1, 0.7
+6, 3, 0, 1.2, 1, 1.2
+INTERFACES
+1, 2, 3
+2, 4, 5
+FIXEDFACES
+1, 111
+RESULTANTS
+6, AXIAL, -1
+6, LATERAL, 0.16, {angle}
+INCREMENTS
+1, 1E-10
+END
+"""
+
+
 def settled(program, folder):
     """Ground that goes down as a whole takes all with it: an increment that loads no joint but by rounding is in
     equilibrium at once, and changes no stress"""
@@ -242,6 +282,15 @@ def settled(program, folder):
         faults += close(f'sigma, down by {down:g}', 0.0, max(abs(a['sigma'] - b['sigma']) for a, b in
                                                              zip(before['joints'], after['joints'])), 1e-6*largest)
     return faults
+
+
+def gap_turned(program, folder):
+    """A gap closes the same way wherever the load points to: the bodies come to rest where contact by contact they touch"""
+    found = []
+    for angle in (0, 45, 90, 180):
+        summary, _ = solved(program, folder, f'gap{angle}', GAP.format(angle=angle))
+        found.append(summary['increments'][-1]['largest_displacement'])
+    return close('largest displacement', 0.0, (max(found) - min(found))/max(found), 1e-8)
 
 
 def open_everywhere(program, folder):
@@ -376,7 +425,7 @@ def tests(program):
                for factor, most in zip((0.01, 0.1, 1, 10, 100, 1000), 5*[12 if number == 3 else 30]
                                        + [20 if number == 3 else 60])]
             + [test(f'inputs/hard/{name}', hard_input, name, text) for name, text in scenes.hard_inputs().items()]
-            + [test('cohesion fades', fading), test('three-fold', three_fold), test('slide exactly', sliding_exactly), test('gaps close', gapping), test('slip stays', slip_stays),
+            + [test('cohesion fades', fading), test('three-fold', three_fold), test('slide exactly', sliding_exactly), test('gaps close', gapping), test('gap turned', gap_turned), test('slip stays', slip_stays),
                test('stress of the ground', ground_stress), test('stress of the ground doubted', ground_doubted), test('open everywhere', open_everywhere), test('settles as a whole', settled), test('slips under its own stress', slips_under_own_stress), test('strays', strays),
                test('slides up', slides_up),
                test('gap and transfer', gap_and_transfer),

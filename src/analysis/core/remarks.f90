@@ -120,6 +120,8 @@ contains
          end do
       end if
       if (history%n_faded > 0) call add(remarks, fading_text(history))
+      if (results%keeps_slip) call add(remarks, 'joints slipped under larger loads: what was wrong then stays in the slip '// &
+         'and is not counted in the errors')
       if (history%verdict%at_rounding .and. .not. results%unsettled > 0.0_wp) then
          call add(remarks, 'rounding allows no smaller residual ratio: the stress of open '// &
             'joints so '// &

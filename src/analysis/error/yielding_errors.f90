@@ -64,7 +64,37 @@ contains
       call take_share(structure, history, results, largest, changes%harmonics, others(:, :, :, 2), results%joint_errors(3))
       ! what slip has left is as wrong as the mesh was under the loads that are gone
       if (unloaded(history)) mesh_error%known = .false.
+      results%keeps_slip = keeps_slip(history)
    end subroutine estimate_yielding_errors
+
+   !> Whether joints slipped before the last step, and a load was larger at the end of an increment than it is now, or acted
+   !> the other way. The slip is as wrong as mesh, planes and harmonics were then
+   pure logical function keeps_slip(history)
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+
+      !> Rounding of factors
+      real(wp), parameter :: rounding = 1.0e-9_wp
+      logical :: was_larger
+      integer :: j, k
+
+      was_larger = .false.
+      associate (now => history%loading%case_factor)
+         do k = 1, size(history%states)
+            associate (before => history%states(k)%case_factor)
+               was_larger = was_larger .or. any(abs(before) > (1.0_wp + rounding)*abs(now) .or. before*now < 0.0_wp)
+            end associate
+         end do
+      end associate
+      keeps_slip = .false.
+      if (.not. was_larger) return
+      do k = 1, size(history%memory, 1)
+         if (.not. max(history%scene%laws(k)%cohesion, history%scene%laws(k)%friction) > 0.0_wp) cycle  ! what slips freely counts not
+         do j = 1, size(history%memory, 2)
+            keeps_slip = keeps_slip .or. any(abs(history%memory(k, j)%slip) > 0.0_wp)
+         end do
+      end do
+   end function keeps_slip
 
    !> Find the state in which the joints are wholly balanced, the change to that and its effect, unless they are there
    subroutine balance(structure, history, other, n_nodes, left)

@@ -212,11 +212,11 @@ contains
       if (max(total%displacement, total%joint_stress) <= 0.0_wp) return
       associate (budget => results%budget)
          ! what joints would answer moves the bodies, too
-         at_least = total%joint_stress >= 0.0_wp .and. .not. is_known(budget, (budget%joint_stress))
+         at_least = results%keeps_slip .or. (total%joint_stress >= 0.0_wp .and. .not. is_known(budget, (budget%joint_stress)))
          text = "displacement "//quantity_text(budget, (budget%displacement), total%displacement, at_least)
          if (total%joint_stress < 0.0_wp) return
          text = text//"; joint stress "//quantity_text(budget, (budget%joint_stress), &
-            total%joint_stress, .false.)
+            total%joint_stress, results%keeps_slip)
       end associate
       if (.not. has_singular(results)) return
       if (any(results%singular%distance > 0.0_wp)) text = text//", away from infinite ones"
