@@ -221,6 +221,31 @@ INCREMENTS
 1.0,1E-8
 END
 """
+# Two bodies upon each other, heated or moved alike: nothing stresses them but rounding
+TWO_BLOCKS = """TITLE
+Two blocks
+CONTROL
+1
+MATERIALS
+1,1000,0.3,0,1e-3
+LAWS
+1,1e4,1e4,1e4,{law}
+BLOCKS
+1,1,8,{size},{size}
+0,0,1,1
+2,1,8,{size},{size}
+0,1,1,2
+FACES
+1,1,0,0,1,0
+2,1,0,1,1,1
+3,2,0,1,1,1
+INTERFACES
+1,2,3
+{more}
+END
+"""
+HEATED = 'FIXEDFACES\n1,010\nTEMPERATURES\n1,0,10\n2,0,10'
+LIFTED, PUSHED_ASIDE = 'MOVEDFACES\n1,0,,0.01', 'MOVEDFACES\n1,1,0.01,0,-0.01'
 WAVES = 'PRESSURES\n5,0,0.2\n5,{wave}\nINCREMENTS\n1.0,1E-8'
 PULLED_RING = """TITLE
 A soft ring pressed on a shaft and pulled
@@ -420,10 +445,23 @@ def nearly_incompressible(program, folder):
     return faults
 
 
+def stress_free(program, folder):
+    """Bodies that expand or move freely have no errors of stress, and a target is met by the first mesh"""
+    faults = []
+    for size, motion, goal in ((2, HEATED, 'JOINTS'), (2, HEATED, 'ENERGY'), (30, HEATED, 'JOINTS'), (2, LIFTED, 'ENERGY'),
+                               (2, PUSHED_ASIDE, 'JOINTS')):
+        text = TWO_BLOCKS.format(size=size, law=',,ELASTIC', more=f'{motion}\nERROR\n1,{goal}')
+        summary, _ = solved(program, folder, 'free', text)
+        share = summary['errors']['discretization']
+        faults += expected(f'{size}, {motion!r}: errors of stress', (0.0, 0.0), (share['energy'], share['joint_stress']))
+        faults += expected(f'{size}, {motion!r}: nodes', 2*(3*size*(size + 1) + size + 1), summary['nodes'])
+    return faults
+
+
 def tests(program):
     """The tests of this module"""
     named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps, 'patch of rigid motion': rigid_patch,
              'flies off': flies_off, 'idle motion': idle_motion, 'nearly incompressible': nearly_incompressible,
              'load beyond M': load_beyond, 'pressed bonds': pressed_bonds, 'slip of larger loads': slip_of_larger_loads,
-             'smooth pile': smooth_pile, 'turning pile': turning_pile}
+             'smooth pile': smooth_pile, 'free of stress': stress_free, 'turning pile': turning_pile}
     return [Test(f'estimates: {name}', lambda folder, function=function: function(program, folder)) for name, function in named.items()]

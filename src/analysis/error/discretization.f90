@@ -5,6 +5,7 @@ module axijoint_analysis_error_discretization
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest_vector
    use axijoint_analysis_error_largest_stress, only : largest_elastic_stress
+   use axijoint_analysis_error_rounding, only : rounding_energy, rounding_stress
    use axijoint_analysis_error_solid_error, only : solid_errors
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type, away_from_infinite
    use axijoint_assembly_loading, only : loading_type
@@ -49,6 +50,7 @@ contains
          results%stress, error, energy)
       call note_joints(structure, field, yielding_stress, results, in_joints)
       associate (estimate => results%discretization)
+         call take_rounding_away(rounding_energy(model, structure, loading%initial, maxval(abs(results%displacement))), error)
          estimate%error_energy = sum(error, 2)
          estimate%energy = sum(energy, 2) + in_joints + [(spring_energy(structure%support_points, results%modes(k), &
             results%displacement(:, :, k)), k=1, size(results%modes))]
@@ -87,11 +89,28 @@ contains
          largest = max(0.0_wp, largest, largest_elastic_stress( &
             structure%joint_points(elastic), new_view(results%plane_angles, results%modes), &
             mesh_error%jump(:, elastic, :)))
+         associate (estimate => results%discretization, points => pack(structure%joint_points, structure%judged))
+            if (largest <= rounding_stress(points, estimate%largest_displacement, size(results%displacement, 2))) largest = 0.0_wp
+         end associate
          if (.not. all(structure%judged)) largest = away_from_infinite*largest
          error = ratio(largest, results%discretization%joint_scale)
       end function joint_stress_error
 
    end subroutine estimate_discretization
+
+   !> Modes whose errors of stress are rounding have none
+   pure subroutine take_rounding_away(rounding, error)
+      !> Energy that rounding may have, shape (modes)
+      real(wp), intent(in) :: rounding(:)
+      !> Energy of the errors, shape (modes, elements)
+      real(wp), intent(inout) :: error(:, :)
+
+      integer :: k
+
+      do k = 1, size(rounding)
+         if (sum(error(k, :)) <= rounding(k)) error(k, :) = 0.0_wp
+      end do
+   end subroutine take_rounding_away
 
    !> Joints in each mode: energy and largest stress, and the stress that errors are measured by
    subroutine note_joints(structure, field, yielding_stress, results, energy)
