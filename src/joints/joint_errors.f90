@@ -7,13 +7,13 @@ module axijoint_joints_joint_errors
    use axijoint_fe_mode, only : mode_type, family_symmetric, family_antisymmetric
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, trial_of
-   use axijoint_joints_mechanism, only : mechanism_type, find_mechanism, settle
+   use axijoint_joints_mechanism, only : mechanism_type, find_mechanism, hold_nothing, settle
    use axijoint_joints_planes, only : new_planes, synthesize
    use axijoint_joints_scene, only : scene_type, jumps, jumps_of_mode
    use axijoint_joints_settle, only : find_again
    implicit none
    private
-   public :: joint_change_type, joint_changes_type, find_joint_changes, change_between, &
+   public :: joint_change_type, joint_changes_type, find_joint_changes, change_between, settled_change, &
       offset_between, largest_change
 
    !> Intervals between planes are divided by this
@@ -46,47 +46,65 @@ module axijoint_joints_joint_errors
 contains
 
    !> The change from one state to another on the same planes
-   function change_between(scene, before, after, judged) result(change)
+   function change_between(scene, before, after, rounding) result(change)
       !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> The states
       type(joint_field_type), intent(in) :: before, after
-      !> Whether the stress of a point counts, shape (points)
-      logical, intent(in) :: judged(:)
+      !> Changes of stress up to this are none, shape (points)
+      real(wp), intent(in) :: rounding(:)
       !> The change
       type(joint_change_type) :: change
 
       change%known = .true.
-      change%stress = largest_change(scene, before, after, 1, judged)
+      change%stress = largest_change(scene, before, after, 1, rounding)
       change%excess = after%excess - before%excess
       change%offset = after%offset - before%offset
    end function change_between
 
+   !> The same, but for motions that nothing resists and no load acts on in either
+   function settled_change(condensed, scene, before, after, rounding) result(change)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> The states
+      type(joint_field_type), intent(in) :: before, after
+      !> Changes of stress up to this are none, shape (points)
+      real(wp), intent(in) :: rounding(:)
+      !> The change
+      type(joint_change_type) :: change
+
+      change = change_between(scene, before, after, rounding)
+      change%offset = offset_between(condensed, scene, before, scene, after, rounding)
+   end function settled_change
+
    !> Largest change of a stress between two states, the second perhaps on so many times more
    !> planes. A point that is nearer to its opening than a few times the change of its normal stress
    !> may open or close: then its cohesion counts, too
-   pure real(wp) function largest_change(scene, before, after, step, judged) result(largest)
+   pure real(wp) function largest_change(scene, before, after, step, rounding) result(largest)
       !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
       !> The states
       type(joint_field_type), intent(in) :: before, after
       !> Intervals of the second between planes of the first
       integer, intent(in) :: step
-      !> Whether the stress of a point counts, shape (points)
-      logical, intent(in) :: judged(:)
+      !> Changes of stress up to this are none, shape (points)
+      real(wp), intent(in) :: rounding(:)
 
-      !> So many times, and what is rounding of the largest stress: no change
-      real(wp), parameter :: reach = 2.0_wp, rounding = 1.0e-12_wp
+      !> So many times, and the part of the largest stress up to which a normal stress does not change
+      real(wp), parameter :: reach = 2.0_wp, slight = 1.0e-12_wp
       real(wp) :: trial(3), earlier(3), least, change
       integer :: k, j, l
 
       largest = 0.0_wp
-      least = rounding*maxval(abs(before%stress))
+      if (carry_nothing(before, after, rounding)) return
+      least = slight*maxval(abs(before%stress))
       do j = 1, size(before%stress, 3)
          l = 1 + step*(j - 1)
-         do k = 1, size(judged)
-            if (.not. judged(k)) cycle
-            largest = max(largest, maxval(abs(after%stress(:, k, l) - before%stress(:, k, j))))
+         do k = 1, size(rounding)
+            change = maxval(abs(after%stress(:, k, l) - before%stress(:, k, j)))
+            if (change > rounding(k)) largest = max(largest, change)
             earlier = trial_of(scene%laws(k), k, l, before%jump(:, k, j), after)
             trial = trial_of(scene%laws(k), k, l, after%jump(:, k, l), after)
             ! dilation presses a point that slips
@@ -94,14 +112,26 @@ contains
             if (after%stress(eta, k, l) < 0.0_wp) trial(eta) = after%stress(eta, k, l)
             change = abs(trial(eta) - earlier(eta))
             if (change <= least .or. abs(trial(eta)) > reach*change) cycle
-            largest = max(largest, lost_at_opening(scene%laws(k), &
-                                                   after%memory(k, l), trial))
+            change = lost_at_opening(scene%laws(k), after%memory(k, l), trial)
+            if (change > rounding(k)) largest = max(largest, change)
          end do
       end do
    end function largest_change
 
+   !> Whether joints carry nothing but rounding in two states: then which of them touch, and what they would lose if they
+   !> opened, is of no meaning, and nothing holds the parts
+   pure logical function carry_nothing(before, after, rounding)
+      !> The states
+      type(joint_field_type), intent(in) :: before, after
+      !> Changes of stress up to this are none, shape (points)
+      real(wp), intent(in) :: rounding(:)
+
+      carry_nothing = max(maxval(abs(before%stress)), maxval(abs(after%stress))) &
+         <= maxval(rounding, mask=rounding < huge(1.0_wp))
+   end function carry_nothing
+
    !> Changes by more planes and harmonics, but for motions that nothing resists and no load acts on
-   subroutine find_joint_changes(condensed, scene, balanced, start, judged, changes)
+   subroutine find_joint_changes(condensed, scene, balanced, start, rounding, changes)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads
@@ -110,8 +140,8 @@ contains
       type(joint_field_type), intent(in) :: balanced
       !> What its points remembered at the beginning of its increment, shape (points, planes)
       type(memory_type), intent(in) :: start(:, :)
-      !> Whether the stress of a point counts, shape (points)
-      logical, intent(in) :: judged(:)
+      !> Changes of stress up to this are none, shape (points)
+      real(wp), intent(in) :: rounding(:)
       !> Takes the changes
       type(joint_changes_type), intent(inout) :: changes
 
@@ -137,18 +167,18 @@ contains
          memory = on_planes_memory(start, step, count)
       end associate
       call find_again(condensed, finer_scene, memory, on_more, changes%planes%known)
-      changes%planes%stress = largest_change(scene, balanced, on_more, step, judged)
+      changes%planes%stress = largest_change(scene, balanced, on_more, step, rounding)
       changes%planes%excess = on_more%excess - balanced%excess
-      changes%planes%offset = offset_between(condensed, scene, balanced, finer_scene, on_more)
+      changes%planes%offset = offset_between(condensed, scene, balanced, finer_scene, on_more, rounding)
       changes%planes%seconds = omp_get_wtime() - clock
       clock = omp_get_wtime()
       call add_harmonics(condensed, finer_scene, on_more, extended, with_more)
       if (allocated(with_more)) then
          call find_again(condensed, extended, memory, with_more, changes%harmonics%known)
          associate (m => size(scene%modes))
-            changes%harmonics%stress = largest_change(scene, on_more, with_more, 1, judged)
+            changes%harmonics%stress = largest_change(scene, on_more, with_more, 1, rounding)
             changes%harmonics%excess = with_more%excess(:, :, :m) - on_more%excess
-            changes%harmonics%offset = offset_between(condensed, finer_scene, on_more, extended, with_more)
+            changes%harmonics%offset = offset_between(condensed, finer_scene, on_more, extended, with_more, rounding)
             with_more%excess(:, :, :m) = 0.0_wp
          end associate
          associate (jump => jumps(condensed, extended, with_more%excess, free=.false.))
@@ -162,13 +192,15 @@ contains
 
    !> Change of the floating motions from one state to another, but for motions that nothing resists and no load acts on in
    !> either
-   function offset_between(condensed, scene, before, other_scene, after) result(change)
+   function offset_between(condensed, scene, before, other_scene, after, rounding) result(change)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads of the first state, and of the second
       type(scene_type), intent(in) :: scene, other_scene
       !> The states
       type(joint_field_type), intent(in) :: before, after
+      !> Changes of stress up to this are none, shape (points)
+      real(wp), intent(in) :: rounding(:)
       !> One a motion
       real(wp), allocatable :: change(:)
 
@@ -178,6 +210,7 @@ contains
       allocate (first, source=before)
       allocate (second, source=after)
       call find_mechanism(condensed, scene, before, .false., mechanism)
+      if (carry_nothing(before, after, rounding)) call hold_nothing(condensed, scene, before, mechanism)
       call settle(condensed, scene, mechanism, first)
       call settle(condensed, other_scene, mechanism, second)
       call find_mechanism(condensed, other_scene, after, .false., mechanism)

@@ -11,7 +11,7 @@ module axijoint_joints_mechanism
    use axijoint_linalg_lapack, only : symmetric_eigen, singular_values
    implicit none
    private
-   public :: mechanism_type, find_mechanism, settle, stand_still, balance_motions, total_jumps
+   public :: mechanism_type, find_mechanism, hold_nothing, settle, stand_still, balance_motions, total_jumps
 
    !> A motion is not resisted if the resistance to it is less than this share of that of sticking
    !> joints
@@ -92,6 +92,29 @@ contains
          end if
       end do
    end subroutine find_mechanism
+
+   !> The mechanism of joints that touch but carry nothing: they resist no motion
+   subroutine hold_nothing(condensed, scene, field, mechanism)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> The state
+      type(joint_field_type), intent(in) :: field
+      !> The mechanism
+      type(mechanism_type), intent(out) :: mechanism
+
+      real(wp), dimension(size(condensed%floating), size(condensed%floating)) :: resistance, rows
+      real(wp) :: value(size(condensed%floating))
+      integer :: n
+
+      n = size(condensed%floating)
+      allocate (mechanism%motion(n), source=0.0_wp)
+      allocate (mechanism%idle(n, n), mechanism%stands(n))
+      mechanism%stands = .false.
+      if (n == 0) return
+      call unit_resistance(condensed, scene, field, .false., size(condensed%points), resistance, mechanism%idle, value, rows)
+   end subroutine hold_nothing
 
    !> Whether points that stick where they touch resist or do nothing, so that one more never takes
    !> resistance away: not where dilation couples pressure to slip, nor where cohesion fades

@@ -458,10 +458,38 @@ def stress_free(program, folder):
     return faults
 
 
+def free_beside_joints(program, folder):
+    """Joints that can open or slip between bodies that expand or move freely: rounding decides which points touch, and it is no
+    error, of the iteration or else"""
+    faults = []
+    for control in ('1', '1,,,,,,NEWTON', '1,,,,,,TOTAL', '1,,,,,,ANDERSON'):
+        for law in ('0,30', '1,30'):
+            for motion in (HEATED, LIFTED, PUSHED_ASIDE):
+                if (law, motion) == ('1,30', PUSHED_ASIDE):
+                    continue
+                text = TWO_BLOCKS.format(size=2, law=law, more=motion).replace('CONTROL\n1\n', f'CONTROL\n{control}\n')
+                summary, _ = solved(program, folder, 'beside', text)
+                share = summary['errors']['sum']
+                faults += [] if max(share['displacement'], share['joint_stress']) < 1e-9 else [f'{control}, {law}, {motion!r}: {share}']
+    return faults
+
+
+def idle_parts(program, folder):
+    """Motions that nothing resists and nothing loads are no error of the iteration"""
+    faults = []
+    for law, more in (('0,30', 'LAWDETAILS\n1,RESULTANT,,,,,1e-3\n'), ('1,30', 'LAWDETAILS\n1,RESULTANT,BOND\n')):
+        for size in (2, 5):
+            summary, _ = solved(program, folder, 'idle', TWO_BLOCKS.format(size=size, law=law, more=more + HEATED))
+            share = summary['errors']['iteration']
+            faults += [] if share['displacement'] < 1e-9 else [f'{law}, {more!r}, {size}: {share}']
+    return faults
+
+
 def tests(program):
     """The tests of this module"""
     named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps, 'patch of rigid motion': rigid_patch,
              'flies off': flies_off, 'idle motion': idle_motion, 'nearly incompressible': nearly_incompressible,
              'load beyond M': load_beyond, 'pressed bonds': pressed_bonds, 'slip of larger loads': slip_of_larger_loads,
-             'smooth pile': smooth_pile, 'free of stress': stress_free, 'turning pile': turning_pile}
+             'smooth pile': smooth_pile, 'free of stress': stress_free,
+             'free beside joints': free_beside_joints, 'idle parts': idle_parts, 'turning pile': turning_pile}
     return [Test(f'estimates: {name}', lambda folder, function=function: function(program, folder)) for name, function in named.items()]

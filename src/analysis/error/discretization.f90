@@ -90,7 +90,8 @@ contains
             structure%joint_points(elastic), new_view(results%plane_angles, results%modes), &
             mesh_error%jump(:, elastic, :)))
          associate (estimate => results%discretization, points => pack(structure%joint_points, structure%judged))
-            if (largest <= rounding_stress(points, estimate%largest_displacement, size(results%displacement, 2))) largest = 0.0_wp
+            if (largest <= maxval(rounding_stress(points, estimate%largest_displacement, size(results%displacement, 2)))) &
+               largest = 0.0_wp
          end associate
          if (.not. all(structure%judged)) largest = away_from_infinite*largest
          error = ratio(largest, results%discretization%joint_scale)

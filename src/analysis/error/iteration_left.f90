@@ -5,13 +5,13 @@ module axijoint_analysis_error_iteration_left
    use axijoint_analysis_core_totals, only : largest_vector
    use axijoint_analysis_error_excess_bound, only : bound_excess_effect
    use axijoint_analysis_error_excess_effect, only : find_effects
-   use axijoint_analysis_error_joint_shares, only : take_share, nothing_is_left, displacement_scale, elastic_points, yielding_scale
+   use axijoint_analysis_error_joint_shares, only : take_share, nothing_is_left, displacement_scale, elastic_points, &
+      yielding_scale, least_changes
    use axijoint_base_kinds, only : wp
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_history, only : history_type
-   use axijoint_joints_joint_errors, only : joint_change_type, change_between
-   use axijoint_joints_mechanism, only : mechanism_type, find_mechanism, settle
+   use axijoint_joints_joint_errors, only : joint_change_type, settled_change
    use axijoint_joints_residual, only : ratio
    use axijoint_joints_settle, only : settle_wholly
    implicit none
@@ -23,7 +23,7 @@ module axijoint_analysis_error_iteration_left
       !> The state wholly balanced; not allocated if it was not looked for
       type(joint_field_type), allocatable :: balanced
       !> The change to that, and what it does to displacements but for rigid motions of floating parts, amplitudes, shape (3,
-      !> nodes, modes, 1); not allocated where a bound was enough, or motions are left that nothing resists
+      !> nodes, modes, 1); not allocated where a bound was enough
       type(joint_change_type) :: change(1)
       real(wp), allocatable :: effect(:, :, :, :)
    end type iteration_left_type
@@ -45,8 +45,6 @@ contains
       !> Takes what was found on the way
       type(iteration_left_type), intent(out) :: left
 
-      type(joint_field_type), allocatable :: balanced, found
-      type(mechanism_type) :: mechanism
       real(wp), allocatable :: displacement(:, :, :), effect(:, :, :, :)
       real(wp) :: largest
 
@@ -55,15 +53,8 @@ contains
          allocate (left%balanced, source=field)
          left%balanced%memory = history%memory
          call settle_wholly(condensed, scene, left%balanced)
-         balanced = left%balanced
-         found = field
-         call find_mechanism(condensed, scene, field, .false., mechanism)
-         associate (idle => size(mechanism%idle, 2) > 0, change => left%change(1))
-            if (idle) then  ! where these leave a state is of no meaning
-               call settle(condensed, scene, mechanism, found)
-               call settle(condensed, scene, mechanism, balanced)
-            end if
-            change = change_between(scene, found, balanced, structure%judged(structure%yielding))
+         associate (change => left%change(1))
+            change = settled_change(condensed, scene, field, left%balanced, least_changes(structure, history))
             displacement = results%displacement
             call add_motions(condensed%floating, field%offset, displacement)
             largest = largest_vector(results%modes, displacement)
@@ -77,7 +68,7 @@ contains
             call find_effects(structure%equations, condensed%points, size(displacement, 2), left%change, effect)
             change%seconds = 0.0_wp  ! the claim of the tolerance takes it, whether errors are estimated or not
             call take_share(structure, history, results, largest, change, effect(:, :, :, 1), share)
-            if (.not. idle) call move_alloc(effect, left%effect)
+            call move_alloc(effect, left%effect)
          end associate
       end associate
    end subroutine iteration_error

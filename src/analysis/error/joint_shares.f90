@@ -5,6 +5,7 @@ module axijoint_analysis_error_joint_shares
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest_vector
    use axijoint_analysis_error_largest_stress, only : largest_elastic_stress
+   use axijoint_analysis_error_rounding, only : rounding_stress
    use axijoint_assembly_force, only : joint_jump
    use axijoint_base_kinds, only : wp
    use axijoint_joints_floating, only : add_motions
@@ -14,7 +15,8 @@ module axijoint_analysis_error_joint_shares
    use axijoint_joints_scene, only : elastic_stress
    implicit none
    private
-   public :: take_share, nothing_is_left, has_moved, unloaded, displacement_scale, elastic_points, yielding_scale, held_share
+   public :: take_share, nothing_is_left, has_moved, unloaded, displacement_scale, elastic_points, yielding_scale, held_share, &
+      least_changes
 
    !> Displacements below this part of those with elastic joints are rounding: all loads were taken
    !> away
@@ -45,15 +47,17 @@ contains
       type(error_share_type), intent(inout) :: share
 
       real(wp), allocatable :: displacement(:, :, :)
-      real(wp) :: start
+      real(wp) :: start, stress
 
       start = omp_get_wtime()
       share%seconds = change%seconds
       if (.not. change%known) return
       displacement = effect
       call add_motions(structure%condensed%floating, change%offset, displacement)
-      share%joint_stress = ratio(max(change%stress, elastic_change(structure, displacement)), &
-                                 stress_scale(structure, history, results%displacement))
+      stress = elastic_change(structure, displacement)
+      if (stress <= maxval(rounding_stress(structure%joint_points(elastic_points(structure)), history%largest_elastic, &
+                                           size(displacement, 2)))) stress = 0.0_wp
+      share%joint_stress = ratio(max(change%stress, stress), stress_scale(structure, history, results%displacement))
       share%displacement = ratio(largest_vector(results%modes, displacement) + change%beyond, &
                                  displacement_scale(history, largest))
       share%seconds = share%seconds + omp_get_wtime() - start
@@ -113,6 +117,19 @@ contains
 
       scale = max(largest, merge(slight, none, unloaded(history))*history%largest_elastic)
    end function displacement_scale
+
+   !> Changes of the stress of joints that yield up to which they are none: rounding, and all where stress is not judged
+   pure function least_changes(structure, history) result(least)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> Stress, shape (points)
+      real(wp) :: least(size(structure%yielding))
+
+      least = rounding_stress(structure%joint_points(structure%yielding), history%largest_elastic, size(history%loading%right, 2))
+      where (.not. structure%judged(structure%yielding)) least = huge(1.0_wp)
+   end function least_changes
 
    !> Largest stress of elastic joints that displacements give, where it is judged
    function elastic_change(structure, displacement) result(largest)

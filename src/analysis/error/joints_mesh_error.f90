@@ -2,6 +2,7 @@
 module axijoint_analysis_error_joints_mesh_error
    use omp_lib, only : omp_get_wtime
    use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_analysis_error_joint_shares, only : least_changes
    use axijoint_analysis_fine_difference, only : difference_type, room_type, most_steps, new_difference, find_difference, &
       share_difference
    use axijoint_analysis_fine_joints, only : fine_excess
@@ -78,9 +79,9 @@ contains
          corrected%loads%free = scene%loads%free + error%jump(:, structure%yielding, :)
          call find_again(condensed, corrected, history%start, after, found)
          if (found) then
-            answer = change_between(scene, balanced, after, structure%judged(structure%yielding))
+            answer = change_between(scene, balanced, after, least_changes(structure, history))
             error%joint_stress = answer%stress
-            answer%offset = offset_between(condensed, scene, balanced, corrected, after)
+            answer%offset = offset_between(condensed, scene, balanced, corrected, after, least_changes(structure, history))
          end if
       end associate
       error%seconds = omp_get_wtime() - start

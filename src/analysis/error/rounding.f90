@@ -89,20 +89,17 @@ contains
       end do
    end function least_distance
 
-   !> What rounding of displacements may make of the stress of joints: of the numbers themselves, whatever the stiffness, and of
+   !> What rounding of displacements may make of the stress of a joint: of the numbers themselves, whatever the stiffness, and of
    !> the equations, whose solution is the farther off the more nodes there are, and to which stiff joints are rigid
-   pure real(wp) function rounding_stress(points, displacement, n_nodes) result(stress)
-      !> The joint points that count
-      type(model_joint_point_type), intent(in) :: points(:)
+   elemental real(wp) function rounding_stress(point, displacement, n_nodes) result(stress)
+      !> The joint point
+      type(model_joint_point_type), intent(in) :: point
       !> Largest displacement
       real(wp), intent(in) :: displacement
       !> Number of nodes
       integer, intent(in) :: n_nodes
 
-      integer :: k
-
-      stress = displacement*maxval([0.0_wp, (maxval(points(k)%stiffness)*(rounded + rounded_by_node*n_nodes &
-                                                                         /max(1.0_wp, points(k)%proportion)), k=1, size(points))])
+      stress = displacement*maxval(point%stiffness)*(rounded + rounded_by_node*n_nodes/max(1.0_wp, point%proportion))
    end function rounding_stress
 
 end module axijoint_analysis_error_rounding

@@ -7,7 +7,7 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_analysis_core_totals, only : largest_vector
    use axijoint_analysis_error_excess_effect, only : find_effects
    use axijoint_analysis_error_iteration_left, only : iteration_left_type
-   use axijoint_analysis_error_joint_shares, only : take_share, nothing_is_left, has_moved, unloaded
+   use axijoint_analysis_error_joint_shares, only : take_share, nothing_is_left, has_moved, unloaded, least_changes
    use axijoint_analysis_error_joints_mesh_error, only : mesh_error_of_held, mesh_error_of_balanced, add_answer
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
    use axijoint_assembly_equations, only : equations_type
@@ -15,7 +15,7 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_history, only : history_type
-   use axijoint_joints_joint_errors, only : joint_change_type, joint_changes_type, find_joint_changes, change_between
+   use axijoint_joints_joint_errors, only : joint_change_type, joint_changes_type, find_joint_changes, settled_change
    use axijoint_joints_settle, only : settle_wholly
    implicit none
    private
@@ -123,7 +123,7 @@ contains
             end if
             call settle_wholly(condensed, scene, left%balanced)
          end if
-         left%change(1) = change_between(scene, history%field, left%balanced, structure%judged(structure%yielding))
+         left%change(1) = settled_change(condensed, scene, history%field, left%balanced, least_changes(structure, history))
          left%change(1)%seconds = omp_get_wtime() - start
          call find_effects(structure%equations, condensed%points, n_nodes, left%change, left%effect)
       end associate
@@ -190,7 +190,7 @@ contains
       !> What planes and harmonics leave
       subroutine see_joints()
          call find_joint_changes(structure%condensed, history%scene, balanced, history%start, &
-                                 structure%judged(structure%yielding), changes)
+                                 least_changes(structure, history), changes)
       end subroutine see_joints
 
    end subroutine find_other_changes
