@@ -16,7 +16,7 @@ module axijoint_analysis_static
    use axijoint_analysis_error_corrections, only : correct_rounding, keep_claim, solver_keeps_claim
    use axijoint_analysis_error_discretization, only : estimate_discretization
    use axijoint_analysis_error_iteration_left, only : iteration_left_type
-   use axijoint_analysis_error_joint_shares, only : yielding_scale
+   use axijoint_analysis_error_joint_shares, only : displacement_scale, yielding_scale
    use axijoint_analysis_error_plastic_errors, only : estimate_plastic_errors
    use axijoint_analysis_error_stiffer_joints, only : compare_stiffer
    use axijoint_analysis_error_yielding_errors, only : estimate_yielding_errors
@@ -96,7 +96,7 @@ contains
       type(joint_field_type) :: field
       type(history_type) :: history
       type(mesh_error_type) :: mesh_error
-      real(wp) :: yielding_stress
+      real(wp) :: yielding_stress, elastic_displacement
       logical :: estimates, remarks
 
       remarks = .true.
@@ -137,11 +137,15 @@ contains
             state%bodies)
       end associate
       yielding_stress = 0.0_wp
-      if (estimates .and. size(structure%yielding) > 0) yielding_stress = yielding_scale(structure, history)
+      elastic_displacement = 0.0_wp
+      if (estimates .and. size(structure%yielding) > 0) then
+         yielding_stress = yielding_scale(structure, history)
+         elastic_displacement = displacement_scale(history, 0.0_wp)
+      end if
       results%at_rest = is_at_rest(structure, history, field)
       if (estimates) &
          call estimate_discretization(model, structure, history%loading, field, &
-            yielding_stress, mesh_error, results)
+            yielding_stress, elastic_displacement, mesh_error, results)
       if (remarks .and. bodies_yield(model)) &
          call estimate_plastic_errors(model, structure, combination, results, progress)
       call move_bodies(model, structure, results%states(size(results%states)), results)

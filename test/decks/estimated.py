@@ -244,6 +244,38 @@ INTERFACES
 {more}
 END
 """
+# Rings that are pressed together and let go
+RINGS = """TITLE
+Rings
+CONTROL
+0
+MATERIALS
+1,1E5,0.3
+LAWS
+1,1E7,1E8,1E7,0,20
+BLOCKS
+1,1,8,6,1
+1,0,2,0.2
+2,1,8,6,1
+2,0,3,0.2
+FACES
+1,1,2,0,2,0.2
+2,2,2,0,2,0.2
+3,1,1,0,1,0.2
+4,1,1,0,2,0
+5,2,2,0,3,0
+INTERFACES
+1,1,2
+FIXEDFACES
+4,010
+5,010
+PRESSURES
+3,0,50
+INCREMENTS
+1
+-1
+END
+"""
 HEATED = 'FIXEDFACES\n1,010\nTEMPERATURES\n1,0,10\n2,0,10'
 LIFTED, PUSHED_ASIDE = 'MOVEDFACES\n1,0,,0.01', 'MOVEDFACES\n1,1,0.01,0,-0.01'
 WAVES = 'PRESSURES\n5,0,0.2\n5,{wave}\nINCREMENTS\n1.0,1E-8'
@@ -485,11 +517,19 @@ def idle_parts(program, folder):
     return faults
 
 
+def let_go(program, folder):
+    """Where all loads were taken away errors, and what stiffer joints would change, are no parts of rounding"""
+    summary, _ = solved(program, folder, 'rings', RINGS)
+    share, stiffer = summary['errors']['sum'], summary['joint_stiffness'][0]['ten_times']
+    found = [share['displacement'], stiffer['displacement'], stiffer['joint_stress']]
+    return [] if max(abs(value) for value in found) < 1e-9 else [f'errors and changes: {found}']
+
+
 def tests(program):
     """The tests of this module"""
     named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps, 'patch of rigid motion': rigid_patch,
              'flies off': flies_off, 'idle motion': idle_motion, 'nearly incompressible': nearly_incompressible,
              'load beyond M': load_beyond, 'pressed bonds': pressed_bonds, 'slip of larger loads': slip_of_larger_loads,
              'smooth pile': smooth_pile, 'free of stress': stress_free,
-             'free beside joints': free_beside_joints, 'idle parts': idle_parts, 'turning pile': turning_pile}
+             'let go': let_go, 'free beside joints': free_beside_joints, 'idle parts': idle_parts, 'turning pile': turning_pile}
     return [Test(f'estimates: {name}', lambda folder, function=function: function(program, folder)) for name, function in named.items()]

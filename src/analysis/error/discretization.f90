@@ -24,7 +24,7 @@ module axijoint_analysis_error_discretization
 contains
 
    !> Estimate the discretization error
-   subroutine estimate_discretization(model, structure, loading, field, yielding_stress, &
+   subroutine estimate_discretization(model, structure, loading, field, yielding_stress, elastic_displacement, &
       mesh_error, results)
       !> The job
       type(model_type), intent(in) :: model
@@ -36,6 +36,8 @@ contains
       type(joint_field_type), intent(in) :: field
       !> Stress that errors of joints that yield are measured by; zero if none can
       real(wp), intent(in) :: yielding_stress
+      !> Displacement that errors are measured by at least; zero if no joints yield
+      real(wp), intent(in) :: elastic_displacement
       !> Errors of the displacements of nodes, and of joints that yield
       type(mesh_error_type), intent(in) :: mesh_error
       !> Results, stresses and all; takes the estimate
@@ -65,7 +67,7 @@ contains
          estimate%joint_stress = -1.0_wp
          if (mesh_error%known) then
             estimate%displacement = ratio(largest_vector(results%modes, mesh_error%displacement), &
-                                          estimate%largest_displacement)
+                                          max(estimate%largest_displacement, elastic_displacement))
             if (results%at_rest) estimate%displacement = 0.0_wp
             estimate%joint_stress = joint_stress_error()
          end if

@@ -3,6 +3,8 @@
 module axijoint_analysis_error_stiffer_joints
    use axijoint_analysis_core_results, only : results_type, stiffer_type
    use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_analysis_error_joint_shares, only : displacement_scale, yielding_scale
+   use axijoint_analysis_error_rounding, only : rounding_stress
    use axijoint_analysis_error_stiffer_state, only : stiffer_state_type, state_of_stiffer, &
       state_anew
    use axijoint_base_kinds, only : wp, degree
@@ -95,6 +97,7 @@ contains
 
       type(stiffer_state_type) :: state
       type(planes_type) :: planes
+      real(wp) :: least(2)
       integer :: i
 
       if (same_set(stiffer%laws, &
@@ -104,15 +107,16 @@ contains
          call state_anew(model, combination, stiffer%laws, times, results, state, progress)
       end if
       stiffer%known = state%found
+      least = least_scales(structure, history, maxval(abs(results%displacement)))
       if (stiffer%known) then
          planes = new_view([(i*step*degree, i=0, 360/step)], results%modes)
          call changes(lengths(results%displacement, planes), lengths(state%displacement, planes), &
-                      lengths(state%displacement - results%displacement, planes), &
+                      lengths(state%displacement - results%displacement, planes), least(1), &
                       stiffer%displacement, stiffer%displacement_anywhere, stiffer%known)
       end if
       if (stiffer%known) then
          call changes(maxval(abs(results%joint_stress)), maxval(abs(state%stress)), &
-                      maxval(abs(state%stress - results%joint_stress)), &
+                      maxval(abs(state%stress - results%joint_stress)), least(2), &
                       stiffer%joint_stress, stiffer%joint_stress_anywhere, stiffer%known)
       end if
    end subroutine find_change
@@ -150,10 +154,31 @@ contains
       largest = sqrt(largest)
    end function lengths
 
+   !> Displacement and joint stress that changes are measured by at least: what errors of joints that yield are, and rounding of
+   !> joints that carry nothing
+   function least_scales(structure, history, moved) result(least)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> How the increments ended
+      type(history_type), intent(in) :: history
+      !> Largest displacement
+      real(wp), intent(in) :: moved
+      !> The two
+      real(wp) :: least(2)
+
+      least(1) = 0.0_wp
+      least(2) = maxval(rounding_stress(structure%joint_points, moved, size(history%loading%right, 2)))
+      if (size(structure%yielding) == 0) return
+      least(1) = displacement_scale(history, 0.0_wp)
+      least(2) = max(least(2), yielding_scale(structure, history))
+   end function least_scales
+
    !> Changes over the largest value
-   subroutine changes(before, after, difference, of_largest, anywhere, known)
+   subroutine changes(before, after, difference, least, of_largest, anywhere, known)
       !> Largest values before and after, and the largest difference
       real(wp), intent(in) :: before, after, difference
+      !> What they are measured by at least
+      real(wp), intent(in) :: least
       !> Change of the largest, and largest change, over the largest before
       real(wp), intent(out) :: of_largest, anywhere
       !> Whether there was anything
@@ -163,8 +188,8 @@ contains
       of_largest = 0.0_wp
       anywhere = 0.0_wp
       if (.not. known) return
-      of_largest = after/before - 1.0_wp
-      anywhere = difference/before
+      of_largest = (after - before)/max(before, least)
+      anywhere = difference/max(before, least)
    end subroutine changes
 
 end module axijoint_analysis_error_stiffer_joints
