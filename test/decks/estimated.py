@@ -276,6 +276,40 @@ INCREMENTS
 -1
 END
 """
+# Rings of two layers
+GROUNDS = """TITLE
+Layers
+CONTROL
+0
+MATERIALS
+1,1000,0.3
+2,{upper},0.3
+LAWS
+1,1E7,1E7,1E7,0,20
+BLOCKS
+1,1,8,6,1
+1,0,2,0.2
+1,2,8,6,4
+1,0.2,2,0.4
+2,1,8,6,1
+2,0,3,0.2
+2,2,8,6,4
+2,0.2,3,0.4
+FACES
+1,1,2,0,2,0.4
+2,2,2,0,2,0.4
+3,1,1,0,1,0.4
+4,1,1,0,2,0
+5,2,2,0,3,0
+INTERFACES
+1,1,2
+FIXEDFACES
+4,010
+5,010
+PRESSURES
+3,0,1
+END
+"""
 HEATED = 'FIXEDFACES\n1,010\nTEMPERATURES\n1,0,10\n2,0,10'
 LIFTED, PUSHED_ASIDE = 'MOVEDFACES\n1,0,,0.01', 'MOVEDFACES\n1,1,0.01,0,-0.01'
 WAVES = 'PRESSURES\n5,0,0.2\n5,{wave}\nINCREMENTS\n1.0,1E-8'
@@ -525,11 +559,23 @@ def let_go(program, folder):
     return [] if max(abs(value) for value in found) < 1e-9 else [f'errors and changes: {found}']
 
 
+def stiff_in_part(program, folder):
+    """A law along soft and stiff ground is not called as good as rigid for the soft one alone"""
+    faults = []
+    for upper, wanted in (('1E6', 'in part, k h/E 0.5 to 2000 along xi'), ('1000', 'up to 2000 along xi')):
+        summary, _ = solved(program, folder, 'grounds', GROUNDS.format(upper=upper))
+        remarks = [line for line in summary['messages'] if 'out of proportion' in line]
+        faults += expected(f'{upper}: remarks', 1, len(remarks))
+        faults += [] if all(wanted in line and ('good as rigid' in line) for line in remarks) else [f'{upper}: {remarks}']
+        faults += [] if all(('not as good' in line) == (upper == '1E6') for line in remarks) else [f'{upper}: {remarks}']
+    return faults
+
+
 def tests(program):
     """The tests of this module"""
     named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps, 'patch of rigid motion': rigid_patch,
              'flies off': flies_off, 'idle motion': idle_motion, 'nearly incompressible': nearly_incompressible,
              'load beyond M': load_beyond, 'pressed bonds': pressed_bonds, 'slip of larger loads': slip_of_larger_loads,
              'smooth pile': smooth_pile, 'free of stress': stress_free,
-             'let go': let_go, 'free beside joints': free_beside_joints, 'idle parts': idle_parts, 'turning pile': turning_pile}
+             'let go': let_go, 'stiff in part': stiff_in_part, 'free beside joints': free_beside_joints, 'idle parts': idle_parts, 'turning pile': turning_pile}
     return [Test(f'estimates: {name}', lambda folder, function=function: function(program, folder)) for name, function in named.items()]

@@ -55,15 +55,23 @@ contains
       character(len=:), allocatable :: text
 
       character(len=*), parameter :: directions(3) = [character(len=5) :: 'xi', 'eta', 'theta']
+      !> k h/E from which on joints are as good as rigid for displacements
+      real(wp), parameter :: as_rigid = 10.0_wp
+      character(len=:), allocatable :: range
       integer :: direction
-      logical :: stiff
+      logical :: stiff, in_part
 
       direction = decisive_direction(material%law, proportion)
       stiff = side_of(material%law, proportion) == side_stiff
-      text = 'law '//to_text(material%label)//': joints '//trim(merge('stiff', 'soft ', stiff))// &
-         ' out of proportion, k h/E up to '//to_text(proportion%largest(direction))//' along '// &
-         trim(directions(direction))//' (sensible: 1E-3 to 1E2)'
-      if (stiff .and. material%law%kind /= law_elastic .and. proportion%largest(direction) > material%rigid) then
+      in_part = stiff .and. proportion%least(direction) < as_rigid  ! along stiffer ground, or shorter joints
+      range = ', k h/E up to '//to_text(proportion%largest(direction))
+      if (in_part) range = ' in part, k h/E '//to_text(proportion%least(direction))//' to '// &
+         to_text(proportion%largest(direction))
+      text = 'law '//to_text(material%label)//': joints '//trim(merge('stiff', 'soft ', stiff))//' out of proportion'//range// &
+         ' along '//trim(directions(direction))//' (sensible: 1E-3 to 1E2)'
+      if (in_part) then
+         text = text//'; those below 10 are not as good as rigid'
+      else if (stiff .and. material%law%kind /= law_elastic .and. proportion%largest(direction) > material%rigid) then
          text = text//'; counts as rigid, k = '//to_text(material%rigid)//' E/h'
       else if (stiff) then
          text = text//'; k = 10 E/h is as good as rigid'
