@@ -5,7 +5,7 @@ module axijoint_analysis_error_discretization
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest_vector
    use axijoint_analysis_error_largest_stress, only : largest_elastic_stress
-   use axijoint_analysis_error_rounding, only : rounding_energy, rounding_stress
+   use axijoint_analysis_error_rounding, only : is_slight, rounding_energy, rounding_stress
    use axijoint_analysis_error_solid_error, only : solid_errors
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type, away_from_infinite
    use axijoint_assembly_loading, only : loading_type
@@ -52,7 +52,10 @@ contains
          results%stress, error, energy)
       call note_joints(structure, field, yielding_stress, results, in_joints)
       associate (estimate => results%discretization)
-         call take_rounding_away(rounding_energy(model, structure, loading%initial, maxval(abs(results%displacement))), error)
+         associate (moved => maxval(abs(results%displacement)), left => sum(error, 2))
+            if (is_slight(model, moved, minval(left, left > 0.0_wp))) &
+               call take_rounding_away(rounding_energy(model, structure, loading%initial, moved), error)
+         end associate
          estimate%error_energy = sum(error, 2)
          estimate%energy = sum(energy, 2) + in_joints + [(spring_energy(structure%support_points, results%modes(k), &
             results%displacement(:, :, k)), k=1, size(results%modes))]

@@ -14,13 +14,35 @@ module axijoint_analysis_error_rounding
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: rounding_energy, rounding_stress
+   public :: is_slight, rounding_energy, rounding_stress
 
    !> Differences of displacements below this part of the largest are rounding, and what the solution of the equations adds to
    !> that by each node
    real(wp), parameter :: rounded = 256.0_wp*epsilon(1.0_wp), rounded_by_node = 8.0_wp*epsilon(1.0_wp)
 
 contains
+
+   !> Whether an energy is so little that rounding might have left it, beside that of strains which make the displacement
+   !> all over a body as large as the mesh: to be looked at first, as it takes no integral
+   pure logical function is_slight(model, displacement, energy)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Largest displacement
+      real(wp), intent(in) :: displacement
+      !> The energy
+      real(wp), intent(in) :: energy
+
+      !> Part of it, far above rounding where elements are no less than a millionth of the mesh
+      real(wp), parameter :: slight = 1.0e-10_wp
+      real(wp) :: extent, stiffest
+      integer :: k
+
+      associate (x => model%mesh%coordinates)
+         extent = max(maxval(x(1, :)), maxval(x(2, :)) - minval(x(2, :)))
+      end associate
+      stiffest = maxval([(maxval(abs(elasticity(model%materials(k)))), k=1, size(model%materials))])
+      is_slight = energy <= slight*stiffest*extent*displacement**2
+   end function is_slight
 
    !> Energy in each mode of what rounding may leave of the stresses of solids, by their own displacements and by forces of joints
    function rounding_energy(model, structure, initial, displacement) result(energy)
