@@ -381,7 +381,8 @@ contains
    !> Largest difference of joint stress that the other kind of loop leaves, over the
    !> largest joint stress: of the paper's loop at its tolerance of 3 % for the
    !> methods on total jumps, and of Newton's method for the paper's loop. For a
-   !> job of one increment; negative if that loop does not get there in a few sweeps.
+   !> job of one increment; negative if that loop does not get there in a few sweeps, or no joint
+   !> carries anything.
    subroutine compare_loops(model, condensed, history, difference, other)
       !> The job
       type(model_type), intent(in) :: model
@@ -411,7 +412,8 @@ contains
          control_type(merge(paper_tolerance, strict, method%accumulates), &
                                                                  most_sweeps), other, path, verdict)
       if (verdict%converged) then
-         difference = ratio(maxval(abs(other%stress - history%field%stress)), &
+         ! where no joint carries anything there is nothing that the difference is a part of
+         if (any(abs(history%field%stress) > 0.0_wp)) difference = ratio(maxval(abs(other%stress - history%field%stress)), &
             maxval(abs(history%field%stress)))
       else
          deallocate (other)
