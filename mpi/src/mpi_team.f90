@@ -114,7 +114,7 @@ contains
       of_first = own
       call MPI_Bcast(there, name_length, MPI_CHARACTER, 0, team%communicator)
       call MPI_Bcast(of_first, size(of_first), MPI_DOUBLE_PRECISION, 0, team%communicator)
-      differs = any(abs(own - of_first) > 0.0_wp)
+      differs = any(transfer(own, 0_i8, size(own)) /= transfer(of_first, 0_i8, size(of_first)))
       call MPI_Allreduce(differs, one_differs, 1, MPI_LOGICAL, MPI_LOR, team%communicator)
       if (.not. one_differs) return
       if (.not. differs) call MPI_Barrier(team%communicator)  ! the end comes from another

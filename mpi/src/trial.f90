@@ -9,8 +9,8 @@ module axijoint_mpi_trial
    private
    public :: trial_numbers
 
-   !> Order of small matrices, and sums so long that kernels make them of parts
-   integer, parameter :: n = 61, long = 1500
+   !> Order of small matrices, and of one that libraries work on block by block; sums so long that kernels make them of parts
+   integer, parameter :: n = 61, large = 301, long = 1500
 
 contains
 
@@ -56,8 +56,30 @@ contains
          call panel_backward(at_once, n, width, square, t)
       end associate
       numbers = [numbers, t(:n)]
+      call add_blocked()
 
    contains
+
+      !> Add what is made block by block
+      subroutine add_blocked()
+         real(wp), allocatable :: b(:, :), whole(:, :), x(:, :)
+         integer :: j
+
+         b = reshape(a(:, :(large*n + n - 1)/n), [large, n])
+         allocate (whole(large, large), source=0.0_wp)
+         call dsyrk('L', 'N', large, n, 1.0_wp, b, large, 0.0_wp, whole, large)
+         do j = 1, large
+            whole(j, j) = whole(j, j) + large
+         end do
+         call dpotrf('L', large, whole, large, info)
+         x = b
+         call dtrsm('L', 'L', 'N', 'N', large, n, 1.0_wp, whole, large, x, large)
+         numbers = [numbers, whole(:, large/2), whole(large, :), x(:, n)]
+         call dsyrk('L', 'T', n, large, 1.0_wp, x, large, 0.0_wp, c, n)
+         call add(c)
+         call dgemm('T', 'N', n, n, large, 1.0_wp, x, large, b, large, 0.0_wp, c, n)
+         call add(c)
+      end subroutine add_blocked
 
       !> Add the lower triangle of a matrix
       subroutine add(matrix)

@@ -126,8 +126,13 @@ contains
       !> Changes of stress up to this are none, shape (points)
       real(wp), intent(in) :: rounding(:)
 
-      carry_nothing = max(maxval(abs(before%stress)), maxval(abs(after%stress))) &
-         <= maxval(rounding, mask=rounding < huge(1.0_wp))
+      integer :: k
+
+      carry_nothing = any(rounding < huge(1.0_wp))  ! others are not judged
+      do k = 1, size(rounding)
+         carry_nothing = carry_nothing .and. max(maxval(abs(before%stress(:, k, :))), maxval(abs(after%stress(:, k, :)))) &
+            <= rounding(k)
+      end do
    end function carry_nothing
 
    !> Changes by more planes and harmonics, but for motions that nothing resists and no load acts on

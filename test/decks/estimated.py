@@ -3,7 +3,7 @@ leaves all but rigid motion out; and what is said of motions that nothing resist
 import math
 import re
 
-from hard_decks import solved
+from hard_decks import close, solved
 from support import Test, expected, write
 
 # A disc on soil, pressed and pushed sideways, with a joint that reaches the axis
@@ -313,6 +313,38 @@ END
 HEATED = 'FIXEDFACES\n1,010\nTEMPERATURES\n1,0,10\n2,0,10'
 LIFTED, PUSHED_ASIDE = 'MOVEDFACES\n1,0,,0.01', 'MOVEDFACES\n1,1,0.01,0,-0.01'
 WAVES = 'PRESSURES\n5,0,0.2\n5,{wave}\nINCREMENTS\n1.0,1E-8'
+BEARING = """TITLE
+A pile on a soft bearing in a ring that is held by a stiff joint
+CONTROL
+4
+MATERIALS
+1, 2.0E4, 0.17
+LAWS
+1, 1.0E-2, 1.0E-2, 1.0E-2, , , ELASTIC
+2, {stiffness}, {stiffness}, {stiffness}, , , ELASTIC
+BLOCKS
+1, 1, 4, 4, 12
+0.0, -0.5, 0.5, 1.0
+2, 1, 4, 6, 8
+0.5, 0.0, 2.0, 1.0
+3, 1, 4, 3, 8
+2.0, 0.0, 3.0, 1.0
+FACES
+1, 1, 0.0, -0.5, 0.5, -0.5
+2, 1, 0.5, 0.0, 0.5, 1.0
+3, 2, 0.5, 0.0, 0.5, 1.0
+4, 2, 2.0, 0.0, 2.0, 1.0
+5, 3, 2.0, 0.0, 2.0, 1.0
+6, 3, 2.0, 1.0, 3.0, 1.0
+INTERFACES
+1, 2, 3
+2, 4, 5
+FIXEDFACES
+6, 111
+RESULTANTS
+1, LATERAL, 0.4
+{more}END
+"""
 PULLED_RING = """TITLE
 A soft ring pressed on a shaft and pulled
 CONTROL
@@ -511,6 +543,21 @@ def nearly_incompressible(program, folder):
     return faults
 
 
+def stiff_beside_soft(program, folder):
+    """What is rounding in a stiff joint is none in a soft one: errors are those of a joint that is less stiff, and a target is met
+    by refinement alone"""
+    def told(stiffness, more=''):
+        summary, _ = solved(program, folder, 'bearing', BEARING.format(stiffness=stiffness, more=more))
+        return summary['errors']['discretization'], summary['nodes']
+
+    share, nodes = told(1e8)
+    stiff, _ = told(1e11)
+    faults = [fault for key in ('joint_stress', 'energy')
+              for fault in close(key, share[key], stiff[key], 0.2*share[key])] + expected('errors', True, share['joint_stress'] > 0.1)
+    share, finer = told(1e11, 'ERROR\n10,JOINTS\n')
+    return faults + expected('refined', True, finer > nodes and 0.0 < share['joint_stress'] < 0.1)
+
+
 def stress_free(program, folder):
     """Bodies that expand or move freely have no errors of stress, and a target is met by the first mesh"""
     faults = []
@@ -576,6 +623,6 @@ def tests(program):
     named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps, 'patch of rigid motion': rigid_patch,
              'flies off': flies_off, 'idle motion': idle_motion, 'nearly incompressible': nearly_incompressible,
              'load beyond M': load_beyond, 'pressed bonds': pressed_bonds, 'slip of larger loads': slip_of_larger_loads,
-             'smooth pile': smooth_pile, 'free of stress': stress_free,
+             'smooth pile': smooth_pile, 'free of stress': stress_free, 'stiff beside soft': stiff_beside_soft,
              'let go': let_go, 'stiff in part': stiff_in_part, 'free beside joints': free_beside_joints, 'idle parts': idle_parts, 'turning pile': turning_pile}
     return [Test(f'estimates: {name}', lambda folder, function=function: function(program, folder)) for name, function in named.items()]

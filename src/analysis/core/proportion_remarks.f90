@@ -69,13 +69,14 @@ contains
          to_text(proportion%largest(direction))
       text = 'law '//to_text(material%label)//': joints '//trim(merge('stiff', 'soft ', stiff))//' out of proportion'//range// &
          ' along '//trim(directions(direction))//' (sensible: 1E-3 to 1E2)'
+      if (stiff .and. material%law%kind /= law_elastic .and. proportion%largest(direction) > material%rigid) then
+         text = text//trim(merge('; there counts', '; counts      ', in_part))//' as rigid, k = '//to_text(material%rigid)//' E/h'
+      else if (stiff .and. .not. in_part) then
+         text = text//'; k = 10 E/h is as good as rigid'
+      end if
       if (in_part) then
          text = text//'; those below 10 are not as good as rigid'
-      else if (stiff .and. material%law%kind /= law_elastic .and. proportion%largest(direction) > material%rigid) then
-         text = text//'; counts as rigid, k = '//to_text(material%rigid)//' E/h'
-      else if (stiff) then
-         text = text//'; k = 10 E/h is as good as rigid'
-      else
+      else if (.not. stiff) then
          text = text//'; contact needs about k = E/h'
       end if
    end function proportion_text

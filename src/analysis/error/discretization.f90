@@ -43,18 +43,18 @@ contains
       !> Results, stresses and all; takes the estimate
       type(results_type), intent(inout) :: results
 
-      real(wp), allocatable :: error(:, :), energy(:, :), in_joints(:), total(:, :, :)
+      real(wp), allocatable :: error(:, :), energy(:, :), in_joints(:), carried(:), total(:, :, :)
       real(wp) :: start
       integer :: k
 
       start = omp_get_wtime()
       call solid_errors(model, structure%equations, loading%initial, results%displacement, &
          results%stress, error, energy)
-      call note_joints(structure, field, yielding_stress, results, in_joints)
+      call note_joints(structure, field, yielding_stress, results, in_joints, carried)
       associate (estimate => results%discretization)
          associate (moved => maxval(abs(results%displacement)), left => sum(error, 2))
-            if (is_slight(model, moved, minval(left, left > 0.0_wp))) &
-               call take_rounding_away(rounding_energy(model, structure, loading%initial, moved), error)
+            if (is_slight(model, moved, minval(left, left > 0.0_wp))) call take_rounding_away( &
+               rounding_energy(model, structure, loading%initial, moved), sum(energy, 2) + in_joints, error)
          end associate
          estimate%error_energy = sum(error, 2)
          estimate%energy = sum(energy, 2) + in_joints + [(spring_energy(structure%support_points, results%modes(k), &
@@ -94,8 +94,9 @@ contains
          largest = max(0.0_wp, largest, largest_elastic_stress( &
             structure%joint_points(elastic), new_view(results%plane_angles, results%modes), &
             mesh_error%jump(:, elastic, :)))
-         associate (estimate => results%discretization, points => pack(structure%joint_points, structure%judged))
-            if (largest <= maxval(rounding_stress(points, estimate%largest_displacement, size(results%displacement, 2)))) &
+         associate (rounding => rounding_stress(structure%joint_points, results%discretization%largest_displacement, &
+                                                size(results%displacement, 2)))
+            if (all(carried <= rounding .or. .not. structure%judged) .and. largest <= maxval(rounding, structure%judged)) &
                largest = 0.0_wp
          end associate
          if (.not. all(structure%judged)) largest = away_from_infinite*largest
@@ -104,22 +105,22 @@ contains
 
    end subroutine estimate_discretization
 
-   !> Modes whose errors of stress are rounding have none
-   pure subroutine take_rounding_away(rounding, error)
-      !> Energy that rounding may have, shape (modes)
-      real(wp), intent(in) :: rounding(:)
+   !> Modes whose stresses are rounding have no errors of these
+   pure subroutine take_rounding_away(rounding, energy, error)
+      !> Energy that rounding may have, and that of the stresses, shape (modes)
+      real(wp), intent(in) :: rounding(:), energy(:)
       !> Energy of the errors, shape (modes, elements)
       real(wp), intent(inout) :: error(:, :)
 
       integer :: k
 
       do k = 1, size(rounding)
-         if (sum(error(k, :)) <= rounding(k)) error(k, :) = 0.0_wp
+         if (max(sum(error(k, :)), energy(k)) <= rounding(k)) error(k, :) = 0.0_wp
       end do
    end subroutine take_rounding_away
 
    !> Joints in each mode: energy and largest stress, and the stress that errors are measured by
-   subroutine note_joints(structure, field, yielding_stress, results, energy)
+   subroutine note_joints(structure, field, yielding_stress, results, energy, carried)
       !> Joints
       type(structure_type), intent(in) :: structure
       !> State of the joints
@@ -128,8 +129,8 @@ contains
       real(wp), intent(in) :: yielding_stress
       !> Results with stresses of joints; takes the stresses
       type(results_type), intent(inout) :: results
-      !> Energy, shape (modes)
-      real(wp), allocatable, intent(out) :: energy(:)
+      !> Energy, shape (modes), and no less than the largest stress of each point, shape (points)
+      real(wp), allocatable, intent(out) :: energy(:), carried(:)
 
       real(wp), allocatable :: stress(:, :)  ! threads have small stacks
       integer :: i, k
@@ -137,12 +138,14 @@ contains
       allocate (energy(size(results%modes)), source=0.0_wp)
       associate (estimate => results%discretization, points => structure%joint_points)
          estimate%joint_amplitude = energy
+         allocate (carried(size(points)), source=0.0_wp)
          if (size(points) == 0) return
          allocate (stress(3, size(points)))
          do k = 1, size(results%modes)
             stress(:, :) = stress_amplitude(points, results%modes(k), results%displacement(:, :, k), field, k)
             do i = 1, size(points)
                energy(k) = energy(k) + 0.5_wp*points(i)%weight*energy_density(stress(:, i), points(i)%stiffness)
+               carried(i) = carried(i) + maxval(abs(stress(:, i)))
             end do
             energy(k) = mode_integral(results%modes(k))*energy(k)
             estimate%joint_amplitude(k) = max(0.0_wp, maxval(maxval(abs(stress), 1), mask=structure%judged))

@@ -47,7 +47,7 @@ contains
       type(error_share_type), intent(inout) :: share
 
       real(wp), allocatable :: displacement(:, :, :)
-      real(wp) :: start, stress
+      real(wp) :: start, stress, scale, least
 
       start = omp_get_wtime()
       share%seconds = change%seconds
@@ -55,9 +55,11 @@ contains
       displacement = effect
       call add_motions(structure%condensed%floating, change%offset, displacement)
       stress = elastic_change(structure, displacement)
-      if (stress <= maxval(rounding_stress(structure%joint_points(elastic_points(structure)), history%largest_elastic, &
-                                           size(displacement, 2)))) stress = 0.0_wp
-      share%joint_stress = ratio(max(change%stress, stress), stress_scale(structure, history, results%displacement))
+      scale = stress_scale(structure, history, results%displacement)
+      least = minval(rounding_stress(structure%joint_points(elastic_points(structure)), history%largest_elastic, &
+                                     size(displacement, 2)))
+      if (max(stress, scale) <= least) stress = 0.0_wp  ! of all joints, the softest too
+      share%joint_stress = ratio(max(change%stress, stress), scale)
       share%displacement = ratio(largest_vector(results%modes, displacement) + change%beyond, &
                                  displacement_scale(history, largest))
       share%seconds = share%seconds + omp_get_wtime() - start

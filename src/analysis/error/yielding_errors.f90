@@ -73,8 +73,9 @@ contains
       !> What the increments came to
       type(history_type), intent(in) :: history
 
-      !> Rounding of factors
+      !> Rounding of factors, and of slip over the largest jump
       real(wp), parameter :: rounding = 1.0e-9_wp
+      real(wp) :: largest
       logical :: was_larger
       integer :: j, k
 
@@ -88,10 +89,11 @@ contains
       end associate
       keeps_slip = .false.
       if (.not. was_larger) return
+      largest = maxval(abs(history%field%jump))
       do k = 1, size(history%memory, 1)
          if (.not. max(history%scene%laws(k)%cohesion, history%scene%laws(k)%friction) > 0.0_wp) cycle  ! what slips freely counts not
          do j = 1, size(history%memory, 2)
-            keeps_slip = keeps_slip .or. any(abs(history%memory(k, j)%slip) > 0.0_wp)
+            keeps_slip = keeps_slip .or. maxval(abs(history%memory(k, j)%slip)) > rounding*largest
          end do
       end do
    end function keeps_slip
