@@ -239,12 +239,12 @@ contains
             results%solves, error, &
                                   history%runaway)
          if (allocated(error)) return
-         results%mechanism = mechanism_text(model, history%reached, results)
+         results%mechanism = mechanism_text(model, history%reached, history%loading%case_factor, results)
       end if
       if (allocated(history%motion)) then
          results%displacement = 0.0_wp
          call add_motions(structure%condensed%floating, history%motion, results%displacement)
-         results%mechanism = mechanism_text(model, history%reached, results)
+         results%mechanism = mechanism_text(model, history%reached, history%loading%case_factor, results)
       end if
       call solve_displacements(structure, model, history%loading, results%displacement, &
          results%solves, error, &
@@ -357,7 +357,7 @@ contains
          state = state_of(history, history%field, last%increment, last%load_factor, &
                           history%loading%case_factor)
       end associate
-      if (allocated(history%runaway) .or. allocated(history%motion)) &
+      if (allocated(history%runaway) .or. allocated(history%motion) .or. history%strayed) &
          state%load_factor = history%reached
    end function last_state
 

@@ -3,6 +3,7 @@ module axijoint_assembly_equations
    use axijoint_assembly_dofs, only : gather, expand, collect
    use axijoint_assembly_harmonic, only : harmonic_product
    use axijoint_assembly_mode_classes, only : mode_classes
+   use axijoint_assembly_pattern, only : new_outline
    use axijoint_assembly_stiffness, only : stiffness_type, number_unknowns, find_sparsity, assemble_parts
    use axijoint_assembly_support, only : support_point_type
    use axijoint_assembly_unit_loads, only : unit_loads_type, new_unit_loads
@@ -10,9 +11,10 @@ module axijoint_assembly_equations
    use axijoint_base_kinds, only : wp
    use axijoint_base_team, only : team_type, take_team, equal_shares
    use axijoint_fe_mode, only : mode_type
+   use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type, yielding_nodes
-   use axijoint_order_graph, only : bandwidth
+   use axijoint_order_graph, only : graph_type, bandwidth
    use axijoint_order_orders, only : orders_type
    use axijoint_solver_entry, only : solver_entry_type
    use axijoint_solver_inverse_norm, only : first_side, second_sides, inverse_norm
@@ -128,13 +130,18 @@ contains
          solvers = pack(solvers, [(may_be_fastest(solvers(k), orders), k=1, size(solvers))])
       end if
       do k = 1, size(solvers)
-         call plan_solver(others, model, modes, orders, solvers(k), error, all_classes=size(solvers) > 1)
+         call plan_solver(others, model, modes, orders, solvers(k), error, compared=size(solvers) > 1)
          if (allocated(error)) return
          if (allocated(equations)) then
             if (seconds_in_all(equations, condensed) <= seconds_in_all(others, condensed)) cycle
          end if
          call move_alloc(others, equations)
       end do
+      if (size(solvers) > 1 .and. equations%solver%by_outline) then
+         do k = 1, size(equations%classes)
+            call find_sparsity(equations%classes(k), orders%graph, equations%solver%order(orders))
+         end do
+      end if
    end subroutine plan_equations
 
    !> Expected time of factorizations and of condensing to joints
@@ -196,7 +203,7 @@ contains
 
    !> Number the unknowns of all classes, and analyse the patterns of those that this rank solves for a solver;
    !> threads that have nothing else to do take some
-   subroutine plan_solver(equations, model, modes, orders, solver, error, all_classes)
+   subroutine plan_solver(equations, model, modes, orders, solver, error, compared)
       !> The equations, planned
       type(equations_type), allocatable, intent(out) :: equations
       !> The job
@@ -209,15 +216,18 @@ contains
       type(solver_entry_type), intent(in) :: solver
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
-      !> Whether the patterns of all classes are analysed, as all ranks are to choose a solver by them;
-      !> false if absent
-      logical, intent(in), optional :: all_classes
+      !> Whether solvers are compared: all classes are analysed, as all ranks are to choose the same, and where the outline
+      !> of a pattern says enough the rest is not looked for; false if absent
+      logical, intent(in), optional :: compared
 
       type(outcome_type), allocatable :: outcomes(:)
       logical, allocatable :: analysed(:)
       integer, allocatable :: order(:)
       integer :: k, n_classes
+      logical :: all_classes
 
+      all_classes = .false.
+      if (present(compared)) all_classes = compared
       allocate (equations)
       order = solver%order(orders)
       equations%modes = modes
@@ -232,16 +242,19 @@ contains
       end do
       call take_team(model%team, equations%team)
       call share_systems(equations)
-      analysed = [(any(equations%systems(equations%first:equations%last)%class == k), k=1, n_classes)]
-      if (present(all_classes)) analysed = analysed .or. all_classes
+      analysed = [(any(equations%systems(equations%first:equations%last)%class == k), k=1, n_classes)] .or. all_classes
       allocate (outcomes(n_classes))
       !$omp taskgroup
       do k = 1, n_classes
          if (.not. analysed(k)) cycle
          !$omp task default(shared) firstprivate(k) if(solver%concurrent)
-         call find_sparsity(equations%classes(k), orders%graph, order)
          call solver%new_plan(equations%plans(k)%solver)
-         call equations%plans(k)%solver%analyse(equations%classes(k)%pattern, outcomes(k)%error)
+         if (all_classes .and. solver%by_outline) then
+            call analyse_outline(equations%plans(k)%solver, orders%graph, equations%classes(k), outcomes(k)%error)
+         else
+            call find_sparsity(equations%classes(k), orders%graph, order)
+            call equations%plans(k)%solver%analyse(equations%classes(k)%pattern, outcomes(k)%error)
+         end if
          !$omp end task
       end do
       !$omp end taskgroup
@@ -249,6 +262,23 @@ contains
          if (allocated(outcomes(k)%error) .and. .not. allocated(error)) call move_alloc(outcomes(k)%error, error)
       end do
    end subroutine plan_solver
+
+   !> Plan the factorization of a class whose pattern stays unknown
+   subroutine analyse_outline(solver, graph, class, error)
+      !> The plan
+      class(solver_type), intent(inout) :: solver
+      !> Graph of the nodes
+      type(graph_type), intent(in) :: graph
+      !> The class, its unknowns numbered
+      type(stiffness_type), intent(in) :: class
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(symmetric_matrix_type) :: outline
+
+      call new_outline(outline, graph, class%dofs)
+      call solver%analyse(outline, error)
+   end subroutine analyse_outline
 
    !> Give each rank a range of systems, of costs as equal as may be
    subroutine share_systems(equations)

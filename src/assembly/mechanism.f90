@@ -72,13 +72,14 @@ contains
 
    end subroutine check_mechanism
 
-   !> Whether supports hold the families differently; else both move alike
+   !> Whether supports hold the families differently in harmonic 1; else both move alike
    pure logical function families_differ(model)
       !> The job
       type(model_type), intent(in) :: model
 
       families_differ = .false.
-      if (allocated(model%restraints)) families_differ = any(model%restraints%family /= any_family)
+      if (allocated(model%restraints)) families_differ = any(model%restraints%family /= any_family .and. &
+                                                             model%restraints%last > 0)
    end function families_differ
 
 end module axijoint_assembly_mechanism

@@ -1,5 +1,7 @@
 !> The one error type: an exit code and a message for a person
 module axijoint_base_error
+   use axijoint_base_kinds, only : i8
+   use axijoint_base_text, only : put_integer
    implicit none
    private
    public :: error_type, fatal_error, memory_error
@@ -51,14 +53,24 @@ contains
       error%message = message
    end subroutine fatal_error
 
-   !> Make an error of memory that was asked for in vain
-   subroutine memory_error(error, what)
+   !> Make an error of memory that was asked for in vain, in several threads perhaps
+   subroutine memory_error(error, what, number, of)
       !> The new error
       type(error_type), allocatable, intent(out) :: error
-      !> What it was for, and how much
+      !> What it was for
       character(len=*), intent(in) :: what
+      !> How much, and what of; nothing more is said if one is absent
+      integer(i8), intent(in), optional :: number
+      character(len=*), intent(in), optional :: of
 
-      call fatal_error(error, exit_memory, 'out of memory: '//what//new_line('a')// &
+      character(len=:), allocatable :: much
+
+      much = ''
+      if (present(number) .and. present(of)) then
+         call put_integer(number, much)
+         much = ' '//much//' '//of
+      end if
+      call fatal_error(error, exit_memory, 'out of memory: '//what//much//new_line('a')// &
          'mend: more memory or a larger limit; fewer threads (--threads), another solver '// &
          '(axijoint estimate --solver NAME), fewer harmonics or a coarser mesh')
    end subroutine memory_error

@@ -3,7 +3,7 @@ module axijoint_base_memory
    use axijoint_base_error, only : error_type, fatal_error, exit_memory
    use axijoint_base_kinds, only : i8
    use axijoint_base_text, only : to_text
-   use axijoint_base_whole_file, only : first_bytes
+   use axijoint_base_whole_file, only : read_first_bytes
    implicit none
    private
    public :: require_memory, available_memory, free_memory, resident_bytes, give_back_memory, no_limit
@@ -132,7 +132,7 @@ contains
       integer(i8) :: limit, used, files
 
       bytes = unknown
-      group = text_after('/proc/self/cgroup', label)
+      call read_after('/proc/self/cgroup', label, group)
       do
          limit = number_after(root//group//'/'//limit_file, '')
          if (limit < no_bound) then  ! what is used is told slowly
@@ -146,24 +146,27 @@ contains
       end do
    end function left_of_groups
 
+   ! Subroutines, as threads look at the same time: gfortran keeps the length of a function's text in one place for all
+
    !> What follows a label in the first line of a file that has it, without slashes at its end
-   function text_after(path, label) result(text)
+   subroutine read_after(path, label, text)
       !> The file
       character(len=*), intent(in) :: path
       !> The label
       character(len=*), intent(in) :: label
       !> The rest of the line; empty if there is none
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
 
       integer :: place
 
-      text = first_bytes(path, enough)
+      call read_first_bytes(path, enough, text)
       place = index(text, label)
       if (place == 0) text = ''
       if (place == 0) return
-      text = first_line(text(place + len(label):))
+      text = text(place + len(label):)
+      text = trim(text(:index(text//nl, nl) - 1))
       text = text(:verify(text, '/', back=.true.))
-   end function text_after
+   end subroutine read_after
 
    !> First number after a label at the beginning of a line of a file
    function number_after(path, label) result(number)
@@ -178,26 +181,18 @@ contains
       integer :: place, first, last, stat
 
       number = unknown
-      text = nl//first_bytes(path, enough)
+      call read_first_bytes(path, enough, text)
+      text = nl//text
       place = index(text, nl//label)
       if (place == 0) return
-      text = first_line(text(place + len(nl//label):))
+      text = text(place + len(nl//label):)
+      text = text(:index(text//nl, nl) - 1)
       first = scan(text, digits)
       if (first == 0) return  ! a word: no limit
       last = first + verify(text(first:)//nl, digits) - 2
       read (text(first:last), *, iostat=stat) number
       if (stat /= 0) number = unknown
    end function number_after
-
-   !> A text up to the end of its first line, blanks at the end cut
-   pure function first_line(text) result(line)
-      !> The text
-      character(len=*), intent(in) :: text
-      !> The line
-      character(len=:), allocatable :: line
-
-      line = trim(text(:index(text//nl, nl) - 1))
-   end function first_line
 
    !> Product; unknown stays unknown
    pure integer(i8) function scaled(number, factor)

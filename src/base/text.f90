@@ -4,7 +4,7 @@ module axijoint_base_text
    use axijoint_base_kinds, only : wp, i8
    implicit none
    private
-   public :: to_text, percent_text, fine_percent, lower, upper, count_of, edit_distance, nearest_word, &
+   public :: to_text, put_integer, percent_text, fine_percent, lower, upper, count_of, edit_distance, nearest_word, &
       did_you_mean, name_of
 
    !> A number as text without blanks
@@ -19,6 +19,9 @@ module axijoint_base_text
 
 contains
 
+   ! Functions here call none that give a text of any length: gfortran keeps that length in one place for all threads, and
+   ! two of them write the listing and the arrays at the same time
+
    !> An integer in as many characters as it has
    pure function integer_text(value) result(text)
       !> The integer
@@ -26,7 +29,7 @@ contains
       !> Its digits and sign
       character(len=:), allocatable :: text
 
-      text = long_text(int(value, i8))
+      call put_integer(int(value, i8), text)
    end function integer_text
 
    !> A long integer in as many characters as it has
@@ -36,11 +39,21 @@ contains
       !> Its digits and sign
       character(len=:), allocatable :: text
 
+      call put_integer(value, text)
+   end function long_text
+
+   !> The same as a subroutine, for what several threads may say at once
+   pure subroutine put_integer(value, text)
+      !> The integer
+      integer(i8), intent(in) :: value
+      !> Its digits and sign
+      character(len=:), allocatable, intent(out) :: text
+
       character(len=20) :: buffer
 
       write (buffer, '(i0)') value
       text = trim(buffer)
-   end function long_text
+   end subroutine put_integer
 
    !> A real with six significant digits, trailing zeros dropped: 0.5, 20000,
    !> 1.25E-5
@@ -50,9 +63,20 @@ contains
       !> Its text
       character(len=:), allocatable :: text
 
+      call put_real(value, text)
+   end function real_text
+
+   !> The same as a subroutine
+   pure subroutine put_real(value, text)
+      !> The real
+      real(wp), intent(in) :: value
+      !> Its text
+      character(len=:), allocatable, intent(out) :: text
+
       integer, parameter :: n_digits = 6
       character(len=16) :: buffer
       character(len=n_digits) :: digits
+      character(len=:), allocatable :: power
       integer :: exponent, last
 
       if (.not. ieee_is_finite(value)) then
@@ -68,7 +92,10 @@ contains
       read (buffer(9:13), '(i5)') exponent
       last = max(1, verify(digits, '0', back=.true.))
       if (exponent < -4 .or. exponent > n_digits) then
-         text = digits(1:1)//trim_point('.'//digits(2:last))//'E'//integer_text(exponent)
+         call put_integer(int(exponent, i8), power)
+         text = digits(1:1)
+         if (last > 1) text = text//'.'//digits(2:last)
+         text = text//'E'//power
       else if (exponent < 0) then
          text = '0.'//repeat('0', -exponent - 1)//digits(:last)
       else if (last <= exponent + 1) then
@@ -77,7 +104,7 @@ contains
          text = digits(:exponent + 1)//'.'//digits(exponent + 2:last)
       end if
       if (value < 0.0_wp) text = '-'//text
-   end function real_text
+   end subroutine put_real
 
    !> A share in per cent with three significant digits: 12.3 %
    pure function percent_text(share) result(text)
@@ -94,19 +121,9 @@ contains
          write (buffer, '(es16.2e4)') rounded
          read (buffer, '(es16.2e4)') rounded
       end if
-      text = real_text(rounded)//' %'
+      call put_real(rounded, text)
+      text = text//' %'
    end function percent_text
-
-   !> Nothing instead of a decimal point without decimals
-   pure function trim_point(decimals) result(text)
-      !> Point and decimals
-      character(len=*), intent(in) :: decimals
-      !> The same, or nothing
-      character(len=:), allocatable :: text
-
-      text = decimals
-      if (decimals == '.') text = ''
-   end function trim_point
 
    !> Small letters
    pure function lower(text)
@@ -151,7 +168,8 @@ contains
       !> Number and noun
       character(len=:), allocatable :: text
 
-      text = integer_text(number)//' '//noun
+      call put_integer(int(number, i8), text)
+      text = text//' '//noun
       if (number == 1) return
       text = text//'s'
       if (noun(len(noun):) == 'y') text = text(:len(text) - 2)//'ies'

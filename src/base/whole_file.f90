@@ -4,7 +4,7 @@ module axijoint_base_whole_file
    use axijoint_base_kinds, only : i8
    implicit none
    private
-   public :: write_new_file, read_whole_file, first_bytes, file_size, link_path, names_in
+   public :: write_new_file, read_whole_file, first_bytes, read_first_bytes, file_size, link_path, names_in
    public :: knows_no_links, is_there, is_not_there, is_too_long
 
    interface
@@ -134,10 +134,22 @@ contains
       !> What it holds; empty if it cannot be read
       character(len=:), allocatable :: bytes
 
+      call read_first_bytes(path, most, bytes)
+   end function first_bytes
+
+   !> The same as a subroutine, for threads
+   subroutine read_first_bytes(path, most, bytes)
+      !> The file
+      character(len=*), intent(in) :: path
+      !> Bytes at most
+      integer, intent(in) :: most
+      !> What it holds; empty if it cannot be read
+      character(len=:), allocatable, intent(out) :: bytes
+
       character(len=most) :: room
 
       bytes = room(:max(0_i8, c_read_file(path//c_null_char, room, int(most, i8))))
-   end function first_bytes
+   end subroutine read_first_bytes
 
    !> Give a file a second name that must be free
    subroutine link_path(from, to, errno)

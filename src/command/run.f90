@@ -20,7 +20,7 @@ module axijoint_command_run
    use axijoint_output_brief, only : brief_text, status_text, reason_text
    use axijoint_output_file_echo, only : deck_text
    use axijoint_output_file_run, only : exit_code_of
-   use axijoint_output_output, only : check_output, write_output, write_error_summary
+   use axijoint_output_output, only : check_output, write_output, write_error_summary, remove_error_summary
    use axijoint_output_state, only : begin_state, end_state, stopped_text, note_written, is_written
    use omp_lib, only : omp_set_num_threads
    implicit none
@@ -122,6 +122,7 @@ contains
       if (.not. speaks(command)) return
       if (.not. allocated(error)) then
          call end_state(job)
+         call remove_error_summary(job)
       else if (error%code == exit_stopped) then
          error%message = stopped_text(job, error%message)
       end if

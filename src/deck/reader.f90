@@ -47,6 +47,7 @@ module axijoint_deck_reader
    use axijoint_deck_text_table, only : table_type
    use axijoint_model_model, only : model_type
    use axijoint_model_request, only : refinement_type
+   use axijoint_model_turning, only : hold_turning
    implicit none
    private
    public :: read_deck, open_deck, make_model, kept_mesh_type
@@ -169,6 +170,7 @@ contains
       call check_planes(deck)
       call check_yielding(deck)
       call check_control(deck)
+      call hold_turning(model)
    end subroutine make_model
 
    !> Make nodes, elements, faces and joints, or take those that are kept

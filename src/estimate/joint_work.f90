@@ -3,7 +3,7 @@ module axijoint_estimate_joint_work
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_base_kinds, only : wp
    use axijoint_estimate_terms, only : n_terms, laws, sums, flexibility
-   use axijoint_joints_half_sums, only : worth_halves
+   use axijoint_joints_circle_sums, only : are_worth_it
    use axijoint_joints_planes, only : planes_type, new_planes
    use axijoint_model_joint_proportion, only : proportion_type, joint_proportions, side_of, &
       side_sensible
@@ -23,8 +23,8 @@ module axijoint_estimate_joint_work
    !> Their linear solutions need few digits: products of one of these iterations, over those of an
    !> iteration of an increment
    real(wp), parameter :: rough = 0.4_wp
-   !> What is left of the products of sums that are found by halves
-   real(wp), parameter :: by_halves = 0.35_wp
+   !> What sums by few operations take a plane, in modes of products for each halving of the planes
+   real(wp), parameter :: of_halving = 3.0_wp
    !> Planes for these, times so many
    integer, parameter :: more_planes = 4
 
@@ -46,40 +46,54 @@ contains
       type(planes_type) :: planes
       type(proportion_type), allocatable :: proportions(:)
       real(wp) :: again, jumps
-      integer :: k
+      integer :: intervals, k
+      logical :: half
 
       work = 0.0_wp
       jumps = 3.0_wp*n_yielding(model, structure)
       planes = new_planes(model%n_planes, structure%modes)
+      half = size(planes%place) <= planes%n
+      intervals = merge(size(planes%angle) - 1, size(planes%angle)/2, half)
       call iterate(iterations*merge(1.0_wp, loop_share, model%method == method_newton), 1.0_wp, &
-         size(planes%angle), size(structure%modes))
+         intervals, size(structure%modes))
       if (.not. estimates) return
       again = to_settle + after_mesh
       if (size(model%increments) == 1) again = again + other_loop
       proportions = joint_proportions(model)
       again = again + of_stiffer*count([(side_of(model%joint_materials(k)%law, proportions(k)) &
                                          /= side_sensible, k=1, size(proportions))])
-      call iterate(again, rough, size(planes%angle), size(structure%modes))
+      call iterate(again, rough, intervals, size(structure%modes))
       if (planes%folds == 0) return
-      call iterate(on_planes, rough, more_planes*size(planes%angle), size(structure%modes))
-      call iterate(on_planes, rough, more_planes*size(planes%angle), 2*size(structure%modes))
+      call iterate(on_planes, rough, more_planes*intervals, size(structure%modes))
+      call iterate(on_planes, rough, more_planes*intervals, 2*size(structure%modes))
 
    contains
 
       !> Add iterations on some planes with some modes
-      subroutine iterate(n, share, n_planes, n_modes)
+      subroutine iterate(n, share, intervals, n_modes)
          !> Iterations, and how many products each makes beside what is usual
          real(wp), intent(in) :: n, share
-         !> Planes, modes
-         integer, intent(in) :: n_planes, n_modes
+         !> Intervals between planes from 0 to pi, and modes
+         integer, intent(in) :: intervals, n_modes
 
+         integer :: n_planes
+
+         n_planes = merge(intervals + 1, 2*intervals, half)
          work(laws) = work(laws) + n*jumps*n_planes
-         work(sums) = work(sums) + merge(by_halves, 1.0_wp, worth_halves(n_modes, n_planes)) &
-            *share*n*jumps*n_planes*n_modes
+         work(sums) = work(sums) + share*n*jumps*n_planes*modes_of_sums(n_planes, n_modes, intervals)
          work(flexibility) = work(flexibility) + share*n*jumps**2*n_modes
       end subroutine iterate
 
    end function joint_work
+
+   !> Modes that take as long by products as sums do
+   pure real(wp) function modes_of_sums(n_planes, n_modes, intervals) result(n)
+      !> Planes, modes, and intervals from 0 to pi
+      integer, intent(in) :: n_planes, n_modes, intervals
+
+      n = n_modes
+      if (are_worth_it(n_modes, n_planes, intervals)) n = of_halving*log(real(n_planes, wp))/log(2.0_wp)
+   end function modes_of_sums
 
    !> Joint points that can yield
    pure integer function n_yielding(model, structure)

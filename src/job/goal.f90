@@ -267,7 +267,7 @@ contains
          if (allocated(error)) exit
          if (results(k)%converged) cycle
          if (.not. allocated(round%failure)) worst = k
-         round%failure = 'did not converge'
+         round%failure = 'did not converge'//reason_of(results(k))
       end do
       if (allocated(error)) then
          round%failure = 'could not be solved ('//error%message//')'
@@ -285,5 +285,23 @@ contains
       round%seconds = omp_get_wtime() - start
       rounds = [rounds, round]
    end subroutine solve_round
+
+   !> Why a state is no equilibrium, in brackets; nothing if nobody knows
+   pure function reason_of(results) result(text)
+      !> Results that have not converged
+      type(results_type), intent(in) :: results
+      !> The words
+      character(len=:), allocatable :: text
+
+      integer :: k
+
+      text = ''
+      if (.not. allocated(results%remarks)) return
+      do k = 1, size(results%remarks)
+         if (.not. results%remarks(k)%says_why) cycle
+         text = ' ('//results%remarks(k)%text//')'
+         return
+      end do
+   end function reason_of
 
 end module axijoint_job_goal

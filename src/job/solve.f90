@@ -5,6 +5,7 @@ module axijoint_job_solve
    use axijoint_job_combination, only : solve_combination
    use axijoint_job_goal, only : refine_to_goal
    use axijoint_job_job, only : job_type
+   use axijoint_model_turning, only : hold_turning
    implicit none
    private
    public :: solve
@@ -22,6 +23,7 @@ contains
 
       integer :: k
 
+      call hold_turning(job%model)  ! a program may have described it
       if (job%model%error_goal%wanted) then
          call refine_to_goal(job, results, error)
          return

@@ -84,7 +84,7 @@ contains
       do j = 1, size(jump, 3)
          do k = 1, size(jump, 2)
             if (.not. jump(eta, k, j) < -least) cycle
-            stiffness = scene%laws(k)%stiffness(eta)
+            stiffness = field%share(k)*scene%laws(k)%stiffness(eta)
             trial = trial_of(scene%laws(k), k, j, field%jump(:, k, j), field)
             if (trial(eta) > 0.0_wp) &
                way = min(way, (trial(eta) + pressure)/(-stiffness*jump(eta, k, j)))

@@ -32,9 +32,9 @@ module axijoint_joints_field
       !> Stress before loading: initial stress of the law and in-situ stress of the
       !> bodies, and the latter alone, shape (3, points)
       real(wp), allocatable :: initial(:, :), in_situ(:, :)
-      !> Share of the joint stiffness that the laws see: less than one on the way to
-      !> the state of stiff joints
-      real(wp) :: share = 1.0_wp
+      !> Share of the joint stiffness that the law of each point sees: less than one on the way to
+      !> the state of stiff joints, shape (points)
+      real(wp), allocatable :: share(:)
       !> Stiffness k h/E of joints that the laws see at most at a time
       real(wp) :: view_limit = huge(1.0_wp)
       !> Tension over which the cohesion of an opening point fades, as a share of it: none where there
@@ -68,6 +68,7 @@ contains
       allocate (field%excess(3, n_points, n_modes), field%pending(3, n_points, n_modes), &
          source=0.0_wp)
       allocate (field%initial(3, n_points), field%in_situ(3, n_points), source=0.0_wp)
+      allocate (field%share(n_points), source=1.0_wp)
       allocate (field%state(n_points, n_planes), source=state_stick)
       allocate (field%memory(n_points, n_planes))
    end function new_joint_field
@@ -145,7 +146,7 @@ contains
 
       trial = trial_stress(law, field%memory(k, j), jump)
       trial(eta) = trial(eta) - law%initial_stress  ! part of the field's
-      trial = field%share*trial + field%initial(:, k)
+      trial = field%share(k)*trial + field%initial(:, k)
    end function trial_of
 
    !> Trial stress of a point on a plane as far as its law sees the jump

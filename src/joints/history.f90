@@ -7,6 +7,7 @@ module axijoint_joints_history
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, new_joint_field
    use axijoint_joints_load_steps, only : step_type
+   use axijoint_joints_mechanism, only : drives_on
    use axijoint_joints_method, only : method_type, control_type, verdict_type
    use axijoint_joints_methods, only : new_method
    use axijoint_joints_path, only : iteration_type
@@ -44,9 +45,10 @@ module axijoint_joints_history
       type(scene_type) :: scene
       !> State of the joints that can yield: the last
       type(joint_field_type) :: field
-      !> How the last step ended, and whether sweeps ran away from a state that Newton's method finds
+      !> How the last step ended; whether iterations ran away in it though no load drives anything on there, so that the state
+      !> is that before it; and whether Newton's method finds a state then
       type(verdict_type) :: verdict
-      logical :: strayed = .false.
+      logical :: strayed = .false., newton_finds = .false.
       !> Whether the step at work is tried in all ways, and whether no smaller one follows
       logical :: thorough = .true., smallest = .false.
       !> Load steps in equilibrium in which cohesion fades over an opening, for the law has no state
@@ -67,6 +69,8 @@ module axijoint_joints_history
       !> nothing resists, in multiples of the floating motions; one is allocated if the joints came
       !> to a mechanism
       real(wp), allocatable :: runaway(:, :, :), motion(:)
+      !> The share of the increment that was to be behind then
+      real(wp) :: failed_share = 0.0_wp
       !> Sum of the load factors of the last step in equilibrium
       real(wp) :: reached = 0.0_wp
       !> Largest displacement that the loads of a step would give if all joints held
@@ -178,13 +182,25 @@ contains
                         state_of(history, field, increment, load_factor, case_factor)]
    end subroutine keep_state
 
-   !> Note where joints ran away to, or which motion nothing resists
-   subroutine note_failure(history)
-      !> The history, its last step not in equilibrium
+   !> Note where joints ran away to, if a load drives them on there, or which motion nothing resists
+   subroutine note_failure(condensed, step, history)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> The last step
+      type(step_type), intent(in) :: step
+      !> The history, that step not in equilibrium
       type(history_type), intent(inout) :: history
 
+      real(wp), allocatable :: motion(:)
+      logical :: driven
+
+      driven = .false.
+      if (history%verdict%ran_away) call drives_on(condensed, history%scene, history%field, driven, motion)
+      if (.not. (driven .or. history%verdict%mechanism%loaded)) return
+      call forget_failure(history)
+      history%failed_share = step%share
       if (history%verdict%mechanism%loaded) history%motion = history%verdict%mechanism%motion
-      if (history%verdict%ran_away) history%runaway = history%field%excess
+      if (driven) history%runaway = history%field%excess
    end subroutine note_failure
 
    !> Smaller steps got there

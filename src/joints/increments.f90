@@ -19,7 +19,7 @@ module axijoint_joints_increments
    use axijoint_joints_keeper, only : keeper_type
    use axijoint_joints_load_steps, only : step_type
    use axijoint_joints_loads, only : put_loads, answer_type, case_answer_type, is_known, learn_case, put_sum
-   use axijoint_joints_mechanism, only : mechanism_type, find_mechanism
+   use axijoint_joints_mechanism, only : drives_on
    use axijoint_joints_method, only : method_type, control_type, verdict_type
    use axijoint_joints_methods, only : other_loop, second_opinion, is_newton
    use axijoint_joints_passes, only : keep_standing
@@ -33,6 +33,9 @@ module axijoint_joints_increments
    implicit none
    private
    public :: run_increments, compare_loops, balance_again
+
+   !> A mechanism under loads so many times farther off than those of the smallest step counts as that of the step
+   real(wp), parameter :: near = 8.01_wp
 
    !> What the increments of joints act on
    type, extends(stage_type) :: joint_stage_type
@@ -116,12 +119,12 @@ contains
          call scale_field(step%load_factor/history%at%load_factor, history%field)
       call balance(self, history%method, step, history)
       halvable = .not. ends(history) .and. .not. history%method%accumulates
-      if (.not. ends(history)) call note_failure(history)
+      if (.not. ends(history)) call note_failure(self%condensed, step, history)
    end subroutine try_step
 
-   !> A step is left without equilibrium: another method is asked. If it knows no better and nothing resists, the
-   !> state before is shown, for an iterate says nothing. Sweeps do not go on from what Newton's method finds, for
-   !> they would run away again and again: the user is told
+   !> A step is left without equilibrium: another method is asked. If it knows no better and nothing resists, or iterations
+   !> ran away, the state before is shown, for an iterate says nothing. Sweeps do not go on from what Newton's method finds,
+   !> for they would run away again and again: the user is told
    subroutine give_up(self, step, before, history)
       !> What the increments act on
       class(joint_stage_type), intent(inout) :: self
@@ -137,8 +140,10 @@ contains
       logical :: nothing_resists
 
       if (allocated(history%failure)) return
+      ! what much larger steps came to says nothing of this one
+      if (history%failed_share - history%at%share > near*(step%share - history%at%share)) call forget_failure(history)
       nothing_resists = allocated(history%runaway) .or. allocated(history%motion)
-      if (.not. (nothing_resists .or. is_newton(history%method))) return
+      if (.not. (nothing_resists .or. history%verdict%ran_away .or. is_newton(history%method))) return
       if (.not. ends(history)) call second_opinion(history%method, second)
       if (allocated(second)) then
          allocate (asked, source=history)
@@ -149,40 +154,41 @@ contains
             history = asked
             return
          end if
-         history%strayed = asked%verdict%converged
-         if (history%strayed) call forget_failure(history)
+         history%newton_finds = asked%verdict%converged
+         if (history%newton_finds) call forget_failure(history)
          ! where iterations were used up, nothing is known of what resists
-         if (.not. nothing_resists .and. history%verdict%stalled) call take_motion(self, asked, history)
+         if (.not. (nothing_resists .or. history%newton_finds) .and. (history%verdict%stalled .or. history%verdict%ran_away)) &
+            call take_motion(self, step, asked, history)
          nothing_resists = allocated(history%runaway) .or. allocated(history%motion)
       end if
+      history%strayed = .not. nothing_resists .and. (history%newton_finds .or. history%verdict%ran_away)
       if (.not. (nothing_resists .or. history%strayed)) return
       history%field = before  ! what ran away is no state to show
       call put(self, history%at, history)
       call judge_states(history%scene%laws, history%field)  ! none was, before the first load
    end subroutine give_up
 
-   !> Where iterations go round in circles: the motion that another method came to, or else one under load that joints do
-   !> not resist as they are now
-   subroutine take_motion(self, asked, history)
+   !> Where iterations go round in circles: the motion that another method came to, or else one that a load drives on from
+   !> where they are now
+   subroutine take_motion(self, step, asked, history)
       !> What the increments act on
       class(joint_stage_type), intent(in) :: self
+      !> The loads
+      type(step_type), intent(in) :: step
       !> The same loads by another method, without equilibrium
       type(history_type), intent(inout) :: asked
       !> The history; takes the motion
       type(history_type), intent(inout) :: history
 
-      type(mechanism_type) :: mechanism
-      real(wp), allocatable :: left(:, :, :)
+      real(wp), allocatable :: motion(:)
+      logical :: driven
 
-      call note_failure(asked)
+      call note_failure(self%condensed, step, asked)
       if (allocated(asked%runaway)) call move_alloc(asked%runaway, history%runaway)
       if (allocated(asked%motion)) call move_alloc(asked%motion, history%motion)
       if (allocated(history%runaway) .or. allocated(history%motion)) return
-      history%field%share = 1.0_wp
-      allocate (left, mold=history%field%excess)
-      call history%method%evaluate(self%condensed, history%scene, history%field, left)
-      call find_mechanism(self%condensed, history%scene, history%field, .false., mechanism)
-      if (mechanism%loaded) history%motion = mechanism%motion
+      call drives_on(self%condensed, history%scene, history%field, driven, motion)
+      if (driven) call move_alloc(motion, history%motion)
    end subroutine take_motion
 
    !> The loads of the increment are reached

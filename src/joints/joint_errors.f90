@@ -361,17 +361,14 @@ contains
       real(wp), allocatable :: scale(:)
 
       real(wp) :: stiffness(2), power
-      integer :: k, m(2), place(2)
+      integer :: k, m(2)
 
-      place(2) = last
       m(2) = modes(last)%harmonic
-      m(1) = maxval(scene%modes%harmonic, mask=scene%modes%harmonic < m(2))
-      place(1) = findloc(scene%modes%harmonic, m(1), 1)
-      do k = 1, 2
-         stiffness(k) = body_stiffness(condensed, scene, place(k), field%excess(:, :, last))
-      end do
+      stiffness(2) = body_stiffness(condensed, scene, last, field%excess(:, :, last))
       power = 1.0_wp
+      m(1) = maxval([0, scene%modes%harmonic], mask=[0, scene%modes%harmonic] < m(2))
       if (m(1) > 0) then
+         stiffness(1) = body_stiffness(condensed, scene, findloc(scene%modes%harmonic, m(1), 1), field%excess(:, :, last))
          power = log(stiffness(2)/stiffness(1))/log(real(m(2), wp)/m(1))
          power = min(merge(rigid_power, most_power, m(1) == 1), max(least_power, power))
       end if

@@ -1,17 +1,18 @@
 !> Mechanisms: rigid motions that joints as they stick, slip and stand open do not resist. What they
 !> do not resist is none only if no load acts on it, at any size of the load
 module axijoint_joints_mechanism
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : admit, eta
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, seen_by_law
    use axijoint_joints_planes, only : analyse, mode_on_planes, mode_from_planes
-   use axijoint_joints_scene, only : scene_type, views, motion_of, jumps
+   use axijoint_joints_scene, only : scene_type, views, motion_of, jumps, evaluate
    use axijoint_linalg_lapack, only : symmetric_eigen, singular_values
    implicit none
    private
-   public :: mechanism_type, find_mechanism, hold_nothing, settle, stand_still, balance_motions, total_jumps
+   public :: mechanism_type, find_mechanism, drives_on, hold_nothing, settle, idle_part, stand_still, balance_motions, total_jumps
 
    !> A motion is not resisted if the resistance to it is less than this share of that of sticking
    !> joints
@@ -28,6 +29,8 @@ module axijoint_joints_mechanism
    !> A motion that loads push by less than this part of what they push another by, both of unit elastic work, has that
    !> from a little of the other in it
    real(wp), parameter :: slight = 1.0e-3_wp
+   !> Jumps that a motion which ran away goes on by, over those that it came to
+   real(wp), parameter :: farther = 1.0e2_wp
 
    !> Motions that nothing resists, in multiples of the floating motions of a scene
    type :: mechanism_type
@@ -92,6 +95,44 @@ contains
          end if
       end do
    end subroutine find_mechanism
+
+   !> Whether a load drives parts on from a state without equilibrium: joints do not resist a motion there, and still do not
+   !> where it has gone far on, so that all that slips does so along it, and what it closes has closed. For iterations run
+   !> away where there is equilibrium, too: along a motion that the joints of an iterate do not resist, though others
+   !> would, or that no load acts on
+   subroutine drives_on(condensed, scene, field, driven, motion)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> The state
+      type(joint_field_type), intent(in) :: field
+      !> Whether it does
+      logical, intent(out) :: driven
+      !> The motion, in multiples of the floating motions; allocated if it does
+      real(wp), allocatable, intent(out) :: motion(:)
+
+      type(joint_field_type), allocatable :: there
+      type(mechanism_type) :: mechanism, beyond
+      real(wp), allocatable :: residual(:, :, :)
+
+      driven = .false.
+      if (size(condensed%floating) == 0 .or. .not. all(ieee_is_finite(field%excess))) return
+      allocate (there, source=field)
+      allocate (residual, mold=field%excess)
+      ! laws as they are in the end
+      there%share = 1.0_wp
+      there%fading = 0.0_wp
+      call evaluate(condensed, scene, there, residual)
+      call find_mechanism(condensed, scene, there, .false., mechanism)
+      if (.not. mechanism%loaded) return
+      there%offset = there%offset + farther*maxval([abs(there%jump), scene%loads%largest]) &
+         /maxval(abs(motion_of(condensed, scene, mechanism%motion)))*mechanism%motion
+      call evaluate(condensed, scene, there, residual)
+      call find_mechanism(condensed, scene, there, .false., beyond)
+      driven = beyond%loaded .and. dot_product(beyond%motion, mechanism%motion) > 0.0_wp
+      if (driven) motion = mechanism%motion
+   end subroutine drives_on
 
    !> The mechanism of joints that touch but carry nothing: they resist no motion
    subroutine hold_nothing(condensed, scene, field, mechanism)
@@ -168,15 +209,25 @@ contains
       !> The state; the stresses are those before
       type(joint_field_type), intent(inout) :: field
 
-      real(wp), allocatable :: work(:)
-      integer :: k
-
       if (size(mechanism%idle, 2) == 0) return
-      work = elastic_works(condensed, scene, total_jumps(condensed, scene, field))
-      do k = 1, size(mechanism%idle, 2)
-         field%offset = field%offset - dot_product(mechanism%idle(:, k), work)*mechanism%idle(:, k)
-      end do
+      field%offset = field%offset - idle_part(condensed, scene, mechanism, total_jumps(condensed, scene, field))
    end subroutine settle
+
+   !> What jumps have of motions that no load acts on and nothing resists, in multiples of the floating motions
+   function idle_part(condensed, scene, mechanism, jump) result(multiple)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> Such motions
+      type(mechanism_type), intent(in) :: mechanism
+      !> Amplitudes of the jumps, shape (3, points, modes)
+      real(wp), intent(in) :: jump(:, :, :)
+      !> Shape (floating motions)
+      real(wp), allocatable :: multiple(:)
+
+      multiple = matmul(mechanism%idle, matmul(elastic_works(condensed, scene, jump), mechanism%idle))
+   end function idle_part
 
    !> Let the parts stand where they stood when a load step began, along motions that no load acts on, nothing resists and
    !> the step does not push. Those that it pushes stay where it left them

@@ -25,6 +25,10 @@ module axijoint_joints_method
       logical :: warm = .false.
       !> Whether to damp steps where plain ones do not get there
       logical :: damps = .true.
+      !> Iterations after which Newton's method gives up if the residual of the whole structure to the loads is larger than
+      !> one could hope for then
+      integer :: trial = huge(1)
+      real(wp) :: hope = huge(1.0_wp)
    end type control_type
 
    !> How a load step ended

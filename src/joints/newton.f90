@@ -193,8 +193,8 @@ contains
 
       view = views(condensed, scene, field)
       limit = [(min(1.0_wp, steepest(far)/max(tiny(1.0_wp), &
-         field%share*condensed%points(k)%proportion)), k=1, size(limit))]
-      newton%stiff = [(any(field%share*scene%laws(k)%stiffness &
+         field%share(k)*condensed%points(k)%proportion)), k=1, size(limit))]
+      newton%stiff = [(any(field%share(k)*scene%laws(k)%stiffness &
                            > condensed%points(k)%base), k=1, size(condensed%points))]
       if (.not. allocated(newton%slope)) then
          allocate (newton%slope(3, 3, size(field%jump, 2), size(field%jump, 3)))
@@ -210,7 +210,7 @@ contains
                if (present(stress)) stress(:, k, j) = admitted
                missing(:, k, j) = admitted - field%carried(:, k, j)
                call see_at_once(view(k)/limit(k), missing(:, k, j), tangent, newton%rest(:, k, j))
-               call find_slope(base, limit(k)*field%share*law%stiffness, tangent, newton%slope(:, :, k, j))
+               call find_slope(base, limit(k)*field%share(k)*law%stiffness, tangent, newton%slope(:, :, k, j))
                left(:, k, j) = base*(field%jump(:, k, j) - field%moved(:, k, j)) + field%initial(:, k) - admitted
             end associate
          end do

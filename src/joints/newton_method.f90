@@ -8,7 +8,7 @@ module axijoint_joints_newton_method
    use axijoint_joints_approach, only : approach
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, break_bonds, n_fading
-   use axijoint_joints_mechanism, only : find_mechanism
+   use axijoint_joints_mechanism, only : find_mechanism, drives_on
    use axijoint_joints_method, only : method_type, control_type, verdict_type
    use axijoint_joints_newton, only : newton_type, see, linearize, newton_step, step_bounds_type, &
       newton_view, bold, most_damping
@@ -55,9 +55,9 @@ module axijoint_joints_newton_method
 
    !> What to try where the iterations ran away or stalled: nothing more, the whole stiffness at once,
    !> cohesion that fades, smaller steps of that, as much of it as there was equilibrium for, damped
-   !> steps
+   !> steps, and these in stages of stiffness
    enum, bind(c)
-      enumerator :: give_up, whole_stiffness, fading_cohesion, slower_fading, wider_fading, damped_steps
+      enumerator :: give_up, whole_stiffness, fading_cohesion, slower_fading, wider_fading, damped_steps, damped_stages
    end enum
 
    !> The method
@@ -76,13 +76,18 @@ module axijoint_joints_newton_method
       real(wp), allocatable :: residual(:, :, :)
       !> Jumps of the state that the load step begins with, shape (3, points, planes)
       real(wp), allocatable :: begun(:, :, :)
-      !> The state at the start, the last that ran away, and the last in equilibrium in which cohesion fades
+      !> The state at the start, the last without equilibrium that a load drives on, or else that ran away, and the last in
+      !> equilibrium in which cohesion fades
       type(joint_field_type), allocatable :: start, astray, fading
+      !> Whether a load drives it on
+      logical :: driven = .false.
       !> What bounds the steps
       type(step_bounds_type) :: bounds
-      !> Whether the laws see a part of the stiffness first, whether damped steps were tried, and whether
-      !> the last step was not made
-      logical :: in_stages = .false., damped = .false., ran = .false.
+      !> Whether the laws see a part of the stiffness first, whether damped steps were tried, whether they
+      !> may be in stages, too, and whether the last step was not made
+      logical :: in_stages = .false., damped = .false., may_damp_stages = .false., ran = .false.
+      !> Share of the stiffness that the law of each point sees first in stages
+      real(wp), allocatable :: share(:)
       !> Whether cohesion that fades was tried, and whether it is not to fade faster
       logical :: faded = .false., wide = .false.
       !> What the fading is multiplied by whenever there is equilibrium, and how far down
@@ -118,13 +123,14 @@ contains
             field, verdict)
          call condensed%team%share_wish()
          if (stop_wished()) exit  ! nobody uses what was reached
+         if (course%watch%k == control%trial .and. verdict%residual%whole > control%hope) exit
          verdict%ran_away = verdict%ran_away .or. course%ran
          verdict%stalled = ieee_is_finite(verdict%residual%ratio) .and. .not. course%ran &
             .and. course%watch%k > course%watch%best_at + patience
          course%ran = .false.
          associate (may_go_on => course%watch%k < control%most)
             if (verdict%ran_away .or. verdict%stalled) then
-               if (verdict%ran_away) course%astray = field
+               call note_astray(condensed, scene, verdict%ran_away, field, course)
                next = next_attempt(control%damps, course, verdict%stalled, any(loses_at_opening(scene%laws)), &
                   may_go_on)
                if (next == give_up) exit
@@ -143,11 +149,7 @@ contains
          if (again) call look_again(condensed, scene, verdict%residual%ratio, field, course)
          call take_step(condensed, scene, control%tolerance, verdict%residual%ratio, field, course)
       end do
-      if (verdict%stalled .and. allocated(course%astray)) then
-         verdict%ran_away = .true.
-         field = course%astray
-         call evaluate(condensed, scene, field, course%residual)
-      end if
+      if (.not. verdict%converged) call end_astray(condensed, scene, field, course, verdict)
       if (verdict%converged .and. n_fading(scene%laws, field) == 0) field%fading = 0.0_wp
       call end_watch(course%watch, course%residual, field, path, verdict)
       if (verdict%converged .or. verdict%ran_away .or. .not. verdict%stalled) return
@@ -171,15 +173,15 @@ contains
       !> Takes a mechanism
       type(verdict_type), intent(inout) :: verdict
 
-      real(wp) :: share
       logical :: moved
 
       allocate (course%residual, mold=field%excess)
       course%begun = field%jump
-      share = share_seen_first(condensed, scene)
-      course%in_stages = .not. control%warm .and. share < 1.0_wp
+      course%share = share_seen_first(condensed, scene)
+      course%in_stages = .not. control%warm .and. any(course%share < 1.0_wp)
       if (course%in_stages) course%in_stages = .not. is_admitted(condensed, scene, control%tolerance, field, course%residual)
-      if (course%in_stages) field%share = share
+      course%may_damp_stages = course%in_stages
+      if (course%in_stages) field%share = course%share
       if (.not. control%warm) field%fading = 0.0_wp
       ! states that go on from each other fade alike
       if (field%fading > 0.0_wp) course%least_fading = max(last_fading, field%fading)
@@ -214,22 +216,83 @@ contains
       admitted = found%ratio <= tolerance
    end function is_admitted
 
-   !> Share of the joint stiffness to begin with: what is about
-   !> the stiffness of the bodies. Cohesion, or a stress before loading, makes yield depend on the size
+   !> Share of the joint stiffness to begin with: what is about the stiffness of the bodies, no less of
+   !> joints that are no stiffer. Cohesion, or a stress before loading, makes yield depend on the size
    !> of the stress, not on its direction alone; then the share would mislead.
-   pure real(wp) function share_seen_first(condensed, scene) result(share)
+   pure function share_seen_first(condensed, scene) result(share)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws
       type(scene_type), intent(in) :: scene
+      !> Shape (points)
+      real(wp) :: share(size(scene%laws))
 
       !> Power of ten of k h/E that needs no help
       integer, parameter :: easy = 0
+      real(wp) :: of_stiffest
 
       share = 1.0_wp
       if (any(scene%laws%cohesion > 0.0_wp) .or. any(abs(scene%laws%initial_stress) > 0.0_wp)) return
-      share = 10.0_wp**min(0, easy - floor(log10(max(tiny(1.0_wp), condensed%proportion))))
+      of_stiffest = 10.0_wp**min(0, easy - floor(log10(max(tiny(1.0_wp), condensed%proportion))))
+      if (of_stiffest < 1.0_wp) share = min(1.0_wp, of_stiffest*condensed%proportion &
+         /max(tiny(1.0_wp), condensed%points%proportion))
    end function share_seen_first
+
+   !> Whether laws see a part of their stiffness
+   pure logical function sees_part(field)
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+
+      sees_part = any(field%share < 1.0_wp)
+   end function sees_part
+
+   !> Note where an attempt ended without equilibrium. What laws do that see a part of their stiffness is no sign of what
+   !> they do in the end; and where some steps go far astray, others may show what the load does
+   subroutine note_astray(condensed, scene, ran_away, field, course)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> Whether it ran away
+      logical, intent(in) :: ran_away
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> The iteration
+      type(course_type), intent(inout) :: course
+
+      real(wp), allocatable :: motion(:)
+      logical :: driven
+
+      if (sees_part(field)) return
+      call drives_on(condensed, scene, field, driven, motion)
+      if (.not. (driven .or. ran_away .and. .not. course%driven)) return
+      course%astray = field
+      course%driven = driven
+   end subroutine note_astray
+
+   !> End without equilibrium: in the state that went astray, if there is one, and with the whole stiffness
+   subroutine end_astray(condensed, scene, field, course, verdict)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> State of the joints
+      type(joint_field_type), intent(inout) :: field
+      !> The iteration
+      type(course_type), intent(inout) :: course
+      !> How it ended
+      type(verdict_type), intent(inout) :: verdict
+
+      if ((verdict%stalled .or. verdict%ran_away) .and. allocated(course%astray)) then
+         verdict%ran_away = .true.
+         field = course%astray
+      else if (sees_part(field)) then
+         field%share = 1.0_wp
+      else
+         return
+      end if
+      call evaluate(condensed, scene, field, course%residual)
+   end subroutine end_astray
 
    !> What to try next
    pure integer function next_attempt(damps, course, stalled, may_fade, may_go_on) result(next)
@@ -254,6 +317,8 @@ contains
          next = wider_fading
       else if (damps .and. .not. course%damped) then
          next = damped_steps
+      else if (damps .and. course%may_damp_stages) then
+         next = damped_stages
       end if
    end function next_attempt
 
@@ -297,11 +362,14 @@ contains
       case (whole_stiffness)
          course%in_stages = .false.
          course%damped = .false.
+         course%start%share = 1.0_wp
          field = course%start
          call begin_again(condensed, scene, field, course, verdict)
-      case (damped_steps)
+      case (damped_steps, damped_stages)
          course%damped = .true.
          field = course%start
+         if (attempt == damped_stages) field%share = course%share
+         if (sees_part(field)) course%may_damp_stages = .false.
          call begin_again(condensed, scene, field, course, verdict)
          course%bounds%damps_all = .true.
          course%bounds%damping = most_damping(condensed)
@@ -369,7 +437,7 @@ contains
 
       again = .false.
       associate (found => verdict%residual)
-         if (field%share < 1.0_wp) then
+         if (sees_part(field)) then
             again = found%whole <= stage_tolerance
             if (again) call stiffen(condensed, scene, field, course%residual)
          else if (field%fading > course%least_fading .and. .not. course%wide) then
@@ -406,7 +474,7 @@ contains
 
       type(strictest_type) :: found
 
-      do while (field%share < 1.0_wp)
+      do while (sees_part(field))
          field%share = min(1.0_wp, stage_factor*field%share)
          call evaluate(condensed, scene, field, residual)
          found = strictest(condensed%measure, scene%loads%reference, residual, paper=.false.)

@@ -8,11 +8,12 @@
 !> digits are gathered (`gathered_flexibility`), products are in single precision, and what a solution leaves
 !> is found with all digits, and solved for again
 module axijoint_joints_newton_system
+   use omp_lib, only : omp_get_level
    use axijoint_base_kinds, only : wp, sp
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_gathered_flexibility, only : gathered_type, gathering_type, gather_moving, is_worth_threads
    use axijoint_joints_plane_product, only : put_slopes, multiply_group, n_groups, points_together
-   use axijoint_joints_planes, only : sum_modes, find_modes, by_halves
+   use axijoint_joints_planes, only : sum_modes, find_modes
    use axijoint_joints_point_blocks, only : point_blocks_type, new_point_blocks, precondition
    use axijoint_joints_scene, only : scene_type, jumps, tell_jumps
    use axijoint_linalg_gmres, only : operator_type, gmres
@@ -290,30 +291,27 @@ contains
 
       integer :: k
 
-      do k = 1, n_parts(self, n)
+      !$omp parallel do schedule(static) if (omp_get_level() == 0 .and. is_worth_threads(self%condensed, n))
+      do k = 1, n_parts(n)
          call find_part(self, k, n, jump, excess)
       end do
+      !$omp end parallel do
    end subroutine find_excess
 
-   !> Parts in which the excess stress of points is found: one if modes are summed by halves, whose threads share the
-   !> points there
-   pure integer function n_parts(self, n)
-      !> The operator
-      type(derivative_type), intent(in) :: self
+   !> Parts in which the excess stress of points is found
+   pure integer function n_parts(n)
       !> Number of points
       integer, intent(in) :: n
 
-      n_parts = merge(1, (n + points_at_a_time - 1)/points_at_a_time, by_halves(self%scene%planes))
+      n_parts = (n + points_at_a_time - 1)/points_at_a_time
    end function n_parts
 
    !> Last point of a part
-   pure integer function last_of(self, part, n)
-      !> The operator
-      type(derivative_type), intent(in) :: self
+   pure integer function last_of(part, n)
       !> The part, and the number of all points
       integer, intent(in) :: part, n
 
-      last_of = part*n/n_parts(self, n)
+      last_of = part*n/n_parts(n)
    end function last_of
 
    !> Excess stress of a part of the points
@@ -329,15 +327,13 @@ contains
       real(wp), allocatable :: on_planes(:, :, :), stress(:, :, :)
       integer :: j, first, last
 
-      first = last_of(self, part - 1, n) + 1
-      last = last_of(self, part, n)
+      first = last_of(part - 1, n) + 1
+      last = last_of(part, n)
       allocate (on_planes(last - first + 1, 3, size(self%slope, 4)), stress(last - first + 1, 3, size(self%slope, 4)))
       call sum_modes(self%scene%planes, last - first + 1, n, jump(first, 1, 1), on_planes)
-      !$omp parallel do if (by_halves(self%scene%planes))
       do j = 1, size(stress, 3)
          call multiply(last - first + 1, n, self%slope(first, 1, 1, j), on_planes(:, :, j), stress(:, :, j))
       end do
-      !$omp end parallel do
       call find_modes(self%scene%planes, last - first + 1, n, stress, excess(first, 1, 1))
    end subroutine find_part
 
@@ -384,10 +380,8 @@ contains
       real(wp), intent(in) :: x(n, 3, n_modes)
       real(wp), intent(inout) :: y(n, 3, n_modes)
 
-      logical :: by_parts
       integer :: k, part
 
-      by_parts = n_parts(self, n) > 1
       associate (jump => self%room%jump, parts => self%room%parts, gathering => self%gathering, scene => self%scene)
          !$omp parallel if (is_worth_threads(self%condensed, n))
          !$omp do schedule(static, 1) collapse(2)
@@ -408,21 +402,15 @@ contains
             !$omp end master
             !$omp barrier
          end if
-         if (by_parts) then
-            !$omp do schedule(static)
-            do k = 1, n_parts(self, n)
-               call find_part(self, k, n, jump, y)
-               associate (first => last_of(self, k - 1, n) + 1, last => last_of(self, k, n))
-                  y(first:last, :, :) = x(first:last, :, :) - y(first:last, :, :)
-               end associate
-            end do
-            !$omp end do
-         end if
+         !$omp do schedule(static)
+         do k = 1, n_parts(n)
+            call find_part(self, k, n, jump, y)
+            associate (first => last_of(k - 1, n) + 1, last => last_of(k, n))
+               y(first:last, :, :) = x(first:last, :, :) - y(first:last, :, :)
+            end associate
+         end do
+         !$omp end do
          !$omp end parallel
-         if (.not. by_parts) then
-            call find_excess(self, n, jump, y)
-            y = x - y
-         end if
       end associate
       if (allocated(self%blocks)) call precondition(self%blocks, y)
    end subroutine act

@@ -4,6 +4,7 @@
 module axijoint_joints_plane_product
    use, intrinsic :: iso_c_binding, only : c_float, c_int, c_long
    use axijoint_base_kinds, only : wp, sp
+   use axijoint_joints_circle_sums, only : circle_sums_type, room_on_circle, multiply_on_circle
    use axijoint_joints_planes, only : planes_type
    implicit none
    private
@@ -14,8 +15,10 @@ module axijoint_joints_plane_product
 
    !> What is multiplied, and the product
    type :: plane_product_type
-      !> Values of the modes on the planes, and what goes back, shape (planes together, even and odd components, modes,
-      !> groups of planes); zero beyond the last plane
+      !> Sums by few operations, where there are enough modes and planes; otherwise not allocated
+      type(circle_sums_type), allocatable, private :: circle
+      !> Without these: values of the modes on the planes, and what goes back, shape (planes together, even and odd components,
+      !> modes, groups of planes); zero beyond the last plane
       real(sp), allocatable, private, dimension(:, :, :, :) :: forth, back
       !> Slopes over the largest of them, shape (points, 3, 3, planes); zero beyond the last point
       real(sp), allocatable, private :: slope(:, :, :, :)
@@ -51,7 +54,13 @@ contains
 
       n = size(slope, 1)
       call make_room(product, points_together*n_groups(n), size(planes%meridional, 1), size(slope, 4))
-      call put_planes(product, planes)
+      if (allocated(planes%circle)) then
+         product%circle = planes%circle
+         if (allocated(product%forth)) deallocate (product%forth, product%back)
+      else
+         if (allocated(product%circle)) deallocate (product%circle)
+         call put_planes(product, planes)
+      end if
       largest = max(tiny(1.0_wp), maxval(abs(slope)))
       do j = 1, size(slope, 4)
          product%slope(:n, :, :, j) = real(slope(:, :, :, j)/largest, sp)
@@ -69,13 +78,9 @@ contains
 
       if (allocated(product%slope)) then
          if (all([size(product%slope, 1), size(product%jump, 3), size(product%slope, 4)] == [lead, n_modes, n_planes])) return
-         deallocate (product%slope, product%jump, product%excess, product%forth, product%back)
+         deallocate (product%slope, product%jump, product%excess)
       end if
       allocate (product%slope(lead, 3, 3, n_planes), product%jump(lead, 3, n_modes), product%excess(lead, 3, n_modes))
-      associate (groups => (n_planes + planes_together - 1)/planes_together)
-         allocate (product%forth(planes_together, 2, n_modes, groups), product%back(planes_together, 2, n_modes, groups), &
-                   source=0.0_sp)
-      end associate
    end subroutine make_room
 
    !> Put the values of the modes on the planes
@@ -85,8 +90,12 @@ contains
       !> The planes
       type(planes_type), intent(in) :: planes
 
-      integer :: group, j, place
+      integer :: group, j, n, place
 
+      n = (size(planes%angle) + planes_together - 1)/planes_together
+      if (allocated(product%forth)) deallocate (product%forth, product%back)
+      allocate (product%forth(planes_together, 2, size(planes%meridional, 1), n), source=0.0_sp)
+      allocate (product%back, source=product%forth)
       do j = 1, size(planes%angle)
          group = 1 + (j - 1)/planes_together
          place = j - (group - 1)*planes_together
@@ -106,7 +115,7 @@ contains
    end function n_groups
 
    !> Excess stress of a group of points
-   pure subroutine multiply_group(product, group, at_once)
+   subroutine multiply_group(product, group, at_once)
       !> Slopes and jumps; takes the excess stress
       type(plane_product_type), intent(inout) :: product
       !> Which group
@@ -114,13 +123,20 @@ contains
       !> Points that are taken at once at most; as many as the processor takes if absent
       integer, intent(in), optional :: at_once
 
+      real(sp), allocatable :: room(:)
       integer :: most, first
 
       most = points_together
       if (present(at_once)) most = at_once
       first = (group - 1)*points_together + 1
       associate (lead => size(product%jump, 1))
-         call c_product(most, size(product%forth, 3), size(product%slope, 4), int(lead, c_long), product%forth, product%back, &
+         if (allocated(product%circle)) then
+            call room_on_circle(product%circle, 3, room)
+            call multiply_on_circle(product%circle, lead, product%slope(first, 1, 1, 1), product%jump(first, 1, 1), &
+                                    product%excess(first, 1, 1), room, most/2)
+            return
+         end if
+         call c_product(most, size(product%jump, 3), size(product%slope, 4), int(lead, c_long), product%forth, product%back, &
                         product%slope(first, 1, 1, 1), product%jump(first, 1, 1), product%excess(first, 1, 1))
       end associate
    end subroutine multiply_group

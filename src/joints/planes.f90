@@ -1,15 +1,16 @@
 !> Harmonics summed on planes theta, and back (steps 3 and 4 of the paper)
 module axijoint_joints_planes
-   use axijoint_base_kinds, only : wp, pi
+   use omp_lib, only : omp_get_level
+   use axijoint_base_kinds, only : wp, sp, pi
    use axijoint_fe_fourier, only : cosine_of_fraction, sine_of_fraction
    use axijoint_fe_mode, only : mode_type, family_symmetric, meridional, circumferential
-   use axijoint_joints_half_sums, only : half_sums_type, new_half_sums, sum_halves, find_halves, &
-      worth_halves
+   use axijoint_joints_circle_sums, only : circle_sums_type, new_circle_sums, are_worth_it, room_on_circle, sum_on_circle, &
+      find_on_circle
    use axijoint_linalg_lapack, only : dgemm
    use axijoint_model_modes, only : greatest_divisor
    implicit none
    private
-   public :: planes_type, new_planes, new_view, synthesize, analyse, sum_modes, find_modes, by_halves, on_all, &
+   public :: planes_type, new_planes, new_view, synthesize, analyse, sum_modes, find_modes, on_all, part_intervals, &
       plane_weights, mode_on_planes, mode_from_planes
 
    !> Planes and the matrices between them and the modes
@@ -32,15 +33,13 @@ module axijoint_joints_planes
       !> Whether a component is odd in theta in a symmetric mode, shape (components): those of
       !> joints are xi, eta, theta
       logical, allocatable :: odd(:)
-      !> Sums by halves where there are enough modes and planes: of components that are even or odd
-      !> in a symmetric mode, in symmetric modes (cosines, sines) and in antisymmetric ones (sines,
-      !> cosines), shape (2, 2); otherwise not allocated
-      type(half_sums_type), allocatable, private :: halves(:, :)
+      !> Sums by few operations, where there are enough modes and planes; otherwise not allocated
+      type(circle_sums_type), allocatable :: circle
    end type planes_type
 
    !> Components of joints
    logical, parameter :: joint_components(3) = [.false., .false., .true.]
-   !> Points that are summed at a time by halves, and numbers of sums from which on threads are worth
+   !> Points that are summed at a time by few operations, and numbers of sums from which on threads are worth
    !> their start
    integer, parameter :: points_at_a_time = 32, worth_threads = 15000
 
@@ -103,35 +102,24 @@ contains
          end do
       end do
       call place_all(n, half, intervals, planes)
-      if (worth_halves(size(modes), count)) call plan_halves((modes%family == family_symmetric), m, &
-         intervals, planes)
+      if (are_worth_it(size(modes), count, intervals)) &
+         planes%circle = new_circle_sums(m, (modes%family == family_symmetric), intervals, count)
    end function new_planes
 
-   !> Plan sums by halves
-   pure subroutine plan_halves(symmetric, m, intervals, planes)
-      !> Whether each mode is symmetric, and its harmonic in a part of the circle
-      logical, intent(in) :: symmetric(:)
-      integer, intent(in) :: m(:)
-      !> Intervals from 0 to pi of a part
-      integer, intent(in) :: intervals
-      !> The planes
-      type(planes_type), intent(inout) :: planes
+   !> Intervals between planes from 0 to pi of that part of the circle which is enough
+   pure integer function part_intervals(n, harmonics) result(intervals)
+      !> Number of planes from 0 to pi
+      integer, intent(in) :: n
+      !> Harmonics of the modes
+      integer, intent(in) :: harmonics(:)
 
-      real(wp) :: ends
-      integer :: family, k
+      integer :: m(size(harmonics)), folds
 
-      ends = merge(0.5_wp, 1.0_wp, all(symmetric))
-      allocate (planes%halves(2, 2))
-      do family = 1, 2
-         associate (modes => pack([(k, k=1, size(m))], symmetric .eqv. family == 1), &
-                    last => intervals + 1)
-            planes%halves(1, family) = new_half_sums(modes, m, family == 2, ends, &
-               planes%meridional(:, :last), planes%meridional_back(:last, :))
-            planes%halves(2, family) = new_half_sums(modes, m, family == 1, ends, &
-               planes%circumferential(:, :last), planes%circumferential_back(:last, :))
-         end associate
-      end do
-   end subroutine plan_halves
+      intervals = n - 1
+      m = harmonics
+      folds = 1
+      call fold(harmonics, intervals, m, folds)
+   end function part_intervals
 
    !> Fold the circle where all repeats: harmonics and intervals of one part
    pure subroutine fold(harmonics, intervals, m, folds)
@@ -342,14 +330,6 @@ contains
       end do
    end subroutine turn
 
-   !> Whether sums are found by halves, which threads share by themselves
-   pure logical function by_halves(planes)
-      !> The planes
-      type(planes_type), intent(in) :: planes
-
-      by_halves = allocated(planes%halves)
-   end function by_halves
-
    !> Sums of the modes on every plane, of values that lie together component by component
    subroutine sum_modes(planes, n, lead, amplitude, total)
       !> The planes
@@ -361,8 +341,8 @@ contains
       !> Sums, shape (points, components, planes)
       real(wp), intent(inout) :: total(n, size(planes%odd), *)
 
-      if (allocated(planes%halves)) then
-         call sum_by_halves(planes, n, lead, size(planes%meridional, 1), amplitude, total)
+      if (allocated(planes%circle)) then
+         call sum_round(planes, n, lead, amplitude, total)
       else
          call multiply(planes%odd, n, lead, amplitude, planes%meridional, planes%circumferential, n, total)
       end if
@@ -379,99 +359,76 @@ contains
       !> Amplitudes, shape (points, components, modes)
       real(wp), intent(inout) :: amplitude(lead, size(planes%odd), *)
 
-      if (allocated(planes%halves)) then
-         call find_by_halves(planes, n, lead, size(planes%meridional, 1), total, amplitude)
+      if (allocated(planes%circle)) then
+         call find_round(planes, n, lead, total, amplitude)
       else
          call multiply(planes%odd, n, n, total, planes%meridional_back, planes%circumferential_back, lead, amplitude)
       end if
    end subroutine find_modes
 
-   !> Sums on every plane by halves. So many points at a time, whatever the number of threads: results
-   !> do not depend on that
-   subroutine sum_by_halves(planes, n, lead, n_modes, amplitude, total)
+   !> Sums on every plane by few operations
+   subroutine sum_round(planes, n, lead, amplitude, total)
       !> The planes
       type(planes_type), intent(in) :: planes
-      !> Numbers of points, of those that amplitudes are there for, and of modes
-      integer, intent(in) :: n, lead, n_modes
+      !> Number of points, and of those that amplitudes are there for
+      integer, intent(in) :: n, lead
       !> Amplitudes, shape (points, components, modes)
-      real(wp), intent(in) :: amplitude(lead, size(planes%odd), n_modes)
+      real(wp), intent(in) :: amplitude(lead, size(planes%odd), *)
       !> Sums, shape (points, components, planes)
-      real(wp), intent(inout) :: total(n, size(planes%odd), size(planes%angle))
+      real(wp), intent(inout) :: total(n, size(planes%odd), *)
 
-      real(wp), allocatable :: part(:, :), even(:, :), odd(:, :)
-      integer :: first, last, i, j, turn, half
+      real(sp), allocatable :: room(:)
+      integer :: first, i
 
-      half = size(planes%angle)
-      if (size(planes%place) > planes%n) half = size(planes%angle)/2 + 1
-      !$omp parallel do collapse(2) schedule(static, 1) private(part, even, odd, last, j, turn) if &
-      !$omp (size(total) >= worth_threads)
+      !$omp parallel private(room) if (is_worth_threads(planes, n))
+      call room_on_circle(planes%circle, 1, room)
+      !$omp do collapse(2) schedule(static, 1)
       do first = 1, n, points_at_a_time
          do i = 1, size(planes%odd)
-            last = min(n, first + points_at_a_time - 1)
-            turn = merge(2, 1, planes%odd(i))
-            part = amplitude(first:last, i, :)
-            allocate (even(last - first + 1, half), odd(last - first + 1, half))
-            call sum_halves(planes%halves(turn, 1), part, even)
-            if (half == size(planes%angle)) then
-               total(first:last, i, :) = even
-            else
-               call sum_halves(planes%halves(turn, 2), part, odd)
-               total(first:last, i, :half) = even + odd
-               do j = 2, half - 1  ! sines and cosines beyond pi
-                  total(first:last, i, size(planes%angle) + 2 - j) = &
-                     merge(-1.0_wp, 1.0_wp, planes%odd(i))*(even(:, j) - odd(:, j))
-               end do
-            end if
-            deallocate (even, odd)
+            call sum_on_circle(planes%circle, planes%odd(i), min(points_at_a_time, n - first + 1), lead*size(planes%odd), &
+                               amplitude(first, i, 1), n*size(planes%odd), total(first, i, 1), room)
          end do
       end do
-      !$omp end parallel do
-   end subroutine sum_by_halves
+      !$omp end do
+      !$omp end parallel
+   end subroutine sum_round
 
-   !> Amplitudes by halves
-   subroutine find_by_halves(planes, n, lead, n_modes, total, amplitude)
+   !> Whether sums of so many points are worth threads: not within a region of one thread, in which each would be a new one
+   logical function is_worth_threads(planes, n) result(worth)
+      !> The planes
+      type(planes_type), intent(in) :: planes
+      !> Number of points
+      integer, intent(in) :: n
+
+      worth = omp_get_level() == 0 .and. real(n, wp)*size(planes%odd)*size(planes%angle) >= worth_threads
+   end function is_worth_threads
+
+   !> Amplitudes by few operations
+   subroutine find_round(planes, n, lead, total, amplitude)
       !> The planes, made by `new_planes`
       type(planes_type), intent(in) :: planes
-      !> Numbers of points, of those that amplitudes are there for, and of modes
-      integer, intent(in) :: n, lead, n_modes
+      !> Number of points, and of those that amplitudes are there for
+      integer, intent(in) :: n, lead
       !> Values, shape (points, components, planes)
-      real(wp), intent(in) :: total(n, size(planes%odd), size(planes%angle))
+      real(wp), intent(in) :: total(n, size(planes%odd), *)
       !> Amplitudes, shape (points, components, modes)
-      real(wp), intent(inout) :: amplitude(lead, size(planes%odd), n_modes)
+      real(wp), intent(inout) :: amplitude(lead, size(planes%odd), *)
 
-      real(wp), allocatable :: part(:, :), even(:, :), odd(:, :)
-      integer :: first, last, i, j, turn, half
+      real(sp), allocatable :: room(:)
+      integer :: first, i
 
-      half = size(planes%angle)
-      if (size(planes%place) > planes%n) half = size(planes%angle)/2 + 1
-      !$omp parallel do collapse(2) schedule(static, 1) private(part, even, odd, last, j, turn) if &
-      !$omp (size(total) >= worth_threads)
+      !$omp parallel private(room) if (is_worth_threads(planes, n))
+      call room_on_circle(planes%circle, 1, room)
+      !$omp do collapse(2) schedule(static, 1)
       do first = 1, n, points_at_a_time
          do i = 1, size(planes%odd)
-            last = min(n, first + points_at_a_time - 1)
-            turn = merge(2, 1, planes%odd(i))
-            allocate (part(last - first + 1, n_modes))
-            even = total(first:last, i, :half)
-            if (half == size(planes%angle)) then
-               call find_halves(planes%halves(turn, 1), even, part)
-            else
-               odd = even
-               do j = 2, half - 1
-                  associate (beyond => total(first:last, i, size(planes%angle) + 2 - j), &
-                             sign => merge(-1.0_wp, 1.0_wp, planes%odd(i)))
-                     even(:, j) = even(:, j) + sign*beyond
-                     odd(:, j) = odd(:, j) - sign*beyond
-                  end associate
-               end do
-               call find_halves(planes%halves(turn, 1), even, part)
-               call find_halves(planes%halves(turn, 2), odd, part)
-            end if
-            amplitude(first:last, i, :) = part
-            deallocate (part)
+            call find_on_circle(planes%circle, planes%odd(i), min(points_at_a_time, n - first + 1), n*size(planes%odd), &
+                                total(first, i, 1), lead*size(planes%odd), amplitude(first, i, 1), room)
          end do
       end do
-      !$omp end parallel do
-   end subroutine find_by_halves
+      !$omp end do
+      !$omp end parallel
+   end subroutine find_round
 
    !> Products of each component with the matrix of those that are even or odd
    subroutine multiply(is_odd, n, lead, values, even, odd, lead_product, product)

@@ -261,7 +261,7 @@ contains
       integer :: k
 
       do k = 1, size(view)
-         associate (point => condensed%points(k), share => field%share)
+         associate (point => condensed%points(k), share => field%share(k))
             view(k) = min(1.0_wp, maxval(point%base)/max(tiny(1.0_wp), &
                share*maxval(scene%laws(k)%stiffness)))
             if (share*point%proportion > field%view_limit) &

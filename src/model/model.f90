@@ -57,6 +57,9 @@ module axijoint_model_model
       logical, allocatable :: fixed(:, :)
       !> Components that are held in some modes only
       type(restraint_type), allocatable :: restraints(:)
+      !> Nodes that the program holds in torsion alone, by one of `restraints`: of all that may turn about the axis together and
+      !> that nothing turns, one each
+      integer, allocatable :: turning(:)
       !> Those of `fixed` that cards of nodes hold, and hold in every mode because nothing else was
       !> said, shape (3, nodes)
       logical, allocatable :: held_by_default(:, :)

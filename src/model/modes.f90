@@ -6,7 +6,7 @@ module axijoint_model_modes
    use axijoint_model_model, only : model_type, can_yield, bodies_yield
    implicit none
    private
-   public :: used_modes, highest_loaded, greatest_divisor
+   public :: used_modes, is_loaded, highest_loaded, greatest_divisor
 
 contains
 

@@ -7,10 +7,12 @@ module axijoint_output_output
    use axijoint_base_last_words, only : note_lock, forget_lock
    use axijoint_base_lock, only : lock_type, take_lock, release_lock
    use axijoint_base_process, only : host_name
-   use axijoint_base_system, only : process_id, path_kind, is_directory, same_file, path_absent, error_text, &
-      make_directories
+   use axijoint_base_system, only : process_id, path_kind, is_directory, same_file, path_absent, path_file, error_text, &
+      make_directories, unlink_path
    use axijoint_base_team, only : team_type, take_team
    use axijoint_base_text, only : count_of
+   use axijoint_base_version, only : program_name
+   use axijoint_base_whole_file, only : first_bytes
    use axijoint_deck_text_source, only : source_type
    use axijoint_job_combination, only : combination_label
    use axijoint_job_job, only : job_type, job_name, result_name
@@ -22,7 +24,7 @@ module axijoint_output_output
       file_bodies, file_joints, file_old_listing, files_of, final_path, journal_ending, lock_ending, &
       state_ending, stop_ending, put_aside
    use axijoint_output_file_pending, only : join_path, check_name
-   use axijoint_output_file_run, only : run_type, new_run, exit_code_of
+   use axijoint_output_file_run, only : run_type, new_run, exit_code_of, status_error
    use axijoint_output_file_set, only : commit_set
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_increments, only : write_increments, help_with_increments
@@ -39,7 +41,7 @@ module axijoint_output_output
       end_surfaces
    implicit none
    private
-   public :: check_output, write_output, write_error_summary
+   public :: check_output, write_output, write_error_summary, remove_error_summary
 
 contains
 
@@ -219,13 +221,17 @@ contains
       end subroutine begin_arrays
 
       !> Arrays and listing, at once where there is a thread for each – other processes of the machine that work on the
-      !> job wait meanwhile; the listing ends with the times of both
+      !> job wait meanwhile; the listing ends with the times of both. Not where bodies yield: both say in words what errors that
+      !> leaves, and gfortran keeps the length of the text that a function gives in one place for all threads
       subroutine write_arrays_and_listing()
          type(error_type), allocatable :: unfinished
          type(picture_type), allocatable :: pictures(:)
+         integer :: n
 
          pictures = pictures_of(name, bodies, surfaces)
-         !$omp parallel sections num_threads(min(2, max(omp_get_max_threads(), team%sharers)))
+         n = min(2, max(omp_get_max_threads(), team%sharers))
+         if (allocated(results%yield_errors)) n = 1
+         !$omp parallel sections num_threads(n)
          !$omp section
          call arrays%mute()
          call write_results(arrays, run, job%source, messages, job%model, results)
@@ -379,6 +385,26 @@ contains
       end if
       call release_lock(lock)
    end subroutine write_error_summary
+
+   !> Remove the summary of an error that an earlier run of a job of several combinations left: their results have names
+   !> of their own, and it would speak against them for ever
+   subroutine remove_error_summary(job)
+      !> The job, whose results are written
+      type(job_type), intent(in) :: job
+
+      !> Bytes of a summary that tell what it is of
+      integer, parameter :: enough = 65536
+      character(len=:), allocatable :: path, text
+      integer :: errno
+
+      if (size(job%model%combinations) == 1) return
+      path = final_path(job%options%directory, job_name(job%deck), file_summary)
+      if (path_kind(path) /= path_file) return
+      if (same_file(path, job%deck)) return
+      text = first_bytes(path, enough)
+      if (index(text, '"program": "'//program_name//'"') > 0 .and. index(text, '"status": "'//status_error//'"') > 0) &
+         call unlink_path(path, errno)
+   end subroutine remove_error_summary
 
    !> The final names are free or of regular files
    subroutine check_names(directory, name, files, error)

@@ -4,7 +4,6 @@ module axijoint_solver_band
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_last_words, only : let_fail
    use axijoint_base_large_pages, only : use_large_pages
-   use axijoint_base_text, only : to_text
    use axijoint_linalg_band_solve, only : band_cholesky_solve
    use axijoint_linalg_lapack, only : band_cholesky
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
@@ -48,6 +47,7 @@ contains
          equation=3.0e-7_wp)
       entry%automatic = .true.
       entry%widest_band = 400
+      entry%by_outline = .true.
    end function band_entry
 
    !> An empty plan
@@ -114,8 +114,7 @@ contains
          end if
       end if
       if (stat /= 0) then
-         call memory_error(error, 'a band factor needs '//to_text(self%factor_bytes)// &
-                          ' bytes')
+         call memory_error(error, 'a band factor needs', self%factor_bytes, 'bytes')
          return
       end if
       new%band = 0.0_wp

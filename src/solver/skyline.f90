@@ -4,7 +4,6 @@ module axijoint_solver_skyline
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_last_words, only : let_fail
    use axijoint_base_large_pages, only : use_large_pages
-   use axijoint_base_text, only : to_text
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    use axijoint_order_orders, only : least_profile
    use axijoint_solver_entry, only : solver_entry_type, cost_type
@@ -120,8 +119,7 @@ contains
          end if
       end if
       if (stat /= 0) then
-         call memory_error(error, 'a skyline factor needs '// &
-                          to_text(self%factor_bytes)//' bytes')
+         call memory_error(error, 'a skyline factor needs', self%factor_bytes, 'bytes')
          return
       end if
       new%n = self%n

@@ -4,7 +4,6 @@ module axijoint_solver_sparse
                                            c_int64_t, c_double
    use axijoint_base_error, only : error_type, memory_error
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_base_text, only : to_text
    use axijoint_linalg_lapack, only : complete
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    use axijoint_order_orders, only : least_fill
@@ -38,15 +37,14 @@ module axijoint_solver_sparse
 
    interface
       !> Plan for a pattern
-      function cholmod_analyse(n, start, column, entries, operations, bytes, work_bytes) &
-         result(handle) &
+      function cholmod_analyse(n, start, column, entries, operations, plan_bytes, bytes, work_bytes) result(handle) &
          bind(c, name='axijoint_cholmod_analyse')
          import :: c_ptr, c_int32_t, c_int64_t, c_double
          integer(c_int64_t), value :: n
          integer(c_int64_t), intent(in) :: start(*)
          integer(c_int32_t), intent(in) :: column(*)
          real(c_double), intent(out) :: entries, operations
-         integer(c_int64_t), intent(out) :: bytes, work_bytes
+         integer(c_int64_t), intent(out) :: plan_bytes, bytes, work_bytes
          type(c_ptr) :: handle
       end function cholmod_analyse
       !> Factor of a matrix, in the memory of an old one if that is not null, or in new memory,
@@ -134,15 +132,12 @@ contains
       call free_solver(self)
       self%n = pattern%n
       self%handle = cholmod_analyse(int(pattern%n, c_int64_t), pattern%row_start, pattern%column, &
-                                    entries, operations, self%factor_bytes, &
+                                    entries, operations, self%plan_bytes, self%factor_bytes, &
                                     self%work_bytes)
       self%factor_entries = int(entries, i8)
       self%operations = operations
-      ! rows in 8 bytes and places of the values in 4
-      self%plan_bytes = 12*size(pattern%column, kind=i8) + 64*int(pattern%n, i8)
       if (c_associated(self%handle)) return
-      call memory_error(error, 'analysis of a sparse matrix with '// &
-                       to_text(pattern%n)//' equations')
+      call memory_error(error, 'analysis of a sparse matrix with', int(pattern%n, i8), 'equations')
    end subroutine analyse
 
    !> Factor a matrix
@@ -178,8 +173,7 @@ contains
          if (failed == 0) call judge_pivots(value(pattern%row_start(2:) - 1), root, pivots)
          call move_alloc(new, factor)
       else
-         call memory_error(error, 'a sparse factor needs '// &
-                          to_text(int(self%factor_bytes/2**20))//' MiB')
+         call memory_error(error, 'a sparse factor needs', self%factor_bytes/2_i8**20, 'MiB')
       end if
    end subroutine factorize
 
@@ -235,7 +229,7 @@ contains
       call new_block(inverse, size(set), size(set), error)
       if (allocated(error)) return
       if (cholmod_inverse(self%handle, size(set, kind=c_int64_t), set, inverse, place) /= 0) then
-         call memory_error(error, 'the inverse at '//to_text(size(set))//' equations')
+         call memory_error(error, 'the inverse at', size(set, kind=i8), 'equations')
          return
       end if
       call complete(inverse)

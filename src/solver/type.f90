@@ -3,7 +3,6 @@ module axijoint_solver_type
    use axijoint_base_error, only : error_type, memory_error
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_last_words, only : let_fail
-   use axijoint_base_text, only : to_text
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    implicit none
    private
@@ -187,8 +186,7 @@ contains
       if (stat == 0) then
          block = 0.0_wp
       else
-         call memory_error(error, 'a block of '//to_text(rows)// &
-                          ' x '//to_text(columns)//' numbers')
+         call memory_error(error, 'a block of', int(rows, i8)*columns, 'numbers')
       end if
    end subroutine new_block
 

@@ -50,7 +50,8 @@ contains
          do i = 1, size(cases)
             line = line//','//all_digits(directions(i, k))
          end do
-         line = line//','//all_digits(found(k)%factor)//','//all_digits(found(k)%without)
+         line = line//','//all_digits(found(k)%factor)//','
+         if (found(k)%without > 0.0_wp) line = line//all_digits(found(k)%without)
          do i = 1, size(cases)
             line = line//','//all_digits(found(k)%factor*directions(i, k))
          end do

@@ -2,7 +2,7 @@
 !> ranges or distributions stands for many rows
 module axijoint_study_table
    use axijoint_base_kinds, only : wp
-   use axijoint_base_text, only : to_text, upper, did_you_mean
+   use axijoint_base_text, only : count_of, to_text, upper, did_you_mean
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
    use axijoint_deck_text_field, only : field_type, integer_field, word_field, kind_text, &
       kind_word, kind_code, kind_integer, largest_number
@@ -464,7 +464,7 @@ contains
       allocate (cells(size(columns)))
       if (present(diagnostics) .and. size(places) /= size(columns)) then
          call add_error(diagnostics, line, 1, len(text), 'the line has '// &
-            to_text(size(places))//' cells, the head of the table '//to_text(size(columns)), &
+            count_of(size(places), 'cell')//', the head of the table '//to_text(size(columns)), &
             mend='divide cells by commas; an empty cell keeps the deck''s value')
          if (present(n_rows)) n_rows = 0
          return

@@ -28,6 +28,9 @@ TRACTIONS
 2, 0, 0, 1.0
 END
 """
+# The same, small, in two combinations
+COMBINED = LARGE.replace('200, 200', '2, 2').replace('TRACTIONS', 'CASE\n1, Pull\nTRACTIONS').replace(
+    '\nEND', '\nCASE\n2, Weight\nGRAVITY\n-1.0\nCOMBINE\n10, 1, 1.0\n20, 1, 1.0, 2, 1.0\nEND')
 
 
 def failed(ran, code, words):
@@ -215,6 +218,21 @@ def stack(program, folder):
     return faults
 
 
+def mended(program, folder):
+    """The summary of an error goes when the mended deck has results of several combinations under names of their own; a file
+    of somebody else's with that name stays"""
+    deck = write(folder, 'job.dat', COMBINED.replace('COMBINE', 'COMBIN'))
+    faults = program.run('run', deck, '-o', folder, folder=folder).ended_with(2)
+    faults += expected('files of the error', ['job.dat', 'job.json'], sorted(os.listdir(folder)))
+    write(folder, 'job.dat', COMBINED)
+    faults += program.run('run', deck, '-o', folder, folder=folder).ended_with(0)
+    results = [f'job.{label}.{ending}' for label in (10, 20) for ending in ('h5', 'json', 'lis')]
+    faults += expected('files', [*results, 'job.dat'], sorted(os.listdir(folder)))
+    write(folder, 'job.json', '{"status": "error"}')
+    faults += program.run('run', deck, '-o', folder, folder=folder).ended_with(0)
+    return faults + expected('files', sorted([*results, 'job.dat', 'job.json']), sorted(os.listdir(folder)))
+
+
 def lost_output(program, folder):
     """What is meant for the screen finds no room, or nobody who takes it: exit code 5 whatever the command, and results as
     without that"""
@@ -247,7 +265,7 @@ def tests(program):
         'a deck named like a result': deck_named_like_a_result,
         'a deck named like what is removed': deck_named_like_what_is_removed,
         'full disk': full_disk, 'memory limit': memory, 'memory limit of small jobs': little_memory, 'stack limit': stack,
-        'output that is lost': lost_output,
+        'output that is lost': lost_output, 'a deck that was mended': mended,
         'directory for a file': lambda program, folder: occupied(program, folder, os.mkdir),
         'pipe for a file': lambda program, folder: occupied(program, folder, os.mkfifo),
     }

@@ -404,6 +404,53 @@ def stiff_plug(method='NEWTON'):
     return deck.resultants((1, 'AXIAL', -0.1)).add('INCREMENTS', (1.0, 1e-7, 20000)).text()
 
 
+def stiff_caisson(factors):
+    """A caisson in joints as good as rigid that only friction holds along its sides, on a soft joint under its tip, pressed in
+    and pushed sideways. `factors`: the increments"""
+    deck = Deck('A caisson on stiff joints', 1, 6).add('MATERIALS', (1, 2000.0, 0.3), (2, 1400.0, 0.4))
+    deck.law(1, (6.4e8,)*3, 0.0, 30.0).details(1, slip='RESULTANT')
+    deck.law(2, (7.6,)*3, 0.0, 20.0, rule='LOBATTO').details(2, slip='RESULTANT')
+    deck.block(1, 2, 8, 1, 2, 1, -1, 1.2, 0).block(1, 2, 8, 1, 1, 1, 0, 1.2, 0.3).block(2, 1, 8, 2, 2, 0, -1, 1, 0)
+    deck.block(2, 1, 8, 2, 2, 1.2, -1, 3, 0).block(2, 1, 8, 2, 2, 0, -2, 1, -1).block(2, 1, 8, 1, 2, 1, -2, 1.2, -1)
+    deck.block(2, 1, 8, 2, 2, 1.2, -2, 3, -1)
+    deck.faces((1, 1, 1, -1, 1, 0), (2, 2, 1, -1, 1, 0), (3, 1, 1.2, -1, 1.2, 0), (4, 2, 1.2, -1, 1.2, 0),
+               (5, 1, 1, -1, 1.2, -1), (6, 2, 1, -1, 1.2, -1), (7, 1, 1, 0.3, 1.2, 0.3), (8, 2, 0, -2, 3, -2),
+               (9, 2, 3, -2, 3, 0))
+    deck.add('INTERFACES', (1, 1, 2), (1, 3, 4), (2, 5, 6)).add('FIXEDFACES', (8, '111'), (9, '101'))
+    deck.resultants((7, 'AXIAL', -1.0), (7, 'LATERAL', 0.5))
+    return deck.add('INCREMENTS', *((factor, 1e-8) for factor in factors)).text()
+
+
+def loose_plug(times):
+    """A plug in a hole with a gap all round, pushed sideways until it touches at its mouth and at its foot. `times`: the
+    stiffness of the joints"""
+    deck = Deck('A plug in a hole too wide', 4, 17).add('MATERIALS', (1, 5200.0, 0.45), (2, 9300.0, 0.4))
+    deck.law(1, (7e5*times,)*3, 0.0, 20.0).details(1, slip='RESULTANT', gap=1.9e-4)
+    deck.block(1, 2, 4, 2, 2, 0, -2, 0.5, 0).block(1, 2, 4, 2, 1, 0, 0, 0.5, 0.5).block(2, 1, 4, 2, 2, 0.5, -2, 2.5, 0)
+    deck.faces((1, 1, 0.5, -2, 0.5, 0), (2, 2, 0.5, -2, 0.5, 0), (3, 1, 0, 0.5, 0.5, 0.5), (4, 2, 2.5, -2, 2.5, 0))
+    deck.add('INTERFACES', (1, 1, 2)).add('FIXEDFACES', (4, '111')).resultants((3, 'LATERAL', 0.56))
+    return deck.text()
+
+
+def ring_in_ground(turn=0.0, skew=0.0, held=None, twist=0.0):
+    """A ring in ground that presses it oval and slips along it; nothing keeps both from turning about the axis. `turn`: where
+    the load points to. `skew`: a further load, so that no plane is one of symmetry. `held`: a node held in torsion alone.
+    `twist`: a torque"""
+    deck = Deck('A ring in ground', 8, 33).add('MATERIALS', (1, 3e4, 0.2), (2, 500.0, 0.3))
+    deck.law(1, (1e3, 1e4, 1e3), 0.0, 20.0).details(1)
+    deck.block(1, 1, 8, 1, 1, 3, 0, 3.3, 1).block(2, 2, 8, 6, 1, 3.3, 0, 12, 1, ratio=4.0)
+    deck.faces((1, 1, 3.3, 0, 3.3, 1), (2, 2, 3.3, 0, 3.3, 1), (3, 2, 12, 0, 12, 1), (4, 1, 3, 0, 3.3, 0),
+               (5, 1, 3, 1, 3.3, 1), (6, 2, 3.3, 0, 12, 0), (7, 2, 3.3, 1, 12, 1))
+    deck.add('INTERFACES', (1, 1, 2)).add('FIXEDFACES', *((face, '010') for face in (4, 5, 6, 7)))
+    deck.add('SHAPES', (1, 'COSINE', 2, float(turn)), (2, 'COSINE', 4, turn + 10.0))
+    deck.add('PRESSURES', (3, 0, 1.0), (3, None, 0.9, None, None, 1), (3, None, skew, None, None, 2))
+    if held:
+        deck.add('RESTRAINTS', (held, '001', None, None, 0, 0, 'A'))
+    if twist:
+        deck.resultants((3, 'TORQUE', twist))
+    return deck.add('INCREMENTS', (1.0, 1e-9)).text()
+
+
 def slipping_ground(pressure=0.0, method='NEWTON'):
     """Ground with an inclined joint: its stress (K0 = 0.2) balances its weight, but the joint carries too little shear for
     that. Weight, and pressure on the inner part"""

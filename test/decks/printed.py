@@ -143,7 +143,29 @@ def width(program, folder):
     return faults + expected('increments that are marked', 1, len(found))
 
 
+def named_points(program, folder):
+    """Named points at nodes move, increment by increment, as tables of the node say of runs that end there"""
+    deck = input_deck('first.dat').replace('\nEND\n', '\nINCREMENTS\n{}POINTS\n 3, 0.5, -0.5, 1, end\n 8, 2.0, 0.0, 2\nEND\n')
+    faults, rows = [], {}
+    for name, factors in (('half', '0.5\n'), ('whole', '0.5\n0.5\n')):
+        ran = program.run('run', write(folder, f'{name}.dat', deck.format(factors)), '-o', folder)
+        faults += ran.ended_with(0)
+        text = read_text(os.path.join(folder, f'{name}.lis'))
+        tables = listing.tables(text)
+        for label, place in (('POINT 3, end', (0.5, -0.5)), ('POINT 8, point 8', (2.0, 0.0))):
+            for angle in (0, 90, 180):
+                block = text.split(f'\n{label}, theta = {angle} degrees\n')[1].split('\n\n')[0].split('\n')[3:]
+                rows[name, label, angle] = [[float(word) for word in line.split()] for line in block]
+                node = [row for row in tables[f'theta = {angle}'] if (row['r'], row['z']) == place][0]
+                faults += expected(f'{name}: {label}, {angle}', [node['u'], node['v'], node['w']], rows[name, label, angle][-1][2:])
+    for (name, *which), found in rows.items():
+        if name == 'half':
+            faults += expected(f'{which}: first increment', found, rows['whole', *which][:1])
+    return faults
+
+
 def tests(program):
     """The tests of this module"""
     return [Test(f'print: {name}', lambda folder, check=check: check(program, folder)) for name, check in {
-        'rows': chosen_rows, 'extremes': extremes, 'none': no_table, 'long tables': long_tables, 'orders': orders, 'width': width}.items()]
+        'rows': chosen_rows, 'extremes': extremes, 'none': no_table, 'long tables': long_tables, 'orders': orders, 'width': width,
+        'named points': named_points}.items()]

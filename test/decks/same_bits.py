@@ -96,6 +96,7 @@ def tests(program):
     fine = example(3, nodes=8, harmonic=6, planes=25)
     return [Test('same bits: circumstances', lambda folder: other_circumstances(program, folder))] + [
         moved(f'moved memory, {solver}', fine, '--solver', solver) for solver in ('band', 'skyline', 'sparse')] + [
+        moved('moved memory, many harmonics', example(3, harmonic=24, planes=97)),
         moved('moved memory, bonds', example(2, nodes=9, harmonic=4, planes=17)),
         moved('moved memory, Anderson', example(3, factor=10.0, method='ANDERSON', tolerance=1e-6)),
         moved('moved memory, joints out of proportion', example(3, factor=5e-3, harmonic=4, planes=17)),

@@ -8,7 +8,7 @@ import subprocess
 
 from hard_scenes import example
 from listing import all_rows
-from support import INPUTS, Test, expected, read_text, write
+from support import INPUTS, Test, expected, preload, read_text, write
 
 # Of Linux: whether the system gives large pages to a process and those that it starts
 PR_SET_THP_DISABLE = 41
@@ -275,11 +275,21 @@ def job_lines(program, folder):
     return faults + ([] if ran.code == 2 and '#SBATCH' not in ran.out else [f'a wrong deck: {ran.code}, {ran.out!r}'])
 
 
+def few_threads(program, folder):
+    """No more threads are made than are asked for, each once, where few points move and there are many planes"""
+    deck = write(folder, 'planes.dat', example(2, harmonic=40, planes=161))
+    told = os.path.join(folder, 'threads')
+    environment = dict(program.environment, LD_PRELOAD=preload('counted_threads'), THREADS_IN=told)
+    subprocess.run([program.path, 'run', deck, '-o', folder, '--threads', '4', '--quiet'], env=environment, check=True, timeout=300)
+    return expected('threads made', 3, int(read_text(told)))
+
+
 def tests(program):
     """All of them"""
     return [Test(f'solvers: {name}', lambda folder, check=check: check(program, folder))
             for name, check in (('they agree', solvers_agree),
                                 ('threads', threads_change_nothing),
+                                ('threads made', few_threads),
                                 ('memory', memory_changes_nothing),
                                 ('too little memory', memory_too_small),
                                 ('stacks', stacks_stay_small),

@@ -7,7 +7,8 @@ module axijoint_analysis_core_footprint
    use axijoint_fe_element_kind, only : is_reduced
    use axijoint_fe_mode, only : mode_type, family_antisymmetric
    use axijoint_fe_reference, only : reference_type
-   use axijoint_joints_planes, only : planes_type
+   use axijoint_joints_circle_sums, only : are_worth_it
+   use axijoint_joints_planes, only : planes_type, part_intervals
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, element_references
    use axijoint_model_model, only : model_type, bodies_yield, can_yield, can_yield_at, &
@@ -129,15 +130,15 @@ contains
    end function data_footprint
 
    !> Matrices between modes and planes: those of the job, and where it has more than harmonic 0, those of the estimates of
-   !> errors with more planes, and with as many modes again. A third of each is there for sums by halves, and in single
-   !> precision all of the ones that Newton's method multiplies with
+   !> errors with more planes, and with as many modes again; in single precision the largest of those that Newton's method
+   !> multiplies with, unless they are so many that sums need none
    pure integer(i8) function plane_matrix_bytes(model, modes) result(bytes)
       !> The job
       type(model_type), intent(in) :: model
       !> Its modes
       type(mode_type), intent(in) :: modes(:)
 
-      integer(i8) :: numbers, largest
+      integer(i8) :: numbers, largest, single
 
       numbers = size(modes)*int(model%n_planes, i8)
       if (any(modes%family == family_antisymmetric)) numbers = 2*numbers
@@ -146,7 +147,9 @@ contains
          largest = 2*more_planes*numbers
          numbers = numbers + more_planes*numbers + largest
       end if
-      bytes = plane_matrices*real_bytes*(numbers + numbers/3 + largest/2)
+      single = merge(0_i8, largest/2, are_worth_it(size(modes), model%n_planes, &
+         part_intervals(model%n_planes, (modes%harmonic))))
+      bytes = plane_matrices*real_bytes*(numbers + single)
    end function plane_matrix_bytes
 
    !> Number of load cases whose answers are kept, each of one mode as a rule: where fewer act than there are increments

@@ -3,7 +3,8 @@ module axijoint_analysis_core_remarks
    use axijoint_analysis_core_motion, only : motion_text
    use axijoint_analysis_core_pins, only : pin_text
    use axijoint_analysis_core_proportion_remarks, only : proportion_remarks
-   use axijoint_analysis_core_results, only : results_type, remark_type, source_names, source_iteration
+   use axijoint_analysis_core_results, only : results_type, remark_type, source_names, source_iteration, &
+      source_harmonics
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text, count_of, name_of
@@ -63,6 +64,7 @@ contains
       if (.not. results%converged .and. size(results%path) == 0 .and. any(is_reduced(model%mesh%kinds))) &
          call add(remarks, reduced_hint)
       if (size(results%path) > 0) call remark_on_accuracy(model, structure, field, results, remarks)
+      call remark_on_cut_off(model, results, remarks)
       pins = pin_text(model, structure, history%loading, field, results)
       if (len(pins) > 0) call add(remarks, pins)
       if (allocated(results%stiffer)) remarks = [remarks, proportion_remarks(model, results)]
@@ -83,7 +85,7 @@ contains
       integer :: i
 
       if (.not. (results%converged .and. any(results%path%n_slip > 0))) return
-      halved = [(i, i=1, maxval(results%residuals%increment))]
+      halved = [(i, i=1, maxval([0, results%residuals%increment]))]
       halved = pack(halved, [(count(results%residuals%increment == i) > 1, i=1, size(halved))])
       if (size(halved) == 0) return
       call add(remarks, trim(merge('increment ', 'increments', size(halved) == 1))//' '// &
@@ -91,6 +93,27 @@ contains
          ' in smaller steps, as no equilibrium was found at once: what slips depends on the path, of which estimates of errors '// &
          'know nothing; more increments show how much')
    end subroutine remark_on_steps
+
+   !> A load of which much is above M, where estimates know nothing of what that does: with harmonics 0 and 1 alone
+   subroutine remark_on_cut_off(model, results, remarks)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The results, with their errors
+      type(results_type), intent(in) :: results
+      !> The sentences, to be continued
+      type(remark_type), allocatable, intent(inout) :: remarks(:)
+
+      !> Part of a load that is worth a word
+      real(wp), parameter :: much = 0.05_wp
+
+      if (.not. allocated(results%budget)) return
+      associate (share => results%budget(source_harmonics))
+         if (share%displacement >= 0.0_wp .or. .not. share%load > much .or. share%load >= 1.0_wp) return  ! 1: a load at a point
+         call add(remarks, 'the harmonics in use leave out '//to_text(0.1_wp*nint(1.0e3_wp*share%load))//' % of a load, and '// &
+            'what that changes is not known: more of them show it (M in CONTROL'// &
+            trim(merge(', HARMONICS)', ')           ', size(model%harmonics) <= model%max_harmonic)))
+      end associate
+   end subroutine remark_on_cut_off
 
    !> Why the increments ended as they did
    subroutine remark_on_end(model, structure, history, results, remarks)
@@ -109,7 +132,7 @@ contains
 
       if (allocated(results%mechanism)) then
          call add(remarks, results%mechanism, elsewhere=.true.)
-      else if (.not. results%converged) then
+      else if (.not. (results%converged .or. history%verdict%converged)) then
          call add(remarks, 'the last equilibrium was at the load factor '// &
                                          to_text(history%reached))
       end if
@@ -117,6 +140,13 @@ contains
          do i = 1, size(results%idle)
             call add(remarks, 'nothing resists and nothing loads it: '//trim(results%idle(i))//trim(merge( &
                      '; it stands where it stood before ', '; it might as well stand elsewhere', results%stands(i))))
+         end do
+      end if
+      if (allocated(model%turning)) then
+         do i = 1, size(model%turning)
+            call add(remarks, 'nothing resists and nothing loads it: the part with node '// &
+                     to_text(model%mesh%node_label(model%turning(i)))//' turns about z (harmonic 0 antisymmetric), '// &
+                     'with all that joints hold to it; it might as well stand elsewhere')
          end do
       end if
       if (history%n_faded > 0) call add(remarks, fading_text(history))
@@ -129,7 +159,7 @@ contains
          return
       end if
       if (results%converged .or. allocated(results%mechanism)) return
-      if (history%strayed) then
+      if (history%newton_finds) then
          call add(remarks, 'the iterations run away from a state that NEWTON finds: name that method in CONTROL')
          return
       end if
@@ -439,18 +469,41 @@ contains
    end subroutine add
 
    !> A mechanism in words
-   function mechanism_text(model, reached, results) result(text)
+   function mechanism_text(model, reached, case_factor, results) result(text)
       !> The job
       type(model_type), intent(in) :: model
-      !> Load factor of the last equilibrium
-      real(wp), intent(in) :: reached
+      !> Load factor of the last equilibrium, a sum where increments are of single cases, and factors of the cases
+      real(wp), intent(in) :: reached, case_factor(:)
       !> Results with the displacements that ran away
       type(results_type), intent(in) :: results
       !> The sentence
       character(len=:), allocatable :: text
 
       text = 'no equilibrium beyond the load factor '//to_text(reached)//': '// &
-         motion_text(model%mesh, results%modes, results%displacement)//'; results are those there'
+         motion_text(model%mesh, results%modes, results%displacement)//'; results are those there'// &
+         cases_text(model, reached, case_factor)
    end function mechanism_text
+
+   !> Factors of the load cases; nothing where there is one alone, with that of the whole
+   function cases_text(model, reached, case_factor) result(text)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Load factor of the whole, and factors of the cases
+      real(wp), intent(in) :: reached, case_factor(:)
+      !> Such as ', case 1 at 1, case 2 at 0.978'
+      character(len=:), allocatable :: text
+
+      !> Rounding of sums of factors
+      real(wp), parameter :: rounding = 1.0e-12_wp
+      integer :: k
+
+      text = ''
+      if (count(abs(case_factor) > 0.0_wp) < 2 .and. all(abs(case_factor - reached) <= rounding*abs(reached) &
+         .or. abs(case_factor) <= 0.0_wp)) return
+      do k = 1, size(case_factor)
+         if (abs(case_factor(k)) > 0.0_wp) text = text//', case '//to_text(model%load_cases(k)%label)//' at '// &
+            to_text(case_factor(k))
+      end do
+   end function cases_text
 
 end module axijoint_analysis_core_remarks

@@ -155,7 +155,7 @@ module axijoint_analysis_core_results
       real(wp) :: other_loop = -1.0_wp
       !> The mechanism that ended the job, in words; allocated if there was one
       character(len=:), allocatable :: mechanism
-      !> Whether sweeps ran away from a state that Newton's method finds: the results are of the last equilibrium then, too
+      !> Whether iterations ran away where no mechanism was found: the results are of the last equilibrium then, too
       logical :: strayed = .false.
       !> Sum of the load factors of the last step in equilibrium, where joints open or slip: an increment
       !> that failed may have been reached in part

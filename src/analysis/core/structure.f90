@@ -7,7 +7,7 @@ module axijoint_analysis_core_structure
       form_by_one, take_conditions, take_fine_model
    use axijoint_analysis_fine_mesh, only : fine_mesh_type, new_fine_mesh
    use axijoint_analysis_fine_singular_places, only : singular_place_type, find_singular_places, &
-      judged_points
+      judged_points, decide_what_is_judged
    use axijoint_assembly_equations, only : equations_type, plan_equations, assemble_equations
    use axijoint_assembly_factors, only : plan_factors, factorize_equations, report_failure
    use axijoint_assembly_mechanism, only : check_mechanism
@@ -58,6 +58,8 @@ module axijoint_analysis_core_structure
       type(planes_type) :: planes
       !> Whether errors of states will be estimated by the fine level, which is there then
       logical :: estimated = .true.
+      !> Whether what helps to judge results is told: singular places, orders of the nodes
+      logical :: listed = .true.
       !> The same on a mesh of elements half as large, for estimates of errors
       type(fine_level_type) :: fine
       !> Where stresses are infinite, and whether the stress of a joint point, far enough from
@@ -129,8 +131,8 @@ contains
       !> Whether they are wanted; true if absent
       logical, intent(in), optional :: estimated
 
-      structure%estimated = .not. bodies_yield(model)
-      if (present(estimated)) structure%estimated = structure%estimated .and. estimated
+      if (present(estimated)) structure%listed = estimated
+      structure%estimated = structure%listed .and. .not. bodies_yield(model)
    end subroutine expect_estimates
 
    !> Plan the equations, lay out what estimates of errors need, and find the sections at the cuts: none waits for the
@@ -160,10 +162,15 @@ contains
          start = omp_get_wtime()
          if (structure%estimated) call lay_out_level(model, structure%fine)
          call find_singular(model, structure)
+         structure%fine%seconds = (omp_get_wtime() - start)/n_threads
+         ! last: the thread that is here may see to a class of equations before
+         !$omp task default(shared) private(start) if(n_threads > 1)
+         start = omp_get_wtime()
          if (n_threads > 1 .and. structure%estimated .and. .not. allocated(model%team)) then
             if (bytes_to_come(structure%fine) <= small_part*free_memory(model%memory_limit)) call form_stiffness(structure%fine)
          end if
-         structure%fine%seconds = (omp_get_wtime() - start)/n_threads
+         structure%fine%seconds = structure%fine%seconds + (omp_get_wtime() - start)/n_threads
+         !$omp end task
          !$omp end task
       end if
       !$omp task default(shared)
@@ -175,7 +182,8 @@ contains
       if (.not. allocated(error)) call plan_memory(model, structure, error)
    end subroutine plan_levels
 
-   !> Find singular places on the mesh of elements half as large, which stays only if it serves estimates
+   !> Find singular places on the mesh of elements half as large, which stays only if it serves estimates; those that nothing
+   !> follows from are left out
    subroutine find_singular(model, structure)
       !> The job
       type(model_type), intent(in) :: model
@@ -183,12 +191,17 @@ contains
       type(structure_type), intent(inout) :: structure
 
       type(fine_mesh_type) :: mesh
+      logical :: wanted
 
+      wanted = structure%listed
+      if (.not. wanted) wanted = decide_what_is_judged(model)
       if (structure%estimated) then
          structure%singular = find_singular_places(model, structure%fine%mesh)
-      else
+      else if (wanted) then
          call new_fine_mesh(model%mesh, mesh)
          structure%singular = find_singular_places(model, mesh)
+      else
+         allocate (structure%singular(0))
       end if
    end subroutine find_singular
 
@@ -242,6 +255,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       structure%estimated = .false.
+      structure%listed = .false.
       call assemble(model, structure, progress, error)
       if (allocated(error)) return
       call factorize_equations(structure%equations, model, error)
@@ -350,7 +364,9 @@ contains
       if (allocated(error)) return
       call plan_equations(structure%equations, model, structure%modes, orders, error)
       if (allocated(error)) return
-      if (compared) then
+      if (.not. structure%listed) then
+         allocate (structure%orderings(0))
+      else if (compared) then
          structure%orderings = compare_orders(orders)
       else
          associate (solver => structure%equations%solver)

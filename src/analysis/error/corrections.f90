@@ -60,13 +60,15 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       integer, parameter :: most_corrections = 4
-      !> Part of the tolerance that is no matter
-      real(wp), parameter :: negligible = 0.1_wp
-      real(wp), allocatable :: jump(:, :, :)
+      !> Part of the tolerance that is no matter, and of a mismatch that a correction leaves of it if it is worth another
+      real(wp), parameter :: negligible = 0.1_wp, falling = 0.5_wp
+      real(wp), allocatable :: jump(:, :, :), displacement(:, :, :)
+      real(wp) :: earlier
       type(balanced_type) :: before
       type(strictest_type) :: found
       integer :: k
 
+      earlier = huge(1.0_wp)
       associate (condensed => structure%condensed, scene => history%scene)
          do k = 0, most_corrections
             jump = mismatch_of(condensed, scene, history%field, results%displacement)
@@ -74,7 +76,18 @@ contains
                               paper=history%method%accumulates)
             results%mismatch = found%ratio
             if (.not. results%converged .or. history%method%accumulates) return
-            if (results%mismatch <= negligible*results%tolerance .or. k == most_corrections) return
+            if (results%mismatch <= negligible*results%tolerance) return
+            ! what corrections leave as it is are roundings of the bodies: one of two states in a row that is near enough will do
+            if (results%mismatch > falling*earlier .and. min(results%mismatch, earlier) <= results%tolerance) then
+               if (results%mismatch <= results%tolerance) return
+               call go_back(before, history)
+               results%displacement = displacement
+               results%mismatch = earlier
+               return
+            end if
+            if (k == most_corrections) return
+            earlier = results%mismatch
+            displacement = results%displacement
             before = balanced_state(history)
             scene%loads%free = scene%loads%free + jump
             call balance_again(condensed, history)
@@ -82,6 +95,7 @@ contains
             results%path = history%path
             if (.not. results%converged) then
                call go_back(before, history)
+               results%converged = results%mismatch <= results%tolerance
                return
             end if
             call solve_displacements(structure, model, history%loading, results%displacement, &

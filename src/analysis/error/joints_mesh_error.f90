@@ -15,6 +15,7 @@ module axijoint_analysis_error_joints_mesh_error
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_history, only : history_type
    use axijoint_joints_joint_errors, only : joint_change_type, change_between, offset_between
+   use axijoint_joints_mechanism, only : mechanism_type, find_mechanism, idle_part
    use axijoint_joints_scene, only : scene_type
    use axijoint_joints_settle, only : find_again
    use axijoint_model_joint_points, only : model_joint_point_type
@@ -43,6 +44,7 @@ contains
       call all_differences(structure, history, structure%fine%coarse_points(structure%yielding), &
          field%excess, &
                            displacement, error)
+      call leave_out_idle(structure, history%scene, field, error)
       error%seconds = omp_get_wtime() - start
    end subroutine mesh_error_of_held
 
@@ -74,6 +76,7 @@ contains
          call fine_excess(condensed, scene, structure%fine, balanced, displacement, &
             history%loading%case_factor, points, excess)
          call all_differences(structure, history, points, excess, displacement, error)
+         call leave_out_idle(structure, scene, balanced, error)
          allocate (after, source=balanced)
          corrected = scene
          corrected%loads%free = scene%loads%free + error%jump(:, structure%yielding, :)
@@ -86,6 +89,37 @@ contains
       end associate
       error%seconds = omp_get_wtime() - start
    end subroutine mesh_error_of_balanced
+
+   !> Leave motions out of the errors that nothing resists and no load acts on: their size is of no meaning. The errors have
+   !> them, as joints of the fine mesh integrate the same stress by other points, which leaves a force along such a motion;
+   !> and joints that are to answer that force would find no equilibrium
+   subroutine leave_out_idle(structure, scene, field, error)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> State of the joints
+      type(joint_field_type), intent(in) :: field
+      !> The errors
+      type(mesh_error_type), intent(inout) :: error
+
+      type(mechanism_type) :: mechanism
+      real(wp), allocatable :: multiple(:), motion(:, :, :)
+      integer :: k
+
+      associate (condensed => structure%condensed)
+         call find_mechanism(condensed, scene, field, .false., mechanism)
+         if (size(mechanism%idle, 2) == 0) return
+         multiple = -idle_part(condensed, scene, mechanism, error%jump(:, structure%yielding, :))
+         allocate (motion, mold=error%displacement)
+         motion = 0.0_wp
+         call add_motions(condensed%floating, multiple, motion)
+         error%displacement = error%displacement + motion
+         do k = 1, size(motion, 3)
+            error%jump(:, :, k) = error%jump(:, :, k) + joint_jump(structure%joint_points, motion(:, :, k))
+         end do
+      end associate
+   end subroutine leave_out_idle
 
    !> Add what the joints answer to the errors of displacements and jumps
    subroutine add_answer(structure, answer, effect, error)

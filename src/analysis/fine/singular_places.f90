@@ -11,7 +11,7 @@ module axijoint_analysis_fine_singular_places
    use axijoint_model_model, only : model_type, can_yield_at
    implicit none
    private
-   public :: singular_place_type, find_singular_places, judged_points
+   public :: singular_place_type, find_singular_places, judged_points, decide_what_is_judged
 
    !> Stresses that grow more slowly than this are not called infinite
    real(wp), parameter :: slow = -0.05_wp
@@ -91,6 +91,18 @@ contains
          places = [places, singular_place_type(node, exponent(node), distance)]
       end do
    end function find_singular_places
+
+   !> Whether there can be singular places so near to which joint stresses are not judged: joints that hold bodies together
+   logical function decide_what_is_judged(model) result(decide)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      type(joint_places_type) :: joints
+      integer :: node
+
+      call look_at_joints(model, joints)
+      decide = any(hold_together(joints, [(node, node=1, n_nodes(model%mesh))]))
+   end function decide_what_is_judged
 
    !> Find the wedges at a node; none on the axis, or if another node tells of the place
    subroutine find_wedges(model, fine, corners, joints, node, wedges)

@@ -215,15 +215,23 @@ contains
 
    contains
 
-      !> Components that are held along a side
+      !> Components that are held along a side. On the axis those along r and theta are tied: one holds both
       pure function held_along(node, end) result(held)
          !> Nodes at its ends
          integer, intent(in) :: node, end
          !> r, z, theta
          logical :: held(3)
 
+         logical :: there(3)
+         integer :: k
+
+         held = .true.
          associate (edge => fine%edges(find_edge(fine, node, end)))
-            held = all(model%fixed(:, edge%nodes(:n_on(edge))), 2)
+            do k = 1, n_on(edge)
+               there = model%fixed(:, edge%nodes(k))
+               if (.not. model%mesh%coordinates(1, edge%nodes(k)) > 0.0_wp) there([1, 3]) = any(there([1, 3]))
+               held = held .and. there
+            end do
          end associate
       end function held_along
 

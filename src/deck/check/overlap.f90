@@ -82,7 +82,6 @@ contains
       !> The cells
       type(cells_type) :: cells
 
-      real(wp) :: shape(3), derivative(3)
       integer, allocatable :: next(:), cell(:)
       integer :: i, k, m, n, place(2)
 
@@ -94,8 +93,7 @@ contains
          n = count(edges%nodes(:, i) > 0)
          do k = 1, size(sample_place)
             m = m + 1
-            call shape_line(n, sample_place(k), shape(:n), derivative(:n))
-            cells%position(:, m) = matmul(draft%position(:, edges%nodes(:n, i)), shape(:n))
+            cells%position(:, m) = place_on(draft, edges%nodes(:n, i), sample_place(k))
             cells%element(m) = edges%element(i)
          end do
       end do
@@ -119,6 +117,27 @@ contains
          next(cell(i)) = next(cell(i)) + 1
       end do
    end function new_cells
+
+   !> A point of an edge
+   pure function place_on(draft, nodes, along) result(position)
+      !> The mesh
+      type(draft_type), intent(in) :: draft
+      !> Nodes of the edge: two ends, and its middle if it may be curved
+      integer, intent(in) :: nodes(:)
+      !> Natural coordinate
+      real(wp), intent(in) :: along
+      !> r and z
+      real(wp) :: position(2)
+
+      real(wp) :: shape(3), derivative(3)
+      integer :: i
+
+      call shape_line(size(nodes), along, shape(:size(nodes)), derivative(:size(nodes)))
+      position = 0.0_wp
+      do i = 1, size(nodes)
+         position = position + draft%position(:, nodes(i))*shape(i)
+      end do
+   end function place_on
 
    !> Cells along r and along z that are about as wide and as high as an element is in the mean:
    !> a narrow body has few in one direction and many in the other. Not more cells than elements
@@ -215,7 +234,6 @@ contains
       !> r and z, shape (2, corners)
       real(wp), allocatable :: polygon(:, :)
 
-      real(wp) :: shape(3), derivative(3)
       integer :: i, k, m, n, pieces
 
       allocate (polygon(2, n_pieces*(last - first + 1)))
@@ -225,8 +243,7 @@ contains
          pieces = merge(n_pieces, 1, n == 3)
          do k = 0, pieces - 1
             m = m + 1
-            call shape_line(n, -1.0_wp + 2.0_wp*k/pieces, shape(:n), derivative(:n))
-            polygon(:, m) = matmul(draft%position(:, edges%nodes(:n, i)), shape(:n))
+            polygon(:, m) = place_on(draft, edges%nodes(:n, i), -1.0_wp + 2.0_wp*k/pieces)
          end do
       end do
       polygon = polygon(:, :m)

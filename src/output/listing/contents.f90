@@ -22,7 +22,7 @@ module axijoint_output_listing_contents
       write_joints
    use axijoint_output_listing_model, only : write_warnings, write_model, write_materials, &
       write_joint_materials, write_increments
-   use axijoint_output_listing_sections, only : write_sections, write_cuts
+   use axijoint_output_listing_sections, only : write_sections, write_cuts, write_named_points
    use axijoint_output_listing_solution, only : write_equations, write_convergence, &
       write_displacements, write_total_displacements, write_reactions, write_equilibrium, &
       write_times, convergence_text
@@ -98,6 +98,7 @@ contains
          call write_joint_results(file, model, results)
          call write_sections(file, model, results)
          call write_cuts(file, model, results)
+         call write_named_points(file, model, results, series)
          call write_reactions(file, model, results)
          call write_face_reactions(file, model, results)
          call write_equilibrium(file, model, results)

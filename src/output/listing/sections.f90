@@ -1,6 +1,8 @@
 !> Tables of the listing along lines and on cuts
 module axijoint_output_listing_sections
    use axijoint_analysis_core_results, only : results_type
+   use axijoint_analysis_core_series, only : series_type
+   use axijoint_analysis_core_totals, only : circle_type, new_circle, total_displacement
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text
    use axijoint_model_locate, only : line_position
@@ -12,11 +14,11 @@ module axijoint_output_listing_sections
    use axijoint_output_file_text, only : text_file_type
    implicit none
    private
-   public :: write_sections, write_cuts
+   public :: write_sections, write_cuts, write_named_points
 
    !> Number of a point; body and material; number of a cut; its body
    character(len=*), parameter :: format_point = '(i8)', format_solid = '(2i6)', &
-      format_cut = '(i8)', format_body = '(i6)'
+      format_cut = '(i8)', format_body = '(i6)', format_increment = '(i10)'
    !> Columns of coordinates, displacements, stresses, resultants
    integer, parameter :: narrow = 12, wide = 15, middle = 14
 
@@ -67,6 +69,39 @@ contains
       text = "SECTION "//to_text(line%label)//", theta = "//to_text(line%angles(i)/degree)// &
          " degrees"
    end function title
+
+   !> Displacements of the named points, sums of all modes, of each increment
+   subroutine write_named_points(file, model, results, series)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> What is followed from increment to increment
+      type(series_type), intent(in) :: series
+
+      type(circle_type) :: circle
+      character(len=10) :: increment
+      integer :: p, i, k
+
+      do p = 1, size(model%points)
+         associate (point => model%points(p))
+            do k = 1, size(model%output_angles)
+               circle = new_circle(results%modes, model%output_angles(k))
+               call write_result_heading(file, "POINT "//to_text(point%label)//", "//trim(point%name)//", theta = "// &
+                  to_text(circle%angle/degree)//" degrees", results%converged)
+               call file%put("  at r = "//to_text(point%position(1))//", z = "//to_text(point%position(2)))
+               call file%put(" increment    load factor              u              v              w")
+               do i = 1, series%n
+                  write (increment, format_increment) series%increment(i)
+                  call file%put(increment//columns([series%load_factor(i), &
+                     total_displacement(series%points(:, p, :, i), circle)], wide))
+               end do
+            end do
+         end associate
+      end do
+   end subroutine write_named_points
 
    !> One row for each point and each solid that it is in
    subroutine write_points(file, model, line, values, width)

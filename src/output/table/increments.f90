@@ -30,7 +30,7 @@ contains
 
       if (series%n < 2) return
       call write_heading(file, "INCREMENTS")
-      call file%put("  (largest amplitude of displacement; largest pressure in joints; work of "// &
+      call file%put("  (largest displacement; largest pressure in joints; work of "// &
          "loads and given displacements, elastic energy,")
       call file%put("  work dissipated by sliding and plastic strain: forces by the mean of both ends)")
       if (any(series%equilibrium /= 1)) call file%put("  "//mark//": not in equilibrium")
