@@ -10,17 +10,13 @@ module axijoint_solver_supernodal
    use, intrinsic :: iso_c_binding, only : c_ptr, c_f_pointer, c_int32_t, c_int64_t
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_last_words, only : let_fail
-   use axijoint_linalg_lapack, only : dgemm, dpotrf, dsyrk, dtrsm
+   use axijoint_solver_panel, only : most_at_once, rows_at_once, panel_load, panel_take, panel_triangle, panel_below
    implicit none
    private
    public :: supernodal_structure_type, progress_type, room_type, waiting_type, nobody
-   public :: start_progress, make_room, factor_run, load_panel, subtract_update, next_owner, enlist, columns_in, &
+   public :: start_progress, make_room, factor_run, subtract_update, next_owner, enlist, columns_in, &
       find_places
 
-   !> Updates of so few columns are formed as a whole, not only their triangle
-   integer, parameter :: few_columns = 32
-   !> Larger updates are formed in parts, which stay in the cache
-   integer, parameter :: largest_update = 131072
    !> Ends a list
    integer, parameter :: nobody = -1
 
@@ -44,8 +40,10 @@ module axijoint_solver_supernodal
       integer(c_int64_t), pointer, contiguous :: column(:), first_row(:), first_number(:), row(:)
       integer(c_int64_t), pointer, contiguous :: matrix_start(:)
       integer(c_int32_t), pointer, contiguous :: matrix_row(:), from(:)
-      !> Order, supernodes, and rows of the highest of them
+      !> Order, supernodes, and rows of the highest of them, which are columns of none more
       integer :: n = 0, n_supernodes = 0, most_rows = 0
+      !> Rows that the processor takes at once
+      integer(c_int32_t) :: at_once = 0
       !> Supernode of each column
       integer, allocatable :: supernode(:)
       !> First supernode of each list, the one after each, and the rows of each that are done
@@ -55,10 +53,11 @@ module axijoint_solver_supernodal
    !> Memory of a thread
    type :: room_type
       !> Place in the supernode at hand of each row
-      integer, allocatable :: place(:)
-      !> Places of the rows of an update, and the update
-      integer, allocatable :: target(:)
-      real(wp), allocatable :: update(:)
+      integer(c_int32_t), allocatable :: place(:)
+      !> Places of the rows of an update
+      integer(c_int32_t), allocatable :: target(:)
+      !> One over the diagonal of a panel
+      real(wp), allocatable :: over(:)
    end type room_type
 
    !> Supernodes of a run that leave something to supernodes behind it, in the order in which they came: a list
@@ -84,6 +83,7 @@ contains
       m = int(structure%n_supernodes)
       at%n = n
       at%n_supernodes = m
+      at%at_once = rows_at_once(most_at_once)
       call view(structure%column, m + 1_i8, at%column)
       call view(structure%first_row, m + 1_i8, at%first_row)
       call view(structure%first_number, m + 1_i8, at%first_number)
@@ -129,14 +129,12 @@ contains
       !> 0; 1 if there is no memory
       integer(c_int32_t), intent(out) :: code
 
-      integer(i8) :: most
       integer :: stat
 
       code = 0
-      if (allocated(room%update)) return
-      most = min(int(at%most_rows, i8)**2, max(int(largest_update, i8), few_columns*int(at%most_rows, i8)))
+      if (allocated(room%over)) return
       call let_fail(.true.)
-      allocate (room%place(0:at%n), room%target(0:at%most_rows), room%update(0:most - 1), stat=stat)
+      allocate (room%place(0:at%n), room%target(0:at%most_rows), room%over(0:at%most_rows), stat=stat)
       call let_fail(.false.)
       code = merge(0_c_int32_t, 1_c_int32_t, stat == 0)
    end subroutine make_room
@@ -165,7 +163,8 @@ contains
          height = int(at%first_row(s + 1) - at%first_row(s))
          associate (panel => l(at%first_number(s):at%first_number(s + 1) - 1))
             call find_places(at, s, room%place)
-            call load_panel(at, s, value, room%place, 0, height, height, panel)
+            call panel_load(0, height, height, width, at%matrix_start(at%column(s):), at%matrix_row, at%from, value, &
+                            room%place, panel)
             d = at%head(s)
             do while (d >= 0)
                following = at%next(d)
@@ -174,13 +173,12 @@ contains
                call pass_on(d, at%done(d) + columns)
                d = following
             end do
-            call dpotrf('L', width, panel, height, info)
+            info = panel_triangle(at%at_once, 0, width, height, panel, room%over)
             if (info /= 0) then
                failed = at%column(s) + info - 1
                return
             end if
-            if (height > width) call dtrsm('R', 'L', 'T', 'N', height - width, width, 1.0_wp, panel, height, &
-               l(at%first_number(s) + width), height)
+            call panel_below(at%at_once, height - width, 0, width, height, panel, room%over, l(at%first_number(s) + width))
             call pass_on(s, width)
          end associate
       end do
@@ -222,34 +220,6 @@ contains
       end do
    end subroutine find_places
 
-   !> Put some rows of the matrix into the panel of a supernode
-   subroutine load_panel(at, s, value, place, from, to, height, panel)
-      !> Where the factorization stands
-      type(progress_type), intent(in) :: at
-      !> The supernode
-      integer, intent(in) :: s
-      !> Values of the matrix
-      real(wp), intent(in) :: value(0:*)
-      !> Place in the panel of each of its rows
-      integer, intent(in) :: place(0:)
-      !> First row of the panel, and up to which, and all of them
-      integer, intent(in) :: from, to, height
-      !> The panel
-      real(wp), intent(inout) :: panel(0:height - 1, 0:*)
-
-      integer :: j
-      integer(i8) :: k
-
-      do j = 0, int(at%column(s + 1) - at%column(s)) - 1
-         panel(from:to - 1, j) = 0.0_wp
-         do k = at%matrix_start(at%column(s) + j), at%matrix_start(at%column(s) + j + 1) - 1
-            associate (i => place(at%matrix_row(k)))
-               if (i >= from .and. i < to) panel(i, j) = value(at%from(k))
-            end associate
-         end do
-      end do
-   end subroutine load_panel
-
    !> Subtract what a supernode leaves to some rows of a panel
    subroutine subtract_update(at, d, columns, place, room, from, to, before, height, panel)
       !> Where the factorization stands
@@ -269,10 +239,9 @@ contains
       !> The panel
       real(wp), intent(inout) :: panel(0:height - 1, 0:*)
 
-      integer :: depth, rows, skip, rank, low, high, most, first, last, top, i, j
+      integer :: depth, rows, skip, low, high, i
 
       depth = int(at%first_row(d + 1) - at%first_row(d))
-      rank = int(at%column(d + 1) - at%column(d))
       skip = at%done(d)
       rows = depth - skip
       associate (row => at%row(at%first_row(d) + skip:), target => room%target)
@@ -284,58 +253,9 @@ contains
          high = rows
          if (from > 0) low = count(target(:rows - 1) < from)
          if (to < height) high = count(target(:rows - 1) < to)
-         most = min(columns, high)
-         if (low == high) return
-         if (target(high - 1) - target(0) == high - 1) then  ! neighbouring rows need no gathering
-            call add_product(low, 0, most, -1.0_wp, 1.0_wp, height, panel(target(low), target(0)))
-            return
-         end if
-         last = 0
-         do while (last < most)
-            first = last
-            top = max(first, low)
-            last = min(most, first + max(few_columns, largest_update/(high - top)))
-            call add_product(top, first, last, 1.0_wp, 0.0_wp, high - top, room%update)
-            do j = first, last - 1
-               do i = max(j, top), high - 1
-                  panel(target(i), target(j)) = panel(target(i), target(j)) &
-                     - room%update(i - top + (j - first)*(high - top))
-               end do
-            end do
-         end do
+         if (low < high) call panel_take(at%at_once, low, high, min(columns, high), &
+            int(at%column(d + 1) - at%column(d)), depth, before(skip), target, height, panel)
       end associate
-
-   contains
-
-      !> c = alpha b b^T + beta c for rows up to `high` and some columns, as far as they lie in the lower triangle
-      subroutine add_product(top, first, last, alpha, beta, stride, c)
-         !> First row, first column and up to which column
-         integer, intent(in) :: top, first, last
-         !> Factors
-         real(wp), intent(in) :: alpha, beta
-         !> Rows between columns of c
-         integer, intent(in) :: stride
-         !> The sum; begins with the first row and column
-         real(wp), intent(inout) :: c(0:*)
-
-         integer :: n
-
-         if (top >= last .or. (last - first <= few_columns .and. .not. beta > 0.0_wp)) then
-            call dgemm('N', 'T', high - top, last - first, rank, alpha, before(skip + top), depth, &
-               before(skip + first), depth, beta, c, stride)
-            return
-         end if
-         ! columns before the first row, a triangle, and what is below it
-         n = last - top
-         if (top > first) call dgemm('N', 'T', high - top, top - first, rank, alpha, before(skip + top), depth, &
-            before(skip + first), depth, beta, c, stride)
-         associate (shift => int(top - first, i8)*stride)
-            call dsyrk('L', 'N', n, rank, alpha, before(skip + top), depth, beta, c(shift), stride)
-            if (high > last) call dgemm('N', 'T', high - last, n, rank, alpha, before(skip + last), depth, &
-               before(skip + top), depth, beta, c(shift + n), stride)
-         end associate
-      end subroutine add_product
-
    end subroutine subtract_update
 
    !> Columns of a supernode's update in the panel of another

@@ -9,9 +9,9 @@ module axijoint_solver_supernodal_factorize
    use omp_lib, only : omp_in_parallel, omp_get_thread_num, omp_get_max_threads, omp_get_num_threads
    use axijoint_base_kinds, only : wp
    use axijoint_base_ranges, only : range_end
-   use axijoint_linalg_lapack, only : dgemm, dpotrf, dtrsm
+   use axijoint_solver_panel, only : panel_load, panel_triangle, panel_below
    use axijoint_solver_supernodal, only : supernodal_structure_type, progress_type, room_type, waiting_type, nobody, &
-      start_progress, make_room, factor_run, load_panel, subtract_update, next_owner, enlist, columns_in, find_places
+      start_progress, make_room, factor_run, subtract_update, next_owner, enlist, columns_in, find_places
    implicit none
    private
    public :: supernodal_factorize
@@ -20,12 +20,12 @@ module axijoint_solver_supernodal_factorize
    real(wp), parameter :: worth_sharing = 2.0e8_wp
    !> Branches with no more than this part of the work are factored as they are
    real(wp), parameter :: small_branch = 1.0_wp/8
-   !> Columns of a panel that are eliminated before the others take them, and rows of a panel that one thread
+   !> Columns of a panel's triangle that are factored before the rows below follow, rows of a panel that one thread
    !> works on at least, and parts of its rows at most
-   integer, parameter :: block_size = 192, least_rows = 64, most_parts = 8
+   integer, parameter :: block_size = 96, least_rows = 64, most_parts = 8
 
    !> What is done with some rows of a panel at once
-   integer, parameter :: gather = 1, take_columns = 2, eliminate = 3
+   integer, parameter :: gather = 1, eliminate = 2
 
    !> A run of supernodes
    type :: run_type
@@ -50,6 +50,8 @@ module axijoint_solver_supernodal_factorize
       integer :: n_givers = 0
       !> Columns that are eliminated, and those that are next
       integer :: first = 0, last = 0
+      !> One over the diagonal
+      real(wp), allocatable :: over(:)
    end type shared_type
 
 contains
@@ -176,7 +178,8 @@ contains
       k = findloc(runs%failed >= 0, .true., 1)
       if (k > 0) failed = runs(k)%failed
       if (code /= 0 .or. failed >= 0 .or. .not. any(shared)) return
-      allocate (panel%place(0:at%n), panel%givers(at%n_supernodes), panel%columns(at%n_supernodes))
+      allocate (panel%place(0:at%n), panel%givers(at%n_supernodes), panel%columns(at%n_supernodes), &
+                panel%over(at%most_rows))
       k = 1
       do s = 0, at%n_supernodes - 1
          if (.not. shared(s)) cycle
@@ -239,12 +242,9 @@ contains
       do while (panel%last < panel%width)
          panel%first = panel%last
          panel%last = min(panel%width, panel%first + block_size)
-         if (panel%first > 0) call share_rows(at, take_columns, panel%first, panel, value, l, rooms, code)
-         associate (corner => at%first_number(s) + panel%first*(panel%height + 1_c_int64_t))
-            call dpotrf('L', panel%last - panel%first, l(corner), panel%height, info)
-         end associate
+         info = panel_triangle(at%at_once, panel%first, panel%last, panel%height, l(at%first_number(s)), panel%over)
          if (info /= 0) then
-            failed = at%column(s) + panel%first + info - 1
+            failed = at%column(s) + info - 1
             return
          end if
          if (panel%last < panel%height) call share_rows(at, eliminate, panel%last, panel, value, l, rooms, code)
@@ -344,22 +344,19 @@ contains
       integer :: k
 
       start = at%first_number(panel%s)
-      associate (height => panel%height, first => panel%first, n => panel%last - panel%first)
+      associate (height => panel%height)
          select case (what)
          case (gather)
             call make_room(at, room, code)
             if (code /= 0) return
-            call load_panel(at, panel%s, value, panel%place, from, to, height, l(start))
+            call panel_load(from, to, height, panel%width, at%matrix_start(at%column(panel%s):), at%matrix_row, at%from, value, &
+               panel%place, l(start))
             do k = 1, panel%n_givers
                call subtract_update(at, panel%givers(k), panel%columns(k), panel%place, room, from, to, &
                   l(at%first_number(panel%givers(k))), height, l(start))
             end do
-         case (take_columns)
-            call dgemm('N', 'T', to - from, n, first, -1.0_wp, l(start + from), height, l(start + first), height, 1.0_wp, &
-               l(start + from + int(first, c_int64_t)*height), height)
          case (eliminate)
-            call dtrsm('R', 'L', 'T', 'N', to - from, n, 1.0_wp, l(start + first*(height + 1_c_int64_t)), height, &
-               l(start + from + int(first, c_int64_t)*height), height)
+            call panel_below(at%at_once, to - from, panel%first, panel%last, height, l(start), panel%over, l(start + from))
          end select
       end associate
    end subroutine work_on_rows
