@@ -1,7 +1,7 @@
 /* The environment of the numerical libraries: threads that wait leave their processor to others, but not for the
    few microseconds between the products of an iteration, since waking them takes longer than that; threads are for
    harmonics and not for the matrices inside one, and OpenBLAS 0.3.21 takes newer AMD processors for Haswell, whose
-   kernels leave their AVX-512 units idle. The libraries ask for these variables when they are loaded, before any code of
+   kernels leave their AVX-512 units idle, and newer Intel ones for Prescott, whose kernels take five times as long. The libraries ask for these variables when they are loaded, before any code of
    the program; but what stands in the program itself goes before the same names in the system's library, for all
    libraries that are loaded. So they ask here, and are told what is right where the user has set nothing. This file is a
    part of programs only, never of the library. scripts/environment sets the same for programs that are not this one. */
@@ -24,27 +24,28 @@ static char *value_set(const char *name)
    return NULL;
 }
 
-static int has_avx512(void)
+/* The kernels of OpenBLAS for this processor where it may not know it; NULL for those that it chooses */
+static char *kernels(void)
 {
 #ifdef __x86_64__
+   static char skylake[] = "SKYLAKEX", haswell[] = "HASWELL";
    __builtin_cpu_init();
-   return __builtin_cpu_supports("avx512f");
-#else
-   return 0;
+   if (__builtin_cpu_supports("avx512f")) return skylake;
+   if (__builtin_cpu_is("intel") && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return haswell;
 #endif
+   return NULL;
 }
 
 /* In place of the system's function: what is set, if empty, stays */
 char *getenv(const char *name)
 {
-   static char passive[] = "PASSIVE", turns[] = "1000", one[] = "1", skylake[] = "SKYLAKEX";
+   static char passive[] = "PASSIVE", turns[] = "1000", one[] = "1";
    char *value = value_set(name);
    if (value) return value;
    if (strcmp(name, "OMP_WAIT_POLICY") == 0) return passive;
    if (strcmp(name, "GOMP_SPINCOUNT") == 0 && !value_set("OMP_WAIT_POLICY")) return turns;
    if (strcmp(name, "OPENBLAS_NUM_THREADS") == 0) return one;
-   if (strcmp(name, "OPENBLAS_CORETYPE") == 0 && has_avx512()) return skylake;
-   return NULL;
+   return strcmp(name, "OPENBLAS_CORETYPE") == 0 ? kernels() : NULL;
 }
 
 /* A standard input or output that is closed is no number for the first file that is opened: the words for the screen

@@ -183,12 +183,51 @@ static cholmod_factor *analyse_groups(int64_t n_groups, int64_t *start, int64_t 
    return cholmod_l_analyze(&a, common);
 }
 
-/* The tree of the equations from that of their groups; null if there is no memory */
-static tree_type *expand(int64_t n, const cholmod_factor *l, const int64_t *first) {
+/* column_walk.c */
+int axijoint_walk_columns(int64_t n, const int64_t *start, const int64_t *column, int64_t n_supernodes, const int64_t *super,
+                          const int64_t *order, int32_t *walked);
+
+/* Rows of the supernodes of groups, as equations: those that belong to one supernode stand together and are put into the new
+   order, in which group k of the old one has `place[k]`; `at` is the first equation of each place. 1 if there is no memory */
+static int expand_rows(const cholmod_factor *l, const int32_t *place, const int64_t *at, int64_t *expanded) {
+   const int64_t *super = l->super, *pi = l->pi, *row = l->s, n_groups = (int64_t)l->n;
+   int32_t *owner = malloc(sizeof *owner * (size_t)(n_groups + 1));
+   uint64_t *found = calloc((size_t)n_groups / 64 + 1, sizeof *found); /* a bit of each place */
+   const int failed = !owner || !found;
+   for (size_t s = 0; s < l->nsuper && !failed; s++)
+      for (int64_t k = super[s]; k < super[s + 1]; k++) owner[k] = (int32_t)s;
+   for (size_t s = 0; s < l->nsuper && !failed; s++)
+      for (int64_t k = pi[s]; k < pi[s + 1];) {
+         const int64_t begin = super[owner[row[k]]], end = super[owner[row[k]] + 1];
+         int64_t low = end, high = begin;
+         for (; k < pi[s + 1] && row[k] < end; k++) {
+            const int64_t to = place[row[k]];
+            found[to / 64] |= (uint64_t)1 << to % 64;
+            low = to < low ? to : low;
+            high = to > high ? to : high;
+         }
+         for (int64_t w = low / 64; w <= high / 64; w++)
+            for (; found[w]; found[w] &= found[w] - 1) {
+               const int64_t to = w * 64 + __builtin_ctzll(found[w]);
+               for (int64_t i = at[to]; i < at[to + 1]; i++) *expanded++ = i;
+            }
+      }
+   free(owner);
+   free(found);
+   return failed;
+}
+
+/* The tree of the equations from that of their groups, whose pattern is given; null if there is no memory */
+static tree_type *expand(int64_t n, const cholmod_factor *l, const int64_t *first, const int64_t *group_start,
+                         const int64_t *group_column) {
    const int64_t *order = l->Perm, *super = l->super, *pi = l->pi, *row = l->s;
    const int64_t n_groups = (int64_t)l->n, n_supernodes = (int64_t)l->nsuper;
-   int64_t *at = integers(n_groups), g, s, k, i, count = 0; /* first column of each group */
+   int64_t *at = integers(n_groups), s, k, i, count = 0; /* first equation of each place */
+   int32_t *walked = malloc(sizeof *walked * (size_t)(n_groups + 1)), *place = malloc(sizeof *place * (size_t)(n_groups + 1));
+   int32_t *place_of = malloc(sizeof *place_of * (size_t)(n_groups + 1)); /* of each group */
    tree_type *tree = calloc(1, sizeof *tree);
+   int failed = !at || !walked || !place || !place_of || !tree ||
+                axijoint_walk_columns(n_groups, group_start, group_column, n_supernodes, super, order, walked);
    if (tree) {
       tree->n = n;
       tree->n_supernodes = n_supernodes;
@@ -197,41 +236,38 @@ static tree_type *expand(int64_t n, const cholmod_factor *l, const int64_t *firs
       tree->column = integers(n_supernodes);
       tree->first_row = integers(n_supernodes);
       tree->first_number = integers(n_supernodes);
+      failed = failed || !tree->order || !tree->column || !tree->first_row || !tree->first_number;
    }
-   if (!at || !tree || !tree->order || !tree->column || !tree->first_row || !tree->first_number) {
-      free(at);
-      leave(tree);
-      return NULL;
+   if (!failed) {
+      for (k = 0; k < n_groups; k++) {
+         at[k] = count;
+         place_of[walked[k]] = (int32_t)k;
+         for (i = first[walked[k]]; i < first[walked[k] + 1]; i++) tree->order[count++] = i;
+      }
+      at[n_groups] = count;
+      for (k = 0; k < n_groups; k++) place[k] = place_of[order[k]];
+      count = 0;
+      for (s = 0; s < n_supernodes; s++) {
+         tree->column[s] = at[super[s]];
+         tree->first_row[s] = count;
+         for (k = pi[s]; k < pi[s + 1]; k++) count += at[place[row[k]] + 1] - at[place[row[k]]];
+      }
+      tree->column[n_supernodes] = n;
+      tree->first_row[n_supernodes] = count;
+      tree->first_number[0] = 0;
+      for (s = 0; s < n_supernodes; s++)
+         tree->first_number[s + 1] = tree->first_number[s] + (tree->first_row[s + 1] - tree->first_row[s]) *
+                                                                (tree->column[s + 1] - tree->column[s]);
+      tree->row = integers(count);
+      failed = !tree->row || expand_rows(l, place, at, tree->row);
    }
-   for (k = 0; k < n_groups; k++) {
-      at[k] = count;
-      g = order[k];
-      for (i = first[g]; i < first[g + 1]; i++) tree->order[count++] = i;
-   }
-   at[n_groups] = count;
-   count = 0;
-   for (s = 0; s < n_supernodes; s++) {
-      tree->column[s] = at[super[s]];
-      tree->first_row[s] = count;
-      for (k = pi[s]; k < pi[s + 1]; k++) count += at[row[k] + 1] - at[row[k]];
-   }
-   tree->column[n_supernodes] = n;
-   tree->first_row[n_supernodes] = count;
-   tree->first_number[0] = 0;
-   for (s = 0; s < n_supernodes; s++)
-      tree->first_number[s + 1] = tree->first_number[s] + (tree->first_row[s + 1] - tree->first_row[s]) *
-                                                             (tree->column[s + 1] - tree->column[s]);
-   tree->row = integers(count);
-   if (!tree->row) {
-      free(at);
-      leave(tree);
-      return NULL;
-   }
-   count = 0;
-   for (k = 0; k < pi[n_supernodes]; k++)
-      for (i = at[row[k]]; i < at[row[k] + 1]; i++) tree->row[count++] = i;
    free(at);
-   return tree;
+   free(walked);
+   free(place);
+   free(place_of);
+   if (!failed) return tree;
+   leave(tree);
+   return NULL;
 }
 
 /* Entries of the factor without the zeros of supernodes, and operations of a factorization, by the groups in each
@@ -257,7 +293,7 @@ static tree_type *analyse(int64_t n, const int64_t *start, const int32_t *column
    if (n_groups >= 0 && !couple_groups(start, column, n_groups, group, first, group_start, &group_column)) {
       cholmod_common common;
       cholmod_factor *l = analyse_groups(n_groups, group_start, group_column, mean_size(n, n_groups), &common);
-      if (l) tree = expand(n, l, first);
+      if (l) tree = expand(n, l, first, group_start, group_column);
       if (tree) count_entries(n, l, first, entries, operations);
       cholmod_l_free_factor(&l, &common);
       cholmod_l_finish(&common);
