@@ -86,20 +86,47 @@ ON_EIGHT INLINE void store_by_eight(double *p, int n, vector_by_eight x)
 {
    _mm512_mask_storeu_pd(p, first_of_eight(n), (__m512d)x);
 }
+#endif
 
+/* SOME with as many columns as are left of those that are taken together, and with as many vectors as some rows fill */
+#define REST_OF_FOUR(n)                                                                                                    \
+   switch (n) {                                                                                                            \
+   case 1: SOME(1); break;                                                                                                 \
+   case 2: SOME(2); break;                                                                                                 \
+   case 3: SOME(3); break;                                                                                                 \
+   }
+#define REST_OF_EIGHT(n)                                                                                                   \
+   switch (n) {                                                                                                            \
+   case 4: SOME(4); break;                                                                                                 \
+   case 5: SOME(5); break;                                                                                                 \
+   case 6: SOME(6); break;                                                                                                 \
+   case 7: SOME(7); break;                                                                                                 \
+   default: REST_OF_FOUR(n)                                                                                                \
+   }
+#define VECTORS_OF(rows)                                                                                                   \
+   switch (((rows) - 1) / LANES) {                                                                                         \
+   case 0: SOME(1); break;                                                                                                 \
+   case 1: SOME(2); break;                                                                                                 \
+   default: SOME(3);                                                                                                       \
+   }
+
+#if defined(__x86_64__)
 #define LANES 8
 #define COLUMNS 8
+#define REST REST_OF_EIGHT
 #define PROCESSOR ON_EIGHT
 #define NAME(x) x##_by_eight
 #include "panel_factor.c"
 #define LANES 4
 #define COLUMNS 4
+#define REST REST_OF_FOUR
 #define PROCESSOR ON_FOUR
 #define NAME(x) x##_by_four
 #include "panel_factor.c"
 #endif
 #define LANES 2
 #define COLUMNS 4
+#define REST REST_OF_FOUR
 #define PROCESSOR
 #define NAME(x) x##_by_two
 #include "panel_factor.c"
@@ -222,17 +249,7 @@ PROCESSOR INLINE void NAME(take_columns)(const int v, int n, int rows, long rank
    EACH(i, v) find_runs(row + i * LANES, i == v - 1 ? last : LANES, places + i);
 #define SOME(n) NAME(take)(v, n, last, rank, lead, a, b, places, column, height, panel)
    for (; n >= COLUMNS; n -= COLUMNS, b += COLUMNS, column += COLUMNS) SOME(COLUMNS);
-   switch (n) {
-   case 1: SOME(1); break;
-   case 2: SOME(2); break;
-   case 3: SOME(3); break;
-#if COLUMNS > 4
-   case 4: SOME(4); break;
-   case 5: SOME(5); break;
-   case 6: SOME(6); break;
-   case 7: SOME(7); break;
-#endif
-   }
+   REST(n)
 #undef SOME
 }
 
@@ -250,9 +267,7 @@ PROCESSOR static void NAME(take_rows)(int low, int high, int columns, long rank,
       rows = NAME(rows_of)(high - i);
       const int n = columns < i + rows ? columns : i + rows;
 #define SOME(v) NAME(take_columns)(v, n, rows, rank, lead, before + i, before, target + i, target, height, panel)
-      if (rows > 2 * LANES) SOME(3);
-      else if (rows > LANES) SOME(2);
-      else SOME(1);
+      VECTORS_OF(rows)
 #undef SOME
    }
 }
@@ -287,17 +302,7 @@ PROCESSOR INLINE void NAME(eliminate_columns)(const int v, int rows, int k, int 
    const int last = rows - (v - 1) * LANES;
 #define SOME(n) NAME(eliminate)(v, n, last, k, lead, over + k, a, triangle + k)
    for (; k + COLUMNS <= end; k += COLUMNS) SOME(COLUMNS);
-   switch (end - k) {
-   case 1: SOME(1); break;
-   case 2: SOME(2); break;
-   case 3: SOME(3); break;
-#if COLUMNS > 4
-   case 4: SOME(4); break;
-   case 5: SOME(5); break;
-   case 6: SOME(6); break;
-   case 7: SOME(7); break;
-#endif
-   }
+   REST(end - k)
 #undef SOME
 }
 
@@ -307,9 +312,7 @@ PROCESSOR static void NAME(below)(int rows, int first, int end, long lead, const
    for (int i = 0, some; i < rows; i += some) {
       some = NAME(rows_of)(rows - i);
 #define SOME(v) NAME(eliminate_columns)(v, some, first, end, lead, triangle, over, below + i)
-      if (some > 2 * LANES) SOME(3);
-      else if (some > LANES) SOME(2);
-      else SOME(1);
+      VECTORS_OF(some)
 #undef SOME
    }
 }
@@ -349,9 +352,7 @@ PROCESSOR INLINE int NAME(factor_columns)(const int n, int k, int end, long lead
    for (int i = k + n, rows; i < end; i += rows) {
       rows = NAME(rows_of)(end - i);
 #define SOME(v) NAME(eliminate)(v, n, rows - (v - 1) * LANES, k, lead, over + k, triangle + i, at)
-      if (rows > 2 * LANES) SOME(3);
-      else if (rows > LANES) SOME(2);
-      else SOME(1);
+      VECTORS_OF(rows)
 #undef SOME
    }
    return 0;
@@ -363,23 +364,14 @@ PROCESSOR static int NAME(triangle)(int k, int end, long lead, double *triangle,
 #define SOME(n) failed = NAME(factor_columns)(n, k, end, lead, triangle, over)
    for (; k + COLUMNS <= end && !failed; k += COLUMNS) SOME(COLUMNS);
    if (failed) return failed;
-   switch (end - k) {
-   case 1: SOME(1); break;
-   case 2: SOME(2); break;
-   case 3: SOME(3); break;
-#if COLUMNS > 4
-   case 4: SOME(4); break;
-   case 5: SOME(5); break;
-   case 6: SOME(6); break;
-   case 7: SOME(7); break;
-#endif
-   }
+   REST(end - k)
 #undef SOME
    return failed;
 }
 
 #undef LANES
 #undef COLUMNS
+#undef REST
 #undef PROCESSOR
 #undef NAME
 #undef VECTOR
