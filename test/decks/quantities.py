@@ -238,6 +238,34 @@ def remarks(program, folder):
     return faults + expected('remarks', messages, said)
 
 
+def softer(program, folder, factor):
+    """The first deck with elastic joints, all stiffnesses times a factor: faults, remarks on large displacements, the largest"""
+    text = read_text(os.path.join(INPUTS, 'first.dat')).replace('    1     2.0E4      0.17', f'1,{2e4*factor:.6E},0.17')
+    joints = ','.join(f'{factor*value:.6E}' for value in (1e4, 2e4, 1e4))
+    text = text.replace('    1     1.0E4     2.0E4     1.0E4       0.0      30.0', f'1,{joints},,,ELASTIC')
+    faults = program.run('run', write(folder, 'soft.dat', text), '-o', folder).ended_with(0)
+    summary = json.loads(read_text(os.path.join(folder, 'soft.json')))
+    said = [line for line in summary['messages'] if line.startswith('displacements are not small')]
+    return faults, said, summary['increments'][-1]['largest_displacement']
+
+
+def not_small(program, folder):
+    """Displacements above a twentieth of the mesh's larger side are named: of bodies far too soft, and of those where they are
+    just above, not where they are just below; the listing cuts no word of that"""
+    side = 2.0
+    faults, _, largest = softer(program, folder, 1.0)
+    for factor, wanted in ((1e-3, 1), (0.98*largest/(0.05*side), 1), (1.02*largest/(0.05*side), 0), (1.0, 0)):
+        more, said, found = softer(program, folder, factor)
+        faults += more + expected(f'{factor}: remarks', wanted, len(said))
+        if said:
+            told = re.search(r'up to (\S+), (\S+) % of the larger side', said[0])
+            faults += close('displacement', found, float(told.group(1)), 1e-5*found)
+            faults += close('part', 100*found/side, float(told.group(2)), 0.06)
+            listing = read_text(os.path.join(folder, 'soft.lis')).replace('\n  ', ' ')
+            faults += [] if said[0] in listing else ['the listing cuts a word']
+    return faults
+
+
 def fading(program, folder):
     """A state of cohesion that is not lost in the end is not given up for rounding far below the tolerance"""
     deck = plug('Fades', [('AXIAL', -0.862305264804), ('MOMENT', 0.84299)], stiffness=(153658.7, 307317.4, 153658.7), friction=35.0,
@@ -280,5 +308,5 @@ def smaller_steps(program, folder):
 def tests(program):
     """The tests of this module"""
     return [Test(f'quantities: {function.__name__.replace("_", " ")}', lambda folder, function=function: function(program, folder))
-            for function in (energies, dissipation, dissipation_in_units, lifting, largest_displacement, remarks, fading,
+            for function in (energies, dissipation, dissipation_in_units, lifting, largest_displacement, remarks, not_small, fading,
                              smaller_steps, reduced_rule)]

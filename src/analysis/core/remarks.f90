@@ -6,6 +6,7 @@ module axijoint_analysis_core_remarks
    use axijoint_analysis_core_results, only : results_type, remark_type, source_names, source_iteration, &
       source_harmonics
    use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_analysis_core_totals, only : largest_displacement, peak_type
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text, count_of, name_of
    use axijoint_element_joint_law, only : joint_law_type, opening_reversible, eta
@@ -65,6 +66,7 @@ contains
          call add(remarks, reduced_hint)
       if (size(results%path) > 0) call remark_on_accuracy(model, structure, field, results, remarks)
       call remark_on_cut_off(model, results, remarks)
+      call remark_on_size(model, results, remarks)
       pins = pin_text(model, structure, history%loading, field, results)
       if (len(pins) > 0) call add(remarks, pins)
       if (allocated(results%stiffer)) remarks = [remarks, proportion_remarks(model, results)]
@@ -114,6 +116,33 @@ contains
             trim(merge(', HARMONICS)', ')           ', size(model%harmonics) <= model%max_harmonic)))
       end associate
    end subroutine remark_on_cut_off
+
+   !> Displacements that are no longer small: forces are in equilibrium at the places that nodes had before, and joints meet
+   !> the points that they met there. Mostly units are mixed up
+   subroutine remark_on_size(model, results, remarks)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The results
+      type(results_type), intent(in) :: results
+      !> The sentences, to be continued
+      type(remark_type), allocatable, intent(inout) :: remarks(:)
+
+      !> Part of the larger side of the mesh that is worth a word: a body turned by so much, in radian, is lengthened by an
+      !> eighth of a percent that is none
+      real(wp), parameter :: large = 0.05_wp
+      type(peak_type) :: peak
+      real(wp) :: side
+
+      if (.not. results%converged) return
+      peak = largest_displacement(results%modes, results%displacement)
+      associate (x => model%mesh%coordinates)
+         side = maxval(maxval(x, 2) - minval(x, 2))
+      end associate
+      if (.not. peak%value > large*side) return
+      call add(remarks, 'displacements are not small: up to '//to_text(peak%value)//', '// &
+         to_text(0.1_wp*nint(1.0e3_wp*min(peak%value/side, 1.0e6_wp)))//' % of the larger side of the mesh; '// &
+         'equilibrium is that of bodies as they were before. Units of stiffnesses and loads?')
+   end subroutine remark_on_size
 
    !> Why the increments ended as they did
    subroutine remark_on_end(model, structure, history, results, remarks)

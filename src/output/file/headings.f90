@@ -3,7 +3,7 @@ module axijoint_output_file_headings
    use axijoint_output_file_text, only : text_file_type
    implicit none
    private
-   public :: write_heading, write_result_heading, write_lines, write_sentence, rule, mark_not_converged, width
+   public :: write_heading, write_result_heading, write_lines, write_words, write_sentence, rule, mark_not_converged, width
 
    !> Columns of the listing
    integer, parameter :: width = 132
@@ -52,7 +52,33 @@ contains
       !> Lines parted by line ends
       character(len=*), intent(in) :: text
 
-      integer :: first, last, ending
+      call write_parts(file, margin, text, .false.)
+   end subroutine write_lines
+
+   !> The same of words: long lines go on in the next with a whole word, if that is not longer than a line
+   subroutine write_words(file, margin, text)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> What stands before the first line; blanks before the others
+      character(len=*), intent(in) :: margin
+      !> Lines parted by line ends
+      character(len=*), intent(in) :: text
+
+      call write_parts(file, margin, text, .true.)
+   end subroutine write_words
+
+   !> Lines behind a margin, and parts of those that are too long
+   subroutine write_parts(file, margin, text, of_words)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> What stands before the first line; blanks before the others
+      character(len=*), intent(in) :: margin
+      !> Lines parted by line ends
+      character(len=*), intent(in) :: text
+      !> Whether parts end between words; the blank there is left out
+      logical, intent(in) :: of_words
+
+      integer :: first, last, ending, blank, end_of_part
       character(len=len(margin)) :: before
 
       before = margin
@@ -61,8 +87,12 @@ contains
          ending = index(text(first:), new_line("a"))
          last = merge(first + ending - 2, len(text), ending > 0)
          do while (last - first + 1 > width - len(margin))
-            call file%put(before//text(first:cut(text, first + width - len(margin) - 1)))
-            first = cut(text, first + width - len(margin) - 1) + 1
+            end_of_part = cut(text, first + width - len(margin) - 1)
+            blank = 0
+            if (of_words) blank = index(text(first:end_of_part + 1), " ", back=.true.)
+            if (blank > 1) end_of_part = first + blank - 2
+            call file%put(before//text(first:end_of_part))
+            first = end_of_part + merge(2, 1, blank > 1)
             before = ""
          end do
          call file%put(before//text(first:last))
@@ -70,7 +100,7 @@ contains
          if (ending == 0) return
          first = last + 2
       end do
-   end subroutine write_lines
+   end subroutine write_parts
 
    !> A sentence behind a margin; where one line is too narrow, what follows its first semicolon goes on in the next
    subroutine write_sentence(file, margin, sentence)
@@ -85,10 +115,10 @@ contains
 
       semicolon = index(sentence, "; ")
       if (len(margin//sentence) <= width .or. semicolon == 0) then
-         call write_lines(file, margin, sentence)
+         call write_words(file, margin, sentence)
       else
-         call write_lines(file, margin, sentence(:semicolon))
-         call write_lines(file, margin, sentence(semicolon + 2:))
+         call write_words(file, margin, sentence(:semicolon))
+         call write_words(file, margin, sentence(semicolon + 2:))
       end if
    end subroutine write_sentence
 
