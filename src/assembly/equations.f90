@@ -3,7 +3,6 @@ module axijoint_assembly_equations
    use axijoint_assembly_dofs, only : gather, expand, collect
    use axijoint_assembly_harmonic, only : harmonic_product
    use axijoint_assembly_mode_classes, only : mode_classes
-   use axijoint_assembly_pattern, only : new_outline
    use axijoint_assembly_stiffness, only : stiffness_type, number_unknowns, find_sparsity, assemble_parts
    use axijoint_assembly_support, only : support_point_type
    use axijoint_assembly_unit_loads, only : unit_loads_type, new_unit_loads
@@ -11,28 +10,22 @@ module axijoint_assembly_equations
    use axijoint_base_kinds, only : wp
    use axijoint_base_team, only : team_type, take_team, equal_shares
    use axijoint_fe_mode, only : mode_type
-   use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    use axijoint_model_joint_points, only : model_joint_point_type
-   use axijoint_model_model, only : model_type, yielding_nodes
-   use axijoint_order_graph, only : graph_type, bandwidth
+   use axijoint_model_model, only : model_type
    use axijoint_order_orders, only : orders_type
    use axijoint_solver_entry, only : solver_entry_type
    use axijoint_solver_inverse_norm, only : first_side, second_sides, inverse_norm
-   use axijoint_solver_registry, only : known_solvers
+   use axijoint_solver_registry, only : chosen_solver
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type
    implicit none
    private
    public :: equations_type, system_type, plan_equations, assemble_equations
    public :: solve_mode, solve_system, find_unbalanced, on_equations
-   public :: own_modes, plan_solver, worth_threads, planned_seconds, factoring_operations, condensing_operations, &
+   public :: own_modes, worth_threads, planned_seconds, factoring_operations, condensing_operations, &
       correct_system, expand_mode
 
    !> With fewer equations in all, threads cost more than they save
    integer, parameter :: least_equations = 1500
-   !> Rate of matrix products that solvers are chosen by [operations/second]
-   real(wp), parameter :: nominal_rate = 5.0e10_wp
-   !> Time of an operation of condensing to joints [second]
-   real(wp), parameter :: seconds_of_operation = 2.3e-11_wp
    !> All that a system takes grows like this power of its equations. Factorization and solutions with all that
    !> follows them take about the same
    real(wp), parameter :: growth = 1.25_wp
@@ -104,7 +97,8 @@ module axijoint_assembly_equations
 
 contains
 
-   !> Choose a solver and plan the factorizations; nothing is assembled yet
+   !> Number the unknowns of all classes, and analyse the patterns of those that this rank solves; nothing is assembled
+   !> yet. Threads that have nothing else to do take some
    subroutine plan_equations(equations, model, modes, orders, error)
       !> The equations, planned
       type(equations_type), allocatable, intent(out) :: equations
@@ -117,43 +111,41 @@ contains
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      type(solver_entry_type), allocatable :: solvers(:)
-      type(equations_type), allocatable :: others
-      logical, allocatable :: condensed(:)
-      integer :: k
+      type(outcome_type), allocatable :: outcomes(:)
+      logical, allocatable :: own(:)
+      integer, allocatable :: order(:)
+      integer :: k, n_classes
 
-      condensed = yielding_nodes(model)
-      if (allocated(model%solver)) then
-         solvers = [model%solver]
-      else
-         solvers = known_solvers()
-         solvers = pack(solvers, [(may_be_fastest(solvers(k), orders), k=1, size(solvers))])
-      end if
-      do k = 1, size(solvers)
-         call plan_solver(others, model, modes, orders, solvers(k), error, compared=size(solvers) > 1)
-         if (allocated(error)) return
-         if (allocated(equations)) then
-            if (seconds_in_all(equations, condensed) <= seconds_in_all(others, condensed)) cycle
-         end if
-         call move_alloc(others, equations)
+      allocate (equations)
+      equations%solver = chosen_solver(model%solver)
+      order = equations%solver%order(orders)
+      equations%modes = modes
+      call divide_modes(modes, mode_classes(model, modes), equations%system, equations%systems)
+      n_classes = maxval([0, equations%systems%class])
+      allocate (equations%classes(n_classes), equations%plans(n_classes))
+      do k = 1, n_classes
+         associate (first => equations%systems(findloc(equations%systems%class, k, 1))%modes(1))
+            call number_unknowns(equations%classes(k), model, modes(first), order)
+         end associate
       end do
-      if (size(solvers) > 1 .and. equations%solver%by_outline) then
-         do k = 1, size(equations%classes)
-            call find_sparsity(equations%classes(k), orders%graph, equations%solver%order(orders))
-         end do
-      end if
+      call take_team(model%team, equations%team)
+      call share_systems(equations)
+      own = [(any(equations%systems(equations%first:equations%last)%class == k), k=1, n_classes)]
+      allocate (outcomes(n_classes))
+      !$omp taskgroup
+      do k = 1, n_classes
+         if (.not. own(k)) cycle
+         !$omp task default(shared) firstprivate(k) if(equations%solver%concurrent)
+         call equations%solver%new_plan(equations%plans(k)%solver)
+         call find_sparsity(equations%classes(k), orders%graph, order)
+         call equations%plans(k)%solver%analyse(equations%classes(k)%pattern, outcomes(k)%error)
+         !$omp end task
+      end do
+      !$omp end taskgroup
+      do k = 1, n_classes
+         if (allocated(outcomes(k)%error) .and. .not. allocated(error)) call move_alloc(outcomes(k)%error, error)
+      end do
    end subroutine plan_equations
-
-   !> Expected time of factorizations and of condensing to joints
-   real(wp) function seconds_in_all(equations, condensed) result(seconds)
-      !> The equations, planned
-      type(equations_type), intent(in) :: equations
-      !> Nodes that are condensed to
-      logical, intent(in) :: condensed(:)
-
-      seconds = planned_seconds(equations, kept=.true.) &
-         + seconds_of_operation*condensing_operations(equations, condensed)
-   end function seconds_in_all
 
    !> Operations that factoring all systems once takes
    pure real(wp) function factoring_operations(equations) result(n)
@@ -188,97 +180,6 @@ contains
       end do
       n = sum(operations(equations%systems%class))
    end function condensing_operations
-
-   !> Whether a solver need be thought of where the choice is the program's
-   pure logical function may_be_fastest(solver, orders)
-      !> The solver
-      type(solver_entry_type), intent(in) :: solver
-      !> Orders of the nodes
-      type(orders_type), intent(in) :: orders
-
-      may_be_fastest = solver%automatic
-      if (may_be_fastest .and. solver%widest_band < huge(1)) &
-         may_be_fastest = bandwidth(orders%graph, solver%order(orders)) <= solver%widest_band
-   end function may_be_fastest
-
-   !> Number the unknowns of all classes, and analyse the patterns of those that this rank solves for a solver;
-   !> threads that have nothing else to do take some
-   subroutine plan_solver(equations, model, modes, orders, solver, error, compared)
-      !> The equations, planned
-      type(equations_type), allocatable, intent(out) :: equations
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Modes, ascending
-      type(mode_type), intent(in) :: modes(:)
-      !> Orders of the nodes
-      type(orders_type), intent(in) :: orders
-      !> The solver
-      type(solver_entry_type), intent(in) :: solver
-      !> Out of memory
-      type(error_type), allocatable, intent(out) :: error
-      !> Whether solvers are compared: all classes are analysed, as all ranks are to choose the same, and where the outline
-      !> of a pattern says enough the rest is not looked for; false if absent
-      logical, intent(in), optional :: compared
-
-      type(outcome_type), allocatable :: outcomes(:)
-      logical, allocatable :: analysed(:)
-      integer, allocatable :: order(:)
-      integer :: k, n_classes
-      logical :: all_classes
-
-      all_classes = .false.
-      if (present(compared)) all_classes = compared
-      allocate (equations)
-      order = solver%order(orders)
-      equations%modes = modes
-      equations%solver = solver
-      call divide_modes(modes, mode_classes(model, modes), equations%system, equations%systems)
-      n_classes = maxval([0, equations%systems%class])
-      allocate (equations%classes(n_classes), equations%plans(n_classes))
-      do k = 1, n_classes
-         associate (first => equations%systems(findloc(equations%systems%class, k, 1))%modes(1))
-            call number_unknowns(equations%classes(k), model, modes(first), order)
-         end associate
-      end do
-      call take_team(model%team, equations%team)
-      call share_systems(equations)
-      analysed = [(any(equations%systems(equations%first:equations%last)%class == k), k=1, n_classes)] .or. all_classes
-      allocate (outcomes(n_classes))
-      !$omp taskgroup
-      do k = 1, n_classes
-         if (.not. analysed(k)) cycle
-         !$omp task default(shared) firstprivate(k) if(solver%concurrent)
-         call solver%new_plan(equations%plans(k)%solver)
-         if (all_classes .and. solver%by_outline) then
-            call analyse_outline(equations%plans(k)%solver, orders%graph, equations%classes(k), outcomes(k)%error)
-         else
-            call find_sparsity(equations%classes(k), orders%graph, order)
-            call equations%plans(k)%solver%analyse(equations%classes(k)%pattern, outcomes(k)%error)
-         end if
-         !$omp end task
-      end do
-      !$omp end taskgroup
-      do k = 1, n_classes
-         if (allocated(outcomes(k)%error) .and. .not. allocated(error)) call move_alloc(outcomes(k)%error, error)
-      end do
-   end subroutine plan_solver
-
-   !> Plan the factorization of a class whose pattern stays unknown
-   subroutine analyse_outline(solver, graph, class, error)
-      !> The plan
-      class(solver_type), intent(inout) :: solver
-      !> Graph of the nodes
-      type(graph_type), intent(in) :: graph
-      !> The class, its unknowns numbered
-      type(stiffness_type), intent(in) :: class
-      !> Out of memory
-      type(error_type), allocatable, intent(out) :: error
-
-      type(symmetric_matrix_type) :: outline
-
-      call new_outline(outline, graph, class%dofs)
-      call solver%analyse(outline, error)
-   end subroutine analyse_outline
 
    !> Give each rank a range of systems, of costs as equal as may be
    subroutine share_systems(equations)
@@ -363,18 +264,15 @@ contains
       !> Whether factors are kept
       logical, intent(in) :: kept
       !> Operations a second of a large matrix product
-      real(wp), intent(in), optional :: rate
+      real(wp), intent(in) :: rate
       !> The time
       real(wp) :: seconds
 
-      real(wp) :: speed
       integer :: k
 
-      speed = nominal_rate
-      if (present(rate)) speed = rate
       seconds = 0.0_wp
       do k = 1, size(equations%systems)
-         seconds = seconds + system_seconds(equations, k, kept, speed)
+         seconds = seconds + system_seconds(equations, k, kept, rate)
       end do
    end function planned_seconds
 

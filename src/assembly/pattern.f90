@@ -9,7 +9,7 @@ module axijoint_assembly_pattern
    use axijoint_order_graph, only : graph_type, new_graph, max_ends
    implicit none
    private
-   public :: node_graph, new_pattern, new_outline
+   public :: node_graph, new_pattern
 
 contains
 
@@ -150,37 +150,6 @@ contains
       end do
       pattern%row_start(pattern%n + 1) = count + 1
    end subroutine new_pattern
-
-   !> The farthest entry of each row of the lower triangle alone, as far as band and profile go
-   subroutine new_outline(outline, graph, dofs)
-      !> The pattern of these entries
-      type(symmetric_matrix_type), intent(out) :: outline
-      !> Graph of the nodes
-      type(graph_type), intent(in) :: graph
-      !> The unknowns, numbered by an order of the nodes
-      type(dofs_type), intent(in) :: dofs
-
-      integer :: first(graph%n), node, farthest, l, i
-
-      do node = 1, graph%n
-         first(node) = first_equation(dofs%equation(:, node))
-      end do
-      outline%n = dofs%n_equations
-      allocate (outline%row_start(outline%n + 1), outline%column(outline%n))
-      outline%row_start = [(int(i, i8), i=1, outline%n + 1)]
-      do node = 1, graph%n
-         if (first(node) == 0) cycle
-         farthest = first(node)
-         do l = graph%start(node), graph%start(node + 1) - 1
-            associate (other => first(graph%neighbour(l)))
-               if (other > 0) farthest = min(farthest, other)
-            end associate
-         end do
-         do i = 1, 3
-            if (dofs%equation(i, node) > 0) outline%column(dofs%equation(i, node)) = farthest
-         end do
-      end do
-   end subroutine new_outline
 
    !> Entries of the lower triangle: each equation of a node with those of the neighbours before it, and with those
    !> of its own up to itself

@@ -46,47 +46,47 @@ module axijoint_estimate_terms
    !> All of them, at the places above
    type(term_type), parameter :: terms(n_terms) = [ &
       term_type('beginning', phase_read, common, .false., &
-                'start of the program', 2.6e-03_wp), &
+                'start of the program', 1.2e-03_wp), &
       term_type('reading', phase_read, measured, .false., &
                 'reading, as measured now', 1.0_wp), &
       term_type('ordering', phase_assemble, measured, .false., &
                 'orders and plan of the equations, as measured now', 1.0_wp), &
       term_type('shape_products', phase_assemble, common, .false., &
-                'pairs of nodes at Gauss points, both meshes', 1.3e-09_wp), &
+                'pairs of nodes at Gauss points, both meshes', 1.1e-09_wp), &
       term_type('fine_nodes', phase_assemble, common, .false., &
-                'nodes of the mesh half as large', 4.2e-06_wp), &
+                'nodes of the mesh half as large', 3.3e-06_wp), &
       term_type('factoring', phase_factor, measured, .true., &
-                'factors, by operations and entries', 8.8e-01_wp), &
+                'factors, by operations and entries', 1.0e+00_wp), &
       term_type('inverse', phase_condense, products, .true., &
                 'operations on the block of the joints', 2.4e-11_wp), &
       term_type('block_entries', phase_condense, common, .true., &
-                'entries of flexibilities', 9.7e-10_wp), &
+                'entries of flexibilities', 1.4e-09_wp), &
       term_type('solved_entries', phase_joints, common, .true., &
-                'entries of factors, solution by solution', 6.9e-10_wp), &
+                'entries of factors, solution by solution', 2.3e-10_wp), &
       term_type('node_modes', phase_joints, common, .false., &
                 'loads and displacements, node by mode', 1.8e-06_wp), &
       term_type('laws', phase_joints, common, .false., &
-                'laws at points and planes', 1.1e-07_wp), &
+                'laws at points and planes', 1.4e-07_wp), &
       term_type('sums', phase_joints, common, .false., &
-                'sums of harmonics on planes', 8.3e-09_wp), &
+                'sums of harmonics on planes', 6.4e-09_wp), &
       term_type('flexibility', phase_joints, common, .false., &
-                'products with flexibilities', 7.7e-09_wp), &
+                'products with flexibilities', 4.5e-09_wp), &
       term_type('fine_blocks', phase_errors, common, .true., &
-                'stiffness of the mesh half as large', 8.2e-08_wp), &
+                'stiffness of the mesh half as large', 6.4e-08_wp), &
       term_type('stress_modes', phase_recover, common, .false., &
-                'stresses at Gauss points, mode by mode', 3.2e-08_wp), &
+                'stresses at Gauss points, mode by mode', 1.2e-08_wp), &
       term_type('files', phase_write, common, .false., &
-                'files opened, closed and named', 1.7e-02_wp), &
+                'files opened, closed and named', 1.6e-02_wp), &
       term_type('lines', phase_write, common, .false., &
-                'lines of the listing', 4.2e-07_wp), &
+                'lines of the listing', 3.0e-07_wp), &
       term_type('array_bytes', phase_write, common, .false., &
-                'bytes of the results file', 3.1e-09_wp), &
+                'bytes of the results file', 2.7e-09_wp), &
       term_type('swept_values', phase_write, common, .false., &
-                'numbers for ParaView', 1.8e-07_wp), &
+                'numbers for ParaView', 1.7e-07_wp), &
       term_type('row_stresses', phase_recover, common, .false., &
                 'quantities of rows', 4.0e-10_wp), &
       term_type('formed_entries', phase_factor, common, .true., &
-                'entries of matrices', 6.1e-09_wp), &
+                'entries of matrices', 1.5e-08_wp), &
       term_type('rows', phase_recover, common, .false., &
                 'increments of rows: their fields, quantities, notes', 1.0e-03_wp), &
       term_type('body_stresses', phase_joints, common, .true., &

@@ -98,7 +98,7 @@ module axijoint_model_model
       integer :: body_method = body_anderson
       !> Planes from 0 to pi on which the criteria of these are checked; 0 if the program decides
       integer :: n_body_planes = 0
-      !> Solver; if there is none, the one with the least expected time is taken
+      !> Solver; if there is none, the choice is the program's
       type(solver_entry_type), allocatable :: solver
       !> Bytes that the process may take; more than there are if the user gave no limit
       integer(i8) :: memory_limit = no_limit

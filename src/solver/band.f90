@@ -45,9 +45,6 @@ contains
       entry%order_name = 'reverse Cuthill-McKee'
       entry%cost = cost_type(share=0.83_wp, kept_entry=5.7e-9_wp, passing_entry=3.0e-9_wp, &
          equation=3.0e-7_wp)
-      entry%automatic = .true.
-      entry%widest_band = 400
-      entry%by_outline = .true.
    end function band_entry
 
    !> An empty plan

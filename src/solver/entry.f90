@@ -36,11 +36,6 @@ module axijoint_solver_entry
       character(len=48) :: order_name = ''
       !> Expected time
       type(cost_type) :: cost
-      !> Whether AUTO may choose it; a wider band of its order than this many nodes is never fastest
-      logical :: automatic = .false.
-      integer :: widest_band = huge(1)
-      !> Whether it plans by the farthest entry of each row of the lower triangle
-      logical :: by_outline = .false.
       !> Whether several threads may factor and solve at once
       logical :: concurrent = .true.
       !> Bytes that its library takes once it is used

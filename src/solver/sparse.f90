@@ -104,9 +104,8 @@ contains
       entry%new_plan => new_plan
       entry%order => least_fill
       entry%order_name = 'nested dissection (METIS)'
-      entry%cost = cost_type(share=0.76_wp, kept_entry=9.0e-9_wp, passing_entry=7.0e-9_wp, &
+      entry%cost = cost_type(share=0.47_wp, kept_entry=2.3e-9_wp, passing_entry=1.8e-9_wp, &
          equation=2.0e-7_wp)
-      entry%automatic = .true.
       entry%library_bytes = 2500000_i8  ! measured
    end function sparse_entry
 

@@ -250,17 +250,17 @@ def softer(program, folder, factor):
 
 
 def not_small(program, folder):
-    """Displacements above a twentieth of the mesh's larger side are named: of bodies far too soft, and of those where they are
+    """Displacements above a twentieth of diameter or height are named: of bodies far too soft, and of those where they are
     just above, not where they are just below; the listing cuts no word of that"""
-    side = 2.0
+    diameter = 4.0
     faults, _, largest = softer(program, folder, 1.0)
-    for factor, wanted in ((1e-3, 1), (0.98*largest/(0.05*side), 1), (1.02*largest/(0.05*side), 0), (1.0, 0)):
+    for factor, wanted in ((1e-3, 1), (0.98*largest/(0.05*diameter), 1), (1.02*largest/(0.05*diameter), 0), (1.0, 0)):
         more, said, found = softer(program, folder, factor)
         faults += more + expected(f'{factor}: remarks', wanted, len(said))
         if said:
-            told = re.search(r'up to (\S+), (\S+) % of the larger side', said[0])
+            told = re.search(r'up to (\S+), (\S+) % of diameter', said[0])
             faults += close('displacement', found, float(told.group(1)), 1e-5*found)
-            faults += close('part', 100*found/side, float(told.group(2)), 0.06)
+            faults += close('part', 100*found/diameter, float(told.group(2)), 0.06)
             listing = read_text(os.path.join(folder, 'soft.lis')).replace('\n  ', ' ')
             faults += [] if said[0] in listing else ['the listing cuts a word']
     return faults

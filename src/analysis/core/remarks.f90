@@ -127,21 +127,21 @@ contains
       !> The sentences, to be continued
       type(remark_type), allocatable, intent(inout) :: remarks(:)
 
-      !> Part of the larger side of the mesh that is worth a word: a body turned by so much, in radian, is lengthened by an
-      !> eighth of a percent that is none
+      !> Part of the larger of diameter and height that is worth a word: a body turned by so much, in radian, is lengthened by
+      !> an eighth of a percent that is none
       real(wp), parameter :: large = 0.05_wp
       type(peak_type) :: peak
-      real(wp) :: side
+      real(wp) :: extent
 
       if (.not. results%converged) return
       peak = largest_displacement(results%modes, results%displacement)
-      associate (x => model%mesh%coordinates)
-         side = maxval(maxval(x, 2) - minval(x, 2))
+      associate (r => model%mesh%coordinates(1, :), z => model%mesh%coordinates(2, :))
+         extent = max(2.0_wp*maxval(r), maxval(z) - minval(z))
       end associate
-      if (.not. peak%value > large*side) return
+      if (.not. peak%value > large*extent) return
       call add(remarks, 'displacements are not small: up to '//to_text(peak%value)//', '// &
-         to_text(0.1_wp*nint(1.0e3_wp*min(peak%value/side, 1.0e6_wp)))//' % of the larger side of the mesh; '// &
-         'equilibrium is that of bodies as they were before. Units of stiffnesses and loads?')
+         to_text(0.1_wp*nint(1.0e3_wp*min(peak%value/extent, 1.0e6_wp)))//' % of diameter or height; equilibrium is that of '// &
+         'bodies as they were before. Units of stiffnesses and loads?')
    end subroutine remark_on_size
 
    !> Why the increments ended as they did
