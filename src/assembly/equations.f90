@@ -147,7 +147,7 @@ contains
       end do
    end subroutine plan_equations
 
-   !> Operations that factoring all systems once takes
+   !> Operations that factoring all systems once takes. All of them are of this rank
    pure real(wp) function factoring_operations(equations) result(n)
       !> The equations, planned
       type(equations_type), intent(in) :: equations
@@ -160,7 +160,7 @@ contains
       end do
    end function factoring_operations
 
-   !> Operations that condensing all systems to some nodes takes
+   !> Operations that condensing all systems to some nodes takes. All of them are of this rank
    real(wp) function condensing_operations(equations, condensed) result(n)
       !> The equations, planned
       type(equations_type), intent(in) :: equations
@@ -257,7 +257,7 @@ contains
          sum(equations%classes(equations%systems%class)%dofs%n_equations) > least_equations
    end function worth_threads
 
-   !> Expected time of all factorizations, one after the other
+   !> Expected time of all factorizations, one after the other. All systems are of this rank
    pure function planned_seconds(equations, kept, rate) result(seconds)
       !> The equations, planned
       type(equations_type), intent(in) :: equations

@@ -105,7 +105,7 @@ static int64_t most_rows(const tree_type *tree) {
    return most;
 }
 
-/* Plan for a pattern: null if there is no memory. Gives the entries of the factor, the operations of a factorization,
+/* Plan for a pattern: null if there is no memory, or more entries than a place among them can tell. Gives the entries of the factor, the operations of a factorization,
    and the bytes of the structure, of a factor and of what a factorization takes besides */
 static handle_type *new_plan(int64_t n, const int64_t *start, const int32_t *column,
                              double *entries, double *operations, int64_t *plan_bytes, int64_t *bytes,
@@ -115,6 +115,10 @@ static handle_type *new_plan(int64_t n, const int64_t *start, const int32_t *col
    const size_t size = (size_t)start[n];
    axijoint_leave_tree(tree);
    if (!plan) return NULL;
+   if (start[n] - 1 > INT32_MAX) {
+      axijoint_cholmod_free(plan);
+      return NULL;
+   }
    plan->start = integers(n);
    plan->row = malloc(sizeof *plan->row * size);
    plan->from = malloc(sizeof *plan->from * size);
@@ -198,6 +202,7 @@ void *axijoint_cholmod_factorize(const void *pointer, void *old, int large, cons
    if (!handle) return NULL;
    axijoint_supernodal_factorize(&structure, value, handle->numbers, failed, &code);
    if (code != 0) {
+      *failed = 0;
       axijoint_cholmod_free(handle);
       return NULL;
    }

@@ -81,7 +81,7 @@ contains
       if (code /= 0) return
       call find_runs(at, runs, shared)
       team = omp_in_parallel()
-      if (size(runs) == 1 .or. team) then
+      if (team .or. .not. any(shared)) then
          allocate (rooms(0:omp_get_num_threads() - 1))
          call factor_tree(at, runs, shared, value, l, rooms, failed, code)
          return
@@ -174,7 +174,7 @@ contains
          !$omp end task
       end do
       !$omp taskwait
-      code = maxval(runs%code)
+      code = maxval([0_c_int32_t, runs%code])
       k = findloc(runs%failed >= 0, .true., 1)
       if (k > 0) failed = runs(k)%failed
       if (code /= 0 .or. failed >= 0 .or. .not. any(shared)) return

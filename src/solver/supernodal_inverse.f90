@@ -173,7 +173,8 @@ contains
       !> Not 0 if there is no memory
       integer, intent(out) :: stat
 
-      integer :: child, j, k, from, width, height
+      integer(i8) :: from
+      integer :: child, j, k, width, height
 
       height = int(tree%first_row(s + 1) - tree%first_row(s))
       call let_fail(.true.)
@@ -191,7 +192,7 @@ contains
       do while (child /= nobody)
          width = int(tree%column(child + 1) - tree%column(child))
          height = int(tree%first_row(child + 1) - tree%first_row(child))
-         from = int(tree%first_row(child))
+         from = tree%first_row(child)
          do j = tree%first(child), tree%last(child)
             do k = width + 1, height
                associate (row => position(tree%row(from + k)))

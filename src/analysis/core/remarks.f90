@@ -43,7 +43,7 @@ contains
       type(joint_field_type), intent(in) :: field
       !> The results
       type(results_type), intent(in) :: results
-      !> The sentences, each of which fits a line of the listing
+      !> The sentences
       type(remark_type), allocatable :: remarks(:)
 
       character(len=:), allocatable :: pins

@@ -64,7 +64,7 @@ contains
       !> Lines parted by line ends
       character(len=*), intent(in) :: text
 
-      call write_parts(file, margin, text, .true.)
+      call write_parts(file, margin, trim(text), .true.)
    end subroutine write_words
 
    !> Lines behind a margin, and parts of those that are too long
@@ -90,6 +90,7 @@ contains
             end_of_part = cut(text, first + width - len(margin) - 1)
             blank = 0
             if (of_words) blank = index(text(first:end_of_part + 1), " ", back=.true.)
+            if (len_trim(text(first:first + max(0, blank - 1))) == 0) blank = 0
             if (blank > 1) end_of_part = first + blank - 2
             call file%put(before//text(first:end_of_part))
             first = end_of_part + merge(2, 1, blank > 1)
