@@ -105,8 +105,9 @@ static int64_t most_rows(const tree_type *tree) {
    return most;
 }
 
-/* Plan for a pattern: null if there is no memory, or more entries than a place among them can tell. Gives the entries of the factor, the operations of a factorization,
-   and the bytes of the structure, of a factor and of what a factorization takes besides */
+/* Plan for a pattern: null if there is no memory, or if it has more entries than a place among them can tell. Gives the entries
+   of the factor, the operations of a factorization, and the bytes of the structure, of a factor and of what a factorization
+   takes besides */
 static handle_type *new_plan(int64_t n, const int64_t *start, const int32_t *column,
                              double *entries, double *operations, int64_t *plan_bytes, int64_t *bytes,
                              int64_t *work_bytes) {

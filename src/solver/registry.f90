@@ -21,8 +21,8 @@ contains
       solvers = [band_entry(), skyline_entry(), sparse_entry()]
    end function known_solvers
 
-   !> The solver that is asked for, or the choice of the program: the sparse one. The band solver is as fast in rows of one or two
-   !> elements, within some percent of a run, and slower in all others
+   !> The solver that is asked for, or the choice of the program: the sparse one, which none of the others is clearly faster than
+   !> in any mesh that was tried, rows of single elements among them
    pure function chosen_solver(wanted) result(solver)
       !> The solver that is asked for; none if the choice is the program's
       type(solver_entry_type), allocatable, intent(in) :: wanted

@@ -3,7 +3,7 @@ module axijoint_output_file_headings
    use axijoint_output_file_text, only : text_file_type
    implicit none
    private
-   public :: write_heading, write_result_heading, write_lines, write_words, write_sentence, rule, mark_not_converged, width
+   public :: write_heading, write_result_heading, write_lines, write_sentence, rule, mark_not_converged, width
 
    !> Columns of the listing
    integer, parameter :: width = 132
@@ -42,45 +42,24 @@ contains
       end if
    end subroutine write_result_heading
 
-   !> A text of one or more lines, each behind the same margin; long lines
-   !> go on in the next, cut before a character and not within one
-   subroutine write_lines(file, margin, text)
+   !> A text of one or more lines, each behind the same margin; long lines go on in the next, cut before a character and not
+   !> within one; those of words with a whole word, if that is not longer than a line
+   subroutine write_lines(file, margin, text, of_words)
       !> The listing
       class(text_file_type), intent(inout) :: file
       !> What stands before the first line; blanks before the others
       character(len=*), intent(in) :: margin
       !> Lines parted by line ends
       character(len=*), intent(in) :: text
-
-      call write_parts(file, margin, text, .false.)
-   end subroutine write_lines
-
-   !> The same of words: long lines go on in the next with a whole word, if that is not longer than a line
-   subroutine write_words(file, margin, text)
-      !> The listing
-      class(text_file_type), intent(inout) :: file
-      !> What stands before the first line; blanks before the others
-      character(len=*), intent(in) :: margin
-      !> Lines parted by line ends
-      character(len=*), intent(in) :: text
-
-      call write_parts(file, margin, trim(text), .true.)
-   end subroutine write_words
-
-   !> Lines behind a margin, and parts of those that are too long
-   subroutine write_parts(file, margin, text, of_words)
-      !> The listing
-      class(text_file_type), intent(inout) :: file
-      !> What stands before the first line; blanks before the others
-      character(len=*), intent(in) :: margin
-      !> Lines parted by line ends
-      character(len=*), intent(in) :: text
-      !> Whether parts end between words; the blank there is left out
-      logical, intent(in) :: of_words
+      !> Whether parts end between words, the blank there left out; false if absent
+      logical, intent(in), optional :: of_words
 
       integer :: first, last, ending, blank, end_of_part
       character(len=len(margin)) :: before
+      logical :: by_words
 
+      by_words = .false.
+      if (present(of_words)) by_words = of_words
       before = margin
       first = 1
       do
@@ -89,7 +68,7 @@ contains
          do while (last - first + 1 > width - len(margin))
             end_of_part = cut(text, first + width - len(margin) - 1)
             blank = 0
-            if (of_words) blank = index(text(first:end_of_part + 1), " ", back=.true.)
+            if (by_words) blank = index(text(first:end_of_part + 1), " ", back=.true.)
             if (len_trim(text(first:first + max(0, blank - 1))) == 0) blank = 0
             if (blank > 1) end_of_part = first + blank - 2
             call file%put(before//text(first:end_of_part))
@@ -101,7 +80,7 @@ contains
          if (ending == 0) return
          first = last + 2
       end do
-   end subroutine write_parts
+   end subroutine write_lines
 
    !> A sentence behind a margin; where one line is too narrow, what follows its first semicolon goes on in the next
    subroutine write_sentence(file, margin, sentence)
@@ -116,10 +95,10 @@ contains
 
       semicolon = index(sentence, "; ")
       if (len(margin//sentence) <= width .or. semicolon == 0) then
-         call write_words(file, margin, sentence)
+         call write_lines(file, margin, sentence, of_words=.true.)
       else
-         call write_words(file, margin, sentence(:semicolon))
-         call write_words(file, margin, sentence(semicolon + 2:))
+         call write_lines(file, margin, sentence(:semicolon), of_words=.true.)
+         call write_lines(file, margin, sentence(semicolon + 2:), of_words=.true.)
       end if
    end subroutine write_sentence
 

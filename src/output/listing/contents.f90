@@ -10,7 +10,7 @@ module axijoint_output_listing_contents
    use axijoint_model_model, only : model_type
    use axijoint_model_request, only : print_deck
    use axijoint_output_file_echo, only : write_echo
-   use axijoint_output_file_headings, only : write_lines, write_words, rule, mark_not_converged
+   use axijoint_output_file_headings, only : write_lines, rule, mark_not_converged
    use axijoint_output_file_run, only : run_type
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_listing_budget, only : write_left_out, write_budget, write_singular, &
@@ -150,7 +150,7 @@ contains
          call file%put("loads   combination "//to_text(results%combination))
       call file%put("date    "//run%date)
       call file%put("run     "//run%stamp)
-      call write_words(file, "status  ", convergence_text(results))
+      call write_lines(file, "status  ", convergence_text(results), of_words=.true.)
       call file%put(rule)
    end subroutine write_header
 

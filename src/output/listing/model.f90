@@ -9,7 +9,7 @@ module axijoint_output_listing_model
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, n_joints, element_references
    use axijoint_model_model, only : model_type
    use axijoint_output_file_columns, only : columns
-   use axijoint_output_file_headings, only : write_heading, write_words
+   use axijoint_output_file_headings, only : write_heading, write_lines
    use axijoint_output_file_text, only : text_file_type
    implicit none
    private
@@ -41,7 +41,7 @@ contains
       call write_heading(file, "WARNINGS")
       if (size(warnings) == 0) call file%put("  none")
       do i = 1, size(warnings)
-         call write_words(file, "  ", trim(warnings(i)))
+         call write_lines(file, "  ", trim(warnings(i)), of_words=.true.)
       end do
    end subroutine write_warnings
 
