@@ -22,7 +22,6 @@ program flexibility
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type
    use axijoint_order_graph, only : graph_type
-   use axijoint_order_orders, only : orders_type, new_orders
    use axijoint_solver_entry, only : solver_entry_type
    use axijoint_solver_registry, only : known_solvers
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type
@@ -72,15 +71,14 @@ contains
       class(factor_type), allocatable :: factor
       type(pivot_report_type) :: pivots
       type(error_type), allocatable :: error
-      type(orders_type) :: orders
-      integer, allocatable :: set(:)
+      integer, allocatable :: set(:), order(:)
       real(wp), allocatable :: inverse(:, :)
       real(wp) :: start, factorization, inversion
 
       graph = node_graph(model%mesh)
-      call new_orders(orders, graph, error)
+      call entry%order(graph, order, error)
       call stop_on(error)
-      call new_stiffness(stiffness(1), model, mode_type(harmonic), graph, entry%order(orders))
+      call new_stiffness(stiffness(1), model, mode_type(harmonic), graph, order)
       call entry%new_plan(solver)
       call solver%analyse(stiffness(1)%pattern, error)
       call stop_on(error)

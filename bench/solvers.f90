@@ -28,7 +28,6 @@ program solvers
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type
    use axijoint_order_graph, only : graph_type
-   use axijoint_order_orders, only : orders_type, new_orders
    use axijoint_solver_entry, only : solver_entry_type
    use axijoint_solver_registry, only : known_solvers
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type
@@ -155,16 +154,14 @@ contains
       type(symmetric_matrix_type) :: matrix
       class(solver_type), allocatable :: solver
       type(error_type), allocatable :: error
-      type(orders_type) :: orders
       integer, allocatable :: order(:)
       real(wp) :: start
 
       call omp_set_num_threads(1)
       start = seconds()
       graph = node_graph(model%mesh)
-      call new_orders(orders, graph, error)
+      call entry%order(graph, order, error)
       call stop_on(error)
-      order = entry%order(orders)
       record%order = seconds() - start
       start = seconds()
       call new_stiffness(stiffness(1), model, mode_type(harmonic), graph, order)
@@ -315,7 +312,6 @@ contains
       !> What was measured
       type(record_type), intent(out) :: record
 
-      type(orders_type) :: orders
       type(equations_type), allocatable :: equations
       type(error_type), allocatable :: error
       real(wp) :: start, processor, processor_end, time
@@ -324,9 +320,7 @@ contains
       call omp_set_num_threads(n_threads)
       model%solver = entry
       start = seconds()
-      call new_orders(orders, node_graph(model%mesh), error)
-      call stop_on(error)
-      call plan_equations(equations, model, [(mode_type(m), m=1, config%n_harmonics)], orders, error)
+      call plan_equations(equations, model, [(mode_type(m), m=1, config%n_harmonics)], node_graph(model%mesh), error)
       call stop_on(error)
       record%analysis = seconds() - start
       call describe(record, entry, equations%plans(1)%solver)

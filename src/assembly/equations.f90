@@ -12,7 +12,7 @@ module axijoint_assembly_equations
    use axijoint_fe_mode, only : mode_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type
-   use axijoint_order_orders, only : orders_type
+   use axijoint_order_graph, only : graph_type
    use axijoint_solver_entry, only : solver_entry_type
    use axijoint_solver_inverse_norm, only : first_side, second_sides, inverse_norm
    use axijoint_solver_registry, only : chosen_solver
@@ -73,8 +73,9 @@ module axijoint_assembly_equations
       integer, allocatable :: system(:)
       !> Systems of equations
       type(system_type), allocatable :: systems(:)
-      !> The solver
+      !> The solver, and its order of the nodes: order(k) is the k-th node
       type(solver_entry_type) :: solver
+      integer, allocatable :: order(:)
       !> Unknowns, sparsity and stiffness of the classes
       type(stiffness_type), allocatable :: classes(:)
       !> Plans of the solver, one a class
@@ -99,33 +100,33 @@ contains
 
    !> Number the unknowns of all classes, and analyse the patterns of those that this rank solves; nothing is assembled
    !> yet. Threads that have nothing else to do take some
-   subroutine plan_equations(equations, model, modes, orders, error)
+   subroutine plan_equations(equations, model, modes, graph, error)
       !> The equations, planned
       type(equations_type), allocatable, intent(out) :: equations
       !> The job
       type(model_type), intent(in) :: model
       !> Modes, ascending
       type(mode_type), intent(in) :: modes(:)
-      !> Orders of the nodes
-      type(orders_type), intent(in) :: orders
+      !> Graph of the nodes
+      type(graph_type), intent(in) :: graph
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
       type(outcome_type), allocatable :: outcomes(:)
       logical, allocatable :: own(:)
-      integer, allocatable :: order(:)
       integer :: k, n_classes
 
       allocate (equations)
       equations%solver = chosen_solver(model%solver)
-      order = equations%solver%order(orders)
+      call equations%solver%order(graph, equations%order, error)
+      if (allocated(error)) return
       equations%modes = modes
       call divide_modes(modes, mode_classes(model, modes), equations%system, equations%systems)
       n_classes = maxval([0, equations%systems%class])
       allocate (equations%classes(n_classes), equations%plans(n_classes))
       do k = 1, n_classes
          associate (first => equations%systems(findloc(equations%systems%class, k, 1))%modes(1))
-            call number_unknowns(equations%classes(k), model, modes(first), order)
+            call number_unknowns(equations%classes(k), model, modes(first), equations%order)
          end associate
       end do
       call take_team(model%team, equations%team)
@@ -137,7 +138,7 @@ contains
          if (.not. own(k)) cycle
          !$omp task default(shared) firstprivate(k) if(equations%solver%concurrent)
          call equations%solver%new_plan(equations%plans(k)%solver)
-         call find_sparsity(equations%classes(k), orders%graph, order)
+         call find_sparsity(equations%classes(k), graph, equations%order)
          call equations%plans(k)%solver%analyse(equations%classes(k)%pattern, outcomes(k)%error)
          !$omp end task
       end do

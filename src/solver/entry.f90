@@ -1,7 +1,7 @@
 !> What is known of a solver before it is used
 module axijoint_solver_entry
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_order_orders, only : orders_type
+   use axijoint_order_orders, only : order_interface
    use axijoint_solver_type, only : solver_type
    implicit none
    private
@@ -54,15 +54,6 @@ module axijoint_solver_entry
          !> The plan
          class(solver_type), allocatable, intent(out) :: plan
       end subroutine plan_interface
-
-      !> One of the orders
-      pure function order_interface(orders) result(order)
-         import :: orders_type
-         !> All orders
-         type(orders_type), intent(in) :: orders
-         !> order(k) is the k-th node
-         integer, allocatable :: order(:)
-      end function order_interface
    end interface
 
 contains

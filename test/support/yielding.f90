@@ -18,7 +18,6 @@ module axijoint_test_yielding
    use axijoint_model_joint_points, only : new_joint_points
    use axijoint_model_load, only : combination_type
    use axijoint_model_model, only : model_type, can_yield, method_newton
-   use axijoint_order_orders, only : orders_type, new_orders
    use axijoint_plastic_bodies, only : bodies_type, new_bodies
    use axijoint_plastic_elastic, only : to_vector
    use axijoint_plastic_field, only : body_field_type, body_load_type, body_planes, &
@@ -54,12 +53,9 @@ contains
       !> Planes, if not the usual number
       integer, intent(in), optional :: n_planes
 
-      type(orders_type) :: orders
       type(error_type), allocatable :: error
 
-      call new_orders(orders, node_graph(model%mesh), error)
-      if (allocated(error)) error stop 'no orders'
-      call plan_equations(yielding%equations, model, modes, orders, error)
+      call plan_equations(yielding%equations, model, modes, node_graph(model%mesh), error)
       if (allocated(error)) error stop 'no plan'
       call plan_factors(yielding%equations, .true., 0_i8, 0_i8, 0_i8, model%memory_limit, error)
       if (allocated(error)) error stop 'no memory'

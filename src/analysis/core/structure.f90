@@ -33,7 +33,9 @@ module axijoint_analysis_core_structure
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements
    use axijoint_model_request, only : line_type, print_orders, rows_expected
    use axijoint_order_graph, only : graph_type, bandwidth, profile, fill
-   use axijoint_order_orders, only : orders_type, order_by_profile, dissect, least_profile
+   use axijoint_order_metis, only : nested_dissection
+   use axijoint_order_rcm, only : reverse_cuthill_mckee
+   use axijoint_order_sloan, only : sloan
    use omp_lib, only : omp_get_max_threads, omp_get_wtime
    implicit none
    private
@@ -346,8 +348,7 @@ contains
       !> A mechanism, or out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      type(orders_type) :: orders
-      logical :: compared
+      type(graph_type) :: graph
 
       structure%joint_points = new_joint_points(model)
       structure%support_points = new_support_points(model)
@@ -358,20 +359,16 @@ contains
          structure%support_points, structure%modes, error)
       if (allocated(error)) return
       call show_progress(progress, 'assembling '//to_text(size(structure%modes))//' modes')
-      compared = rows_expected(model%print, print_orders, real(n_nodes(model%mesh), wp)) > 0.0_wp
-      call order_by_profile(orders, node_graph(model%mesh), compared .or. needs_sloan(model))
-      call dissect(orders, error)
-      if (allocated(error)) return
-      call plan_equations(structure%equations, model, structure%modes, orders, error)
+      graph = node_graph(model%mesh)
+      call plan_equations(structure%equations, model, structure%modes, graph, error)
       if (allocated(error)) return
       if (.not. structure%listed) then
          allocate (structure%orderings(0))
-      else if (compared) then
-         structure%orderings = compare_orders(orders)
+      else if (rows_expected(model%print, print_orders, real(n_nodes(model%mesh), wp)) > 0.0_wp) then
+         call compare_orders(graph, structure%orderings, error)
+         if (allocated(error)) return
       else
-         associate (solver => structure%equations%solver)
-            structure%orderings = [measured(solver%order_name, orders%graph, solver%order(orders))]
-         end associate
+         structure%orderings = [measured(structure%equations%solver%order_name, graph, structure%equations%order)]
       end if
       call check_stop(error)
    end subroutine plan_systems
@@ -405,16 +402,23 @@ contains
    end function reuses_factors
 
    !> Bandwidth, profile and fill of the orders side by side
-   pure function compare_orders(orders) result(orderings)
-      !> The orders
-      type(orders_type), intent(in) :: orders
+   subroutine compare_orders(graph, orderings, error)
+      !> Graph of the nodes
+      type(graph_type), intent(in) :: graph
       !> Reverse Cuthill-McKee, Sloan, nested dissection
-      type(ordering_type) :: orderings(3)
+      type(ordering_type), allocatable, intent(out) :: orderings(:)
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
 
-      orderings = [measured('reverse Cuthill-McKee', orders%graph, orders%cuthill_mckee), &
-                   measured('Sloan', orders%graph, orders%sloan), &
-                   measured('nested dissection', orders%graph, orders%dissection)]
-   end function compare_orders
+      integer, allocatable :: by_band(:), by_profile(:), by_fill(:)
+
+      call reverse_cuthill_mckee(graph, by_band)
+      call sloan(graph, by_profile)
+      call nested_dissection(graph, by_fill, error)
+      if (allocated(error)) return
+      orderings = [measured('reverse Cuthill-McKee', graph, by_band), measured('Sloan', graph, by_profile), &
+                   measured('nested dissection', graph, by_fill)]
+   end subroutine compare_orders
 
    !> Bandwidth, profile and fill of an order
    pure function measured(name, graph, order) result(ordering)
@@ -430,14 +434,5 @@ contains
       ordering = ordering_type(name(:scan(name//'(', '(,') - 1), bandwidth(graph, order), profile(graph, order), &
          fill(graph, order))
    end function measured
-
-   !> Whether the solver of a job needs Sloan's order
-   logical function needs_sloan(model)
-      !> The job
-      type(model_type), intent(in) :: model
-
-      needs_sloan = .false.
-      if (allocated(model%solver)) needs_sloan = associated(model%solver%order, least_profile)
-   end function needs_sloan
 
 end module axijoint_analysis_core_structure
