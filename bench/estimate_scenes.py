@@ -108,6 +108,21 @@ def built_in(setting, poisson=0.3):
     return scene.add("FIXEDFACES", "1, 111").add("RESULTANTS", "2, LATERAL, 1").text()
 
 
+def plate(setting, m=2):
+    """A thin disc, held at its rim and pressed by cos m theta: one or two elements bend"""
+    scene = Scene("Plate", setting).add("HARMONICS", str(m)).add("MATERIALS", "1, 2e5, 0.3")
+    scene.block(1, 1, 8, 1, (0, 0, 2, .2), (2, 0)).add("FACES", "1, 1, 2, 0, 2, .2", "2, 1, 0, .2, 2, .2")
+    return scene.add("FIXEDFACES", "1, 111").add("PRESSURES", f"2, {m}, 1").text()
+
+
+def ring(setting, m=6, outer=1.2, poisson=0.3):
+    """A ring in plane strain, pressed by cos m theta outside"""
+    scene = Scene("Ring", setting).add("HARMONICS", str(m)).add("MATERIALS", f"1, 3e4, {poisson:g}")
+    scene.block(1, 1, 6, 1, (1, 0, outer, (outer - 1)/6)).add("FACES", f"1, 1, {outer}, 0, {outer}, {(outer - 1)/6:.10g}",
+                                                               f"2, 1, 1, 0, {outer}, 0", f"3, 1, 1, {(outer - 1)/6:.10g}, {outer}, {(outer - 1)/6:.10g}")
+    return scene.add("FIXEDFACES", "2, 010", "3, 010").add("PRESSURES", f"1, {m}, 1").text()
+
+
 def soft(setting, shape="pier", poisson=0.49):
     """A soft pier on ground that is nearly incompressible, a soft layer on it, or a ring of that in a soft one; pressed and pushed
     sideways"""

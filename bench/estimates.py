@@ -86,6 +86,14 @@ def mesh_rows():
             for poisson in (0.49, 0.499):
                 yield row(f"soft {shape} and nu = {poisson:g}", scenes.soft, replace(linear, kind=kind), linear.fine(n=3), shape=shape,
                           poisson=poisson)
+    for kind in ("4", "4B", "8", "8R"):
+        for m in (0, 2, 4):
+            setting = replace(linear, kind=kind, harmonic=m)
+            yield row(f"plate, m = {m}", scenes.plate, setting, m=m)
+            yield row(f"plate twice as fine, m = {m}", scenes.plate, replace(setting, n=2), m=m)
+        for m, outer, poisson in ((4, 1.5, 0.3), (6, 1.2, 0.3), (6, 1.5, 0.4)):
+            setting = replace(linear, kind=kind, harmonic=m, planes=2*m + 1)
+            yield row(f"ring to {outer}, m = {m}, nu = {poisson}", scenes.ring, setting, m=m, outer=outer, poisson=poisson)
     for kind, mesh in (("3", "peg_3"), ("4", "peg_4"), ("6", "peg_6"), ("6", "peg_6_graded")):
         yield Row("mesh", f"peg, Gmsh, {mesh[4:]}", scenes.peg, Setting(kind), Setting().fine(), {"mesh": mesh + ".msh"}, {})
 

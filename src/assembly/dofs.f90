@@ -4,7 +4,7 @@ module axijoint_assembly_dofs
    use axijoint_fe_mode, only : mode_type, is_torsion
    implicit none
    private
-   public :: dofs_type, new_dofs, first_equation, gather, expand, collect, spread_out, kinematic_class
+   public :: dofs_type, new_dofs, first_equation, gather, expand, collect, kinematic_class
    public :: component_name
 
    !> Names of the components u, v, w
@@ -154,29 +154,5 @@ contains
          end do
       end do
    end function collect
-
-   !> Forces on components that do the work of forces on unknowns; where w is tied to u, all of
-   !> it on u
-   pure function spread_out(dofs, vector) result(nodal)
-      !> The unknowns
-      type(dofs_type), intent(in) :: dofs
-      !> Forces on the unknowns, shape (n_equations)
-      real(wp), intent(in) :: vector(:)
-      !> Forces on components, shape (3, nodes)
-      real(wp) :: nodal(3, size(dofs%equation, 2))
-
-      integer :: node, i
-
-      nodal = 0.0_wp
-      do node = 1, size(nodal, 2)
-         do i = 1, 3
-            associate (e => dofs%equation(i, node))
-               if (e == 0) cycle
-               if (i == 3 .and. e == dofs%equation(1, node)) cycle
-               nodal(i, node) = vector(e)
-            end associate
-         end do
-      end do
-   end function spread_out
 
 end module axijoint_assembly_dofs

@@ -4,7 +4,7 @@ module axijoint_assembly_factors
    use axijoint_assembly_dofs, only : component_name
    use axijoint_assembly_equations, only : equations_type, system_type, worth_threads
    use axijoint_assembly_harmonic, only : harmonic_values
-   use axijoint_assembly_stiffness, only : stiffness_type, n_parts, has_sparsity
+   use axijoint_assembly_stiffness, only : n_parts, has_sparsity
    use axijoint_base_error, only : error_type, fatal_error, exit_singular
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_stop, only : stop_wished, check_stop

@@ -13,7 +13,7 @@ module axijoint_solver_entry
    !> Time of forming and factoring one matrix at a given rate of matrix products:
    !> operations at a share of that rate, a time for each entry of the factor, which
    !> is memory taken, filled and written whatever the rate, and a time for each
-   !> equation, whose row is formed and ordered anew. The constants are fitted to
+   !> equation, whose row is ordered anew. The constants are fitted to factors of squares and
    !> runs of decks; see doc/benchmarks.md.
    type :: cost_type
       !> Share of the rate of large matrix products

@@ -46,7 +46,7 @@ contains
       entry%name = 'SKYLINE'
       entry%new_plan => new_plan
       entry%order => least_profile
-      entry%order_name = 'Sloan, or reverse Cuthill-McKee if smaller'
+      entry%order_name = 'Sloan or Cuthill-McKee'
       entry%cost = cost_type(share=0.14_wp, equation=3.0e-7_wp)
    end function skyline_entry
 

@@ -172,7 +172,7 @@ contains
          if (failed == 0) call judge_pivots(value(pattern%row_start(2:) - 1), root, pivots)
          call move_alloc(new, factor)
       else
-         call memory_error(error, 'a sparse factor needs', self%factor_bytes/2_i8**20, 'MiB')
+         call memory_error(error, 'a sparse factor needs', self%factor_bytes, 'bytes')
       end if
    end subroutine factorize
 

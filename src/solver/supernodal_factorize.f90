@@ -81,7 +81,7 @@ contains
       if (code /= 0) return
       call find_runs(at, runs, shared)
       team = omp_in_parallel()
-      if (team .or. .not. any(shared)) then
+      if (team .or. (size(runs) <= 1 .and. .not. any(shared))) then
          allocate (rooms(0:omp_get_num_threads() - 1))
          call factor_tree(at, runs, shared, value, l, rooms, failed, code)
          return

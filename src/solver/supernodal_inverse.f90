@@ -5,7 +5,7 @@
 !> subtree alone, which are neighbours in a postordered tree, eliminates its own unknowns, and adds the product of what it
 !> found. Nothing takes the cube of the equations' number unless separators grow as it does.
 module axijoint_solver_supernodal_inverse
-   use, intrinsic :: iso_c_binding, only : c_ptr, c_f_pointer, c_double, c_int32_t, c_int64_t
+   use, intrinsic :: iso_c_binding, only : c_f_pointer, c_double, c_int32_t, c_int64_t
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_last_words, only : let_fail
    use axijoint_linalg_lapack, only : dgemm, dsyrk, dtrsm

@@ -570,8 +570,8 @@ class Cards:
 
         table: table: DECK; COORDS, INCIDENCE, JOINTNODES of the mesh; LOADS; PATH of iterations; AMPLITUDE,
             TOTALS of displacements; STRESSES at Gauss points; NODAL ones; STATES of joints; REACTIONS; ORDERS
-            of the; allowed: DECK, COORDS, INCIDENCE, JOINTNODES, LOADS, PATH, AMPLITUDE, TOTALS, STRESSES,
-            NODAL, STATES, REACTIONS, ORDERS, TABLES
+            of the nodes, side by side; all TABLES; allowed: DECK, COORDS, INCIDENCE, JOINTNODES, LOADS, PATH,
+            AMPLITUDE, TOTALS, STRESSES, NODAL, STATES, REACTIONS, ORDERS, TABLES
         rows: its rows; allowed: ALL, EVERY n-th, UPTO n: all if they are so many at most, NONE
         number: n of EVERY and UPTO; if not given: 1000
         body: of which body; if not given: any; allowed: 1 … 9999

@@ -133,7 +133,7 @@ contains
       type(peak_type) :: peak
       real(wp) :: extent
 
-      if (.not. results%converged) return
+      if (.not. (results%converged .or. allocated(results%mechanism) .or. results%strayed)) return  ! no equilibrium
       peak = largest_displacement(results%modes, results%displacement)
       associate (r => model%mesh%coordinates(1, :), z => model%mesh%coordinates(2, :))
          extent = max(2.0_wp*maxval(r), maxval(z) - minval(z))

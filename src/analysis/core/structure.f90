@@ -9,7 +9,7 @@ module axijoint_analysis_core_structure
    use axijoint_analysis_fine_singular_places, only : singular_place_type, find_singular_places, &
       judged_points, decide_what_is_judged
    use axijoint_assembly_equations, only : equations_type, plan_equations, assemble_equations
-   use axijoint_assembly_factors, only : plan_factors, factorize_equations, report_failure
+   use axijoint_assembly_factors, only : plan_factors, factorize_equations
    use axijoint_assembly_mechanism, only : check_mechanism
    use axijoint_assembly_pattern, only : node_graph
    use axijoint_assembly_stiffness, only : least_elements

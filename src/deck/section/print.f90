@@ -36,7 +36,7 @@ contains
          [described(word_field('the table', 1, 10, print_names), &
                     'table: DECK; COORDS, INCIDENCE, JOINTNODES of the mesh; LOADS; PATH of '// &
                     'iterations; AMPLITUDE, TOTALS of displacements; STRESSES at Gauss points; '// &
-                    'NODAL ones; STATES of joints; REACTIONS; ORDERS of the nodes side by side; '// &
+                    'NODAL ones; STATES of joints; REACTIONS; ORDERS of the nodes, side by side; '// &
                     'all TABLES'), &
           described(word_field('the rows', 11, 20, rows_names), &
                     'its rows', &

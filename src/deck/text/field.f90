@@ -39,7 +39,7 @@ module axijoint_deck_text_field
       character(len=40) :: name = ''
       !> What it means, with its unit, for those who write cards; the name without its article if
       !> blank
-      character(len=200) :: meaning = ''
+      character(len=240) :: meaning = ''
       !> What a blank field means, and what is allowed, for them, too; told by the values if blank
       character(len=80) :: blank = ''
       character(len=100) :: limits = ''
@@ -211,10 +211,21 @@ contains
       type(field_type) :: new
 
       new = field
-      new%meaning = meaning
-      if (present(blank)) new%blank = blank
-      if (present(limits)) new%limits = limits
+      call put(meaning, new%meaning)
+      if (present(blank)) call put(blank, new%blank)
+      if (present(limits)) call put(limits, new%limits)
    end function described_field
+
+   !> Put a text where it has room
+   pure subroutine put(text, room)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> Takes it
+      character(len=*), intent(out) :: room
+
+      if (len(text) > len(room)) error stop 'described: a text longer than a field holds'
+      room = text
+   end subroutine put
 
    !> Fields one after another that are told of together
    pure function described_row(fields, meaning, blank, limits) result(new)

@@ -12,7 +12,7 @@ module axijoint_output_listing_solution
    use axijoint_model_model, only : model_type
    use axijoint_model_request, only : print_amplitude, print_totals, print_reactions, print_path
    use axijoint_output_file_columns, only : columns
-   use axijoint_output_file_headings, only : write_heading, write_result_heading, mark_not_converged
+   use axijoint_output_file_headings, only : write_heading, write_lines, write_result_heading, mark_not_converged
    use axijoint_output_file_row, only : row_type
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_listing_choice, only : chosen_places, chosen_lines, none_asked, write_left
@@ -125,7 +125,7 @@ contains
       end do
       if (.not. none_asked(model, print_path)) &
          call write_left(file, "", count(listed), size(listed))
-      call file%put("  "//convergence_text(results))
+      call write_lines(file, "  ", convergence_text(results), of_words=.true.)
       if (.not. results%other_loop >= 0.0_wp) return
       if (results%accumulated) then
          call file%put("  joint stresses differ by up to "//to_text(100.0_wp*results%other_loop)// &
