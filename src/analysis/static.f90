@@ -38,6 +38,7 @@ module axijoint_analysis_static
    use axijoint_joints_scene, only : stand_where_they_are
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_load, only : combination_type
+   use axijoint_model_locking, only : elements_lock
    use axijoint_model_model, only : model_type, bodies_yield
    implicit none
    private
@@ -151,6 +152,7 @@ contains
       call move_bodies(model, structure, results%states(size(results%states)), results)
       if (.not. estimates) results%discretization%largest_displacement = &
          largest_vector(results%modes, results%displacement)
+      results%locks = elements_lock(model)
       results%converged = results%converged .and. max(results%residual_ratio, results%mismatch) &
          <= results%tolerance
       if (results%converged) then

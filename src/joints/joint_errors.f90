@@ -180,6 +180,7 @@ contains
       call add_harmonics(condensed, finer_scene, on_more, extended, with_more)
       if (allocated(with_more)) then
          call find_again(condensed, extended, memory, with_more, changes%harmonics%known)
+         changes%harmonics%known = changes%harmonics%known .and. changes%planes%known  ! else it begins anywhere
          associate (m => size(scene%modes))
             changes%harmonics%stress = largest_change(scene, on_more, with_more, 1, rounding)
             changes%harmonics%excess = with_more%excess(:, :, :m) - on_more%excess

@@ -67,6 +67,8 @@ contains
       if (size(results%path) > 0) call remark_on_accuracy(model, structure, field, results, remarks)
       call remark_on_cut_off(model, results, remarks)
       call remark_on_size(model, results, remarks)
+      if (results%locks .and. allocated(results%budget)) call add(remarks, 'elements of a material that is nearly '// &
+         'incompressible lock, and finer ones lock as well: estimates of errors see little of that')
       pins = pin_text(model, structure, history%loading, field, results)
       if (len(pins) > 0) call add(remarks, pins)
       if (allocated(results%stiffer)) remarks = [remarks, proportion_remarks(model, results)]
@@ -117,7 +119,7 @@ contains
       end associate
    end subroutine remark_on_cut_off
 
-   !> Displacements that are no longer small: forces are in equilibrium at the places that nodes had before, and joints meet
+   !> Displacements that are zero, or no longer small: forces are in equilibrium at the places that nodes had before, and joints meet
    !> the points that they met there. Mostly units are mixed up
    subroutine remark_on_size(model, results, remarks)
       !> The job
@@ -135,6 +137,8 @@ contains
 
       if (.not. (results%converged .or. allocated(results%mechanism) .or. results%strayed)) return  ! no equilibrium
       peak = largest_displacement(results%modes, results%displacement)
+      if (.not. peak%value > 0.0_wp .and. size(model%increments) <= 1) &
+         call add(remarks, 'nothing moves: loads are zero, or act on what is held')
       associate (r => model%mesh%coordinates(1, :), z => model%mesh%coordinates(2, :))
          extent = max(2.0_wp*maxval(r), maxval(z) - minval(z))
       end associate
@@ -441,6 +445,8 @@ contains
             why = 'the error of '//trim(goal_names(goal%quantity))//' is not known'
             if (any(model%truncations%left_out >= 1.0_wp)) &
                why = why//', as some load is concentrated in points'
+         else if (last%error <= goal%target .and. results%locks) then
+            why = 'elements lock'
          else if (last%error <= goal%target) then
             why = 'the share of '//trim(source_names(unknown))//' is not known'
          else if (size(results%rounds) >= goal%most_rounds) then

@@ -229,6 +229,8 @@ module axijoint_analysis_core_results
       logical :: at_rest = .false.
       !> Whether joints have slipped under loads that were larger: what the estimates tell is of the last loads alone
       logical :: keeps_slip = .false.
+      !> Whether elements lock, as finer ones do: estimates see little of what that leaves
+      logical :: locks = .false.
       !> Error of displacements or joint stresses that the iterations leave, where it is more than
       !> the tolerance claims; zero if it is not
       real(wp) :: unsettled = 0.0_wp

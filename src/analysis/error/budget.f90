@@ -82,7 +82,9 @@ contains
       share%displacement = results%discretization%displacement
       share%joint_stress = results%discretization%joint_stress
       share%seconds = results%discretization%seconds
-      if (any(model%mesh%element_size < 5)) then
+      if (results%locks) then
+         share%remedy = 'elements that do not lock'
+      else if (any(model%mesh%element_size < 5)) then
          share%remedy = 'elements 0.7 (for stresses 0.5) times as large'
       else
          share%remedy = 'elements 0.6 times as large'

@@ -76,23 +76,24 @@ contains
       do i = 1, size(results%budget)
          associate (share => results%budget(i))
             if (share%source == source_solver) cycle
-            if (share_of(share, model%error_goal) >= 0.0_wp .and. .not. lacks_answer(share, results)) cycle
+            if (share_of(share, model%error_goal) >= 0.0_wp .and. .not. sees_part(share, results)) cycle
             source = share%source
             return
          end associate
       end do
    end function unknown_source
 
-   !> Whether joints had no answer to the errors of the mesh: what that would move is lacking in those of displacements
-   pure logical function lacks_answer(share, results)
+   !> Whether errors of the mesh are known in part: elements lock, or joints had no answer to them, and what that would move
+   !> is lacking in those of displacements
+   pure logical function sees_part(share, results)
       !> The share
       type(error_share_type), intent(in) :: share
       !> Results with a budget
       type(results_type), intent(in) :: results
 
-      lacks_answer = share%source == source_discretization .and. share%joint_stress < 0.0_wp &
-         .and. any(results%budget%joint_stress >= 0.0_wp)
-   end function lacks_answer
+      sees_part = share%source == source_discretization .and. (results%locks .or. share%joint_stress < 0.0_wp &
+         .and. any(results%budget%joint_stress >= 0.0_wp))
+   end function sees_part
 
    !> Factor on a share
    pure real(wp) function safety_of(share, goal)

@@ -1,19 +1,15 @@
 !> Elements that are too stiff for nearly incompressible materials, and for those that yield
 module axijoint_deck_check_locking
-   use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
    use axijoint_deck_property_properties, only : properties_type
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_warning
    use axijoint_element_yield_law, only : yield_none
    use axijoint_fe_element_kind, only : is_reduced, locks
-   use axijoint_model_material, only : solid_material_type, elasticity
+   use axijoint_model_locking, only : is_nearly_incompressible, effective_ratio
    use axijoint_model_model, only : model_type
    implicit none
    private
    public :: warn_of_locking
-
-   !> Poisson's ratio above which linear elements lock visibly
-   real(wp), parameter :: largest_ratio = 0.49_wp + 1.0e-9_wp
 
 contains
 
@@ -45,7 +41,7 @@ contains
             call warn_of_limit(k)
             cycle
          end if
-         if (effective_ratio(model%materials(k)) <= largest_ratio) cycle
+         if (.not. is_nearly_incompressible(model%materials(k))) cycle
          if (used(k, 4)) call warn(k, 'plain 4-node', &
                                    'write BBAR in columns 31-40 of CONTROL, or use 8-node '// &
                                    'elements '// &
@@ -101,21 +97,5 @@ contains
       end subroutine warn
 
    end subroutine warn_of_locking
-
-   !> Poisson's ratio of an isotropic solid of the same resistance to a change of
-   !> volume and, on the average, to shear
-   pure real(wp) function effective_ratio(material) result(ratio)
-      !> The material
-      type(solid_material_type), intent(in) :: material
-
-      real(wp) :: d(6, 6), bulk, shear
-
-      ratio = material%poisson
-      if (.not. material%orthotropic) return
-      d = elasticity(material)
-      bulk = sum(d(1:3, 1:3))/9.0_wp
-      shear = (d(4, 4) + d(5, 5) + d(6, 6))/3.0_wp
-      ratio = (3.0_wp*bulk - 2.0_wp*shear)/(6.0_wp*bulk + 2.0_wp*shear)
-   end function effective_ratio
 
 end module axijoint_deck_check_locking

@@ -212,11 +212,12 @@ contains
       if (max(total%displacement, total%joint_stress) <= 0.0_wp) return
       associate (budget => results%budget)
          ! what joints would answer moves the bodies, too
-         at_least = results%keeps_slip .or. (total%joint_stress >= 0.0_wp .and. .not. is_known(budget, (budget%joint_stress)))
+         at_least = results%keeps_slip .or. results%locks .or. &
+            (total%joint_stress >= 0.0_wp .and. .not. is_known(budget, (budget%joint_stress)))
          text = "displacement "//quantity_text(budget, (budget%displacement), total%displacement, at_least)
          if (total%joint_stress < 0.0_wp) return
          text = text//"; joint stress "//quantity_text(budget, (budget%joint_stress), &
-            total%joint_stress, results%keeps_slip)
+            total%joint_stress, results%keeps_slip .or. results%locks)
       end associate
       if (.not. has_singular(results)) return
       if (any(results%singular%distance > 0.0_wp)) text = text//", away from infinite ones"
@@ -230,8 +231,11 @@ contains
       real(wp), intent(in) :: shares(:), total
       !> Whether something of it is not known in any case
       logical, intent(in) :: at_least
-      !> Such as 4.62 %, most by discretization (2.31 %)
+      !> Such as 4.62 %, most by discretization (2.31 %), or at least 0.12 %, of what is known most by planes (0.1 %), not
+      !> known: discretization
       character(len=:), allocatable :: text
+
+      integer :: i
 
       text = "not known"
       if (.not. is_judged(budget, shares)) return
@@ -239,24 +243,31 @@ contains
       if (at_least .or. .not. is_known(budget, shares)) text = "at least "//text
       if (total > 0.0_wp) then
          associate (most => maxloc(shares, 1))
-            text = text//", most by "//trim(source_names(budget(most)%source))//" ("// &
-               fine_percent(shares(most))//")"
+            text = text//","
+            if (.not. is_known(budget, shares)) text = text//" of what is known"
+            text = text//" most by "//trim(source_names(budget(most)%source))//" ("//fine_percent(shares(most))//")"
          end associate
       end if
+      if (is_known(budget, shares)) return
+      text = text//", not known:"
+      do i = 1, size(budget)
+         if (shares(i) < 0.0_wp .and. budget(i)%source /= source_solver) text = text//" "//trim(source_names(budget(i)%source))//","
+      end do
+      text = text(:len(text) - 1)
    end function quantity_text
 
-   !> Whether anything but rounding is known
+   !> Whether all is known, or anything more than rounding
    pure logical function is_judged(budget, shares)
       !> The budget
       type(error_share_type), intent(in) :: budget(:)
       !> Its shares of a quantity
       real(wp), intent(in) :: shares(:)
 
-      is_judged = any(shares >= 0.0_wp .and. budget%source /= source_solver)
+      is_judged = is_known(budget, shares) .or. any(shares > 0.0_wp .and. budget%source /= source_solver)
    end function is_judged
 
    !> What would halve the largest shares of displacement and of joint stress; empty if there are
-   !> none
+   !> none, or others are not known
    pure function remedy_text(budget) result(text)
       !> The budget
       type(error_share_type), intent(in) :: budget(:)
@@ -267,8 +278,9 @@ contains
 
       text = ""
       place = [maxloc(budget%displacement, 1), maxloc(budget%joint_stress, 1)]
-      if (budget(place(1))%displacement > 0.0_wp .and. is_judged(budget, (budget%displacement))) text = budget(place(1))%remedy
-      if (.not. budget(place(2))%joint_stress > 0.0_wp .or. place(1) == place(2)) return
+      if (budget(place(1))%displacement > 0.0_wp .and. is_known(budget, (budget%displacement))) text = budget(place(1))%remedy
+      if (.not. (budget(place(2))%joint_stress > 0.0_wp .and. is_known(budget, (budget%joint_stress)))) return
+      if (budget(place(2))%remedy == text) return
       if (len(text) > 0) text = text//"; "
       text = text//budget(place(2))%remedy
    end function remedy_text
