@@ -108,6 +108,14 @@ def built_in(setting, poisson=0.3):
     return scene.add("FIXEDFACES", "1, 111").add("RESULTANTS", "2, LATERAL, 1").text()
 
 
+def tube(setting, thickness=0.5, height=2.0, shape="TABLE, -45, 0, 0, 1, 45, 0"):
+    """A tube that stands on its end and is pressed on a part of the circle"""
+    scene = Scene("Tube", setting).add("MATERIALS", "1, 2e5, 0.3")
+    scene.block(1, 1, max(1, round(6*thickness)), 8, (1, 0, 1 + thickness, height))
+    scene.add("FACES", f"1, 1, {1 + thickness}, 0, {1 + thickness}, {height}", f"2, 1, 1, 0, {1 + thickness}, 0").add("FIXEDFACES", "2, 111")
+    return scene.add("SHAPES", f"1, {shape}").add("PRESSURES", "1, , 1, , , 1").text()
+
+
 def plate(setting, m=2):
     """A thin disc, held at its rim and pressed by cos m theta: one or two elements bend"""
     scene = Scene("Plate", setting).add("HARMONICS", str(m)).add("MATERIALS", "1, 2e5, 0.3")

@@ -128,6 +128,12 @@ def load_rows():
         for m in (2, 3, 4, 6, 8, 10, 12, 16, 24):
             setting = Setting("8", harmonic=m, planes=65)
             yield Row("loads", f"{name}, M = {m}", scene, setting, replace(setting, harmonic=64))
+    for thickness, height in ((0.05, 4.0), (0.5, 2.0), (1.0, 4.0), (2.0, 1.0)):
+        for shape in ("PATCH, -20, 20", "TABLE, -45, 0, 0, 1, 45, 0", "TABLE, -90, 0, 0, 1, 90, 0"):
+            for m in (3, 4, 6, 8, 12, 16):
+                setting = Setting("8", harmonic=m)
+                yield Row("loads", f"tube, wall {thickness}, {shape.replace(', ', ' ')}, M = {m}", scenes.tube, setting,
+                          replace(setting, harmonic=64), {"thickness": thickness, "height": height, "shape": shape})
     for body, directions in (("tube", ("0, 0, 1",)), ("pile", ("1, 0, 0", "0, 1, 0", "0, 0, 1"))):
         for direction in directions:
             for m in (2, 3, 4, 6, 8, 12, 16, 24):

@@ -11,12 +11,13 @@ module axijoint_analysis_error_response_tail
    !> The sums over the octaves of harmonics fall at least by this factor, about 1/sqrt(2): that of
    !> amplitudes that fall with m^(-3/2), between a load that jumps and the response to it
    real(wp), parameter :: slowest = 0.7_wp
-   !> Bounds of the power of m with which the response to a load of harmonic m falls, and the power if the response does not
-   !> tell it
-   real(wp), parameter :: least_power = 1.0_wp, most_power = 3.0_wp, usual_power = 1.5_wp
+   !> Bounds of the power of m with which the response to a load of harmonic m falls; the first, which is taken if the response
+   !> does not tell it, is that of a half-space. Tubes bend with a higher power than the second, up to 4, until waves are as
+   !> short as their wall is thick; which of the two M has seen it does not know
+   real(wp), parameter :: bounds_of_power(2) = [1.0_wp, 1.75_wp]
    !> The bounds under forces at points: near them all bodies answer alike, whatever they do as a whole, as a tube that bends,
    !> until harmonics are as short as elements
-   real(wp), parameter :: near_points(2) = [usual_power, 2.0_wp]
+   real(wp), parameter :: near_points(2) = [1.5_wp, 2.0_wp]
 
 contains
 
@@ -103,7 +104,7 @@ contains
          call fourier_coefficients(course, k, a, b)
          load(k) = hypot(a, b)
       end do
-      call follow(load, m, upper, lower, [least_power, most_power], tail)
+      call follow(load, m, upper, lower, bounds_of_power, tail)
    end subroutine follow_load
 
    !> The same from the harmonics of a load, if it has any in (M/2, M]
@@ -123,7 +124,7 @@ contains
       integer :: k
 
       if (.not. sum(load(m/2 + 1:m)) > none*maxval(load)) return
-      power = usual_power
+      power = bounds(1)
       ! harmonics 0 and 1 move parts as rigid
       if (m > 3 .and. upper > 0.0_wp .and. lower > 0.0_wp .and. sum(load(m/4 + 1:m/2)) > none*maxval(load)) &
          power = power_of(load, m, upper/lower, bounds)
