@@ -66,6 +66,13 @@ contains
       source%cards(card)%kind = card_data
       if (keyword == 0 .and. .not. is_letter(content(1:1))) return
       if (is_worded_card(source%sections, content, word)) return
+      if (lacks_blank(source, card, content, word)) then
+         call add_error(diagnostics, card, 1, len(word), &
+                        trim(merge('this keyword is unknown        ', 'text stands behind this keyword', keyword == 0)), &
+                        found=word, mend='put a blank before '//word//', which begins an entry of '// &
+                        trim(source%sections(open_section(source, card))%name))
+         return
+      end if
       source%cards(card)%kind = card_keyword
       source%cards(card)%keyword = keyword
       if (keyword == 0) then
@@ -175,8 +182,23 @@ contains
                      allowed=allowed, mend=mend)
    end subroutine report_heading
 
-   !> Report an unknown keyword and go on as if the likeliest had been written. A word that
-   !> entries of the open section begin with, and a second one, lack no more than a blank before them
+   !> Whether a card lacks no more than a blank before it: a word that entries of the open section begin with, and a second one
+   pure logical function lacks_blank(source, card, content, word)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> The card
+      integer, intent(in) :: card
+      !> It without its comment, and its first word
+      character(len=*), intent(in) :: content, word
+
+      integer :: open
+
+      open = open_section(source, card)
+      lacks_blank = is_letter(content(1:1)) .and. any(first_words(source%sections(max(1, open):open)) == upper(word))
+      if (lacks_blank) lacks_blank = verify(content(len(word) + 1:), ' ,0123456789'//tab) > 0
+   end function lacks_blank
+
+   !> Report an unknown keyword and go on as if the likeliest had been written
    subroutine report_keyword(source, card, word, diagnostics)
       !> The deck
       type(source_type), intent(inout) :: source
@@ -188,17 +210,8 @@ contains
       type(diagnostics_type), intent(inout) :: diagnostics
 
       character(len=:), allocatable :: mend
-      integer :: meant, open
+      integer :: meant
 
-      open = open_section(source, card)
-      if (any(first_words(source%sections(max(1, open):open)) == upper(word)) .and. &
-          .not. counts_entries(card_content(source, card), word)) then
-         source%cards(card)%kind = card_data
-         call add_error(diagnostics, card, 1, len(word), 'this keyword is unknown', found=word, &
-                        mend='put a blank before '//word//', which begins an entry of '// &
-                        trim(source%sections(open)%name))
-         return
-      end if
       meant = nearest_word(word, names_of(source%sections))
       source%cards(card)%keyword = meant
       mend = 'write one of these keywords from column 1'
@@ -207,14 +220,6 @@ contains
       call add_error(diagnostics, card, 1, len(word), 'this keyword is unknown', &
                      found=word, allowed=all_names(source%sections), mend=mend)
    end subroutine report_keyword
-
-   !> Whether no more than a number follows a word, as behind a keyword
-   pure logical function counts_entries(content, word)
-      !> The card without its comment, and its first word
-      character(len=*), intent(in) :: content, word
-
-      counts_entries = verify(content(len(word) + 1:), ' ,0123456789'//tab) == 0
-   end function counts_entries
 
    !> Section that a card would belong to if it were no keyword card; 0 if there is none
    pure integer function open_section(source, card) result(section)
