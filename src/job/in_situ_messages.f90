@@ -8,6 +8,7 @@ module axijoint_job_in_situ_messages
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text, percent_text
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, add_warning
+   use axijoint_fe_element_kind, only : is_reduced
    use axijoint_model_material, only : rule_gauss, rule_names
    use axijoint_model_model, only : model_type
    implicit none
@@ -74,7 +75,8 @@ contains
       end do
    end subroutine judge_in_situ
 
-   !> Tell of laws whose joints integrate stress along them otherwise than the bodies beside them
+   !> Tell of laws whose joints integrate stress along them otherwise than the bodies beside them, and of elements that integrate
+   !> it otherwise than weight
    subroutine tell_rules(model, diagnostics)
       !> The job
       type(model_type), intent(in) :: model
@@ -91,6 +93,12 @@ contains
                'bodies do: ground at rest moves a little', mend='GAUSS in columns 66-75 of LAWS')
          end associate
       end do
+      associate (kinds => model%mesh%kinds(model%mesh%element_kind))
+         if (any(kinds%n_nodes == 6 .and. is_reduced(kinds))) call add_warning(diagnostics, 0, 0, 0, &
+            'the reduced rule of 6-node triangles does not integrate weight and in-situ stress alike: ground at rest moves, '// &
+            'and its stress changes by a percent or two in a few rows of elements', &
+            mend='3 in columns 16-20 of CONTROL, or 8-node elements')
+      end associate
    end subroutine tell_rules
 
    !> 0 for nothing, 1 for a warning, 2 for an error

@@ -102,6 +102,70 @@ PRESSURES
 1,{m},1
 {more}END
 """
+# Ground at rest, in balance, of elements that are to be integrated by a rule
+GROUND = """TITLE
+Ground at rest
+CONTROL
+0,,,{rule}
+MATERIALS
+1,8000,0.25,2
+BLOCKS
+1,1,{nodes},2,4
+0,-5,3,0
+FACES
+1,1,0,-5,3,-5
+2,1,3,-5,3,0
+FIXEDFACES
+1,111
+2,101
+INSITU
+,0,20,0.7
+GRAVITY
+-10
+END
+"""
+# A block that is held at its foot and pressed aside, of one element or some, perhaps twice as high as they are wide
+BLOCK = """TITLE
+Block
+CONTROL
+{m},,,{rule}
+MATERIALS
+1,1,0.3
+BLOCKS
+1,1,{nodes},{across},1
+{r0:.17g},0,{r1:.17g},{height:.17g}
+FACES
+1,1,{r0:.17g},0,{r1:.17g},0
+2,1,{r1:.17g},0,{r1:.17g},{height:.17g}
+FIXEDFACES
+1,111
+PRESSURES
+2,1,1E-3
+{more}END
+"""
+# A thick cylinder of one element in plane strain, pressed from within until it would yield on a finer mesh
+THICK = """TITLE
+Thick cylinder
+CONTROL
+0,,,2
+MATERIALS
+1,1000,0.3
+YIELD
+1,TRESCA,1
+BLOCKS
+1,1,8,1,1
+1,0,2,0.2
+FACES
+1,1,1,0,1,0.2
+2,1,1,0,2,0
+3,1,1,0.2,2,0.2
+FIXEDFACES
+2,010
+3,010
+PRESSURES
+1,0,0.43
+END
+"""
 # A block on another, pressed and tilted in one increment until most of the bonds between them are broken
 TILTED = """TITLE
 Tilted
@@ -649,6 +713,41 @@ def torn_bonds(program, folder):
     return faults + expected('some are not known', True, unknown > 0)
 
 
+def rules_in_ground(program, folder):
+    """The reduced rule of 6-node triangles does not keep ground at rest: that is said, of no other elements"""
+    faults = []
+    for nodes, rule, wanted in ((6, 2, 1), (6, 3, 0), (8, 2, 0)):
+        ran = program.run('check', write(folder, 'ground.dat', GROUND.format(nodes=nodes, rule=rule)), folder=folder)
+        faults += ran.ended_with(0) + expected(f'{nodes} nodes, rule {rule}', wanted, (ran.out + ran.err).count('ground at rest moves'))
+    return faults
+
+
+def loose(program, folder):
+    """A 9-node element with the reduced rule that moves too far: the rule is named, and only there"""
+    faults = []
+    for nodes, rule, wanted in ((9, 2, 1), (9, 3, 0), (8, 2, 0)):
+        summary, _ = solved(program, folder, 'loose', BLOCK.format(m=4, rule=rule, nodes=nodes, across=1, r0=0.5, r1=2, height=1, more='')
+                            .replace('2,1,1E-3', '2,1,1E-3\n2,0,1E-3'))
+        faults += expected(f'{nodes} nodes, rule {rule}', wanted, sum('the reduced rule' in line for line in summary['messages']))
+    return faults
+
+
+def units_of_length(program, folder):
+    """Elements just twice as high as wide: estimates do not go by how lengths round"""
+    told = []
+    for scale in (1.0, 0.1, 0.3, 1e-6, 7.0):
+        summary, _ = solved(program, folder, 'units', BLOCK.format(m=1, rule=3, nodes=4, across=4, r0=scale, r1=3*scale, height=scale, more=''))
+        told.append(summary['errors']['sum']['displacement'])
+    return [fault for value in told for fault in close('displacement', value, told[0], 1e-5*told[0])]
+
+
+def least_of_yielding(program, folder):
+    """One element that reaches the limit at none of its points: no less is told than states of bodies that yield are found to"""
+    summary, _ = solved(program, folder, 'thick', THICK)
+    share = summary['yielding']['errors']['discretization']
+    return [f'{share}'] if share['displacement'] is None or not 5e-4 <= share['displacement'] < 0.1 else []
+
+
 def nearly_incompressible(program, folder):
     """Soft bodies on those of nearly constant volume, by elements that do not lock: near to the errors by finer meshes"""
     faults = []
@@ -741,7 +840,8 @@ def stiff_in_part(program, folder):
 def tests(program):
     """The tests of this module"""
     named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps, 'patch of rigid motion': rigid_patch,
-             'flies off': flies_off, 'idle motion': idle_motion, 'bent': bent, 'locked': locked, 'torn bonds': torn_bonds, 'nearly incompressible': nearly_incompressible,
+             'flies off': flies_off, 'idle motion': idle_motion, 'bent': bent, 'rules in ground': rules_in_ground, 'loose': loose, 'units of length': units_of_length,
+             'least of yielding': least_of_yielding, 'locked': locked, 'torn bonds': torn_bonds, 'nearly incompressible': nearly_incompressible,
              'load beyond M': load_beyond, 'pressed bonds': pressed_bonds, 'slip of larger loads': slip_of_larger_loads,
              'smooth pile': smooth_pile, 'free of stress': stress_free, 'stiff beside soft': stiff_beside_soft,
              'let go': let_go, 'stiff in part': stiff_in_part, 'free beside joints': free_beside_joints, 'idle parts': idle_parts, 'turning pile': turning_pile}

@@ -3,7 +3,7 @@ module axijoint_analysis_core_remarks
    use axijoint_analysis_core_motion, only : motion_text
    use axijoint_analysis_core_pins, only : pin_text
    use axijoint_analysis_core_proportion_remarks, only : proportion_remarks
-   use axijoint_analysis_core_results, only : results_type, remark_type, source_names, source_iteration, &
+   use axijoint_analysis_core_results, only : results_type, remark_type, source_names, source_discretization, source_iteration, &
       source_harmonics
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest_displacement, peak_type
@@ -64,6 +64,7 @@ contains
       if (.not. (results%converged .or. allocated(results%mechanism))) remarks(size(remarks))%says_why = .true.
       if (.not. results%converged .and. size(results%path) == 0 .and. any(is_reduced(model%mesh%kinds))) &
          call add(remarks, reduced_hint)
+      if (results%converged .and. is_loose(model, results)) call add(remarks, reduced_hint)
       if (size(results%path) > 0) call remark_on_accuracy(model, structure, field, results, remarks)
       call remark_on_cut_off(model, results, remarks)
       call remark_on_size(model, results, remarks)
@@ -97,6 +98,21 @@ contains
          ' in smaller steps, as no equilibrium was found at once: what slips depends on the path, of which estimates of errors '// &
          'know nothing; more increments show how much')
    end subroutine remark_on_steps
+
+   !> Whether 9-node elements with the reduced rule may move almost freely: errors are told as large as displacements are
+   pure logical function is_loose(model, results)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The results
+      type(results_type), intent(in) :: results
+
+      real(wp), parameter :: large = 0.5_wp
+
+      is_loose = .false.
+      if (.not. allocated(results%budget)) return
+      is_loose = any(model%mesh%kinds%n_nodes == 9 .and. is_reduced(model%mesh%kinds)) .and. &
+         results%budget(source_discretization)%displacement > large
+   end function is_loose
 
    !> A load of which much is above M, where estimates know nothing of what that does: with harmonics 0 and 1 alone
    subroutine remark_on_cut_off(model, results, remarks)

@@ -84,6 +84,8 @@ contains
       share%seconds = results%discretization%seconds
       if (results%locks) then
          share%remedy = 'elements that do not lock'
+      else if (size(model%ring_loads) > 0) then
+         share%remedy = 'elements 0.6 times as large or, where loads on circles leave it, these spread over faces'
       else if (any(model%mesh%element_size < 5)) then
          share%remedy = 'elements 0.7 (for stresses 0.5) times as large'
       else
@@ -122,6 +124,7 @@ contains
          end associate
       end do
       if (.not. share%load > 0.0_wp) return
+      if (share%load >= 1.0_wp) share%remedy = 'loads on parts of the circle in place of those at points'
       harmonic = results%modes%harmonic
       amplitude = [(sqrt(maxval(sum(results%displacement(:, :, k)**2, 1))), k=1, &
          size(results%modes))]

@@ -19,7 +19,7 @@ module axijoint_analysis_fine_singular_places
    real(wp), parameter :: reach = 0.1_wp
    !> Joints at least as stiff beside the bodies, k/E times that distance, hold them together as
    !> seen from there: their stress grows as if they were bonded, until as near as E/k
-   real(wp), parameter :: bonding = 1.0_wp
+   real(wp), parameter :: bonding = 1.0_wp - 1.0e-9_wp  ! rounding, of units, does not decide
 
    !> A place
    type :: singular_place_type

@@ -21,7 +21,7 @@ module axijoint_analysis_fine_smoother
 
    !> An element longer than this times its width is strongly coupled to its neighbours across its
    !> long sides
-   real(wp), parameter :: slender = 2.0_wp
+   real(wp), parameter :: slender = 2.0_wp*(1.0_wp + 1.0e-9_wp)  ! rounding, of units, does not decide
 
    !> Most shares that threads take, and groups of a share at least
    integer, parameter :: most_shares = 16, least_share = 64

@@ -274,12 +274,14 @@ contains
       !> The words
       character(len=:), allocatable :: text
 
+      !> What is rounding
+      real(wp), parameter :: nothing = 1.0e-9_wp
       integer :: place(2)
 
       text = ""
       place = [maxloc(budget%displacement, 1), maxloc(budget%joint_stress, 1)]
-      if (budget(place(1))%displacement > 0.0_wp .and. is_known(budget, (budget%displacement))) text = budget(place(1))%remedy
-      if (.not. (budget(place(2))%joint_stress > 0.0_wp .and. is_known(budget, (budget%joint_stress)))) return
+      if (budget(place(1))%displacement > nothing .and. is_known(budget, (budget%displacement))) text = budget(place(1))%remedy
+      if (.not. (budget(place(2))%joint_stress > nothing .and. is_known(budget, (budget%joint_stress)))) return
       if (budget(place(2))%remedy == text) return
       if (len(text) > 0) text = text//"; "
       text = text//budget(place(2))%remedy
