@@ -122,7 +122,7 @@ class Reports(unittest.TestCase):
         page = self.page("disc")
         self.assertEqual(page.texts["h1"], NASTY)
         self.assertEqual(page.texts["title"], f"NOT CONVERGED: MECHANISM: {NASTY}")
-        self.assertIn("no equilibrium beyond the load factor", page.texts["div"])
+        self.assertIn("no equilibrium was found beyond the load factor", page.texts["div"])
         self.assertEqual(page.texts["h2"].count("last equilibrium before a mechanism"), page.tags.count("h2") - 1)
 
     def test_not_converged(self):

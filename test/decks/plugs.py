@@ -321,7 +321,7 @@ def at_random(program, folder):
         ends[ran.code] += 1
         if ran.code == 0 and not summary['part_equilibrium_error'] <= 1e-5:
             faults.append(f'scene {number}: forces of {summary["part_equilibrium_error"]:.1E} are out of balance')
-        if ran.code == 4 and not any('no equilibrium beyond' in text for text in summary['messages']):
+        if ran.code == 4 and not any('no equilibrium was found beyond' in text for text in summary['messages']):
             faults.append(f'scene {number}: no mechanism is named: {summary["messages"]}')
     faults += [] if restless <= 1 else [f'{restless} scenes find no end']
     return faults + ([] if min(ends.values()) >= SCENES//6 else [f'too much of one kind: {ends}'])

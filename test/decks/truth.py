@@ -63,7 +63,7 @@ def carried_by_nothing(lateral, torque, motion, together):
     """Exit code 4, the motion named, no load factor of a load that nothing carries"""
     def ask(runner):
         code, summary, _, _ = runner.run(block(lateral, torque, together))
-        words = ' '.join(text for text in summary['messages'] if 'no equilibrium beyond' in text)
+        words = ' '.join(text for text in summary['messages'] if 'no equilibrium was found beyond' in text)
         factor = float(words.split('load factor ')[1].split(':')[0]) if words else math.nan
         return (f'exit {code}, load factor {factor:g}, '
                 f'{"motion named" if motion in words else words or "no motion"}',

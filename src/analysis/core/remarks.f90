@@ -530,7 +530,7 @@ contains
       !> The sentence
       character(len=:), allocatable :: text
 
-      text = 'no equilibrium beyond the load factor '//to_text(reached)//': '// &
+      text = 'no equilibrium was found beyond the load factor '//to_text(reached)//': '// &
          motion_text(model%mesh, results%modes, results%displacement)//'; results are those there'// &
          cases_text(model, reached, case_factor)
    end function mechanism_text
