@@ -249,17 +249,21 @@ def start(args):
         with open(os.path.join(folder, "first.json"), encoding="utf-8") as file:
             phases = json.load(file)["seconds"]
         print("  its phases by the clock:    " + ", ".join(f"{name} {1e3*phases[name]:.1f}" for name in PHASES))
-        arrays, attributes, least, median = objects(os.path.join(folder, "first.h5"), folder)
-        print(f"  its {arrays} arrays and {attributes} attributes by HDF5 alone, which is started already: {least}, {median} by the clock")
+        found = objects(os.path.join(folder, "first.h5"), folder)
+        if found:
+            arrays, attributes, least, median = found
+            print(f"  its {arrays} arrays and {attributes} attributes by HDF5 alone, which is started already: {least}, {median} by the clock")
 
 
 def objects(path, folder):
-    """Numbers of arrays and attributes of a results file, and least and median milliseconds by the clock of writing them alone"""
+    """Numbers of arrays and attributes of a results file, and least and median milliseconds by the clock of writing them alone;
+    nothing where HDF5 is not where Debian has it"""
     program = os.path.join(folder, "objects")
-    options = subprocess.run(["pkg-config", "--cflags", "--libs", "hdf5-serial"], check=True, capture_output=True, text=True).stdout
+    options = subprocess.run(["pkg-config", "--cflags", "--libs", "hdf5-serial"], check=False, capture_output=True, text=True).stdout
     archives = os.path.join(HERE, "..", "build", "archives")  # as the program has it, where there are any
-    subprocess.run(["gcc", "-O2", os.path.join(HERE, "rates", "hdf5_objects.c"), "-o", program, "-L" + archives, *options.split()],
-                   check=True)
+    if not options or subprocess.run(["gcc", "-O2", os.path.join(HERE, "rates", "hdf5_objects.c"), "-o", program, "-L" + archives,
+                                      *options.split()], check=False).returncode:
+        return []
     return subprocess.run([program, path, os.path.join(folder, "objects.h5")], check=True, capture_output=True, text=True).stdout.split()
 
 

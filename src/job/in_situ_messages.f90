@@ -9,6 +9,7 @@ module axijoint_job_in_situ_messages
    use axijoint_base_text, only : to_text, percent_text
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, add_warning
    use axijoint_fe_element_kind, only : is_reduced
+   use axijoint_model_load, only : covers, is_stressed
    use axijoint_model_material, only : rule_gauss, rule_names
    use axijoint_model_model, only : model_type
    implicit none
@@ -93,13 +94,30 @@ contains
                'bodies do: ground at rest moves a little', mend='GAUSS in columns 66-75 of LAWS')
          end associate
       end do
-      associate (kinds => model%mesh%kinds(model%mesh%element_kind))
-         if (any(kinds%n_nodes == 6 .and. is_reduced(kinds))) call add_warning(diagnostics, 0, 0, 0, &
-            'the reduced rule of 6-node triangles does not integrate weight and in-situ stress alike: ground at rest moves, '// &
-            'and its stress changes by a percent or two in a few rows of elements', &
-            mend='3 in columns 16-20 of CONTROL, or 8-node elements')
-      end associate
+      if (has_loose_triangles(model)) call add_warning(diagnostics, 0, 0, 0, &
+         'the reduced rule of 6-node triangles does not integrate weight and in-situ stress alike: ground at rest moves, '// &
+         'and its stress changes, the more the fewer rows of elements there are', &
+         mend='3 in columns 16-20 of CONTROL, or 8-node elements')
    end subroutine tell_rules
+
+   !> Whether 6-node triangles with the reduced rule have in-situ stress
+   pure logical function has_loose_triangles(model) result(has)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      integer :: element
+
+      has = .false.
+      associate (mesh => model%mesh)
+         do element = 1, size(mesh%element_kind)
+            associate (kind => mesh%kinds(mesh%element_kind(element)))
+               if (kind%n_nodes /= 6 .or. .not. is_reduced(kind)) cycle
+            end associate
+            has = has .or. any(is_stressed(model%initial_stresses) .and. &
+               covers(model%initial_stresses, mesh%element_body(element), mesh%element_material(element)))
+         end do
+      end associate
+   end function has_loose_triangles
 
    !> 0 for nothing, 1 for a warning, 2 for an error
    pure integer function grade(share, of_whole)

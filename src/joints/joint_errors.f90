@@ -176,11 +176,13 @@ contains
       changes%planes%excess = on_more%excess - balanced%excess
       changes%planes%offset = offset_between(condensed, scene, balanced, finer_scene, on_more, rounding)
       changes%planes%seconds = omp_get_wtime() - clock
+      changes%harmonics = no_change(on_more)
+      changes%harmonics%known = changes%planes%known
+      if (.not. changes%planes%known) return  ! more harmonics would begin from a state that is none
       clock = omp_get_wtime()
       call add_harmonics(condensed, finer_scene, on_more, extended, with_more)
       if (allocated(with_more)) then
          call find_again(condensed, extended, memory, with_more, changes%harmonics%known)
-         changes%harmonics%known = changes%harmonics%known .and. changes%planes%known  ! else it begins anywhere
          associate (m => size(scene%modes))
             changes%harmonics%stress = largest_change(scene, on_more, with_more, 1, rounding)
             changes%harmonics%excess = with_more%excess(:, :, :m) - on_more%excess
@@ -190,8 +192,6 @@ contains
          associate (jump => jumps(condensed, extended, with_more%excess, free=.false.))
             changes%harmonics%beyond = sqrt(maxval(sum(synthesize(extended%planes, jump)**2, 1)))
          end associate
-      else
-         changes%harmonics = no_change(on_more)
       end if
       changes%harmonics%seconds = omp_get_wtime() - clock
    end subroutine find_joint_changes

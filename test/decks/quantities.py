@@ -272,6 +272,17 @@ def not_small(program, folder):
     return faults
 
 
+def nothing_moves(program, folder):
+    """Loads of zero are named; not where a part moves off under any load, and stands where it stood"""
+    faults = []
+    for load, code, wanted in (('1,LATERAL,0,4', 0, 1), ('1,AXIAL,-0.4', 4, 0), ('1,LATERAL,0.4', 0, 0)):
+        text = read_text(os.path.join(INPUTS, 'first.dat')).replace('    1   LATERAL       0.4', load)
+        faults += program.run('run', write(folder, 'still.dat', text), '-o', folder).ended_with(code)
+        messages = json.loads(read_text(os.path.join(folder, 'still.json')))['messages']
+        faults += expected(f'{load}: remarks', wanted, sum(line.startswith('nothing moves') for line in messages))
+    return faults
+
+
 def fading(program, folder):
     """A state of cohesion that is not lost in the end is not given up for rounding far below the tolerance"""
     deck = plug('Fades', [('AXIAL', -0.862305264804), ('MOMENT', 0.84299)], stiffness=(153658.7, 307317.4, 153658.7), friction=35.0,
@@ -314,5 +325,5 @@ def smaller_steps(program, folder):
 def tests(program):
     """The tests of this module"""
     return [Test(f'quantities: {function.__name__.replace("_", " ")}', lambda folder, function=function: function(program, folder))
-            for function in (energies, dissipation, dissipation_in_units, lifting, largest_displacement, remarks, not_small, fading,
+            for function in (energies, dissipation, dissipation_in_units, lifting, largest_displacement, remarks, not_small, nothing_moves, fading,
                              smaller_steps, reduced_rule)]

@@ -153,7 +153,7 @@ contains
 
       if (.not. (results%converged .or. allocated(results%mechanism) .or. results%strayed)) return  ! no equilibrium
       peak = largest_displacement(results%modes, results%displacement)
-      if (.not. peak%value > 0.0_wp .and. size(model%increments) <= 1) &
+      if (results%converged .and. .not. peak%value > 0.0_wp .and. size(model%increments) <= 1) &
          call add(remarks, 'nothing moves: loads are zero, or act on what is held')
       associate (r => model%mesh%coordinates(1, :), z => model%mesh%coordinates(2, :))
          extent = max(2.0_wp*maxval(r), maxval(z) - minval(z))

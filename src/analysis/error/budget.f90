@@ -84,13 +84,12 @@ contains
       share%seconds = results%discretization%seconds
       if (results%locks) then
          share%remedy = 'elements that do not lock'
-      else if (size(model%ring_loads) > 0) then
-         share%remedy = 'elements 0.6 times as large or, where loads on circles leave it, these spread over faces'
       else if (any(model%mesh%element_size < 5)) then
          share%remedy = 'elements 0.7 (for stresses 0.5) times as large'
       else
          share%remedy = 'elements 0.6 times as large'
       end if
+      if (size(model%ring_loads) > 0) share%remedy = share%remedy//' or, where loads on circles leave it, these spread over faces'
    end function discretization_share
 
    !> Harmonics above M, of the loads and of joints that open and slip

@@ -26,8 +26,7 @@ module axijoint_analysis_fine_difference
    !> The first step, and the blocks alone in it, go so far at least where the coarse mesh moves the fine one as it does
    !> itself, and what it leaves is seen by the blocks. It does not with elements whose volume is that of their middle, nor in
    !> nearly incompressible bodies: there what was told after steps of 0.52 to 0.6 was 1.8 to 5 times too small (rings and
-   !> plates of 4-node B-bar elements), and the one or the other went backwards to 0.43 (these, 8- and 9-node reduced). Of 2,458 modes
-   !> of other scenes 62 are below
+   !> plates of 4-node B-bar elements), and the one or the other went backwards to 0.43 (these, 8- and 9-node reduced).
    real(wp), parameter :: usual = 0.65_wp
    !> A first step shorter than this goes astray, where soft bodies lie beside nearly incompressible ones (the soft piers, layers
    !> and rings of `scripts/bench estimates`): more steps of both together came to a tenth of the difference or less
