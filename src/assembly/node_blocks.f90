@@ -4,6 +4,7 @@
 !> A block has the numbers of `element/blocks` that are not zero for all: A or S of each pair of components
 !> of K_m = c_m (A + m S + m^2 C), then C of those that A couples.
 module axijoint_assembly_node_blocks
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use omp_lib, only : omp_get_max_threads, omp_in_parallel
    use axijoint_assembly_support, only : support_point_type, support_stiffness
    use axijoint_assembly_element_stiffness, only : integrands_type, new_integrands, max_unknowns, max_blocks
@@ -32,13 +33,14 @@ module axijoint_assembly_node_blocks
    integer, parameter :: most_ranges = 16, least_rows = 2048
    real(wp), parameter :: most_coupling = 0.02_wp
 
-   !> Lower triangle by rows of blocks
+   !> Lower triangle by rows of blocks. Those that couple nodes of one cluster lie together: clusters are also solved for
+   !> by themselves, and would otherwise be picked from all over the memory
    type :: node_blocks_type
       !> Place of each node in the order of the rows
       integer, allocatable :: place(:)
-      !> First block of each row, shape (nodes + 1)
-      integer(i8), allocatable :: row_start(:)
-      !> Column of each block, ascending in a row, the diagonal last
+      !> First block of each row that couples it with another cluster, and first that does with its own, shape (nodes + 1, 2)
+      integer(i8), allocatable :: start(:, :)
+      !> Column of each block, ascending in either part of a row, the diagonal last in the second
       integer, allocatable :: column(:)
       !> The blocks, shape (block_size, blocks): A or S, component of the column by component of the
       !> row, nine numbers, then C of the pairs (u, u), (v, u), (u, v), (v, v), (w, w)
@@ -47,40 +49,68 @@ module axijoint_assembly_node_blocks
       integer :: n_ranges = 1
    end type node_blocks_type
 
+   interface
+      !> The rows of a range of y = K_m x without what they add to rows before it, or that; so many numbers at once at most
+      pure subroutine c_product(most, coupling, from, to, outer, inner, column, parts, factors, x, y) &
+         bind(c, name="axijoint_block_product")
+         import :: c_int, c_int64_t, c_double
+         integer(c_int), value :: most, coupling, from, to
+         integer(c_int64_t), intent(in) :: outer(*), inner(*)
+         integer(c_int), intent(in) :: column(*)
+         real(c_double), intent(in) :: parts(*), factors(*), x(*)
+         real(c_double), intent(inout) :: y(*)
+      end subroutine c_product
+   end interface
+
 contains
 
    !> Pattern of the blocks
-   subroutine new_node_blocks(blocks, graph, order)
+   subroutine new_node_blocks(blocks, graph, order, cluster)
       !> The blocks, without numbers
       type(node_blocks_type), intent(out) :: blocks
       !> Graph of the nodes
       type(graph_type), intent(in) :: graph
       !> order(k) is the k-th node
       integer, intent(in) :: order(:)
+      !> Cluster of each node; nodes of one follow each other in the order
+      integer, intent(in) :: cluster(:)
 
-      integer(i8), allocatable :: next(:)
-      integer :: k, l, row
+      integer(i8), allocatable :: next(:, :)
+      integer :: k, l, row, n(2)
 
-      allocate (blocks%place(graph%n), blocks%row_start(graph%n + 1), next(graph%n))
+      allocate (blocks%place(graph%n), blocks%start(graph%n + 1, 2))
       allocate (blocks%column(graph%n + size(graph%neighbour, kind=i8)/2))
       blocks%place(order) = [(k, k=1, graph%n)]
-      blocks%row_start(1) = 1
+      blocks%start(1, :) = 1
       do k = 1, graph%n
          associate (neighbours => graph%neighbour(graph%start(order(k)):graph%start(order(k) + 1) - 1))
-            blocks%row_start(k + 1) = blocks%row_start(k) + count(blocks%place(neighbours) < k) + 1
+            n(2) = count(blocks%place(neighbours) < k .and. cluster(neighbours) == cluster(order(k)))
+            n(1) = count(blocks%place(neighbours) < k) - n(2)
          end associate
+         blocks%start(k + 1, :) = blocks%start(k, :) + n + [0, 1]
       end do
-      next = blocks%row_start(:graph%n)
+      blocks%start(:, 2) = blocks%start(:, 2) + blocks%start(graph%n + 1, 1) - 1
+      next = blocks%start(:graph%n, :)
       do k = 1, graph%n  ! column after column, so that those of a row ascend
          do l = graph%start(order(k)), graph%start(order(k) + 1) - 1
             row = blocks%place(graph%neighbour(l))
-            if (row < k) cycle
-            blocks%column(next(row)) = k
-            next(row) = next(row) + 1
+            if (row > k) call put(row, merge(2, 1, cluster(graph%neighbour(l)) == cluster(order(k))))
          end do
-         blocks%column(next(k)) = k
+         call put(k, 2)
       end do
       call find_ranges(blocks)
+
+   contains
+
+      !> Put a block of this column into a part of a row
+      subroutine put(row, part)
+         !> The row, and the part
+         integer, intent(in) :: row, part
+
+         blocks%column(next(row, part)) = k
+         next(row, part) = next(row, part) + 1
+      end subroutine put
+
    end subroutine new_node_blocks
 
    !> See whether ranges of rows couple so little that products can be shared by them
@@ -107,12 +137,14 @@ contains
       !> First and last row
       integer, intent(in) :: from, to
 
-      integer :: i
+      integer :: i, part
 
       coupling_before = 0
-      do i = from, to
-         coupling_before = coupling_before &
-            + count(blocks%column(blocks%row_start(i):blocks%row_start(i + 1) - 1) < from)
+      do part = 1, 2
+         do i = from, to
+            coupling_before = coupling_before &
+               + count(blocks%column(blocks%start(i, part):blocks%start(i + 1, part) - 1) < from)
+         end do
       end do
    end function coupling_before
 
@@ -276,7 +308,10 @@ contains
       !> Row and column
       integer, intent(in) :: row, column
 
-      block_at = blocks%row_start(row + 1) - 1
+      integer :: part
+
+      part = merge(2, 1, column >= blocks%column(blocks%start(row, 2)))
+      block_at = blocks%start(row + 1, part) - 1
       do while (blocks%column(block_at) > column)
          block_at = block_at - 1
       end do
@@ -315,7 +350,7 @@ contains
    !> y = K_m x, in the order of the rows. Ranges of rows are shared among threads that have nothing else to do;
    !> what a range adds to the rows of another is added afterwards, which is where it belongs in the order of
    !> the rows: the sums are the same whoever makes them
-   subroutine block_product(blocks, harmonic, x, y)
+   subroutine block_product(blocks, harmonic, x, y, at_once)
       !> The blocks
       type(node_blocks_type), intent(in) :: blocks
       !> Harmonic m
@@ -324,18 +359,36 @@ contains
       real(wp), intent(in), contiguous :: x(:, :)
       !> y, same shape
       real(wp), intent(out), contiguous :: y(:, :)
+      !> Numbers that are taken at once at most; as many as the processor takes if absent
+      integer, intent(in), optional :: at_once
 
-      integer :: k
+      integer :: k, most
 
+      most = huge(most)
+      if (present(at_once)) most = at_once
       do k = 1, blocks%n_ranges
          !$omp task default(shared) firstprivate(k) if (blocks%n_ranges > 1)
-         call product_of_range(blocks, harmonic, k, x, y)
+         call find(.false., k)
          !$omp end task
       end do
       !$omp taskwait
       do k = 2, blocks%n_ranges
-         call add_coupling(blocks, harmonic_factors(harmonic), first_row(blocks, k), first_row(blocks, k + 1) - 1, x, y)
+         call find(.true., k)
       end do
+
+   contains
+
+      !> The rows of a range without what it adds to rows before it, or that
+      subroutine find(coupling, range)
+         !> Whether it is that
+         logical, intent(in) :: coupling
+         !> The range
+         integer, intent(in) :: range
+
+         call c_product(most, merge(1, 0, coupling), first_row(blocks, range), first_row(blocks, range + 1) - 1, blocks%start, &
+            blocks%start(1, 2), blocks%column, blocks%parts, harmonic_factors(harmonic), x, y)
+      end subroutine find
+
    end subroutine block_product
 
    !> First row of a range
@@ -347,129 +400,5 @@ contains
 
       first_row = 1 + range_end(size(blocks%place), range - 1, blocks%n_ranges)
    end function first_row
-
-   !> The rows of a range, without what it adds to rows before it
-   pure subroutine product_of_range(blocks, harmonic, range, x, y)
-      !> The blocks
-      type(node_blocks_type), intent(in) :: blocks
-      !> Harmonic m
-      integer, intent(in) :: harmonic
-      !> The range
-      integer, intent(in) :: range
-      !> x, shape (3, nodes)
-      real(wp), intent(in), contiguous :: x(:, :)
-      !> y, same shape; takes its rows
-      real(wp), intent(inout), contiguous :: y(:, :)
-
-      if (harmonic == 0) then
-         call uncoupled_rows(blocks, first_row(blocks, range), first_row(blocks, range + 1) - 1, x, y)
-      else
-         call coupled_rows(blocks, harmonic_factors(harmonic), first_row(blocks, range), &
-            first_row(blocks, range + 1) - 1, x, y)
-      end if
-   end subroutine product_of_range
-
-   !> The same for m > 0
-   pure subroutine coupled_rows(blocks, factors, from, to, x, y)
-      !> The blocks
-      type(node_blocks_type), intent(in) :: blocks
-      !> Factors of A, S and C in K_m
-      real(wp), intent(in) :: factors(3)
-      !> First and last row
-      integer, intent(in) :: from, to
-      !> x, shape (3, nodes)
-      real(wp), intent(in), contiguous :: x(:, :)
-      !> y, same shape; takes its rows
-      real(wp), intent(inout), contiguous :: y(:, :)
-
-      real(wp) :: b(3, 3), own(3), total(3)
-      integer(i8) :: k
-      integer :: i, j
-
-      y(:, from:to) = 0.0_wp
-      do i = from, to
-         own = x(:, i)
-         total = 0.0_wp
-         do k = blocks%row_start(i), blocks%row_start(i + 1) - 2
-            j = blocks%column(k)
-            call evaluate(factors, blocks%parts(:, k), b)
-            total(1) = total(1) + b(1, 1)*x(1, j) + b(2, 1)*x(2, j) + b(3, 1)*x(3, j)
-            total(2) = total(2) + b(1, 2)*x(1, j) + b(2, 2)*x(2, j) + b(3, 2)*x(3, j)
-            total(3) = total(3) + b(1, 3)*x(1, j) + b(2, 3)*x(2, j) + b(3, 3)*x(3, j)
-            if (j >= from) y(:, j) = y(:, j) + b(:, 1)*own(1) + b(:, 2)*own(2) + b(:, 3)*own(3)
-         end do
-         k = blocks%row_start(i + 1) - 1
-         call evaluate(factors, blocks%parts(:, k), b)
-         y(:, i) = y(:, i) + total + b(:, 1)*own(1) + b(:, 2)*own(2) + b(:, 3)*own(3)
-      end do
-   end subroutine coupled_rows
-
-   !> The same for m = 0, where w does not meet u and v, and S and C have no part
-   pure subroutine uncoupled_rows(blocks, from, to, x, y)
-      !> The blocks
-      type(node_blocks_type), intent(in) :: blocks
-      !> First and last row
-      integer, intent(in) :: from, to
-      !> x, shape (3, nodes)
-      real(wp), intent(in), contiguous :: x(:, :)
-      !> y, same shape; takes its rows
-      real(wp), intent(inout), contiguous :: y(:, :)
-
-      real(wp) :: factors(3), b(5), own(3), total(3)
-      integer(i8) :: k
-      integer :: i, j
-
-      factors = harmonic_factors(0)
-      y(:, from:to) = 0.0_wp
-      do i = from, to
-         own = x(:, i)
-         total = 0.0_wp
-         do k = blocks%row_start(i), blocks%row_start(i + 1) - 2
-            j = blocks%column(k)
-            b = factors(1)*[blocks%parts(1, k), blocks%parts(2, k), blocks%parts(4, k), blocks%parts(5, k), &
-                            blocks%parts(9, k)]
-            total(1) = total(1) + b(1)*x(1, j) + b(2)*x(2, j)
-            total(2) = total(2) + b(3)*x(1, j) + b(4)*x(2, j)
-            total(3) = total(3) + b(5)*x(3, j)
-            if (j < from) cycle
-            y(1, j) = y(1, j) + b(1)*own(1) + b(3)*own(2)
-            y(2, j) = y(2, j) + b(2)*own(1) + b(4)*own(2)
-            y(3, j) = y(3, j) + b(5)*own(3)
-         end do
-         k = blocks%row_start(i + 1) - 1
-         b = factors(1)*[blocks%parts(1, k), blocks%parts(2, k), blocks%parts(4, k), blocks%parts(5, k), &
-                         blocks%parts(9, k)]
-         y(1, i) = y(1, i) + total(1) + b(1)*own(1) + b(3)*own(2)
-         y(2, i) = y(2, i) + total(2) + b(2)*own(1) + b(4)*own(2)
-         y(3, i) = y(3, i) + total(3) + b(5)*own(3)
-      end do
-   end subroutine uncoupled_rows
-
-   !> Add what a range of rows adds to rows before it
-   pure subroutine add_coupling(blocks, factors, from, to, x, y)
-      !> The blocks
-      type(node_blocks_type), intent(in) :: blocks
-      !> Factors of A, S and C in K_m
-      real(wp), intent(in) :: factors(3)
-      !> First and last row
-      integer, intent(in) :: from, to
-      !> x, shape (3, nodes)
-      real(wp), intent(in), contiguous :: x(:, :)
-      !> y, same shape
-      real(wp), intent(inout), contiguous :: y(:, :)
-
-      real(wp) :: b(3, 3)
-      integer(i8) :: k
-      integer :: i, j
-
-      do i = from, to
-         do k = blocks%row_start(i), blocks%row_start(i + 1) - 2
-            j = blocks%column(k)
-            if (j >= from) exit  ! columns ascend
-            call evaluate(factors, blocks%parts(:, k), b)
-            y(:, j) = y(:, j) + b(:, 1)*x(1, i) + b(:, 2)*x(2, i) + b(:, 3)*x(3, i)
-         end do
-      end do
-   end subroutine add_coupling
 
 end module axijoint_assembly_node_blocks

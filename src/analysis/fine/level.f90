@@ -80,7 +80,7 @@ contains
       graph = node_graph(level%model%mesh, neighbours_only=.true.)
       block = new_blocks(model%mesh, level%mesh)
       call order_by_blocks(model%mesh, level%mesh, graph, block, order)
-      call new_node_blocks(level%stiffness, graph, order)
+      call new_node_blocks(level%stiffness, graph, order, block)
       level%parents = ordered(level%mesh%parents, order)
       call new_smoother(level%smoother, level%stiffness, block, order)
    end subroutine lay_out_level

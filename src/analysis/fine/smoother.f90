@@ -229,7 +229,6 @@ contains
       !> order(k) is the k-th node
       integer, intent(in) :: order(:)
 
-      integer(i8) :: l
       integer :: k, b
 
       associate (begins => [.true., block(order(2:)) /= block(order(:size(order) - 1))])
@@ -238,11 +237,7 @@ contains
       allocate (smoother%width(size(smoother%first) - 1), source=0)
       do b = 1, size(smoother%width)
          do k = smoother%first(b), smoother%first(b + 1) - 1
-            do l = stiffness%row_start(k), stiffness%row_start(k + 1) - 1
-               if (stiffness%column(l) < smoother%first(b)) cycle
-               smoother%width(b) = max(smoother%width(b), k - stiffness%column(l))
-               exit  ! columns ascend
-            end do
+            smoother%width(b) = max(smoother%width(b), k - stiffness%column(stiffness%start(k, 2)))
          end do
       end do
       call group_blocks(smoother)
@@ -427,9 +422,8 @@ contains
       integer :: i, j, row, column
 
       do i = first, first + n - 1
-         do l = stiffness%row_start(i + 1) - 1, stiffness%row_start(i), -1
+         do l = stiffness%start(i, 2), stiffness%start(i + 1, 2) - 1
             j = stiffness%column(l)
-            if (j < first) exit
             call evaluate(factors, stiffness%parts(:, l), block)
             if (plain(i) .and. plain(j) .and. i /= j) then
                do column = 1, 3
