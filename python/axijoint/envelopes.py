@@ -16,8 +16,8 @@ class Envelope:
     path         the file
     cases        numbers of the load cases
     directions   unit vectors, (directions, cases)
-    capacity     largest factor with equilibrium, (directions)
-    without      least factor known to have none; 0 where there is no end
+    capacity     largest factor that equilibrium was found for, (directions)
+    without      least factor at which none was found; 0 where there is no end
     exit_codes   4 a mechanism: the capacity; 3 a lower bound; 0 no end; (directions)
     factors      of the cases at the capacity, (directions, cases)
     """

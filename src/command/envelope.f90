@@ -68,8 +68,8 @@ contains
          new_line('a')//'mend: a study, whose rows end where there is no equilibrium')
       if (.not. allocated(error) .and. .not. can_yield(job%model)) call fatal_error(error, &
          exit_deck, 'no joint can open or slip: there is equilibrium at any load')
+      if (.not. allocated(error)) call prepare(job%model, cases, control, error)
       if (.not. allocated(error)) then
-         call prepare(job%model, cases, control)
          directions = spread_directions(positive, command%n_directions)
          job%progress%logged = command%verbose
          job%progress%enabled = error_output_is_terminal() .and. &
@@ -134,14 +134,18 @@ contains
    end subroutine read_cases
 
    !> Leave of the increments those that come first, of other load cases
-   subroutine prepare(model, cases, control)
-      !> The job; has one combination then, in which every load case acts with its own factors
+   subroutine prepare(model, cases, control, error)
+      !> The job; has one combination then, in which the cases that come first have the factors that the deck combines
+      !> them with
       type(model_type), intent(inout) :: model
       !> Load cases of the envelope
       integer, intent(in) :: cases(:)
       !> Tolerance and iterations for the load that grows: those of the last increment
       type(increment_type), intent(out) :: control
+      !> The deck does not say with which factor a case comes first
+      type(error_type), allocatable, intent(out) :: error
 
+      type(combination_type) :: combined
       type(increment_type), allocatable :: first(:)
       integer :: k, n
 
@@ -155,10 +159,14 @@ contains
          n = n + 1
          first(n) = model%increments(k)
       end do
+      allocate (combined%factor(size(model%load_cases)), source=0.0_wp)
+      do k = 1, size(combined%factor)
+         if (.not. any(first%case == k)) cycle
+         call find_factor(model, k, combined%factor(k), error)
+         if (allocated(error)) return
+      end do
       call move_alloc(first, model%increments)
-      deallocate (model%combinations)
-      allocate (model%combinations(1))
-      allocate (model%combinations(1)%factor(size(model%load_cases)), source=1.0_wp)
+      model%combinations = [combined]
 
    contains
 
@@ -172,6 +180,36 @@ contains
       end function comes_first
 
    end subroutine prepare
+
+   !> Factor that combinations give to a load case: as `run` applies it, beside any of the others
+   subroutine find_factor(model, case, factor, error)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The load case (index)
+      integer, intent(in) :: case
+      !> The factor
+      real(wp), intent(out) :: factor
+      !> There is none, or combinations give several
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: what
+      integer :: k
+
+      factor = 0.0_wp
+      what = 'load case '//to_text(model%load_cases(case)%label)//' comes first, and '
+      do k = 1, size(model%combinations)
+         associate (other => model%combinations(k)%factor(case))
+            if (.not. abs(other) > 0.0_wp) cycle
+            if (abs(factor) > 0.0_wp .and. abs(other - factor) > 0.0_wp) call fatal_error(error, exit_deck, what// &
+               'combinations give it the factors '//to_text(factor)//' and '//to_text(other)//new_line('a')// &
+               'mend: leave one combination of COMBINE')
+            if (allocated(error)) return
+            factor = other
+         end associate
+      end do
+      if (.not. abs(factor) > 0.0_wp) call fatal_error(error, exit_deck, what//'no combination has it'//new_line('a')// &
+         'mend: give it a factor on COMBINE, or take its increment out')
+   end subroutine find_factor
 
    !> Search all directions
    subroutine search_all(command, job, control, cases, directions, undertaking, found, error)
@@ -225,7 +263,10 @@ contains
             first = 2.0_wp**(-10)
             call search_direction(job%model, job%structure, control, direction, first, &
                command%tolerance, job%timer, job%progress, found(k), error)
-            if (allocated(error)) return
+            if (allocated(error)) then
+               if (all(rows%number == 0)) call close_journal(journal)  ! it holds nothing
+               return
+            end if
             rows(k)%number = k
             rows(k)%code = found(k)%code
             rows(k)%seconds = found(k)%seconds

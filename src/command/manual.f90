@@ -195,10 +195,10 @@ contains
       type(topic_type) :: topic
 
       topic = topic_type('envelope', 'DECK', 'find what loads joints can carry, by direction', &
-         'Finds the largest factor with equilibrium in directions of the space of some load '// &
-         'cases, and the mechanism beyond it. Increments of other load cases come first (a '// &
-         'card '// &
-         'of INCREMENTS with the number of a case); then the load of a direction grows. Writes '// &
+         'Finds the largest factor that equilibrium is found for in directions of the space of '// &
+         'some load cases, and the mechanism beyond it. Increments of other load cases come '// &
+         'first (a card of INCREMENTS with the number of a case), with the factors of COMBINE; '// &
+         'then the load of a direction grows, as the cards of its cases give it. Writes '// &
          'NAME.envelope.csv, a line a direction, and NAME.envelope.h5. A search that was ended '// &
          'goes on where it was.', &
          [option_type('--cases', 'LIST', 'load cases, divided by commas; 1+ with positive '// &
@@ -213,7 +213,8 @@ contains
           option_type('--verbose', '', 'lines on the standard error output that say what is '// &
                       'being done, for logs')], &
          '0 if every direction ends in a mechanism or in none up to very large factors; 3 if '// &
-         'an iteration found no equilibrium; else as of run.')
+         'an iteration found no equilibrium; else as of run, 4 if the increments that come first '// &
+         'end in a mechanism.')
    end function envelope_topic
 
    !> Options of `compare`

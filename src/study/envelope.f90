@@ -4,21 +4,22 @@ module axijoint_study_envelope
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_static, only : analyse_combination
-   use axijoint_base_error, only : error_type, exit_ok, exit_not_converged, exit_singular
+   use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_not_converged, exit_singular
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_progress, only : progress_type
    use axijoint_base_timer, only : timer_type
    use axijoint_model_load, only : increment_type, combination_type
    use axijoint_model_model, only : model_type
    use axijoint_output_file_run, only : exit_code_of
+   use axijoint_output_listing_solution, only : convergence_text
    implicit none
    private
    public :: capacity_type, search_direction
 
    !> What is found in a direction
    type :: capacity_type
-      !> Largest factor with equilibrium, and the least known to have none; not found if there is
-      !> equilibrium at the largest factor that is tried: `without` is zero then
+      !> Largest factor that equilibrium was found for, and the least at which none was; not found if
+      !> there is equilibrium at the largest factor that is tried: `without` is zero then
       real(wp) :: factor = 0.0_wp, without = 0.0_wp
       !> 4 if a mechanism ends the path, 3 if the iteration found no equilibrium, 0 if nothing does
       integer :: code = exit_not_converged
@@ -65,7 +66,7 @@ contains
       type(progress_type), intent(inout) :: progress
       !> What is found
       type(capacity_type), intent(out) :: capacity
-      !> Out of memory
+      !> Out of memory; the increments that come first have no equilibrium
       type(error_type), allocatable, intent(out) :: error
 
       type(capacity_type) :: found
@@ -192,7 +193,7 @@ contains
       type(progress_type), intent(inout) :: progress
       !> Takes the ends of what is open, and what ends the path
       type(capacity_type), intent(inout) :: capacity
-      !> Out of memory
+      !> Out of memory; the increments that come first have no equilibrium
       type(error_type), allocatable, intent(out) :: error
 
       type(model_type), target :: loaded
@@ -229,7 +230,13 @@ contains
       base = sum(model%increments%factor)
       last = size(results%states)
       k = results%states(last)%increment - n_base
-      if (k <= 0) return  ! what comes first is not carried
+      if (k <= 0) then  ! what comes first is not carried: no direction has a capacity
+         if (.not. allocated(results%mechanism)) capacity%message = convergence_text(results)
+         capacity%message = capacity%message(:index(capacity%message//'; results are', '; results are') - 1)
+         call fatal_error(error, capacity%code, 'no equilibrium was found of the increments that come first, so '// &
+            'nothing can be searched'//new_line('a')//capacity%message)
+         return
+      end if
       capacity%factor = max(0.0_wp, results%reached - base)
       if (allocated(results%mechanism)) then
          capacity%without = min(sum(factors(:k)), capacity%factor + left_open*factors(k))

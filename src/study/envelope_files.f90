@@ -40,7 +40,7 @@ contains
       do i = 1, size(cases)
          line = line//',direction of case '//to_text(cases(i))
       end do
-      line = line//',capacity,no equilibrium from'
+      line = line//',capacity,no equilibrium found at'
       do i = 1, size(cases)
          line = line//',factor of case '//to_text(cases(i))
       end do
@@ -68,7 +68,7 @@ contains
          call arrays%write('/capacity', (found%factor), &
             'Largest factor that equilibrium was found for; (direction)')
          call arrays%write('/without', (found%without), &
-            'Least factor known to have none, 0 if there is none; (direction)')
+            'Least factor at which none was found, 0 if there is none; (direction)')
          call arrays%write('/exit_code', (found%code), &
             '4 a mechanism, 3 no equilibrium found, 0 no end; (direction)')
          call arrays%write('/increments', (found%n_increments), 'Solved; (direction)')

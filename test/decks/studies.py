@@ -567,7 +567,7 @@ def capacities(program, folder):
     rows, more = envelope(program, folder, deck, '--cases', '2,4+', '--directions', '5')
     faults += more
     for row, other in zip(rows, reversed(rows)):
-        found, without = float(row['capacity']), float(row['no equilibrium from'])
+        found, without = float(row['capacity']), float(row['no equilibrium found at'])
         if row['exit_code'] != '4' or not 0.99*without <= found <= without:
             faults.append(f'no mechanism, or more than 1 % open: {row}')
         if abs(found/float(other['capacity']) - 1) > 0.02:
@@ -592,13 +592,44 @@ def paths_of_an_envelope(program, folder):
         rows = rows_of(os.path.join(folder, 'block.envelope.csv'))
         faults += ran.ended_with(3 if any(row['exit_code'] == '3' for row in rows) else 0)
         for row in rows:
-            found, without = float(row['capacity']), float(row['no equilibrium from'])
+            found, without = float(row['capacity']), float(row['no equilibrium found at'])
             if not 0 < without - found <= float(tolerance)*without:
                 faults.append(f'more than {tolerance} open: {row}')
             # the weight comes first
             said = re.search('beyond the load factor ([0-9.]+):', row['mechanism'])
             if bool(said) != (row['exit_code'] == '4') or said and abs(float(said.group(1)) - 1 - found) > 1e-5*found:
                 faults.append(f'not how a path of this capacity ended: {row}')
+    return faults
+
+
+def comes_first(program, folder):
+    """What comes before a load grows has the factors of COMBINE, as in a run: a block of 0.5 times 3 times its weight of 2
+    slides at 3 tan(phi), whatever factor its lateral load has there. Nothing is searched if the deck does not say which
+    factor, or if what comes first has no equilibrium"""
+    text = input_deck('block.dat').replace('    8   33', '    4   33')
+    combined = '    1    1       1.0    2       0.5    3       0.5    4       0.2'
+    first = '       1.0    1.0E-6  200    1'
+    half = text.replace(combined, '    1    1       0.5    2       3.0').replace(first, '       3.0    1.0E-6  200    1')
+    rows, faults = envelope(program, folder, write(folder, 'half.dat', half), '--cases', '2', '--tolerance', '0.002')
+    for row in rows:
+        faults += close('slides', 3*math.tan(math.radians(30)), float(row['capacity']), 0.01)
+        if 'case 1 at 1.5, ' not in row['mechanism']:
+            faults.append(f'not 1.5 of the weight: {row["mechanism"]}')
+    # combinations that agree on what comes first are as good as one
+    agree = half.replace('2       3.0', '2       3.0\n    2    1       0.5    3       2.0')
+    again, more = envelope(program, folder, write(folder, 'agree.dat', agree), '--cases', '2', '--tolerance', '0.002')
+    faults += more + expected('capacities of decks that agree', [row['capacity'] for row in rows], [row['capacity'] for row in again])
+    for name, deck, code, words in (
+            ('several', agree.replace('    2    1       0.5', '    2    1       0.6'), 2,
+             'load case 1 comes first, and combinations give it the factors 0.5 and 0.6'),
+            ('none', half.replace('    1    1       0.5', '    1    4       0.5'), 2,
+             'load case 1 comes first, and no combination has it'),
+            ('lifted', text.replace('AXIAL      -2.0', 'AXIAL       2.0'), 4,
+             'no equilibrium was found of the increments that come first, so nothing can be searched\n'
+             'no equilibrium was found beyond the load factor 0: the part with node 1 moves along z (harmonic 0 symmetric)\n')):
+        ran = program.run('envelope', write(folder, f'{name}.dat', deck), '--cases', '2', '-o', folder, folder=folder)
+        faults += [f'{name}: {fault}' for fault in ran.ended_with(code)] + ([] if words in ran.err else [f'{name}: {ran.err}'])
+        faults += expected('files', [f'{name}.dat'], [file for file in os.listdir(folder) if file.startswith(name)])
     return faults
 
 
@@ -634,6 +665,7 @@ def tests(program):
         Test('studies/arrays', lambda folder: arrays(program, folder)),
         Test('studies/envelope of a block', lambda folder: capacities(program, folder)),
         Test('studies/paths of an envelope', lambda folder: paths_of_an_envelope(program, folder)),
+        Test('studies/what comes first in an envelope', lambda folder: comes_first(program, folder)),
         Test('studies/shared', lambda folder: shared(program, folder)),
         Test('studies/dead parts', lambda folder: dead_parts(program, folder)),
         Test('studies/STOP file', lambda folder: stop_file(program, folder)),
