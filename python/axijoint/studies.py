@@ -31,7 +31,8 @@ class Study:
     columns      names of what varies, such as "LAWS 1 PHI"
     quantities   names of the quantities
     rows         Table with a row each: row, what varies, exit_code, seconds, the quantities at the end of the
-                 row's last increment (nan where there is no result), message
+                 row's last increment (nan where there is no result), message (also of rows that end well: warnings
+                 and remarks)
     exit_codes   of the rows: 0 solved, 3 not converged, 4 mechanism, 2 wrong values, ...; (rows)
     increments   numbers of increments; (rows)
     solved       whether the exit code is 0; (rows)

@@ -89,7 +89,7 @@ contains
       type(progress_type), intent(inout) :: progress
       !> Singular stiffness, or out of memory
       type(error_type), allocatable, intent(out) :: error
-      !> Whether errors are estimated, and remarks made; true if absent
+      !> Whether errors are estimated; true if absent. Remarks that need no estimates are made in any case
       logical, intent(in), optional :: estimated
       !> Who keeps what the increments come to
       class(keeper_type), intent(inout), optional :: keeper
@@ -98,11 +98,11 @@ contains
       type(history_type) :: history
       type(mesh_error_type) :: mesh_error
       real(wp) :: yielding_stress, elastic_displacement
-      logical :: estimates, remarks
+      logical :: wanted, estimates
 
-      remarks = .true.
-      if (present(estimated)) remarks = estimated
-      estimates = remarks .and. .not. bodies_yield(model)  ! none that holds with plastic strain
+      wanted = .true.
+      if (present(estimated)) wanted = estimated
+      estimates = wanted .and. .not. bodies_yield(model)  ! none that holds with plastic strain
       results%modes = structure%modes
       results%orderings = structure%orderings
       results%left_out = what_was_left_out(model, structure)
@@ -132,7 +132,7 @@ contains
 
       call timer%push(phase_recover)
       call recover_fields(model, structure, history%loading, history%peak, field, results, &
-         smoothed=remarks)
+         smoothed=wanted)
       associate (state => results%states(size(results%states)))
          results%plastic = plastic_fields(model, results%modes, results%stress, &
             state%bodies)
@@ -147,7 +147,7 @@ contains
       if (estimates) &
          call estimate_discretization(model, structure, history%loading, field, &
             yielding_stress, elastic_displacement, mesh_error, results)
-      if (remarks .and. bodies_yield(model)) &
+      if (wanted .and. bodies_yield(model)) &
          call estimate_plastic_errors(model, structure, combination, results, progress)
       call move_bodies(model, structure, results%states(size(results%states)), results)
       if (.not. estimates) results%discretization%largest_displacement = &
@@ -166,8 +166,7 @@ contains
          call timer%pop()
          call check_stop(error)
       end if
-      if (remarks .and. .not. allocated(error)) &
-         results%remarks = remarks_on(model, structure, history, field, results)
+      if (.not. allocated(error)) results%remarks = remarks_on(model, structure, history, field, results)
       results%exchanged(2) = structure%equations%team%exchanged()
       call timer%pop()
    end subroutine analyse_combination

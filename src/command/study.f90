@@ -451,7 +451,7 @@ contains
       real(wp), intent(in) :: seconds
 
       character(len=:), allocatable :: means
-      integer :: n
+      integer :: k, n
 
       n = count(done%number > 0)
       if (n_processes > 1) then
@@ -470,6 +470,9 @@ contains
          'time                  '//to_text(seconds)//' s'
       if (n > n_before) write (output_unit, '(a)') 'time of a row         '// &
          to_text(seconds/(n - n_before))//' s'
+      n = count([(said(k), k=1, size(done))])
+      if (n > 0) write (output_unit, '(a)') 'remarks               '//count_of(n, 'converged row')//' with warnings or '// &
+         'remarks: column message'
       if (command%part%number > 0) then
          write (output_unit, '(a)') 'file                  '// &
             journal_path(study%undertaking%stem, command%part)
@@ -478,6 +481,15 @@ contains
       end if
 
    contains
+
+      !> Whether there is something to say of a row that converged
+      logical function said(k)
+         !> Its number
+         integer, intent(in) :: k
+
+         said = .false.
+         if (done(k)%number > 0 .and. done(k)%code == exit_ok) said = len(done(k)%message) > 0
+      end function said
 
       !> Rows that ended with an exit code
       integer function ended(code)

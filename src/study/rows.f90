@@ -17,13 +17,15 @@ module axijoint_study_rows
       stage_requests
    use axijoint_deck_reader, only : make_model, kept_mesh_type
    use axijoint_deck_registry, only : all_readers
-   use axijoint_deck_text_diagnostics, only : diagnostics_type, render
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, render, warning_texts
    use axijoint_deck_text_field, only : kind_real
    use axijoint_deck_text_sections, only : sections_type
    use axijoint_deck_text_source, only : source_type
    use axijoint_job_in_situ_messages, only : judge_in_situ
    use axijoint_job_job, only : options_type, take_options
+   use axijoint_job_yield_messages, only : judge_in_situ_yield
    use axijoint_model_model, only : model_type
+   use axijoint_model_request, only : keep_type, keep_series
    use axijoint_output_listing_solution, only : convergence_text
    use axijoint_output_file_run, only : exit_code_of
    use axijoint_study_quantities, only : quantity_values
@@ -69,7 +71,8 @@ module axijoint_study_rows
       real(wp) :: seconds = 0.0_wp
       !> Quantities, shape (quantities, increments); none if it could not be solved
       real(wp), allocatable :: values(:, :)
-      !> What is to be said; empty if nothing
+      !> What is to be said, a line each: why it ended as it did, warnings of its deck, remarks on its results; empty if
+      !> nothing
       character(len=:), allocatable :: message
    end type row_type
 
@@ -167,16 +170,17 @@ contains
 
       type(model_type), target :: model
       type(error_type), allocatable :: error
+      character(len=:), allocatable :: warnings(:)
       integer(i8) :: start, now, rate
 
       call system_clock(start, rate)
       row%number = number
       row%message = ''
       allocate (row%values(0, 0))
-      call make_row(table, number, rows, model, row)
+      call make_row(table, number, rows, model, row, warnings)
       if (len(row%message) == 0) then
          call find_structure(model, rows, error)
-         if (.not. allocated(error)) call solve_state(model, rows, row, error)
+         if (.not. allocated(error)) call solve_state(model, warnings, rows, row, error)
          if (allocated(error)) then
             if (error%code == exit_stopped) then
                call move_alloc(error, stopped)
@@ -192,7 +196,7 @@ contains
    end subroutine solve_row
 
    !> The job of a row
-   subroutine make_row(table, number, rows, model, row)
+   subroutine make_row(table, number, rows, model, row, warnings)
       !> The table
       type(study_table_type), intent(in) :: table
       !> Number of the row
@@ -203,6 +207,8 @@ contains
       type(model_type), intent(out), target :: model
       !> Takes the message if the deck is wrong with these values
       type(row_type), intent(inout) :: row
+      !> Warnings of the deck with these values, one line each
+      character(len=:), allocatable, intent(out), optional :: warnings(:)
 
       type(sections_type), target :: entries
       type(diagnostics_type), target :: diagnostics
@@ -215,14 +221,19 @@ contains
          call make_model(rows%source, entries, model, diagnostics)
       end if
       if (diagnostics%n_errors == 0) then
-         if (size(model%initial_stresses) > 0) call judge_in_situ(model, diagnostics)
+         if (size(model%initial_stresses) > 0) then
+            call judge_in_situ(model, diagnostics)
+            call judge_in_situ_yield(model, diagnostics)
+         end if
       end if
       if (diagnostics%n_errors > 0) then
          row%code = exit_deck
          row%message = render(diagnostics, rows%source)
          return
       end if
+      if (present(warnings)) warnings = warning_texts(diagnostics, rows%source)
       call take_options(rows%options, model)
+      model%keep(keep_series) = keep_type()  ! a row follows all increments
    end subroutine make_row
 
    !> See that there is the structure of a job
@@ -254,9 +265,11 @@ contains
    end subroutine find_structure
 
    !> Solve the job of a row, and take its quantities
-   subroutine solve_state(model, rows, row, error)
+   subroutine solve_state(model, warnings, rows, row, error)
       !> The job
       type(model_type), intent(in), target :: model
+      !> Warnings of its deck
+      character(len=*), intent(in) :: warnings(:)
       !> What rows share
       type(rows_type), intent(inout), target :: rows
       !> Takes what comes of it
@@ -272,11 +285,7 @@ contains
          rows%progress, error, rows%estimated)
       if (allocated(error)) return
       row%code = exit_code_of(results)
-      if (allocated(results%mechanism)) then
-         row%message = results%mechanism
-      else if (.not. results%converged) then
-         row%message = convergence_text(results)
-      end if
+      row%message = said_of(results, warnings)
       series = new_series(model, results, size(results%states))
       do i = 1, size(results%states) - 1
          call solve_increment(model, rows%structure, i, results, earlier, error)
@@ -286,5 +295,45 @@ contains
       call append_increment(model, rows%structure, results, size(results%states), results, series)
       row%values = quantity_values(series, results)
    end subroutine solve_state
+
+   !> What a run would say of a state: why it ended as it did, if not well, warnings of the deck, remarks
+   function said_of(results, warnings) result(lines)
+      !> What was found
+      type(results_type), intent(in) :: results
+      !> Warnings of the deck
+      character(len=*), intent(in) :: warnings(:)
+      !> The lines
+      character(len=:), allocatable :: lines
+
+      integer :: k
+
+      lines = ''
+      if (allocated(results%mechanism)) then
+         lines = results%mechanism
+      else if (.not. results%converged) then
+         lines = convergence_text(results)
+      end if
+      do k = 1, size(warnings)
+         call add_line(trim(warnings(k)))
+      end do
+      do k = 1, size(results%remarks)
+         if (allocated(results%mechanism)) then
+            if (results%remarks(k)%text == results%mechanism) cycle
+         end if
+         call add_line(results%remarks(k)%text)
+      end do
+
+   contains
+
+      !> Add a line
+      subroutine add_line(text)
+         !> The line
+         character(len=*), intent(in) :: text
+
+         if (len(lines) > 0) lines = lines//new_line('a')
+         lines = lines//text
+      end subroutine add_line
+
+   end function said_of
 
 end module axijoint_study_rows

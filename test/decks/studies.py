@@ -633,6 +633,61 @@ def comes_first(program, folder):
     return faults
 
 
+def warned(program, folder):
+    """Warnings of the deck and remarks on the results that a run tells stand in the message of a row that ends well, too, and
+    the end of the study says how many rows have some; of those that say why a row ended otherwise, that comes first"""
+    faults = []
+    for name, text, column, values in (
+            ('layers', read_text(os.path.join(HERE, 'good', 'in_situ_layers_apart.dat')), 'MATERIALS 1 E', '""'),
+            ('soft', input_deck('first.dat').replace('E4', 'E0'), 'LAWS 1 PHI', '30'),
+            ('moves off', input_deck('block.dat').replace('AXIAL      -2.0', 'AXIAL       2.0'), 'LAWS 1 PHI', '30')):
+        deck = write(folder, f'{name}.dat', text)
+        code = 4 if name == 'moves off' else 0
+        faults += program.run('run', deck, '-o', folder, '--quiet', folder=folder).ended_with(code)
+        told = json.loads(read_text(os.path.join(folder, f'{name}.json')))['messages']
+        table = write(folder, 'rows.csv', f'{column}\n{values}\n')
+        ran = program.run('study', table, deck, '-o', folder, folder=folder)
+        faults += [f'{name}: {fault}' for fault in ran.ended_with(code)]
+        (row,) = rows_of(os.path.join(folder, 'rows.study.csv'))
+        said = row['message'].split(' / ')
+        faults += [f'{name}: a run does not say {line!r}, but {told}' for line in said if line not in told]
+        faults += [f'{name}: the row does not say {line!r}' for line in told if 'warning: ' in line and line not in said]
+        if not row['message'] or code == 4 and not said[0].startswith('no equilibrium was found beyond'):
+            faults.append(f'{name}: not said in a row: {told}')
+        if ('1 converged row with warnings or remarks: column message' in ran.out) != (code == 0):
+            faults.append(f'{name}: {ran.out}')
+    # without estimates nobody knows what a coarse tolerance leaves
+    coarse = 'INCREMENTS\n       1.0    1.0E-2\nRESULTANTS'
+    deck = write(folder, 'coarse.dat', input_deck('first.dat').replace('RESULTANTS', coarse, 1))
+    for options, words in (((), ['a tolerance of 0.01 may leave joint stresses several per cent wrong (default 1E-6)']),
+                           (('--estimates',), [''])):
+        rows, more = study(program, folder, 'LAWS 1 PHI\n30\n', deck, *options)
+        faults += more + expected('messages', words, [row['message'] for row in rows])
+    # what a run refuses when all cards are read is refused in a row, too
+    deck = write(folder, 'yields.dat', read_text(os.path.join(HERE, 'bad', 'yield_in_situ.dat')).replace('MOHR, 0.01', 'MOHR, 1.0'))
+    rows, more = study(program, folder, 'YIELD 1 STRENGTH\n0.01\n1.0\n', deck, '--processes', '1', code=2)
+    faults += more + expected('exit codes', ['2', '0'], [row['exit_code'] for row in rows])
+    return faults + ([] if 'in-situ stress is beyond yield' in rows[0]['message'] else [rows[0]['message']])
+
+
+def kept(program, folder):
+    """A row follows all increments, whatever the deck keeps of them: its work is that of a run that keeps all"""
+    deck = input_deck('monopile.dat')
+    keeps = write(folder, 'keeps.dat', deck.replace('POINTS ', 'KEEP\n  SERIES        LAST\nPOINTS ', 1))
+    whole = write(folder, 'whole.dat', deck)
+    ran = program.run('study', write(folder, 'rows.csv', 'LAWS 1 PHI\n26\n'), keeps, '-o', folder, '--estimates', folder=folder)
+    faults = ran.ended_with(0)
+    for path in (keeps, whole):
+        faults += program.run('run', path, '-o', folder, '--quiet', folder=folder).ended_with(0)
+    (row,) = rows_of(os.path.join(folder, 'rows.study.csv'))
+    fine, coarse = (json.loads(read_text(os.path.join(folder, f'{name}.json'))) for name in ('whole', 'keeps'))
+    faults += compared(row, fine, 'a row, and a run that keeps all increments')
+    words = 'sums over the increments that SERIES of KEEP keeps'
+    if not any(words in line for line in coarse['messages']) or words in row['message']:
+        faults.append(f'{words!r} is true of a run that keeps fewer alone: {coarse["messages"]}, {row["message"]}')
+    return faults
+
+
 def as_written(program, folder):
     """Heads in quotes, tabs beside commas, symbols of fields; a code is told as it was written"""
     deck = write(folder, 'first.dat', input_deck('first.dat'))
@@ -666,6 +721,8 @@ def tests(program):
         Test('studies/envelope of a block', lambda folder: capacities(program, folder)),
         Test('studies/paths of an envelope', lambda folder: paths_of_an_envelope(program, folder)),
         Test('studies/what comes first in an envelope', lambda folder: comes_first(program, folder)),
+        Test('studies/warned', lambda folder: warned(program, folder)),
+        Test('studies/kept', lambda folder: kept(program, folder)),
         Test('studies/shared', lambda folder: shared(program, folder)),
         Test('studies/dead parts', lambda folder: dead_parts(program, folder)),
         Test('studies/STOP file', lambda folder: stop_file(program, folder)),
