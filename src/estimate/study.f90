@@ -23,6 +23,8 @@ module axijoint_estimate_study
 
    !> Structures that are planned; others are taken to be like these on average
    integer, parameter :: most_samples = 5
+   !> Structures that are looked at, whether any of their rows can be solved
+   integer, parameter :: most_judged = 100
    !> Bytes that rows without estimates of errors take less than a run with its files, as measured
    integer(i8), parameter :: spared_bytes = 1000000_i8
    !> Bytes of a real, and of a row in the table of results and in the journal beside its numbers
@@ -30,7 +32,7 @@ module axijoint_estimate_study
 
    !> Size of a study
    type :: study_size_type
-      !> Rows and structures
+      !> Rows, and structures that they need
       integer :: n_rows = 0, n_structures = 0
    end type study_size_type
 
@@ -62,8 +64,8 @@ contains
 
       order = row_order(table, shared%keeps_structure)
       order = order(first_row(part, size(order)):last_row(part, size(order)))
-      first = pack(order, begins_structure(table, shared%keeps_structure, order))
-      extent = study_size_type(size(order), size(first))
+      extent%n_rows = size(order)
+      call rows_of_structures(table, shared, order, first, extent%n_structures)
       n_samples = min(most_samples, size(first))
       work = 0.0_wp
       iterations = 0.0_wp
@@ -165,6 +167,43 @@ contains
          forecast%memory = n*forecast%memory + machine%program_bytes
       end associate
    end subroutine share_rows
+
+   !> A row of each structure that can be solved. Structures of rows that the deck refuses are not made
+   subroutine rows_of_structures(table, shared, order, first, n_structures)
+      !> What varies
+      type(study_table_type), intent(in) :: table
+      !> What rows share
+      type(rows_type), intent(inout), target :: shared
+      !> Numbers of the rows in their order
+      integer, intent(in) :: order(:)
+      !> The rows, of many structures some
+      integer, allocatable, intent(out) :: first(:)
+      !> How many structures there are; of many as the share is of those that are looked at
+      integer, intent(out) :: n_structures
+
+      type(model_type), target :: model
+      type(row_type) :: row
+      integer, allocatable :: begins(:)
+      integer :: k, i, place, last, n_judged
+
+      begins = pack([(k, k=1, size(order))], begins_structure(table, shared%keeps_structure, order))
+      n_judged = min(most_judged, size(begins))
+      allocate (first(0))
+      do k = 1, n_judged
+         place = 1 + ((k - 1)*(size(begins) - 1))/max(1, n_judged - 1)
+         last = size(order)
+         if (place < size(begins)) last = begins(place + 1) - 1
+         do i = begins(place), last
+            row = row_type()
+            row%message = ''
+            call make_row(table, order(i), shared, model, row)
+            if (len(row%message) > 0) cycle
+            first = [first, order(i)]
+            exit
+         end do
+      end do
+      n_structures = nint(real(size(first), wp)*size(begins)/max(1, n_judged))
+   end subroutine rows_of_structures
 
    !> Which rows need another structure than the one before, as far as their columns tell
    pure function begins_structure(table, keeps_structure, order) result(begins)

@@ -139,7 +139,8 @@ contains
       end do
    end subroutine free_columns
 
-   !> Order of the rows: those that may share a structure follow each other, else as in the table
+   !> Order of the rows: those that may share a structure follow each other, else as in the table. What the deck says
+   !> is no value of the table: it stands apart from all of them
    pure function row_order(table, keeps_structure) result(order)
       !> The table
       type(study_table_type), intent(in) :: table
@@ -148,11 +149,15 @@ contains
       !> Numbers of the rows
       integer, allocatable :: order(:)
 
+      real(wp), allocatable :: keys(:, :)
       integer, allocatable :: columns(:)
       integer :: k
 
       columns = pack([(k, k=1, size(keeps_structure))], .not. keeps_structure)
-      order = lexical_order(table%values(columns, :))
+      allocate (keys(2*size(columns), size(table%values, 2)))
+      keys(1::2, :) = merge(1.0_wp, 0.0_wp, table%given(columns, :))
+      keys(2::2, :) = table%values(columns, :)
+      order = lexical_order(keys)
    end function row_order
 
    !> Solve a row

@@ -688,6 +688,21 @@ def kept(program, folder):
     return faults
 
 
+def structures(program, folder):
+    """As many structures as a study makes are foretold: cells that keep the deck's value lie between given ones, and rows
+    that the deck refuses need none"""
+    deck = os.path.join(INPUTS, 'first.dat')
+    table = write(folder, 'rows.csv', 'CONTROL M, LAWS 1 k_eta, BLOCKS 1 n2, RESULTANTS 1 VALUE\n,,,0.1;0.2\n0;2;3,,,\n,1.0E5;1.0E3,,\n'
+                  ',,5,\n,,,0.3;0.4\n')
+    ran = program.run('study', table, deck, '-o', folder, '--processes', '1', folder=folder)
+    made = re.search('solved now with ([0-9]+) structures', ran.out)
+    told = program.run('estimate', deck, '--study', table, folder=folder)
+    foretold = re.search('10 rows on ([0-9]+) structures', told.out)
+    if not made or not foretold:
+        return [f'{ran.out}{ran.err}', f'{told.out}{told.err}']
+    return ran.ended_with(2) + expected('structures', ('5', '5'), (made.group(1), foretold.group(1)))
+
+
 def as_written(program, folder):
     """Heads in quotes, tabs beside commas, symbols of fields; a code is told as it was written"""
     deck = write(folder, 'first.dat', input_deck('first.dat'))
@@ -723,6 +738,7 @@ def tests(program):
         Test('studies/what comes first in an envelope', lambda folder: comes_first(program, folder)),
         Test('studies/warned', lambda folder: warned(program, folder)),
         Test('studies/kept', lambda folder: kept(program, folder)),
+        Test('studies/structures foretold', lambda folder: structures(program, folder)),
         Test('studies/shared', lambda folder: shared(program, folder)),
         Test('studies/dead parts', lambda folder: dead_parts(program, folder)),
         Test('studies/STOP file', lambda folder: stop_file(program, folder)),
