@@ -450,7 +450,8 @@ def open_result(path):
 
 
 def open_combinations(path):
-    """All combinations of a job: dictionary from their numbers to Results.
+    """All combinations of a job: dictionary from their numbers to Results. Those of another deck than that of
+    the latest, which an earlier run has left, are not among them.
 
     path: the results' name with the directory, as `out/chimney` or `out/chimney.h5`; the files are
     `chimney.1.h5`, `chimney.2.h5`, ..., or `chimney.h5` alone (number 0).
@@ -461,6 +462,8 @@ def open_combinations(path):
     found = [Result(file) for file in path.parent.iterdir() if pattern.fullmatch(file.name)]
     if not found:
         raise FileNotFoundError(f"no {name}.h5 or {name}.N.h5 in {path.parent}")
+    latest = max(found, key=lambda one: one.path.stat().st_mtime_ns)
+    found = [one for one in found if one.deck == latest.deck]
     return {result.combination: result for result in sorted(found, key=lambda one: one.combination)}
 
 

@@ -20,6 +20,7 @@ module axijoint_command_run
    use axijoint_output_brief, only : brief_text, status_text, reason_text
    use axijoint_output_file_echo, only : deck_text
    use axijoint_output_file_run, only : exit_code_of
+   use axijoint_output_other_results, only : other_results_text
    use axijoint_output_output, only : check_output, write_output, write_error_summary, remove_error_summary
    use axijoint_output_state, only : begin_state, end_state, stopped_text, note_written, is_written
    use omp_lib, only : omp_set_num_threads
@@ -149,6 +150,7 @@ contains
             if (allocated(error)) exit
             call write_combination(job, results(k), quiet, exit_code, error)
          end do
+         if (.not. allocated(error)) call tell(other_results_text(job))
          return
       end if
       allocate (results(1))
@@ -165,6 +167,7 @@ contains
          if (allocated(error)) exit
          call note_written(job, k, exit_code_of(results(1)))
       end do
+      if (.not. allocated(error)) call tell(other_results_text(job))
    end subroutine solve_and_write
 
    !> Warn that the rounds of refinement did not meet the target of the error: all combinations have

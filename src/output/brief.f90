@@ -1,8 +1,7 @@
 !> A finished run in a dozen lines, for the terminal
 module axijoint_output_brief
-   use axijoint_analysis_core_results, only : results_type
-   use axijoint_analysis_core_totals, only : peak_type, largest_displacement, largest_pressure, &
-      count_states, n_unknowns
+   use axijoint_analysis_core_results, only : results_type, peak_type
+   use axijoint_analysis_core_totals, only : largest_displacement, count_states, n_unknowns
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_system, only : peak_memory_mb
    use axijoint_base_text, only : to_text
@@ -172,20 +171,19 @@ contains
       !> Two lines
       character(len=:), allocatable :: text
 
-      type(peak_type) :: peak
-
       text = line("joint states", to_text(count_states(results, state_stick))//" stick, "// &
          to_text(count_states(results, state_slip))//" slip, "// &
          to_text(count_states(results, state_open))//" open (points times planes)")
-      peak = largest_pressure(results)
-      if (peak%value > 0.0_wp) then
-         text = text//line("largest pressure", to_text(peak%value)//" at r = "// &
-            to_text(results%joint_point_position(1, peak%place))//", z = "// &
-            to_text(results%joint_point_position(2, peak%place))//", theta = "// &
-            to_text(peak%angle/degree)//" degrees")
-      else
-         text = text//line("largest pressure", "none, no joint is pressed")
-      end if
+      associate (peak => results%pressure)
+         if (peak%value > 0.0_wp) then
+            text = text//line("largest pressure", to_text(peak%value)//" at r = "// &
+               to_text(results%joint_point_position(1, peak%place))//", z = "// &
+               to_text(results%joint_point_position(2, peak%place))//", theta = "// &
+               to_text(peak%angle/degree)//" degrees")
+         else
+            text = text//line("largest pressure", "none, no joint is pressed")
+         end if
+      end associate
    end function joint_lines
 
    !> The largest displacement

@@ -153,12 +153,61 @@ def bodies_that_touch(folder, program):
     return faults + expected('tips', 1, len(tips))
 
 
+# A pile without weight, bonded into ground with in-situ stress; its body has the card, if any
+GROUND = '''CONTROL
+0
+MATERIALS
+1,3E4,0.2,{density}
+2,30,0.3,2E-3
+BLOCKS
+1,1,8,2,4
+0,-3,0.5,0
+2,2,8,5,4
+0.5,-3,5,0
+2,2,8,2,3
+0,-5,0.5,-3
+2,2,8,5,3
+0.5,-5,5,-3
+FACES
+1,1,0.5,-3,0.5,0
+2,2,0.5,-3,0.5,0
+3,1,0,-3,0.5,-3
+4,2,0,-3,0.5,-3
+5,2,0,-5,5,-5
+6,2,5,-5,5,0
+INTERFACES
+,1,2,BONDED
+,3,4,BONDED
+FIXEDFACES
+5,111
+6,101
+GRAVITY
+-9.81,
+INSITU
+2,0,0.01962,0.5
+{card}END
+'''
+
+
+def in_situ_stress(folder, program):
+    """The card of a body is of that alone, and not of another bonded to it: its weight and tractions on their boundary are looked at"""
+    faults = []
+    weight, jump = 'material 1: gamma = 0, -density g_z = 0.01962', 'in-situ stresses of materials 1 and 2'
+    for density, card, code, said in ((0.0, '', 2, (jump,)), (0.0, '1,0,0,0,,,MEANT\n', 0, ()), (2e-3, '', 2, (weight, jump)),
+                                      (2e-3, '1,0,0.01962,0.5\n', 0, ())):
+        ran = program.run('check', write(folder, 'ground.dat', GROUND.format(density=density, card=card)))
+        faults += ran.ended_with(code)
+        faults += [f'density {density}, card {card!r}: {text!r}: {ran.err}' for text in (weight, jump) if (text in ran.err) != (text in said)]
+    return faults
+
+
 def tests(program):
     """All tests"""
     def made(name, check):
         return Test(f'bonded/{name}', lambda folder: check(folder, program))
 
-    return ([made('either number', either_number), made('bodies that touch', bodies_that_touch)]
+    return ([made('either number', either_number), made('bodies that touch', bodies_that_touch),
+             made('in-situ stress', in_situ_stress)]
             + [made(f'one body, {nodes} nodes', one_body(nodes)) for nodes in (3, 4, 6, 8, 9)]
             + [made(f'stiff joints, {nodes} nodes', limit_of_stiff(nodes)) for nodes in (4, 8)]
             + [made('crack, contact', opens_like_sneddon((1, 1.0, 1.0, 1.0, 0.0, 0.0))),

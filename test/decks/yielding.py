@@ -455,7 +455,9 @@ def estimates(folder, program):
     if not 0.0 <= limit['sum']['load'] < 1e-2 or 'displacement not estimated' not in limit['in_words']:
         faults.append(f'at the limit: {limit}')
     back = run(program, folder, cylinder((1.0, 0.4, -0.7)))['yielding']['errors']
-    return faults + expected('after unloading', (None, True), (back['planes']['load'], 'taken back' in back['in_words']))
+    faults += expected('after unloading', (None, True), (back['planes']['load'], 'taken back' in back['in_words']))
+    before, beyond = (run(program, folder, cylinder(factors), (4,))['yielding']['errors'] for factors in ((1.0, 0.8), (1.0, 0.8, -0.7)))
+    return faults + expected('unloading that it did not come to', before['in_words'], beyond['in_words'])
 
 
 def within(what, estimate, true, low, high):

@@ -544,7 +544,7 @@ class Cards:
 
         point: point; allowed: each number once
         place: r z: place [length]; allowed: in the mesh
-        body: body; if not given: any; allowed: 1 … 9999
+        body: body; if not given: the lowest there; allowed: 1 … 9999
         name: name; if not given: point and its number; allowed: each once
         """
         self._entry("POINTS", point, place, body, name)

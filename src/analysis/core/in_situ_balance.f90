@@ -42,9 +42,10 @@ module axijoint_analysis_core_in_situ_balance
       type(model_joint_point_type), allocatable :: joint_points(:)
       !> Whether u and v of a node can move, shape (2, nodes)
       logical, allocatable :: free(:, :)
-      !> Whether elements of a part and material are there, and one of their nodes can move along z,
-      !> shape (parts, materials)
-      logical, allocatable :: has(:, :), moves(:, :)
+      !> Part, body and material of the elements, each three once: bonded bodies are one part. Shape (3, any); whether a
+      !> node of them can move along z
+      integer, allocatable :: kinds(:, :)
+      logical, allocatable :: moves(:)
       !> Elements by their nodes
       type(neighbours_type) :: neighbours
    end type ground_type
@@ -128,7 +129,7 @@ contains
       !> What all states have in common
       type(ground_type) :: ground
 
-      integer :: element
+      integer :: element, k
 
       call solid_parts(model%mesh, ground%part)
       ground%joint_points = new_joint_points(model, rule_gauss)
@@ -136,13 +137,19 @@ contains
       ground%free = .not. held_components(model, mode)
       ground%free = ground%free(:2, :)
       ground%free(1, :) = ground%free(1, :) .and. .not. on_axis(model%mesh)
-      allocate (ground%has(maxval(ground%part), size(model%materials)), source=.false.)
-      ground%moves = ground%has
+      allocate (ground%kinds(3, 0), ground%moves(0))
       do element = 1, n_elements(model%mesh)
          associate (nodes => model%mesh%element_nodes(:model%mesh%element_size(element), element), &
-                    material => model%mesh%element_material(element))
-            ground%has(ground%part(nodes(1)), material) = .true.
-            if (any(ground%free(2, nodes))) ground%moves(ground%part(nodes(1)), material) = .true.
+                    body => model%mesh%element_body(element), material => model%mesh%element_material(element))
+            do k = size(ground%kinds, 2), 1, -1
+               if (all(ground%kinds(:, k) == [ground%part(nodes(1)), body, material])) exit
+            end do
+            if (k == 0) then
+               ground%kinds = reshape([ground%kinds, ground%part(nodes(1)), body, material], [3, size(ground%kinds, 2) + 1])
+               ground%moves = [ground%moves, .false.]
+               k = size(ground%moves)
+            end if
+            ground%moves(k) = ground%moves(k) .or. any(ground%free(2, nodes))
          end associate
       end do
    end function new_ground
@@ -159,9 +166,9 @@ contains
       type(in_situ_part_type), allocatable :: parts(:)
 
       logical :: acts
-      integer :: p, k, i, element, m
+      integer :: p, k, i, element
 
-      allocate (parts(size(ground%has, 1)))
+      allocate (parts(maxval(ground%part)))
       parts%node = [(findloc(ground%part, p, 1), p=1, size(parts))]
       do element = 1, n_elements(model%mesh)
          parts(ground%part(model%mesh%element_nodes(1, element)))%body = &
@@ -170,8 +177,7 @@ contains
       do p = 1, size(parts)
          do k = 1, size(model%initial_stresses)
             associate (stress => model%initial_stresses(k))
-               if (.not. any(ground%has(p, :) &
-                  .and. covers(stress, parts(p)%body, [(m, m=1, size(model%materials))]))) cycle
+               if (.not. any(ground%kinds(1, :) == p .and. covers(stress, ground%kinds(2, :), ground%kinds(3, :)))) cycle
                if (stress%meant) parts(p)%meant = .true.
                if (parts(p)%card == 0) parts(p)%card = stress%card
                acts = any([(abs(states(i)%case_factor(stress%case)) > 0.0_wp, i=1, size(states))])
@@ -195,7 +201,7 @@ contains
       type(in_situ_part_type), intent(inout) :: parts(:)
 
       real(wp) :: gravity, gamma, weight, share
-      integer :: p, m
+      integer :: k, m
 
       gravity = 0.0_wp
       do m = 1, size(model%body_loads)
@@ -204,22 +210,22 @@ contains
                gravity = gravity + state%case_factor(load%case)*load%acceleration(2)
          end associate
       end do
-      do p = 1, size(parts)
-         if (.not. parts(p)%has_stress) cycle
-         do m = 1, size(model%materials)
-            if (.not. ground%moves(p, m)) cycle
-            gamma = sum(stresses%gradient(2), covers(stresses, parts(p)%body, m))
-            weight = -gravity*model%materials(m)%density
+      do k = 1, size(ground%moves)
+         associate (part => parts(ground%kinds(1, k)), body => ground%kinds(2, k), material => ground%kinds(3, k))
+            if (.not. (part%has_stress .and. ground%moves(k))) cycle
+            gamma = sum(stresses%gradient(2), covers(stresses, body, material))
+            weight = -gravity*model%materials(material)%density
             share = 0.0_wp
             if (max(abs(gamma), abs(weight)) > 0.0_wp) &
                share = abs(gamma - weight)/max(abs(gamma), abs(weight))
-            if (.not. share > parts(p)%weight_share) cycle
-            parts(p)%weight_share = share
-            parts(p)%material = m
-            parts(p)%gamma = gamma
-            parts(p)%weight = weight
-            parts(p)%weight_increment = state%increment
-         end do
+            if (.not. share > part%weight_share) cycle
+            part%weight_share = share
+            part%body = body
+            part%material = material
+            part%gamma = gamma
+            part%weight = weight
+            part%weight_increment = state%increment
+         end associate
       end do
    end subroutine compare_weights
 

@@ -1,5 +1,5 @@
-!> Common boundaries of materials of one body: in-situ stresses on both sides must have the same
-!> traction there
+!> Common boundaries of materials of one body, or of bonded ones: in-situ stresses on both sides must have
+!> the same traction there
 module axijoint_analysis_core_in_situ_boundaries
    use axijoint_analysis_core_in_situ, only : in_situ_boundary_type, alike
    use axijoint_base_kinds, only : wp
@@ -39,7 +39,8 @@ contains
                nodes = edge_nodes(mesh, element, side)
                other = element_at_edge(mesh, neighbours, nodes(1), nodes(2), element)
                if (other == 0) cycle
-               if (mesh%element_material(other) == mesh%element_material(element)) cycle
+               if (mesh%element_material(other) == mesh%element_material(element) .and. &
+                   mesh%element_body(other) == mesh%element_body(element)) cycle
                now = boundary_at(model, stresses, nodes, element, other)
                now%increment = increment
                k = place_of(now, boundaries)
@@ -67,22 +68,22 @@ contains
       real(wp) :: normal(2), here(2), there(2), jump
       integer :: k, first
 
-      associate (mesh => model%mesh, body => model%mesh%element_body(element), &
+      associate (mesh => model%mesh, body => model%mesh%element_body([element, other]), &
                  materials => model%mesh%element_material([element, other]))
-         boundary%body = body
+         boundary%body = body(1)
          boundary%materials = [minval(materials), maxval(materials)]
-         first = findloc(covers(stresses, body, materials(1)) &
-            .or. covers(stresses, body, materials(2)), .true., 1)
+         first = findloc(covers(stresses, body(1), materials(1)) &
+            .or. covers(stresses, body(2), materials(2)), .true., 1)
          boundary%card = stresses(first)%card
          boundary%meant = any(stresses%meant .and. &
-                              (covers(stresses, body, materials(1)) &
-                              .or. covers(stresses, body, materials(2))))
+                              (covers(stresses, body(1), materials(1)) &
+                              .or. covers(stresses, body(2), materials(2))))
          normal = mesh%coordinates(:, nodes(2)) - mesh%coordinates(:, nodes(1))
          normal = [normal(2), -normal(1)]/norm2(normal)
          do k = 1, 2
             associate (position => mesh%coordinates(:, nodes(k)))
-               here = traction(stress_before(stresses, body, materials(1), position(2)), normal)
-               there = traction(stress_before(stresses, body, materials(2), position(2)), normal)
+               here = traction(stress_before(stresses, body(1), materials(1), position(2)), normal)
+               there = traction(stress_before(stresses, body(2), materials(2), position(2)), normal)
                boundary%traction = max(boundary%traction, norm2(here), norm2(there))
                jump = norm2(here - there)
                if (k > 1 .and. .not. jump > (1.0_wp + alike)*boundary%jump) cycle

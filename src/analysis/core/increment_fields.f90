@@ -3,6 +3,7 @@ module axijoint_analysis_core_increment_fields
    use axijoint_analysis_core_cuts, only : cut_resultants
    use axijoint_analysis_core_cut_motion, only : cut_motion
    use axijoint_analysis_core_face_reactions, only : face_reactions
+   use axijoint_analysis_core_joint_peaks, only : find_joint_peaks
    use axijoint_analysis_core_joint_resultants, only : joint_resultants
    use axijoint_analysis_core_joint_work, only : joint_energy
    use axijoint_analysis_core_nodal_stress, only : smooth_stress
@@ -118,6 +119,7 @@ contains
       smooth = .true.
       if (present(smoothed)) smooth = smoothed
       call take_joint_results(structure%joint_points, field, results)
+      call find_joint_peaks(structure, field, results)
       call recover(model, structure, loading, peak, field, results)
       if (smooth) call smooth_stress(model, structure%equations, results)
       call cut_resultants(model, structure, loading, field, results)

@@ -9,7 +9,7 @@ module axijoint_analysis_core_remarks
    use axijoint_analysis_core_totals, only : largest_displacement, peak_type
    use axijoint_base_kinds, only : wp, degree
    use axijoint_base_text, only : to_text, count_of, name_of
-   use axijoint_element_joint_law, only : joint_law_type, opening_reversible, eta
+   use axijoint_element_joint_law, only : joint_law_type, opening_reversible, eta, state_stick
    use axijoint_fe_element_kind, only : is_reduced, reduced_hint
    use axijoint_joints_field, only : joint_field_type, n_across_gaps, n_fading
    use axijoint_joints_history, only : history_type
@@ -78,6 +78,18 @@ contains
             'work and dissipation are sums over the increments that SERIES of KEEP keeps: of longer steps than were made')
       end associate
    end function remarks_on
+
+   !> What it tells of a run without equilibrium that no joint point sticks: nothing if some do
+   pure function nothing_sticks_text(results) result(text)
+      !> The results
+      type(results_type), intent(in) :: results
+      !> The end of a sentence
+      character(len=:), allocatable :: text
+
+      text = ''
+      if (size(results%joint_state) == 0 .or. any(results%joint_state == state_stick)) return
+      text = '; no joint point sticks, so joints may carry no more: given displacements (MOVEDFACES) go past a limit'
+   end function nothing_sticks_text
 
    !> Increments that were halved where joints slip: the path is another one then
    subroutine remark_on_steps(results, remarks)
@@ -182,8 +194,7 @@ contains
       if (allocated(results%mechanism)) then
          call add(remarks, results%mechanism, elsewhere=.true.)
       else if (.not. (results%converged .or. history%verdict%converged)) then
-         call add(remarks, 'the last equilibrium was at the load factor '// &
-                                         to_text(history%reached))
+         call add(remarks, 'the last equilibrium was at the load factor '//to_text(history%reached)//nothing_sticks_text(results))
       end if
       if (allocated(results%idle)) then
          do i = 1, size(results%idle)
@@ -201,6 +212,8 @@ contains
       if (history%n_faded > 0) call add(remarks, fading_text(history))
       if (results%keeps_slip) call add(remarks, 'joints slipped under larger loads: what was wrong then stays in the slip '// &
          'and is not counted in the errors')
+      if (results%turns_slip) call add(remarks, 'joints slide along their bodies and, by torque, round them: how far depends '// &
+         'on the way there, of which estimates of errors know nothing; more increments show how much')
       if (history%verdict%at_rounding .and. .not. results%unsettled > 0.0_wp) then
          call add(remarks, 'rounding allows no smaller residual ratio: the stress of open '// &
             'joints so '// &

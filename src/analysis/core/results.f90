@@ -13,7 +13,7 @@ module axijoint_analysis_core_results
    use axijoint_solver_entry, only : solver_entry_type
    implicit none
    private
-   public :: results_type, mode_solve_type, ordering_type, remark_type, nodal_stress_type, &
+   public :: results_type, peak_type, mode_solve_type, ordering_type, remark_type, nodal_stress_type, &
              error_share_type, round_type, stiffer_type
    public :: source_discretization, source_harmonics, source_planes, source_iteration, &
       source_solver, source_sum, &
@@ -34,6 +34,16 @@ module axijoint_analysis_core_results
    integer, parameter :: lateral_90 = 5, moment_90 = 6
    !> Number of resultants
    integer, parameter :: n_resultants = 6
+
+   !> An extreme value and where it stands
+   type :: peak_type
+      !> The value; negative if there is none
+      real(wp) :: value = -1.0_wp
+      !> Index of the node or joint point; 0 if there is none
+      integer :: place = 0
+      !> Angle theta [radian]
+      real(wp) :: angle = 0.0_wp
+   end type peak_type
 
    !> How well the equations of one mode were solved
    type :: mode_solve_type
@@ -212,6 +222,9 @@ module axijoint_analysis_core_results
       real(wp), allocatable :: joint_stress(:, :, :)
       !> Stick, slip or open, shape (joint points, planes); `state_` parameters
       integer, allocatable :: joint_state(:, :)
+      !> Largest pressure and largest shear stress of joints: on the planes of joints that open or slip; if there are none,
+      !> anywhere round the circle
+      type(peak_type) :: pressure, shear
       !> States at the ends of the increments, the last one being that of these results
       type(increment_state_type), allocatable :: states(:)
       !> Convergence path; empty for a linear job
@@ -229,6 +242,8 @@ module axijoint_analysis_core_results
       logical :: at_rest = .false.
       !> Whether joints have slipped under loads that were larger: what the estimates tell is of the last loads alone
       logical :: keeps_slip = .false.
+      !> Whether torque slides joints that other loads slide, too, in few increments: estimates know nothing of the way there
+      logical :: turns_slip = .false.
       !> Whether elements lock, as finer ones do: estimates see little of what that leaves
       logical :: locks = .false.
       !> Error of displacements or joint stresses that the iterations leave, where it is more than

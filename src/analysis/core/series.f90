@@ -8,7 +8,7 @@ module axijoint_analysis_core_series
    use axijoint_assembly_force, only : joint_force
    use axijoint_assembly_unit_loads, only : in_situ_force, in_situ_joint_stress
    use axijoint_base_kinds, only : wp
-   use axijoint_element_joint_law, only : state_slip, state_open, eta
+   use axijoint_element_joint_law, only : state_slip, state_open
    use axijoint_fe_mode, only : mode_type, same_mode
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_model, only : model_type
@@ -110,13 +110,10 @@ contains
          series%case_factor(:, i) = state%case_factor
          series%iterations(i) = count(final%path%increment == state%increment)
          series%equilibrium(i) = merge(1, 0, place < size(final%states) .or. final%converged)
-         series%residual(i) = residual_of(final, state%increment, now%residual_ratio)
+         series%residual(i) = residual_of(final, state, now%residual_ratio)
          series%displacement(i) = largest_vector(final%modes, now%displacement)
-         if (size(now%joint_state) > 0) then
-            series%pressure(i) = max(0.0_wp, maxval(-now%joint_stress(eta, :, :)))
-            series%shear(i) = sqrt(maxval(now%joint_stress(1, :, :)**2 + &
-                                          now%joint_stress(3, :, :)**2))
-         end if
+         series%pressure(i) = max(0.0_wp, now%pressure%value)
+         series%shear(i) = max(0.0_wp, now%shear%value)
          series%n_slip(i) = count(now%joint_state == state_slip)
          series%n_open(i) = count(now%joint_state == state_open)
          series%applied(:, i) = now%applied
@@ -202,20 +199,25 @@ contains
       end do
    end function in_situ_work
 
-   !> Residual of the last load step of an increment, if joints were iterated on
-   pure real(wp) function residual_of(final, increment, whole) result(residual)
+   !> Residual of a state, if joints were iterated on: that of the load step that ended there, which another may have
+   !> followed that found no equilibrium
+   pure real(wp) function residual_of(final, state, whole) result(residual)
       !> Results at the end
       type(results_type), intent(in) :: final
-      !> The increment
-      integer, intent(in) :: increment
+      !> The state
+      type(increment_state_type), intent(in) :: state
       !> Residual found from the stresses
       real(wp), intent(in) :: whole
 
+      real(wp), parameter :: rounding = 1.0e-12_wp  ! two load factors are halves of an increment to the sixth power apart
       integer :: k
 
       residual = whole
       do k = 1, size(final%residuals)
-         if (final%residuals(k)%increment == increment) residual = final%residuals(k)%whole
+         associate (record => final%residuals(k))
+            if (record%increment == state%increment .and. &
+                abs(record%load_factor - state%load_factor) <= rounding*abs(state%load_factor)) residual = record%whole
+         end associate
       end do
    end function residual_of
 

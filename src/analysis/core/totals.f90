@@ -1,17 +1,23 @@
 !> Sums of harmonics at an angle, and the extreme values of a run
 module axijoint_analysis_core_totals
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
-   use axijoint_analysis_core_results, only : results_type
+   use axijoint_analysis_core_results, only : results_type, peak_type
    use axijoint_base_kinds, only : wp, pi
-   use axijoint_element_joint_law, only : eta
    use axijoint_fe_mode, only : mode_type, meridional, circumferential, family_symmetric
    implicit none
    private
    public :: circle_type, new_circle, total_displacement, total_stress, n_unknowns
-   public :: peak_type, largest_displacement, largest_vector, largest_pressure, count_states
+   public :: peak_type, of_length, of_pressure, of_shear, of_component, measure, largest, largest_displacement, &
+      largest_vector, count_states
 
-   !> Intervals of the circle in the search for the largest displacement
-   integer, parameter :: search_intervals = 72
+   !> What of three components the largest is looked for of: the length of all; the second, turned round; the length of the
+   !> two others; any of them, without its sign
+   integer, parameter :: of_length = 1, of_pressure = 2, of_shear = 3, of_component = 4
+
+   !> Intervals of the circle in the search for it: at least so many, and in a wave of the highest harmonic
+   integer, parameter :: least_intervals = 72, intervals_of_wave = 8
+   !> A value that beats another by less is the same: the first of them stays
+   real(wp), parameter :: same = 1.0e-9_wp
 
    !> Factors of all modes at one angle
    type :: circle_type
@@ -20,16 +26,6 @@ module axijoint_analysis_core_totals
       !> Of r and z components, and of theta components, in the order of the results
       real(wp), allocatable :: meridional(:), circumferential(:)
    end type circle_type
-
-   !> An extreme value and where it stands
-   type :: peak_type
-      !> The value; negative if there is none
-      real(wp) :: value = -1.0_wp
-      !> Index of the node or joint point; 0 if there is none
-      integer :: place = 0
-      !> Angle theta [radian]
-      real(wp) :: angle = 0.0_wp
-   end type peak_type
 
 contains
 
@@ -92,8 +88,7 @@ contains
       n_unknowns = sum(results%solves%n_equations)
    end function n_unknowns
 
-   !> Largest length of the displacement vector at steps of 5 degrees, at the first node that has it. The modes of a
-   !> node together cannot give more than the sum of their amplitudes, by which most nodes need not be looked at
+   !> Largest length of the displacement vector, at the first node that has it
    pure function largest_displacement(modes, displacement) result(peak)
       !> The modes
       type(mode_type), intent(in) :: modes(:)
@@ -102,50 +97,141 @@ contains
       !> Length, node, angle
       type(peak_type) :: peak
 
+      peak = largest(modes, displacement, of_length)
+   end function largest_displacement
+
+   !> The largest of sums of harmonics round the circle, at the first place that has it. The modes of a place together
+   !> cannot give more than the sum of their amplitudes, by which most places need not be looked at
+   pure function largest(modes, amplitude, what) result(peak)
+      !> The modes
+      type(mode_type), intent(in) :: modes(:)
+      !> Amplitudes of two components that are even in a symmetric mode and one that is odd, shape (3, places, modes)
+      real(wp), intent(in) :: amplitude(:, :, :)
+      !> One of the `of_` parameters
+      integer, intent(in) :: what
+      !> Value, place, angle
+      type(peak_type) :: peak
+
       real(wp), parameter :: rounding = 1.0e-12_wp
-      type(circle_type) :: circles(0:search_intervals)
+      type(circle_type), allocatable :: circles(:)
       type(peak_type) :: likely
       real(wp), allocatable :: total(:, :)
-      real(wp) :: most(size(displacement, 2))
-      integer :: node, i, k, last
+      real(wp) :: most(size(amplitude, 2)), step, farther
+      integer :: place, i, k, n, last
 
       if (size(most) == 0 .or. size(modes) == 0) return
-      last = search_intervals
-      if (all(modes%family == family_symmetric)) last = search_intervals/2
+      n = max(least_intervals, intervals_of_wave*maxval(modes%harmonic))
+      step = 2.0_wp*pi/real(n, wp)
+      ! what lies between two angles is larger by no more than this part, twice what one wave has there
+      farther = 2.0_wp*(1.0_wp - cos(0.5_wp*maxval(modes%harmonic)*step))
+      last = n
+      if (all(modes%family == family_symmetric)) last = n/2
+      allocate (circles(0:last))
       do i = 0, last
-         circles(i) = new_circle(modes, 2.0_wp*pi*real(i, wp)/real(search_intervals, wp))
+         circles(i) = new_circle(modes, 2.0_wp*pi*real(i, wp)/real(n, wp))
       end do
-      total = abs(displacement(:, :, 1))
+      total = abs(amplitude(:, :, 1))
       do k = 2, size(modes)
-         total = total + abs(displacement(:, :, k))
+         total = total + abs(amplitude(:, :, k))
       end do
-      most = (1.0_wp + rounding)*sqrt(sum(total**2, 1))
+      do place = 1, size(most)
+         most(place) = (1.0_wp + rounding)*abs(measure(what, total(:, place)))
+      end do
       call look(maxloc(most, 1, mask=ieee_is_finite(most)), likely)
-      do node = 1, size(most)
-         if (ieee_is_finite(most(node)) .and. most(node) >= likely%value .and. most(node) > peak%value) &
-            call look(node, peak)
+      do place = 1, size(most)
+         if (ieee_is_finite(most(place)) .and. most(place) >= likely%value .and. most(place) > peak%value) &
+            call look(place, peak)
       end do
 
    contains
 
-      !> Look round a node
-      pure subroutine look(node, peak)
-         !> The node; 0 if there is none
-         integer, intent(in) :: node
+      !> Look round a place
+      pure subroutine look(place, peak)
+         !> The place; 0 if there is none
+         integer, intent(in) :: place
          !> The largest so far
          type(peak_type), intent(inout) :: peak
 
-         real(wp) :: length
+         type(peak_type) :: here
+         real(wp) :: value
          integer :: i
 
-         if (node == 0) return
+         if (place == 0) return
          do i = 0, last
-            length = norm2(total_displacement(displacement(:, node, :), circles(i)))
-            if (length > peak%value) peak = peak_type(length, node, circles(i)%angle)
+            value = measure(what, total_displacement(amplitude(:, place, :), circles(i)))
+            if (value > here%value) here = peak_type(value, place, circles(i)%angle)
          end do
+         if (here%place == 0) return
+         if (here%value + farther*abs(here%value) > peak%value) call climb(here)
+         if (here%value > peak%value + same*abs(peak%value)) peak = here
       end subroutine look
 
-   end function largest_displacement
+      !> Find the largest between the angles beside one, by golden sections
+      pure subroutine climb(here)
+         !> The largest of the angles; takes what is larger between them
+         type(peak_type), intent(inout) :: here
+
+         real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
+         integer, parameter :: sections = 36  ! to 3e-8 of the step: the value to rounding
+         real(wp) :: from, to, a, b, at_a, at_b
+         integer :: i
+
+         from = here%angle - step
+         to = here%angle + step
+         a = to - golden*(to - from)
+         b = from + golden*(to - from)
+         at_a = value_at(here%place, a)
+         at_b = value_at(here%place, b)
+         do i = 1, sections
+            if (at_a > at_b) then
+               to = b
+               b = a
+               at_b = at_a
+               a = to - golden*(to - from)
+               at_a = value_at(here%place, a)
+            else
+               from = a
+               a = b
+               at_a = at_b
+               b = from + golden*(to - from)
+               at_b = value_at(here%place, b)
+            end if
+         end do
+         if (max(at_a, at_b) <= here%value + same*abs(here%value)) return
+         here%angle = modulo(merge(a, b, at_a > at_b), 2.0_wp*pi)
+         here%value = max(at_a, at_b)
+      end subroutine climb
+
+      !> The value of a place at an angle
+      pure real(wp) function value_at(place, angle)
+         !> The place
+         integer, intent(in) :: place
+         !> The angle [radian]
+         real(wp), intent(in) :: angle
+
+         value_at = measure(what, total_displacement(amplitude(:, place, :), new_circle(modes, angle)))
+      end function value_at
+
+   end function largest
+
+   !> What is looked for of three components
+   pure real(wp) function measure(what, x)
+      !> One of the `of_` parameters
+      integer, intent(in) :: what
+      !> The components
+      real(wp), intent(in) :: x(3)
+
+      select case (what)
+      case (of_length)
+         measure = norm2(x)
+      case (of_pressure)
+         measure = -x(2)
+      case (of_shear)
+         measure = hypot(x(1), x(3))
+      case default
+         measure = maxval(abs(x))
+      end select
+   end function measure
 
    !> Its length alone; zero if there is none
    pure real(wp) function largest_vector(modes, displacement) result(largest)
@@ -159,28 +245,6 @@ contains
       peak = largest_displacement(modes, displacement)
       largest = max(0.0_wp, peak%value)
    end function largest_vector
-
-   !> Largest pressure -sigma of the joint points; its value is negative if
-   !> there is no joint or all joints are in tension
-   pure function largest_pressure(results) result(peak)
-      !> Results
-      type(results_type), intent(in) :: results
-      !> Pressure, joint point, angle
-      type(peak_type) :: peak
-
-      integer :: point, plane
-
-      do plane = 1, size(results%joint_stress, 3)
-         do point = 1, size(results%joint_stress, 2)
-            associate (pressure => -results%joint_stress(eta, point, plane))
-               if (.not. ieee_is_finite(pressure)) cycle
-               if (pressure > peak%value .or. peak%place == 0) then
-                  peak = peak_type(pressure, point, results%plane_angles(plane))
-               end if
-            end associate
-         end do
-      end do
-   end function largest_pressure
 
    !> Number of joint points times planes in a state
    pure integer function count_states(results, state)

@@ -1,9 +1,9 @@
 !> The discretization error of a run: energy norm, displacements, joint stresses
 module axijoint_analysis_error_discretization
    use omp_lib, only : omp_get_wtime
-   use axijoint_analysis_core_results, only : results_type
+   use axijoint_analysis_core_results, only : results_type, peak_type
    use axijoint_analysis_core_structure, only : structure_type
-   use axijoint_analysis_core_totals, only : largest_vector
+   use axijoint_analysis_core_totals, only : largest, largest_vector, of_component
    use axijoint_analysis_error_largest_stress, only : largest_elastic_stress
    use axijoint_analysis_error_rounding, only : is_slight, rounding_energy, rounding_stress
    use axijoint_analysis_error_solid_error, only : solid_errors
@@ -14,7 +14,6 @@ module axijoint_analysis_error_discretization
    use axijoint_fe_mode, only : mode_type, mode_integral
    use axijoint_joints_field, only : joint_field_type, stress_amplitude
    use axijoint_joints_floating, only : add_motions
-   use axijoint_joints_planes, only : new_view
    use axijoint_joints_residual, only : ratio
    use axijoint_model_model, only : model_type, can_yield_at
    implicit none
@@ -92,8 +91,7 @@ contains
                         structure%judged .and. .not. can_yield_at(model, &
                         structure%joint_points%material))
          largest = max(0.0_wp, largest, largest_elastic_stress( &
-            structure%joint_points(elastic), new_view(results%plane_angles, results%modes), &
-            mesh_error%jump(:, elastic, :)))
+            structure%joint_points(elastic), results%modes, mesh_error%jump(:, elastic, :)))
          associate (rounding => rounding_stress(structure%joint_points, results%discretization%largest_displacement, &
                                                 size(results%displacement, 2)))
             if (all(carried <= rounding .or. .not. structure%judged) .and. largest <= maxval(rounding, structure%judged)) &
@@ -132,7 +130,8 @@ contains
       !> Energy, shape (modes), and no less than the largest stress of each point, shape (points)
       real(wp), allocatable, intent(out) :: energy(:), carried(:)
 
-      real(wp), allocatable :: stress(:, :)  ! threads have small stacks
+      real(wp), allocatable :: stress(:, :, :)
+      type(peak_type) :: peak
       integer :: i, k
 
       allocate (energy(size(results%modes)), source=0.0_wp)
@@ -140,18 +139,23 @@ contains
          estimate%joint_amplitude = energy
          allocate (carried(size(points)), source=0.0_wp)
          if (size(points) == 0) return
-         allocate (stress(3, size(points)))
+         allocate (stress(3, size(points), size(results%modes)))
          do k = 1, size(results%modes)
-            stress(:, :) = stress_amplitude(points, results%modes(k), results%displacement(:, :, k), field, k)
+            stress(:, :, k) = stress_amplitude(points, results%modes(k), results%displacement(:, :, k), field, k)
             do i = 1, size(points)
-               energy(k) = energy(k) + 0.5_wp*points(i)%weight*energy_density(stress(:, i), points(i)%stiffness)
-               carried(i) = carried(i) + maxval(abs(stress(:, i)))
+               energy(k) = energy(k) + 0.5_wp*points(i)%weight*energy_density(stress(:, i, k), points(i)%stiffness)
+               carried(i) = carried(i) + maxval(abs(stress(:, i, k)))
             end do
             energy(k) = mode_integral(results%modes(k))*energy(k)
-            estimate%joint_amplitude(k) = max(0.0_wp, maxval(maxval(abs(stress), 1), mask=structure%judged))
+            estimate%joint_amplitude(k) = max(0.0_wp, maxval(maxval(abs(stress(:, :, k)), 1), mask=structure%judged))
          end do
-         estimate%joint_scale = max(yielding_stress, &
-            maxval(maxval(maxval(abs(results%joint_stress), 3), 1), mask=structure%judged))
+         if (size(structure%yielding) > 0) then
+            estimate%joint_scale = max(yielding_stress, &
+               maxval(maxval(maxval(abs(results%joint_stress), 3), 1), mask=structure%judged))
+         else
+            peak = largest(results%modes, stress(:, pack([(i, i=1, size(points))], structure%judged), :), of_component)
+            estimate%joint_scale = max(yielding_stress, peak%value)
+         end if
       end associate
    end subroutine note_joints
 

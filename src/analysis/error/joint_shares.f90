@@ -150,7 +150,7 @@ contains
          do k = 1, size(displacement, 3)
             jump(:, :, k) = joint_jump(points, displacement(:, :, k))
          end do
-         largest = largest_elastic_stress(points, structure%planes, jump)
+         largest = largest_elastic_stress(points, structure%modes, jump)
       end associate
    end function elastic_change
 

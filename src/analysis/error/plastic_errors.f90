@@ -61,7 +61,7 @@ contains
          call last_loads(model, results%states, loads)
          errors%loaded = allocated(loads%steered)
          shares(yield_iteration)%load = results%residual_ratio
-         errors%turned_back = turns_back(model, combination)
+         errors%turned_back = turns_back(model, combination, results%states(size(results%states))%increment)
          errors%at_limit = .not. (results%converged .or. loads%held .or. errors%loaded)
          if (errors%turned_back .or. errors%at_limit) return
          call show_progress(progress, 'estimating errors of bodies that yield')
@@ -88,18 +88,22 @@ contains
    end subroutine find_moved
 
    !> Whether loads are taken back on the way: what stays then of plastic strain no single step knows
-   pure logical function turns_back(model, combination)
+   pure logical function turns_back(model, combination, last)
       !> The job
       type(model_type), intent(in) :: model
       !> Factors of its load cases
       type(combination_type), intent(in) :: combination
+      !> Increments that were begun; all if absent
+      integer, intent(in), optional :: last
 
       type(increment_state_type) :: steps(size(model%increments))
-      integer :: i
+      integer :: i, n
 
       steps = loads_of_increments(model, combination)
+      n = size(steps)
+      if (present(last)) n = last
       turns_back = .false.
-      do i = 2, size(steps)
+      do i = 2, n
          associate (now => steps(i)%case_factor, before => steps(i - 1)%case_factor)
             turns_back = turns_back .or. any(now*before < 0.0_wp .or. abs(now) < abs(before))
          end associate

@@ -12,6 +12,8 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
    use axijoint_assembly_equations, only : equations_type
    use axijoint_base_kinds, only : wp
+   use axijoint_element_joint_law, only : xi, theta, state_slip
+   use axijoint_fe_mode, only : is_torsion
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_history, only : history_type
@@ -65,6 +67,7 @@ contains
       ! what slip has left is as wrong as the mesh was under the loads that are gone
       if (unloaded(history)) mesh_error%known = .false.
       results%keeps_slip = keeps_slip(history)
+      results%turns_slip = turns_slip(structure, history)
    end subroutine estimate_yielding_errors
 
    !> Whether joints slipped before the last step, and a load was larger at the end of an increment than it is now, or acted
@@ -97,6 +100,39 @@ contains
          end do
       end do
    end function keeps_slip
+
+   !> Whether torque slides joints that other loads slide, too. Where slip turns from the one direction to the other within an
+   !> increment, the state at its end is that of a way there which is straight: twice as many increments on a pile pushed down
+   !> and twisted, near its limit, change more than meshes do
+   pure logical function turns_slip(structure, history)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+
+      !> Increments that make a way there; shares of the shear that slides joints that are worth a word: round the bodies on
+      !> the whole, and along them anywhere
+      integer, parameter :: many = 40
+      real(wp), parameter :: much = 0.1_wp, little = 0.01_wp
+      real(wp) :: shear, round, along, force(3)
+      integer :: i, j
+
+      turns_slip = .false.
+      if (.not. any(is_torsion(structure%modes)) .or. size(history%states) + 1 >= many) return
+      shear = 0.0_wp
+      round = 0.0_wp
+      along = 0.0_wp
+      do j = 1, size(history%field%stress, 3)
+         do i = 1, size(history%field%stress, 2)
+            if (history%field%state(i, j) /= state_slip) cycle
+            force = structure%joint_points(structure%yielding(i))%weight*history%field%stress(:, i, j)
+            shear = shear + hypot(force(xi), force(theta))
+            round = round + force(theta)
+            along = along + abs(force(xi))
+         end do
+      end do
+      turns_slip = abs(round) > much*shear .and. along > little*shear
+   end function turns_slip
 
    !> Find the state in which the joints are wholly balanced, the change to that and its effect, unless they are there
    subroutine balance(structure, history, other, n_nodes, left)

@@ -4,7 +4,7 @@
 !> that each go as far as the energy falls
 module axijoint_analysis_fine_difference
    use axijoint_analysis_fine_conditions, only : hold, take_reactions
-   use axijoint_analysis_fine_level, only : fine_level_type, fine_load_type
+   use axijoint_analysis_fine_level, only : most_fine, fine_level_type, fine_load_type
    use axijoint_analysis_fine_mesh, only : prolong, restrict
    use axijoint_analysis_fine_smoother, only : factor_blocks, solve_blocks
    use axijoint_assembly_equations, only : equations_type, solve_mode
@@ -124,9 +124,9 @@ contains
             call left_force(level, equations, k, load, displacement(:, :, k), points, &
                excess(:, :, k), room)
             if (present(steps)) then
-               call descend(level, equations, k, steps(k), room, difference)
+               call descend(level, equations, k, steps(k), allocated(load%initial%temperature), room, difference)
             else
-               call descend(level, equations, k, most_steps, room, difference)
+               call descend(level, equations, k, most_steps, allocated(load%initial%temperature), room, difference)
             end if
             difference%known(k) = difference%known(k) .and. are_numbers(difference%displacement(:, :, k)) .and. &
                are_numbers(difference%jump(:, :, k))
@@ -191,13 +191,15 @@ contains
    !> until what the blocks would add to them is small. That is added without a product for how far to go:
    !> as far as the blocks alone would have gone in the step before. Where the coarse mesh is no good guide, until
    !> a step is small; where it is none, blocks and coarse mesh go by turns
-   subroutine descend(level, equations, k, steps, room, difference)
+   subroutine descend(level, equations, k, steps, heated, room, difference)
       !> The fine level
       type(fine_level_type), intent(in) :: level
       !> Equations of the coarse mesh, factored
       type(equations_type), intent(in) :: equations
       !> Place of the mode, and steps at most where the coarse mesh is a guide
       integer, intent(in) :: k, steps
+      !> Whether strain comes from heat: what that leaves is soon found, and hides how far the rest is from it
+      logical, intent(in) :: heated
       !> Factors of the blocks; forces, then what is left of them
       type(room_type), intent(inout) :: room
       !> Takes the difference
@@ -234,7 +236,7 @@ contains
             if (step == 1) then
                astray = .not. length >= no_guide
                if (astray) exit
-               guided = length >= usual .and. of_blocks >= usual
+               guided = length >= usual .and. of_blocks >= usual .and. .not. heated
             end if
             call go(level, equations, k, length, step, room, difference, small)
             if (small .and. .not. guided) exit
@@ -384,15 +386,21 @@ contains
       !> Takes jumps, shape (3, points)
       real(wp), allocatable, intent(out) :: jump(:, :)
 
-      integer :: k
+      real(wp) :: fine(3, size(level%joint_points))
+      integer :: k, m
 
       change(:, :n) = length*d(:, level%stiffness%place(:n))
-      do k = 1, size(level%coarse_points)
-         associate (nodes => level%coarse_points(k)%nodes(:2*level%coarse_points(k)%n_pairs))
+      do k = 1, size(level%joint_points)
+         associate (nodes => level%joint_points(k)%nodes(:2*level%joint_points(k)%n_pairs))
             change(:, nodes) = length*d(:, level%stiffness%place(nodes))
          end associate
       end do
-      jump = joint_jump(level%coarse_points, change)
+      fine = joint_jump(level%joint_points, change)
+      allocate (jump(3, size(level%coarse_points)))
+      do k = 1, size(jump, 2)
+         m = min(most_fine, size(fine, 2) - level%first_fine(k) + 1)  ! beyond those of the joint factors are zero
+         jump(:, k) = matmul(fine(:, level%first_fine(k):level%first_fine(k) + m - 1), level%of_fine(:m, k))
+      end do
    end subroutine see_change
 
    !> Whether a change of a mode is small beside what it comes to

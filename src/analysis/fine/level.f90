@@ -16,15 +16,21 @@ module axijoint_analysis_fine_level
    use axijoint_base_team, only : team_type
    use axijoint_element_joint, only : new_joint_point, lower_node
    use axijoint_fe_mode, only : mode_type
+   use axijoint_fe_shape, only : lagrange
+   use axijoint_linalg_band_cholesky, only : factor_band, solve_band
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points, joint_rule
    use axijoint_model_mesh, only : mesh_type
    use axijoint_model_model, only : model_type
    use axijoint_order_graph, only : graph_type
    implicit none
    private
+   public :: most_fine
    public :: fine_level_type, fine_load_type, lay_out_level, is_laid_out, bytes_to_come, form_stiffness, form_by_one, &
       take_conditions, take_fine_model, new_fine_load
    public :: share_stiffness
+
+   !> Points of the halves of a joint at most
+   integer, parameter :: most_fine = 6
 
    !> The fine level
    type :: fine_level_type
@@ -38,6 +44,11 @@ module axijoint_analysis_fine_level
       !> The same joint points in the joints of the coarse mesh, and the joint points of the coarse
       !> mesh in the fine joints, with their weights
       type(model_joint_point_type), allocatable :: on_coarse(:), coarse_points(:)
+      !> What of the jumps at the points of the fine joints a joint of the coarse mesh has at each of its points: the polynomial
+      !> through these that is nearest to them, so that what slides it in all is the same. First fine point, shape (points); factors
+      !> of it and those that follow, shape (most_fine, points)
+      integer, allocatable :: first_fine(:)
+      real(wp), allocatable :: of_fine(:, :)
       !> Stiffness in blocks of two nodes; all that follows is in the order of its rows
       type(node_blocks_type) :: stiffness
       !> The rank that has formed it, if the others are still to be told
@@ -203,11 +214,13 @@ contains
       type(fine_level_type), intent(inout) :: level
 
       type(model_joint_point_type) :: before
-      real(wp) :: x(3), w(3)
+      real(wp) :: x(3), w(3), weight(most_fine)
       integer :: joint, half, k, n, n_fine, n_coarse
 
       level%coarse_points = new_joint_points(model)
       level%on_coarse = level%joint_points
+      allocate (level%first_fine(size(level%coarse_points)))
+      allocate (level%of_fine(most_fine, size(level%coarse_points)), source=0.0_wp)
       n_fine = 0
       n_coarse = 0
       do joint = 1, size(model%mesh%joint_label)
@@ -226,6 +239,9 @@ contains
                point%stiffness = before%stiffness
             end associate
          end do
+         level%first_fine(n_coarse - n + 1:n_coarse) = n_fine + 1
+         weight(:2*n) = level%joint_points(n_fine + 1:n_fine + 2*n)%weight
+         level%of_fine(:2*n, n_coarse - n + 1:n_coarse) = nearest_polynomial(x(:n), weight(:2*n))
          do half = 1, 2
             do k = 1, n
                n_fine = n_fine + 1
@@ -238,6 +254,38 @@ contains
          end do
       end do
    end subroutine place_joint_points
+
+   !> Values at the points of a joint of the polynomial through them that is nearest to values at those of its halves
+   pure function nearest_polynomial(x, weight) result(factors)
+      !> Points of the joint, on [-1, 1]
+      real(wp), intent(in) :: x(:)
+      !> Weights of those of its halves, one half after the other
+      real(wp), intent(in) :: weight(:)
+      !> Factors of the values, shape (points of the halves, points of the joint)
+      real(wp) :: factors(size(weight), size(x))
+
+      real(wp), dimension(size(x), size(weight)) :: value, right
+      real(wp) :: matrix(size(x), size(x)), below(0:size(x) - 1, size(x))
+      integer :: i, half, n, info
+
+      n = size(x)
+      do half = 1, 2
+         do i = 1, n
+            value(:, n*(half - 1) + i) = lagrange(x, 0.5_wp*x(i) + half - 1.5_wp)
+         end do
+      end do
+      right = value*spread(weight, 1, n)
+      matrix = matmul(right, transpose(value))
+      below = 0.0_wp
+      do i = 1, n
+         below(:n - i, i) = matrix(i:, i)
+      end do
+      call factor_band(n, n - 1, below, info)
+      do i = 1, 2*n
+         call solve_band(n, n - 1, below, right(:, i))
+      end do
+      factors = transpose(right)
+   end function nearest_polynomial
 
    !> A point of a joint
    pure function in_joint(mesh, joint, x) result(point)

@@ -341,13 +341,14 @@ contains
       !> Shape (points)
       logical :: judged(size(positions, 2))
 
+      real(wp), parameter :: rounding = 1.0e-9_wp  ! of units, does not decide
       integer :: k, i
 
       judged = .true.
       do k = 1, size(places)
          do i = 1, size(judged)
             judged(i) = judged(i) .and. norm2(positions(:, i) - &
-               mesh%coordinates(:, places(k)%node)) >= places(k)%distance
+               mesh%coordinates(:, places(k)%node)) >= (1.0_wp - rounding)*places(k)%distance
          end do
       end do
       if (.not. any(judged)) judged = .true.

@@ -6,14 +6,15 @@ module axijoint_deck_section_points
    use axijoint_deck_job_card, only : card_type, cards_of, next_card
    use axijoint_deck_job_deck, only : deck_type, read_section_type, stage_requests
    use axijoint_deck_text_common_fields, only : number, length, body
+   use axijoint_deck_text_diagnostics, only : add_warning
    use axijoint_deck_text_entry, only : is_given, integer_of, reals_of, text_of, is_good, &
-      card_fault, field_fault
+      card_fault, field_fault, first_card
    use axijoint_deck_text_field, only : text_field, described
    use axijoint_deck_text_labels, only : check_label
    use axijoint_fe_shape, only : shape_element
    use axijoint_model_locate, only : locate_points
    use axijoint_model_mesh, only : mesh_type
-   use axijoint_model_request, only : point_type, line_type
+   use axijoint_model_request, only : point_type, line_type, line_point_type
    implicit none
    private
    public :: points_section, place_points
@@ -38,7 +39,7 @@ contains
       section%fields = [described(number('the point', 1), 'point', limits='each number once'), &
                         described([length('r', 6, 0.0_wp), length('z', 16)], &
                                   'r z: place [length]', limits='in the mesh'), &
-                        described(body(26), 'body', blank='any'), &
+                        described(body(26), 'body', blank='the lowest there'), &
                         described(text_field('the name', 31, 46), 'name', &
                                   blank='point and its number', limits='each once')]
       section%fields(field_name)%required = .false.
@@ -70,7 +71,7 @@ contains
       end do
    end subroutine read_points
 
-   !> Find the elements of the points
+   !> Find the elements of the points. Where bodies meet that move by themselves, the lowest is followed unless one is named
    subroutine place_points(deck, mesh)
       !> The deck
       type(deck_type), intent(inout), target :: deck
@@ -78,9 +79,9 @@ contains
       type(mesh_type), intent(in) :: mesh
 
       type(card_type) :: card
+      type(point_type) :: other
       type(line_type) :: line
-      real(wp), allocatable :: shape(:), derivative(:, :)
-      integer :: k, n
+      integer :: k, body, apart
 
       card = cards_of(deck, keyword_points)
       do while (next_card(card))
@@ -95,25 +96,65 @@ contains
             line%last = point%position
             line%n_points = 2
             call locate_points(mesh, line)
+            apart = 0
+            body = 0
             do k = 1, size(line%points)
-               associate (element => line%points(k)%element)
-                  if (point%body > 0 .and. mesh%element_body(element) /= point%body) cycle
-                  n = mesh%element_size(element)
-                  allocate (shape(n), derivative(2, n))
-                  call shape_element(n, line%points(k)%natural(1), line%points(k)%natural(2), &
-                                     shape, derivative)
-                  point%nodes = mesh%element_nodes(:n, element)
-                  call move_alloc(shape, point%shape)
-                  deallocate (derivative)
-                  exit
+               associate (here => mesh%element_body(line%points(k)%element))
+                  if (point%body > 0 .and. here /= point%body) cycle
+                  call place_in_element(mesh, line%points(k), other)
+                  if (body > 0 .and. apart == 0) then
+                     if (.not. same_nodes(point, other)) apart = max(here, body)
+                  end if
+                  if (body > 0 .and. here >= body) cycle
+                  body = here
+                  point%nodes = other%nodes
+                  point%shape = other%shape
                end associate
             end do
-            if (.not. allocated(point%nodes)) &
+            if (body == 0) &
                call card_fault(card, 'the point does not lie in '// &
                                trim(merge('the body', 'the mesh', point%body > 0)), &
                                allowed='a point in an element, or at its edge')
+            if (apart > 0 .and. point%body == 0) &
+               call add_warning(deck%diagnostics, first_card(card), 0, 0, 'point '//to_text(point%label)// &
+                                ' lies on bodies '//to_text(body)//' and '//to_text(apart)// &
+                                ', which move apart: it follows body '//to_text(body), &
+                                mend='name the body in columns 26-30')
          end associate
       end do
    end subroutine place_points
+
+   !> Nodes of an element, and what they have of a point in it
+   subroutine place_in_element(mesh, place, point)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> Where the point is
+      type(line_point_type), intent(in) :: place
+      !> Takes both
+      type(point_type), intent(inout) :: point
+
+      real(wp), allocatable :: derivative(:, :)
+      integer :: n
+
+      n = mesh%element_size(place%element)
+      point%nodes = mesh%element_nodes(:n, place%element)
+      if (allocated(point%shape)) deallocate (point%shape)
+      allocate (point%shape(n), derivative(2, n))
+      call shape_element(n, place%natural(1), place%natural(2), point%shape, derivative)
+   end subroutine place_in_element
+
+   !> Whether two points are at the same nodes, but for rounding
+   pure logical function same_nodes(a, b)
+      !> The points, in their elements
+      type(point_type), intent(in) :: a, b
+
+      real(wp), parameter :: rounding = 1.0e-6_wp
+      integer :: k
+
+      same_nodes = .true.
+      do k = 1, size(a%nodes)
+         if (abs(a%shape(k)) > rounding) same_nodes = same_nodes .and. any(b%nodes == a%nodes(k))
+      end do
+   end function same_nodes
 
 end module axijoint_deck_section_points

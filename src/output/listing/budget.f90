@@ -205,19 +205,20 @@ contains
       character(len=:), allocatable :: text
 
       type(error_share_type) :: total
-      logical :: at_least
+      logical :: at_least, in_any_case
 
       total = sum_of_shares(results%budget)
       text = "nothing that is known leaves an error"
       if (max(total%displacement, total%joint_stress) <= 0.0_wp) return
       associate (budget => results%budget)
          ! what joints would answer moves the bodies, too
-         at_least = results%keeps_slip .or. results%locks .or. &
+         in_any_case = results%keeps_slip .or. results%turns_slip .or. results%locks
+         at_least = in_any_case .or. &
             (total%joint_stress >= 0.0_wp .and. .not. is_known(budget, (budget%joint_stress)))
          text = "displacement "//quantity_text(budget, (budget%displacement), total%displacement, at_least)
          if (total%joint_stress < 0.0_wp) return
          text = text//"; joint stress "//quantity_text(budget, (budget%joint_stress), &
-            total%joint_stress, results%keeps_slip .or. results%locks)
+            total%joint_stress, in_any_case)
       end associate
       if (.not. has_singular(results)) return
       if (any(results%singular%distance > 0.0_wp)) text = text//", away from infinite ones"

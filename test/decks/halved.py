@@ -1,0 +1,71 @@
+"""Told errors against what elements of half the size change, where the coarse mesh misleads: shafts that slip beside a toe that bears,
+torque near what joints can carry, heat that hides bending"""
+import json
+import os
+
+import hard_scenes as scenes
+from support import Test, read_text, write
+
+# Least part of the change by half the elements that is told: the error is that change and what still finer meshes add to it; and of
+# that by elements of a quarter of the size
+LEAST = {2: 0.7, 4: 0.5}
+
+
+def pile(n, *, nodes, stiffness, friction, loads, weight=False, formulation='PLAIN', depth=10.0, outer=8.0, harmonic=0):
+    """A pile in ground, joints along its shaft and below its toe; `n` times as many elements along both sides"""
+    deck = scenes.Deck('Pile', harmonic, None)
+    deck.lines[-1] = f'{harmonic},,,,,{formulation}'
+    deck.material(1, 2e4, 0.2, 2.4).material(2, 50.0, 0.3, 1.8).law(1, stiffness, 0.0, friction).details(1, slip='RESULTANT')
+    below = 1.6*depth
+    deck.block(1, 1, nodes, 2*n, 4*n, 0.0, -depth, 0.5, 0.0)
+    deck.block(2, 2, nodes, 5*n, 4*n, 0.5, -depth, outer, 0.0, ratio=8.0).block(2, 2, nodes, 2*n, 2*n, 0.0, -below, 0.5, -depth)
+    deck.block(2, 2, nodes, 5*n, 2*n, 0.5, -below, outer, -depth, ratio=8.0)
+    deck.faces((1, 1, 0.0, 0.0, 0.5, 0.0), (2, 1, 0.5, -depth, 0.5, 0.0), (3, 2, 0.5, -depth, 0.5, 0.0), (4, 1, 0.0, -depth, 0.5, -depth),
+               (5, 2, 0.0, -depth, 0.5, -depth), (6, 2, 0.0, -below, outer, -below), (7, 2, outer, -below, outer, 0.0))
+    deck.add('INTERFACES', (1, 2, 3), (1, 4, 5)).add('FIXEDFACES', (6, '111'), (7, '101'))
+    if weight:
+        deck.add('CASE', (1, 'weight')).add('GRAVITY', (-10.0,)).add('INSITU', (2, 0.0, 18.0, 0.6), (1, 0.0, 18.0, 0.6, None, None, 'MEANT'))
+        deck.add('CASE', (2, 'loads'))
+    deck.resultants(*((1, *load) for load in loads))
+    if weight:
+        deck.add('COMBINE', (1, 1, 1.0, 2, 1.0)).add('INCREMENTS', (1.0, None, None, 1), (1.0, None, None, 2))
+    return deck.text()
+
+
+def rod(n):
+    """A rod on a plate that is held outside, heated and pulled"""
+    deck = scenes.Deck('Heated rod', 0, None).add('MATERIALS', (1, 2e5, 0.3, 0.0, 1.2e-5))
+    deck.block(1, 1, 4, 2*n, 7*n, 0.0, 0.0, 0.05, 0.3).block(1, 1, 4, 2*n, n, 0.0, 0.3, 0.05, 0.32)
+    deck.block(1, 1, 4, 4*n, n, 0.05, 0.3, 0.3, 0.32).faces((1, 1, 0.0, 0.0, 0.05, 0.0), (2, 1, 0.3, 0.3, 0.3, 0.32))
+    return deck.add('FIXEDFACES', (2, '111')).resultants((1, 'AXIAL', 0.002)).add('TEMPERATURES', (1, 0, 12.0)).text()
+
+
+SCENES = {
+    'shaft that slips, 4-node': lambda n: pile(n, nodes=4, stiffness=[2e3]*3, friction=20.0, loads=[('AXIAL', -2.0)], formulation='BBAR'),
+    'shaft that slips, 8-node': lambda n: pile(n, nodes=8, stiffness=[2e3]*3, friction=20.0, loads=[('AXIAL', -2.0)]),
+    'stiffer shaft': lambda n: pile(n, nodes=4, stiffness=[2e4]*3, friction=20.0, loads=[('AXIAL', -2.0)]),
+    'torque': lambda n: pile(n, nodes=8, stiffness=[2e3]*3, friction=20.0, loads=[('AXIAL', -18.0), ('TORQUE', 18.0)], weight=True,
+                             depth=2.0, outer=4.0, harmonic=1),
+    'heated rod': rod}
+
+
+def told(scene, times):
+    """A test: what is told of the mesh's part of the error of the largest displacement, and what finer elements change of it"""
+    def check(folder, program):
+        largest, error = [], None
+        for n in (1, times):
+            ran = program.run('run', write(folder, 'mesh.dat', scene(n)), '-o', folder)
+            if ran.ended_with(0):
+                return ran.ended_with(0)
+            summary = json.loads(read_text(os.path.join(folder, 'mesh.json')))
+            largest.append(summary['increments'][-1]['largest_displacement'])
+            error = error or summary['errors']['discretization']['displacement']
+        change = abs(largest[1] - largest[0])/largest[0]
+        return [] if error is not None and error >= LEAST[times]*change else [f'told {error}, {times} times finer: {change}']
+    return check
+
+
+def tests(program):
+    """The tests of this module"""
+    return [Test(f'halved: {name}', lambda folder, check=told(scene, 4 if scene is rod else 2): check(folder, program))
+            for name, scene in SCENES.items()]
