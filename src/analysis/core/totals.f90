@@ -116,14 +116,14 @@ contains
       type(circle_type), allocatable :: circles(:)
       type(peak_type) :: likely
       real(wp), allocatable :: total(:, :)
-      real(wp) :: most(size(amplitude, 2)), step, farther
+      real(wp) :: most(size(amplitude, 2)), step, curved
       integer :: place, i, k, n, last
 
       if (size(most) == 0 .or. size(modes) == 0) return
       n = max(least_intervals, intervals_of_wave*maxval(modes%harmonic))
       step = 2.0_wp*pi/real(n, wp)
-      ! what lies between two angles is larger by no more than this part, twice what one wave has there
-      farther = 2.0_wp*(1.0_wp - cos(0.5_wp*maxval(modes%harmonic)*step))
+      ! part by which a wave between three angles may differ from a parabola through them: a multiple of the square of what it rises
+      curved = 4.0_wp*(1.0_wp - cos(0.5_wp*maxval(modes%harmonic)*step))**2
       last = n
       if (all(modes%family == family_symmetric)) last = n/2
       allocate (circles(0:last))
@@ -153,16 +153,23 @@ contains
          type(peak_type), intent(inout) :: peak
 
          type(peak_type) :: here
-         real(wp) :: value
+         real(wp) :: value(0:last), beside(2), bend, vertex
          integer :: i
 
          if (place == 0) return
          do i = 0, last
-            value = measure(what, total_displacement(amplitude(:, place, :), circles(i)))
-            if (value > here%value) here = peak_type(value, place, circles(i)%angle)
+            value(i) = measure(what, total_displacement(amplitude(:, place, :), circles(i)))
+            if (value(i) > here%value) here = peak_type(value(i), place, circles(i)%angle)
          end do
          if (here%place == 0) return
-         if (here%value + farther*abs(here%value) > peak%value) call climb(here)
+         i = maxloc(value, 1) - 1
+         beside = value([max(i - 1, 0), min(i + 1, last)])
+         if (i == 0) beside(1) = value(merge(1, last - 1, last < n))
+         if (i == last) beside(2) = value(merge(last - 1, 1, last < n))
+         bend = 2.0_wp*here%value - beside(1) - beside(2)
+         vertex = here%value
+         if (bend > 0.0_wp) vertex = vertex + (beside(2) - beside(1))**2/(8.0_wp*bend)
+         if (vertex + curved*abs(vertex) >= max(peak%value, likely%value)) call climb(here)
          if (here%value > peak%value + same*abs(peak%value)) peak = here
       end subroutine look
 
