@@ -3,12 +3,12 @@
 module axijoint_joints_joint_errors
    use omp_lib, only : omp_get_wtime
    use axijoint_base_kinds, only : wp
-   use axijoint_element_joint_law, only : memory_type, lost_at_opening, eta
+   use axijoint_element_joint_law, only : memory_type, lost_at_opening, xi, eta, theta, state_slip
    use axijoint_fe_mode, only : mode_type, family_symmetric, family_antisymmetric
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, trial_of
    use axijoint_joints_mechanism, only : mechanism_type, find_mechanism, hold_nothing, settle
-   use axijoint_joints_planes, only : new_planes, synthesize
+   use axijoint_joints_planes, only : new_planes, synthesize, analyse
    use axijoint_joints_scene, only : scene_type, jumps, jumps_of_mode
    use axijoint_joints_settle, only : find_again
    implicit none
@@ -184,7 +184,7 @@ contains
       if (allocated(with_more)) then
          call find_again(condensed, extended, memory, with_more, changes%harmonics%known)
          associate (m => size(scene%modes))
-            changes%harmonics%stress = largest_change(scene, on_more, with_more, 1, rounding)
+            changes%harmonics%stress = beyond_twice(extended, with_more, m)*largest_change(scene, on_more, with_more, 1, rounding)
             changes%harmonics%excess = with_more%excess(:, :, :m) - on_more%excess
             changes%harmonics%offset = offset_between(condensed, finer_scene, on_more, extended, with_more, rounding)
             with_more%excess(:, :, :m) = 0.0_wp
@@ -195,6 +195,68 @@ contains
       end if
       changes%harmonics%seconds = omp_get_wtime() - clock
    end subroutine find_joint_changes
+
+   !> What all harmonics change of joint stress over what those up to 2 M do: 1 where they fall as fast as usual. Where slip turns
+   !> round from one plane to the next, pressure has a peak there to which each doubling of M adds as much again, and no number of
+   !> them is enough: then so much more as a geometric series would add, four times at most
+   function beyond_twice(scene, field, m) result(factor)
+      !> Planes and modes up to 2 M
+      type(scene_type), intent(in) :: scene
+      !> The state with all of them
+      type(joint_field_type), intent(in) :: field
+      !> Number of modes up to M
+      integer, intent(in) :: m
+      !> The factor
+      real(wp) :: factor
+
+      !> Least M of which two octaves are known; part of the octave before that one has, at most, where nothing is added; most
+      integer, parameter :: least = 4
+      real(wp), parameter :: usual = 0.5_wp, most = 4.0_wp
+      real(wp) :: upper, middle, share
+      real(wp), allocatable :: stress(:, :, :)
+      integer :: k, highest
+
+      factor = 1.0_wp
+      highest = maxval(scene%modes(:m)%harmonic)
+      if (highest < least) return
+      stress = analyse(scene%planes, field%stress)
+      share = 0.0_wp
+      upper = 0.0_wp
+      do k = 1, size(stress, 2)
+         associate (above => sum(abs(stress(eta, k, m + 1:))))
+            if (.not. above > upper .or. .not. &
+                      turns_round(all(scene%modes%family == family_symmetric), field%state(k, :), field%stress(:, k, :))) cycle
+            upper = above
+            middle = sum(abs(stress(eta, k, :m)), mask=2*scene%modes(:m)%harmonic > highest)
+            share = 1.0_wp
+            if (middle > 0.0_wp) share = min(1.0_wp, upper/middle)
+         end associate
+      end do
+      factor = min(most, max(1.0_wp, (1.0_wp - usual)/max(1.0_wp - share, tiny(1.0_wp))))
+   end function beyond_twice
+
+   !> Whether slip round the bodies turns round from one plane to the next
+   pure logical function turns_round(half, state, stress)
+      !> Whether the planes are those of half of what is symmetric, the ends between two that mirror each other
+      logical, intent(in) :: half
+      !> Stick, slip or open, shape (planes), and stress, shape (3, planes)
+      integer, intent(in) :: state(:)
+      real(wp), intent(in) :: stress(:, :)
+
+      !> Part of the shear stress that is round the bodies
+      real(wp), parameter :: round = 0.7_wp
+      logical :: slides(size(state))
+      integer :: n
+
+      n = size(state)
+      slides = state == state_slip .and. abs(stress(theta, :)) > round*hypot(stress(xi, :), stress(theta, :))
+      turns_round = any(slides(:n - 1) .and. slides(2:) .and. stress(theta, :n - 1)*stress(theta, 2:) < 0.0_wp)
+      if (half) then
+         turns_round = turns_round .or. any(slides([min(2, n), max(1, n - 1)]))
+      else
+         turns_round = turns_round .or. (slides(1) .and. slides(n) .and. stress(theta, 1)*stress(theta, n) < 0.0_wp)
+      end if
+   end function turns_round
 
    !> Change of the floating motions from one state to another, but for motions that nothing resists and no load acts on in
    !> either
