@@ -264,6 +264,8 @@ contains
             if (max(place(i), place(j)) < from .or. max(place(i), place(j)) > to) cycle
             k = block_at(blocks, max(place(i), place(j)), min(place(i), place(j)))
             call add_block(local(:, :, :, p), place(i) < place(j), blocks%parts(:, k))
+            ! tip of a slit: one node on both sides of a joint
+            if (i /= j .and. place(i) == place(j)) call add_block(local(:, :, :, p), .true., blocks%parts(:, k))
          end do
       end do
    end subroutine scatter
