@@ -126,7 +126,9 @@ class Deck:
             lines += ["HARMONICS"] + [card(m) for m in self.harmonics]
         for keyword, cards in self.sections:
             lines += [keyword, *cards]
-        return "\n".join([*lines, "OUTPUT", card(0.0), "END"]) + "\n"
+        # a quarter of the shortest wave farther what is zero at 0 is largest
+        angles = [0.0, 90.0/self.highest] if self.highest else [0.0]
+        return "\n".join([*lines, "OUTPUT", card(*angles), "END"]) + "\n"
 
 
 def released_on_axis(r, mode):
