@@ -462,7 +462,8 @@ def open_combinations(path):
     found = [Result(file) for file in path.parent.iterdir() if pattern.fullmatch(file.name)]
     if not found:
         raise FileNotFoundError(f"no {name}.h5 or {name}.N.h5 in {path.parent}")
-    latest = max(found, key=lambda one: one.path.stat().st_mtime_ns)
+    own = [one for one in found if pathlib.PurePath(one.attributes.get("deck", "")).stem == name] or found  # else of another deck, or renamed
+    latest = max(own, key=lambda one: one.path.stat().st_mtime_ns)
     found = [one for one in found if one.deck == latest.deck]
     return {result.combination: result for result in sorted(found, key=lambda one: one.combination)}
 

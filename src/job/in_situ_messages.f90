@@ -206,11 +206,15 @@ contains
       !> Messages
       type(diagnostics_type), intent(inout) :: diagnostics
 
-      associate (labels => model%materials(boundary%materials)%label)
-         call tell(diagnostics, boundary%card, boundary%share(), &
-            'in-situ stresses of materials '// &
-                   to_text(labels(1))//' and '//to_text(labels(2))//' of body '// &
-                   to_text(boundary%body)// &
+      character(len=:), allocatable :: sides
+
+      associate (labels => model%materials(boundary%materials)%label, bodies => boundary%bodies)
+         if (bodies(1) == bodies(2)) then
+            sides = 'materials '//to_text(labels(1))//' and '//to_text(labels(2))//' of body '//to_text(bodies(1))
+         else
+            sides = 'bodies '//to_text(bodies(1))//' and '//to_text(bodies(2))//', which are bonded,'
+         end if
+         call tell(diagnostics, boundary%card, boundary%share(), 'in-situ stresses of '//sides// &
                    ' do not match: the traction on their boundary jumps by '// &
                    to_text(boundary%jump)//' at r = '// &
                    to_text(boundary%position(1))//', z = '//to_text(boundary%position(2))//', '// &

@@ -11,6 +11,7 @@ module axijoint_joints_joint_errors
    use axijoint_joints_planes, only : new_planes, synthesize, analyse
    use axijoint_joints_scene, only : scene_type, jumps, jumps_of_mode
    use axijoint_joints_settle, only : find_again
+   use axijoint_model_joint_points, only : stiffest_base
    implicit none
    private
    public :: joint_change_type, joint_changes_type, find_joint_changes, change_between, settled_change, &
@@ -184,7 +185,8 @@ contains
       if (allocated(with_more)) then
          call find_again(condensed, extended, memory, with_more, changes%harmonics%known)
          associate (m => size(scene%modes))
-            changes%harmonics%stress = beyond_twice(extended, with_more, m)*largest_change(scene, on_more, with_more, 1, rounding)
+            changes%harmonics%stress = beyond_twice(extended, with_more, m, condensed%points%proportion <= stiffest_base)* &
+               largest_change(scene, on_more, with_more, 1, rounding)
             changes%harmonics%excess = with_more%excess(:, :, :m) - on_more%excess
             changes%harmonics%offset = offset_between(condensed, finer_scene, on_more, extended, with_more, rounding)
             with_more%excess(:, :, :m) = 0.0_wp
@@ -199,13 +201,15 @@ contains
    !> What all harmonics change of joint stress over what those up to 2 M do: 1 where they fall as fast as usual. Where slip turns
    !> round from one plane to the next, pressure has a peak there to which each doubling of M adds as much again, and no number of
    !> them is enough: then so much more as a geometric series would add, four times at most
-   function beyond_twice(scene, field, m) result(factor)
+   function beyond_twice(scene, field, m, slides) result(factor)
       !> Planes and modes up to 2 M
       type(scene_type), intent(in) :: scene
       !> The state with all of them
       type(joint_field_type), intent(in) :: field
       !> Number of modes up to M
       integer, intent(in) :: m
+      !> Whether points are soft enough to slide, shape (points)
+      logical, intent(in) :: slides(:)
       !> The factor
       real(wp) :: factor
 
@@ -224,7 +228,7 @@ contains
       upper = 0.0_wp
       do k = 1, size(stress, 2)
          associate (above => sum(abs(stress(eta, k, m + 1:))))
-            if (.not. above > upper .or. .not. &
+            if (.not. slides(k) .or. .not. above > upper .or. .not. &
                       turns_round(all(scene%modes%family == family_symmetric), field%state(k, :), field%stress(:, k, :))) cycle
             upper = above
             middle = sum(abs(stress(eta, k, :m)), mask=2*scene%modes(:m)%harmonic > highest)

@@ -1,5 +1,6 @@
 !> Results in the folder of a run that seem to be its own and are not
 module axijoint_output_other_results
+   use axijoint_base_system, only : path_kind, path_file
    use axijoint_base_text, only : to_text
    use axijoint_base_whole_file, only : names_in
    use axijoint_job_combination, only : combination_label
@@ -21,6 +22,7 @@ contains
 
       character(len=:), allocatable :: name, ending, names, first
       integer :: from, to, n
+      logical :: other
 
       text = ''
       name = job_name(job%deck)
@@ -30,9 +32,10 @@ contains
       from = 1
       do while (from <= len(names))
          to = from + index(names(from:), new_line('a')) - 2
-         associate (found => names(from:to))
-            if (is_of_combination(found(len(name) + 1:len(found) - len(ending))) .and. &
-                .not. is_own(job, found(:len(found) - len(ending)))) then
+         associate (found => names(from:to), own => names(from:to - len(ending)))
+            other = is_of_combination(own(len(name) + 1:)) .and. .not. is_own(job, own)
+            if (other) other = .not. has_deck(job, own)
+            if (other) then
                n = n + 1
                if (n == 1) first = found
                if (found < first) first = found
@@ -56,6 +59,20 @@ contains
       is_of_combination = len(rest) == 0
       if (len(rest) > 1) is_of_combination = rest(1:1) == '.' .and. verify(rest(2:), '0123456789') == 0
    end function is_of_combination
+
+   !> Whether another deck stands beside that of the job whose results have this name
+   logical function has_deck(job, name)
+      !> The job
+      type(job_type), intent(in) :: job
+      !> Name of the results
+      character(len=*), intent(in) :: name
+
+      integer :: last
+
+      last = index(job%deck, job_name(job%deck), back=.true.) - 1
+      has_deck = name /= job_name(job%deck)
+      if (has_deck) has_deck = path_kind(job%deck(:last)//name//job%deck(last + len(job_name(job%deck)) + 1:)) == path_file
+   end function has_deck
 
    !> Whether results are of the job
    pure logical function is_own(job, name)

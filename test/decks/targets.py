@@ -176,6 +176,20 @@ def not_known(program, folder):
     return faults + close('displacement', found[1], found[0], 0.005*found[1])
 
 
+def torn(program, folder):
+    """Which bonds break hangs on their order: where some hold and some broke, no target of joint stress is met, one of displacements may be"""
+    faults = []
+    text = read_text(os.path.join(INPUTS, 'case2_balanced.dat')).replace('INCREMENTS\n', 'LAWDETAILS\n1,RESULTANT,BOND\nINCREMENTS\n')
+    for quantity, target, law, known in (('JOINTS', 60, text, False), ('DISPL', 20, text, True),
+                                         ('JOINTS', 60, text.replace('BOND', 'REVERSIBLE'), True)):
+        summary, _ = solved(program, folder, 'torn', law.replace('\nEND', f'\nERROR\n{target}, {quantity}, 1\nEND'))
+        said = any('which bonds break hangs on their order' in message for message in summary['messages'])
+        line = summary['errors']['in_words']
+        faults += expected(f'{quantity}, {known}: told as not met', not known, said)
+        faults += expected(f'{quantity}, {known}: "at least" in {line!r}', law is text, 'joint stress at least' in line)
+    return faults
+
+
 def told(program, folder):
     """A target that is not met is a warning, once, whatever is shown besides; one that is met is none"""
     faults = []
@@ -241,7 +255,7 @@ def tests(program):
     return ([test('disc', disc), test("the paper's loop", paper_method), test('centroid', centroid), test('blocks that face others', facing),
              test('graded', graded), test('graded blocks conform', conforming),
              test('other divisions', other_divisions),
-             test('limits', limits), test('not known', not_known), test('told', told), test('shared room', shared_room), test('options', swept),
+             test('limits', limits), test('not known', not_known), test('torn bonds', torn), test('told', told), test('shared room', shared_room), test('options', swept),
              test('loads of a combination', loads_of_combinations)]
             + [test('memory', back_again)]
             + [test(f'case {number}, {nodes} nodes', case, number, nodes, refined)

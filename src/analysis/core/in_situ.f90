@@ -53,8 +53,8 @@ module axijoint_analysis_core_in_situ
 
    !> A common boundary of two materials of a body whose in-situ stresses differ
    type :: in_situ_boundary_type
-      !> The body, and the materials (indices)
-      integer :: body = 0, materials(2) = 0
+      !> The bodies, which are one or bonded, the lower first, and the materials (indices) in their order
+      integer :: bodies(2) = 0, materials(2) = 0
       !> Largest jump of the traction on it [stress], and r and z of its place
       real(wp) :: jump = 0.0_wp, position(2) = 0.0_wp
       !> Largest traction on it [stress]

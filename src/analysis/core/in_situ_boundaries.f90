@@ -70,8 +70,12 @@ contains
 
       associate (mesh => model%mesh, body => model%mesh%element_body([element, other]), &
                  materials => model%mesh%element_material([element, other]))
-         boundary%body = body(1)
-         boundary%materials = [minval(materials), maxval(materials)]
+         boundary%bodies = body
+         boundary%materials = materials
+         if (body(1) > body(2) .or. (body(1) == body(2) .and. materials(1) > materials(2))) then
+            boundary%bodies = body(2:1:-1)
+            boundary%materials = materials(2:1:-1)
+         end if
          first = findloc(covers(stresses, body(1), materials(1)) &
             .or. covers(stresses, body(2), materials(2)), .true., 1)
          boundary%card = stresses(first)%card
@@ -107,7 +111,7 @@ contains
          stress(2)*normal(2)]
    end function traction
 
-   !> Place of a boundary of the same body and materials; 0 if there is none
+   !> Place of a boundary of the same bodies and materials; 0 if there is none
    pure integer function place_of(boundary, boundaries) result(place)
       !> The boundary
       type(in_situ_boundary_type), intent(in) :: boundary
@@ -115,7 +119,7 @@ contains
       type(in_situ_boundary_type), intent(in) :: boundaries(:)
 
       do place = size(boundaries), 1, -1
-         if (boundaries(place)%body == boundary%body .and. &
+         if (all(boundaries(place)%bodies == boundary%bodies) .and. &
              all(boundaries(place)%materials == boundary%materials)) return
       end do
    end function place_of

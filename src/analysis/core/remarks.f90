@@ -17,7 +17,7 @@ module axijoint_analysis_core_remarks
    use axijoint_joints_watch, only : runaway
    use axijoint_model_model, only : model_type, bodies_yield
    use axijoint_model_modes, only : greatest_divisor
-   use axijoint_model_request, only : goal_names, refinement_type, is_kept, keep_series
+   use axijoint_model_request, only : goal_joints, goal_names, refinement_type, is_kept, keep_series
    implicit none
    private
    public :: remarks_on, remark_on_goal, mechanism_text
@@ -212,6 +212,8 @@ contains
       if (history%n_faded > 0) call add(remarks, fading_text(history))
       if (results%keeps_slip) call add(remarks, 'joints slipped under larger loads: what was wrong then stays in the slip '// &
          'and is not counted in the errors')
+      if (results%torn) call add(remarks, 'some bonds broke and others hold: which of them hangs on their order, of which the '// &
+         'estimates of joint stress know nothing; more increments show how much')
       if (results%turns_slip) call add(remarks, 'joints slide along their bodies and, by torque, round them: how far depends '// &
          'on the way there, of which estimates of errors know nothing; more increments show how much')
       if (history%verdict%at_rounding .and. .not. results%unsettled > 0.0_wp) then
@@ -477,6 +479,8 @@ contains
                why = why//', as some load is concentrated in points'
          else if (last%error <= goal%target .and. results%locks) then
             why = 'elements lock'
+         else if (last%error <= goal%target .and. results%torn .and. goal%quantity == goal_joints) then
+            why = 'which bonds break hangs on their order'
          else if (last%error <= goal%target) then
             why = 'the share of '//trim(source_names(unknown))//' is not known'
          else if (size(results%rounds) >= goal%most_rounds) then

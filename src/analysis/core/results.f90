@@ -244,6 +244,8 @@ module axijoint_analysis_core_results
       logical :: keeps_slip = .false.
       !> Whether torque slides joints that other loads slide, too, in few increments: estimates know nothing of the way there
       logical :: turns_slip = .false.
+      !> Whether some bonds broke and others hold: which of them hangs on their order, of which estimates of joint stress know nothing
+      logical :: torn = .false.
       !> Whether elements lock, as finer ones do: estimates see little of what that leaves
       logical :: locks = .false.
       !> Error of displacements or joint stresses that the iterations leave, where it is more than

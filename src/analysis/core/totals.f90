@@ -169,57 +169,67 @@ contains
          bend = 2.0_wp*here%value - beside(1) - beside(2)
          vertex = here%value
          if (bend > 0.0_wp) vertex = vertex + (beside(2) - beside(1))**2/(8.0_wp*bend)
-         if (vertex + curved*abs(vertex) >= max(peak%value, likely%value)) call climb(here)
+         if (vertex + curved*abs(vertex) >= max(peak%value, likely%value)) &
+            call climb(modes, amplitude(:, place, :), what, step, here)
          if (here%value > peak%value + same*abs(peak%value)) peak = here
       end subroutine look
 
-      !> Find the largest between the angles beside one, by golden sections
-      pure subroutine climb(here)
-         !> The largest of the angles; takes what is larger between them
-         type(peak_type), intent(inout) :: here
+   end function largest
 
-         real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
-         integer, parameter :: sections = 36  ! to 3e-8 of the step: the value to rounding
-         real(wp) :: from, to, a, b, at_a, at_b
-         integer :: i
+   !> Find the largest of a place between the angles beside one, by golden sections
+   pure subroutine climb(modes, amplitude, what, step, peak)
+      !> The modes
+      type(mode_type), intent(in) :: modes(:)
+      !> Amplitudes of the place, shape (3, modes)
+      real(wp), intent(in) :: amplitude(:, :)
+      !> One of the `of_` parameters
+      integer, intent(in) :: what
+      !> How far the angles beside it are [radian]
+      real(wp), intent(in) :: step
+      !> The largest of the angles; takes what is larger between them
+      type(peak_type), intent(inout) :: peak
 
-         from = here%angle - step
-         to = here%angle + step
-         a = to - golden*(to - from)
-         b = from + golden*(to - from)
-         at_a = value_at(here%place, a)
-         at_b = value_at(here%place, b)
-         do i = 1, sections
-            if (at_a > at_b) then
-               to = b
-               b = a
-               at_b = at_a
-               a = to - golden*(to - from)
-               at_a = value_at(here%place, a)
-            else
-               from = a
-               a = b
-               at_a = at_b
-               b = from + golden*(to - from)
-               at_b = value_at(here%place, b)
-            end if
-         end do
-         if (max(at_a, at_b) <= here%value + same*abs(here%value)) return
-         here%angle = modulo(merge(a, b, at_a > at_b), 2.0_wp*pi)
-         here%value = max(at_a, at_b)
-      end subroutine climb
+      real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
+      integer, parameter :: sections = 36  ! to 3e-8 of the step: the value to rounding
+      real(wp) :: from, to, a, b, at_a, at_b
+      integer :: i
 
-      !> The value of a place at an angle
-      pure real(wp) function value_at(place, angle)
-         !> The place
-         integer, intent(in) :: place
+      from = peak%angle - step
+      to = peak%angle + step
+      a = to - golden*(to - from)
+      b = from + golden*(to - from)
+      at_a = value_at(a)
+      at_b = value_at(b)
+      do i = 1, sections
+         if (at_a > at_b) then
+            to = b
+            b = a
+            at_b = at_a
+            a = to - golden*(to - from)
+            at_a = value_at(a)
+         else
+            from = a
+            a = b
+            at_a = at_b
+            b = from + golden*(to - from)
+            at_b = value_at(b)
+         end if
+      end do
+      if (max(at_a, at_b) <= peak%value + same*abs(peak%value)) return
+      peak%angle = modulo(merge(a, b, at_a > at_b), 2.0_wp*pi)
+      peak%value = max(at_a, at_b)
+
+   contains
+
+      !> The value at an angle
+      pure real(wp) function value_at(angle)
          !> The angle [radian]
          real(wp), intent(in) :: angle
 
-         value_at = measure(what, total_displacement(amplitude(:, place, :), new_circle(modes, angle)))
+         value_at = measure(what, total_displacement(amplitude, new_circle(modes, angle)))
       end function value_at
 
-   end function largest
+   end subroutine climb
 
    !> What is looked for of three components
    pure real(wp) function measure(what, x)

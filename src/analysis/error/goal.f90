@@ -76,23 +76,27 @@ contains
       do i = 1, size(results%budget)
          associate (share => results%budget(i))
             if (share%source == source_solver) cycle
-            if (share_of(share, model%error_goal) >= 0.0_wp .and. .not. sees_part(share, results)) cycle
+            if (share_of(share, model%error_goal) >= 0.0_wp .and. .not. sees_part(share, model%error_goal, results)) cycle
             source = share%source
             return
          end associate
       end do
    end function unknown_source
 
-   !> Whether errors of the mesh are known in part: elements lock, or joints had no answer to them, and what that would move
-   !> is lacking in those of displacements
-   pure logical function sees_part(share, results)
+   !> Whether errors of the mesh are known in part: elements lock, bonds break in an order of their own, or joints had no answer
+   !> to them, and what that would move is lacking in those of displacements
+   pure logical function sees_part(share, goal, results)
       !> The share
       type(error_share_type), intent(in) :: share
+      !> The goal
+      type(error_goal_type), intent(in) :: goal
       !> Results with a budget
       type(results_type), intent(in) :: results
 
-      sees_part = share%source == source_discretization .and. (results%locks .or. share%joint_stress < 0.0_wp &
-         .and. any(results%budget%joint_stress >= 0.0_wp))
+      sees_part = .false.
+      if (share%source /= source_discretization) return
+      sees_part = results%locks .or. (results%torn .and. goal%quantity == goal_joints) .or. &
+         (share%joint_stress < 0.0_wp .and. any(results%budget%joint_stress >= 0.0_wp))
    end function sees_part
 
    !> Factor on a share

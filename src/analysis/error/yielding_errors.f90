@@ -12,7 +12,7 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
    use axijoint_assembly_equations, only : equations_type
    use axijoint_base_kinds, only : wp
-   use axijoint_element_joint_law, only : xi, theta, state_slip
+   use axijoint_element_joint_law, only : xi, theta, state_slip, opening_bond
    use axijoint_fe_mode, only : is_torsion
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_floating, only : add_motions
@@ -68,6 +68,7 @@ contains
       if (unloaded(history)) mesh_error%known = .false.
       results%keeps_slip = keeps_slip(history)
       results%turns_slip = turns_slip(structure, history)
+      results%torn = is_torn(history)
    end subroutine estimate_yielding_errors
 
    !> Whether joints slipped before the last step, and a load was larger at the end of an increment than it is now, or acted
@@ -100,6 +101,19 @@ contains
          end do
       end do
    end function keeps_slip
+
+   !> Whether some bonds broke and others hold
+   pure logical function is_torn(history)
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+
+      logical :: bonds(size(history%field%memory, 1))
+
+      bonds = history%scene%laws%opening == opening_bond .and. history%scene%laws%cohesion > 0.0_wp
+      associate (broken => history%field%memory%broken, of => spread(bonds, 2, size(history%field%memory, 2)))
+         is_torn = any(broken .and. of) .and. any(.not. broken .and. of)
+      end associate
+   end function is_torn
 
    !> Whether torque slides joints that other loads slide, too. Where slip turns from the one direction to the other within an
    !> increment, the state at its end is that of a way there which is straight: twice as many increments on a pile pushed down

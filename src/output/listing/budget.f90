@@ -218,7 +218,7 @@ contains
          text = "displacement "//quantity_text(budget, (budget%displacement), total%displacement, at_least)
          if (total%joint_stress < 0.0_wp) return
          text = text//"; joint stress "//quantity_text(budget, (budget%joint_stress), &
-            total%joint_stress, in_any_case)
+            total%joint_stress, in_any_case .or. results%torn)
       end associate
       if (.not. has_singular(results)) return
       if (any(results%singular%distance > 0.0_wp)) text = text//", away from infinite ones"

@@ -71,7 +71,7 @@ contains
          "share              r              z")
       do k = 1, size(findings%boundaries)
          associate (boundary => findings%boundaries(k))
-            write (words, format_pair) boundary%body, model%materials(boundary%materials)%label
+            write (words, format_pair) boundary%bodies(1), model%materials(boundary%materials)%label
             call file%put(words(:32)//columns([boundary%traction, boundary%jump, boundary%share(), &
                boundary%position], wide))
          end associate
@@ -133,7 +133,7 @@ contains
       do k = 1, size(findings%boundaries)
          associate (boundary => findings%boundaries(k))
             if (k > 1) json = json//", "
-            json = json//'{"body": '//json_number(boundary%body)//', "materials": '// &
+            json = json//'{"body": '//json_number(boundary%bodies(1))//', "materials": '// &
                json_integers((model%materials(boundary%materials)%label))//', "jump": '// &
                json_number(boundary%jump)// &
                ', "share": '//json_number(boundary%share())//'}'
