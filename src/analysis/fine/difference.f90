@@ -399,7 +399,7 @@ contains
       jump = joint_jump(level%coarse_points, change)
       fine = joint_jump(level%joint_points, change)
       do k = 1, size(jump, 2)
-         if (level%first_fine(k) == 0) cycle  ! nothing slides there
+         if (level%first_fine(k) == 0) cycle  ! too stiff to slide
          m = min(most_fine, size(fine, 2) - level%first_fine(k) + 1)  ! beyond those of the joint factors are zero
          associate (here => fine(:, level%first_fine(k):level%first_fine(k) + m - 1), factors => level%of_fine(:m, k))
             jump(xi, k) = dot_product(here(xi, :), factors)

@@ -20,7 +20,7 @@ module axijoint_analysis_fine_level
    use axijoint_linalg_band_cholesky, only : factor_band, solve_band
    use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points, joint_rule, stiffest_base
    use axijoint_model_mesh, only : mesh_type
-   use axijoint_model_model, only : model_type, can_yield_at
+   use axijoint_model_model, only : model_type
    use axijoint_order_graph, only : graph_type
    implicit none
    private
@@ -44,9 +44,9 @@ module axijoint_analysis_fine_level
       !> The same joint points in the joints of the coarse mesh, and the joint points of the coarse
       !> mesh in the fine joints, with their weights
       type(model_joint_point_type), allocatable :: on_coarse(:), coarse_points(:)
-      !> What a joint of the coarse mesh that can slide has at each of its points of the slip at the points of the fine joints: the
-      !> polynomial through these that is nearest to it, so that what slides it in all is the same. First fine point, zero where
-      !> nothing slides, shape (points); factors of it and those that follow, shape (most_fine, points)
+      !> What a joint of the coarse mesh has at each of its points of the slip at the points of the fine joints: the polynomial
+      !> through these that is nearest to it, so that what slides it in all is the same. First fine point, zero where a joint is
+      !> too stiff to slide, shape (points); factors of it and those that follow, shape (most_fine, points)
       integer, allocatable :: first_fine(:)
       real(wp), allocatable :: of_fine(:, :)
       !> Stiffness in blocks of two nodes; all that follows is in the order of its rows
@@ -239,8 +239,7 @@ contains
                point%stiffness = before%stiffness
             end associate
          end do
-         if (can_yield_at(model, model%mesh%joint_material(joint)) .and. before%proportion <= stiffest_base) &
-            level%first_fine(n_coarse - n + 1:n_coarse) = n_fine + 1
+         if (before%proportion <= stiffest_base) level%first_fine(n_coarse - n + 1:n_coarse) = n_fine + 1
          weight(:2*n) = level%joint_points(n_fine + 1:n_fine + 2*n)%weight
          level%of_fine(:2*n, n_coarse - n + 1:n_coarse) = nearest_polynomial(x(:n), weight(:2*n))
          do half = 1, 2
