@@ -9,7 +9,7 @@ module axijoint_job_in_situ_messages
    use axijoint_base_text, only : to_text, percent_text
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, add_warning
    use axijoint_fe_element_kind, only : is_reduced
-   use axijoint_model_load, only : covers, is_stressed
+   use axijoint_model_load, only : covers, initial_stress_type
    use axijoint_model_material, only : rule_gauss, rule_names
    use axijoint_model_model, only : model_type
    implicit none
@@ -100,7 +100,7 @@ contains
          mend='3 in columns 16-20 of CONTROL, or 8-node elements')
    end subroutine tell_rules
 
-   !> Whether 6-node triangles with the reduced rule have in-situ stress
+   !> Whether 6-node triangles with the reduced rule have in-situ stress that grows with depth: what does not is integrated exactly
    pure logical function has_loose_triangles(model) result(has)
       !> The job
       type(model_type), intent(in) :: model
@@ -113,11 +113,19 @@ contains
             associate (kind => mesh%kinds(mesh%element_kind(element)))
                if (kind%n_nodes /= 6 .or. .not. is_reduced(kind)) cycle
             end associate
-            has = has .or. any(is_stressed(model%initial_stresses) .and. &
+            has = has .or. any(grows(model%initial_stresses) .and. &
                covers(model%initial_stresses, mesh%element_body(element), mesh%element_material(element)))
          end do
       end associate
    end function has_loose_triangles
+
+   !> Whether in-situ stress grows with z
+   elemental logical function grows(state)
+      !> The in-situ stress
+      type(initial_stress_type), intent(in) :: state
+
+      grows = any(abs(state%gradient) > 0.0_wp)
+   end function grows
 
    !> 0 for nothing, 1 for a warning, 2 for an error
    pure integer function grade(share, of_whole)

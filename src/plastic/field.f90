@@ -5,6 +5,7 @@ module axijoint_plastic_field
    use axijoint_element_yield_law, only : elastic_strain
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_planes, only : planes_type, new_planes, synthesize, plane_weights
+   use axijoint_model_modes, only : greatest_divisor
    use axijoint_plastic_bodies, only : bodies_type
    use axijoint_plastic_elastic, only : n_unknowns
    implicit none
@@ -75,8 +76,8 @@ module axijoint_plastic_field
 
 contains
 
-   !> Planes for bodies: 2 M + 1 from 0 to pi unless said. M + 2 are almost singular, so harmonics
-   !> up to 1 take five
+   !> Planes for bodies: 2 M + 1 from 0 to pi unless said, M the highest harmonic there is. M + 2 are almost singular, so where
+   !> that is 1, or the only one (all repeats g times round the circle), there are five on each half of what repeats
    pure function body_planes(modes, n) result(planes)
       !> The modes
       type(mode_type), intent(in) :: modes(:)
@@ -85,9 +86,13 @@ contains
       !> The planes
       type(planes_type) :: planes
 
-      integer :: number
+      integer :: number, g, k
 
-      number = 2*max(2, maxval(modes%harmonic)) + 1
+      g = 0
+      do k = 1, size(modes)
+         g = greatest_divisor(g, modes(k)%harmonic)
+      end do
+      number = 2*max(2, 2*g, maxval(modes%harmonic)) + 1
       if (present(n)) then
          if (n > 0) number = n
       end if

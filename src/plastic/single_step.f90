@@ -42,16 +42,17 @@ module axijoint_plastic_single_step
       real(wp), allocatable :: steered(:)
       !> Load factor to begin with
       real(wp) :: factor = 0.0_wp
-      !> Whether what holds displacements that are given is asked for
-      logical :: held = .false.
+      !> Factors that the last increment adds, where it moves components that are held: what holds these is asked for, by its
+      !> work on what is added to their displacements. Not allocated else
+      real(wp), allocatable :: moved(:)
    end type single_load_type
 
    !> The state
    type :: single_state_type
       !> Whether the value is known well enough
       logical :: found = .false.
-      !> Load factor; or work of what holds components on the displacements that are given there
-      !> [force length]; or, if loads are given, largest component of what changed of the
+      !> Load factor; or work of what holds components on what the last increment adds to the displacements
+      !> that are given there [force length]; or, if loads are given, largest component of what changed of the
       !> displacement amplitudes [length]
       real(wp) :: value = 0.0_wp
       !> Displacement amplitudes, held ones too, shape (3, nodes, modes) [length]
@@ -113,6 +114,7 @@ contains
       type(body_load_type) :: load
       type(loading_type) :: loading, direction
       type(history_type) :: history
+      real(wp), allocatable :: added(:, :, :)
       type(way_type) :: way
       logical :: ended
       integer :: k
@@ -136,6 +138,11 @@ contains
          problem%steering%factor = loads%factor
          call note_pushed(problem, problem%steering%load, abs(loads%factor), more=.true.)
       end if
+      if (allocated(loads%moved)) then
+         call new_loading(model, joint_points, supports, equations%modes, equations%unit_loads, &
+            combination_type(0, loads%moved), direction)
+         added = direction%held
+      end if
       if (allocated(problem%joints)) then
          call begin_joint_step(problem%joints, pushed_modes(equations, load%right), loading%external)
          call set_initial_stress(model, condensed%points, loads%given, problem%joints%field)
@@ -147,13 +154,13 @@ contains
       allocate (state%displacement, mold=field%force)
       do
          call take_displacement(problem, field%unknowns, load, state%displacement)
-         call find_value(model, problem, field, loads, loading, way%iterate, state)
+         call find_value(model, problem, field, loads, loading, added, way%iterate, state)
          ! what is left moves the parts that joints alone hold, however little it is, and their rigid motions may be apart
          if (allocated(problem%joints)) then
             call take_displacement(problem, field%unknowns + way%iterate%response, load, state%displacement)
             call add_motions(problem%joints%condensed%floating, problem%joints%field%offset, state%displacement)
          end if
-         if (.not. (allocated(loads%steered) .or. loads%held)) &
+         if (.not. (allocated(loads%steered) .or. allocated(loads%moved))) &
             settling%size = maxval(abs(field%unknowns))
          call note(settling, state%value)
          call judge(problem, settling, way, state%found, ended)
@@ -245,10 +252,9 @@ contains
       if (allocated(load%held)) displacement = displacement + load%held
    end subroutine take_displacement
 
-   !> The value; of loads by virtual work on the displacements themselves, whose error is of second
-   !> order in theirs where all displacements grow in proportion. It is known long before the
-   !> residual is small
-   subroutine find_value(model, problem, field, loads, loading, iterate, state)
+   !> The value, by virtual work on the displacements themselves, or on the part of them that the last increment added if all
+   !> grow in proportion: its error is then of second order in theirs. It is known long before the residual is small
+   subroutine find_value(model, problem, field, loads, loading, added, iterate, state)
       !> The job
       type(model_type), intent(in) :: model
       !> The problem
@@ -258,6 +264,8 @@ contains
       !> The loads, what is asked for, and on the nodes
       type(single_load_type), intent(in) :: loads
       type(loading_type), intent(inout) :: loading
+      !> What the last increment adds to displacements that are given, shape (3, nodes, modes); not allocated if nothing
+      real(wp), allocatable, intent(in) :: added(:, :, :)
       !> What the state leaves out of balance
       type(iterate_type), intent(in) :: iterate
       !> The state, with displacements; takes the value
@@ -269,8 +277,9 @@ contains
       if (allocated(problem%steering%load)) then
          state%value = problem%steering%factor &
             - left/dot_product(problem%steering%load, field%unknowns)
-      else if (loads%held) then
-         state%value = held_work(model, problem, field, loading, state%displacement) - left
+      else if (allocated(loads%moved)) then
+         state%value = held_work(model, problem, field, loading, added, state%displacement) &
+            - left*sum(added*loading%held)/max(sum(loading%held**2), tiny(left))
       else
          state%value = maxval(abs(field%unknowns - field%begun))
       end if
@@ -294,8 +303,8 @@ contains
       field%force_before = field%force
    end subroutine note_in_situ
 
-   !> Work of what holds components on the displacements that are given there
-   real(wp) function held_work(model, problem, field, loading, displacement) result(work)
+   !> Work of what holds components on what the last increment adds to the displacements that are given there
+   real(wp) function held_work(model, problem, field, loading, added, displacement) result(work)
       !> The job
       type(model_type), intent(in) :: model
       !> The problem, for modes and bodies
@@ -304,8 +313,8 @@ contains
       type(body_field_type), intent(in) :: field
       !> The loads, with displacements that are given
       type(loading_type), intent(inout) :: loading
-      !> Displacement amplitudes, shape (3, nodes, modes)
-      real(wp), intent(in) :: displacement(:, :, :)
+      !> What is added to these, and displacement amplitudes, shape (3, nodes, modes)
+      real(wp), intent(in) :: added(:, :, :), displacement(:, :, :)
 
       real(wp), allocatable :: force(:, :)
       integer :: k
@@ -316,9 +325,9 @@ contains
       associate (bodies => problem%bodies, modes => problem%equations%modes)
          loading%initial%taken = on_all_points(bodies%place, field%amplitude, bodies%n_all)
          do k = 1, size(modes)
-            if (.not. any(abs(loading%held(:, :, k)) > 0.0_wp)) cycle
+            if (.not. any(abs(added(:, :, k)) > 0.0_wp)) cycle
             call solid_force(model, loading%initial, k, modes(k), displacement(:, :, k), force)
-            work = work + sum((force - loading%external(:, :, k))*loading%held(:, :, k))
+            work = work + sum((force - loading%external(:, :, k))*added(:, :, k))
          end do
       end associate
    end function held_work

@@ -460,6 +460,66 @@ def estimates(folder, program):
     return faults + expected('unloading that it did not come to', before['in_words'], beyond['in_words'])
 
 
+def slid(elements, harmonic=1):
+    """A rigid rough footing on clay of Tresca that is pressed down, then slid"""
+    return f"""TITLE
+A footing is pressed, then slid
+CONTROL
+{harmonic}, , , 2
+MATERIALS
+1, 200.0, 0.49
+YIELD
+1, TRESCA, 2.0
+BLOCKS
+1, 1, 8, {elements}, {elements}, 0.5, 0.2
+0.0, -3.0, 1.0, 0.0
+1, 1, 8, {elements}, {elements}, 5.0, 0.2
+1.0, -3.0, 4.0, 0.0
+FACES
+1, 1, 0.0, 0.0, 1.0, 0.0
+2, 1, 0.0, -3.0, 4.0, -3.0
+3, 1, 4.0, -3.0, 4.0, 0.0
+FIXEDFACES
+2, 111
+3, 111
+CASE
+1
+MOVEDFACES
+1, 0, , -0.1
+CASE
+2
+MOVEDFACES
+1, 1, 0.02, , -0.02
+COMBINE
+1, 1, 1.0, 2, 1.0
+INCREMENTS
+0.5, , 2000, 1
+0.5, , 2000, 1
+0.5, , 2000, 2
+0.5, , 2000, 2
+END
+"""
+
+
+def slid_footing(folder, program):
+    """Where displacements are given the error is that of what holds those of the last increment: of a footing that is pressed, then
+    slid, the force that slides it, whose work is small beside that of the other"""
+    told = run(program, folder, slid(8))['yielding']['errors']
+    found = [reaction(program, folder, slid(*mesh), 'force') for mesh in ((8, 1), (8, 3), (16, 1))]
+    return (within('harmonics', told['harmonics']['load'], found[0]/found[1] - 1.0, 0.5, 2.0)
+            + within('mesh', told['discretization']['load'], 2.0*(found[0]/found[2] - 1.0), 0.6, 3.0))
+
+
+def fewest_planes(folder, program):
+    """A single harmonic is seen on five planes of the quarter that repeats; a trace of m = 1 brings all harmonics and the half of the circle"""
+    found = []
+    for trace in ('', '2, 1, 1E-9\n'):
+        deck = cylinder((1.0,), 4, more=trace).replace('0, , , 2', '3, , , 2').replace('1, 0, 100.0', '1, 2, 150.0').replace(
+            'FIXEDFACES', 'RESTRAINTS\n1, 101, , , 1, 1\nFIXEDFACES').replace('2, 010', '2, 111')
+        found.append(run(program, folder, deck)['yielding']['planes'])
+    return expected('planes', [5, 7], found)
+
+
 def within(what, estimate, true, low, high):
     """A fault if an estimate over the true error is not between two bounds"""
     if estimate is not None and low*true <= estimate <= high*true:
@@ -905,7 +965,7 @@ def tests(program):
             made('joint or soil, Tresca', weaker_of_both('TRESCA')), made('families', families),
             made('harmonics', harmonics), made('back and forth', back_and_forth),
             made('disc in clay', disc_in_clay), made('footing on clay', footing_on_clay),
-            made('errors estimated', estimates), made('odd harmonics', odd_harmonics), made('joint in weight', joint_in_weight), made('history in situ', in_situ_history), made('bent', bent), made('parts', parts),
+            made('errors estimated', estimates), made('odd harmonics', odd_harmonics), made('sliding', slid_footing), made('fewest planes', fewest_planes), made('joint in weight', joint_in_weight), made('history in situ', in_situ_history), made('bent', bent), made('parts', parts),
             made('pulled out', pulled_out), made('found loads beside joints', found_loads),
             made('Newton beside joints', newton_beside_joints),
             made('cohesion that is lost', cohesion_that_is_lost),

@@ -51,14 +51,25 @@ contains
    pure function sum_of_yield_shares(errors) result(total)
       !> The errors
       type(yield_errors_type), intent(in) :: errors
-      !> Their sums; negative if none is known but that of the iteration, which alone says little
+      !> Their sums; negative if no error is known but that of the iteration, which alone says little
       type(yield_share_type) :: total
 
-      associate (load => errors%shares%load, displacement => errors%shares%displacement)
-         if (any(load(:yield_iteration - 1) >= 0.0_wp)) total%load = sum(load, mask=load >= 0.0_wp)
-         if (any(displacement(:yield_iteration - 1) >= 0.0_wp)) total%displacement = sum(displacement, &
-            mask=displacement >= 0.0_wp)
-      end associate
+      total%load = sum_of((errors%shares%load))
+      total%displacement = sum_of((errors%shares%displacement))
+
+   contains
+
+      !> Of one quantity
+      pure real(wp) function sum_of(shares)
+         !> Its shares
+         real(wp), intent(in) :: shares(:)
+
+         sum_of = -1.0_wp
+         associate (sought => shares(:yield_iteration - 1))
+            if (all(sought >= 0.0_wp) .or. any(sought > 0.0_wp)) sum_of = sum(shares, mask=shares >= 0.0_wp)
+         end associate
+      end function sum_of
+
    end function sum_of_yield_shares
 
    !> Whether the bodies are so near to their limit that nothing can be said of displacements under

@@ -23,6 +23,8 @@ module axijoint_analysis_core_yielding_bodies
 
    !> Smaller multiples, and larger ones, are not told
    real(wp), parameter :: least_told = 2.0_wp, most_told = 1.0e6_wp
+   !> Multiple from which on bodies give way. Where psi < phi iterations may come to no equilibrium far below that
+   real(wp), parameter :: gives_way = 50.0_wp
 
 contains
 
@@ -123,6 +125,9 @@ contains
       else
          text = text//'; the last step was to the load factor '//to_text(bodies%tried)
       end if
+      if (bodies%growth < gives_way .and. any(model%materials%yield%dilation < model%materials%yield%friction)) text = text// &
+         '; with psi < phi that need not be the limit load: psi = phi with c and tan phi times '// &
+         'cos psi cos phi/(1 - sin psi sin phi) tells where it is (Davis)'
       if (bodies%verdict%joints_failed) text = text//', and joints came to no equilibrium'
       text = text//'; results are those at '//to_text(history%reached)
    end function failure_text

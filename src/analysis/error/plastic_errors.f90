@@ -62,7 +62,7 @@ contains
          errors%loaded = allocated(loads%steered)
          shares(yield_iteration)%load = results%residual_ratio
          errors%turned_back = turns_back(model, combination, results%states(size(results%states))%increment)
-         errors%at_limit = .not. (results%converged .or. loads%held .or. errors%loaded)
+         errors%at_limit = .not. (results%converged .or. allocated(loads%moved) .or. errors%loaded)
          if (errors%turned_back .or. errors%at_limit) return
          call show_progress(progress, 'estimating errors of bodies that yield')
          call find(model, structure, loads, results%displacement, base)
@@ -133,7 +133,7 @@ contains
          loads%given = total
          changes = abs(change) > 0.0_wp
          if (any(changes(model%prescribed%case))) then
-            loads%held = .true.
+            loads%moved = change
          else if (.not. any([changes(model%thermal_loads%case), &
                              changes(model%initial_stresses%case)]) .and. any(changes) &
             .and. .not. can_yield(model)) then  ! load factors are not found beside joints
@@ -163,7 +163,7 @@ contains
 
       if (present(beside)) then
          reference = 0.0_wp  ! of what changed of the displacements
-         if (loads%held .or. allocated(loads%steered)) reference = beside%value
+         if (allocated(loads%moved) .or. allocated(loads%steered)) reference = beside%value
       end if
       call single_step(model, structure%equations, structure%condensed, structure%joint_points, &
          structure%support_points, loads, start, state, reference)
@@ -213,7 +213,7 @@ contains
 
       if (highest_loaded(model) == 0) then
          error%load = 0.0_wp
-         if (.not. (loads%held .or. allocated(loads%steered))) error%displacement = 0.0_wp
+         if (.not. (allocated(loads%moved) .or. allocated(loads%steered))) error%displacement = 0.0_wp
          return
       end if
       if (.not. base%found) return
@@ -244,7 +244,7 @@ contains
 
       integer :: first, second
 
-      call mesh_harmonics(model, loads%held .or. allocated(loads%steered), first, second)
+      call mesh_harmonics(model, allocated(loads%moved) .or. allocated(loads%steered), first, second)
       call compare_meshes(model, structure, loads, base, first, error, progress)
       if (max(error%load, error%displacement) < 0.0_wp .and. first /= second) &
          call compare_meshes(model, structure, loads, base, second, error, progress)
@@ -382,7 +382,7 @@ contains
       type(yield_share_type), intent(inout) :: error
 
       if (.not. (before%found .and. after%found)) return
-      if (loads%held .or. allocated(loads%steered)) then
+      if (allocated(loads%moved) .or. allocated(loads%steered)) then
          error%load = times*ratio(abs(after%value - before%value), abs(after%value))
       else
          error%displacement = times*ratio(largest_vector(modes, change), &

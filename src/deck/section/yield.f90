@@ -236,7 +236,7 @@ contains
          else if (model%n_body_planes <= 2*m) then
             call field_doubt(card, field_body_planes, 'fewer than 2 M + 1 planes take '// &
                'harmonics up to '//to_text(m)//' for others than they are', &
-               mend='leave the field blank: the default is 2 M + 1 = '//to_text(2*m + 1))
+               mend='leave the field blank: then there are enough for those that arise')
          end if
       end associate
    end subroutine check_method

@@ -107,8 +107,7 @@ contains
       end if
       total = sum_of_yield_shares(errors)
       text = quantity_text('load', (errors%shares%load), total%load)
-      if (all(errors%shares(:yield_iteration - 1)%load < 0.0_wp .and. &
-              errors%shares(:yield_iteration - 1)%displacement < 0.0_wp)) then
+      if (total%load < 0.0_wp .and. total%displacement < 0.0_wp) then
          text = 'not estimated: the state was not found again in one step'
          if (any(errors%shares%no_memory)) text = 'not estimated'
       else if (total%displacement >= 0.0_wp) then
@@ -134,15 +133,25 @@ contains
       character(len=*), intent(in) :: name
       !> Its shares, and their sum
       real(wp), intent(in) :: shares(:), total
-      !> Such as load 4.62 %, most by planes (2.31 %)
+      !> Such as load 4.62 %, most by planes (2.31 %), or load at least 0.12 %, of what is known most by planes (0.1 %), not
+      !> known: discretization
       character(len=:), allocatable :: text
 
+      logical :: known
+      integer :: i
+
       text = name//' not estimated'
-      if (all(shares(:yield_iteration - 1) < 0.0_wp)) return
-      text = name//' '//fine_percent(total)
-      if (any(shares(:yield_iteration - 1) < 0.0_wp)) text = name//' at least '//fine_percent(total)
-      if (total > 0.0_wp) text = text//', most by '//trim(yield_sources(maxloc(shares, 1)))// &
-         ' ('//fine_percent(maxval(shares))//')'
+      if (total < 0.0_wp) return
+      known = all(shares(:yield_iteration - 1) >= 0.0_wp)
+      text = name//trim(merge('         ', ' at least', known))//' '//fine_percent(total)
+      if (total > 0.0_wp) text = text//','//trim(merge('                 ', ' of what is known', known))//' most by '// &
+         trim(yield_sources(maxloc(shares, 1)))//' ('//fine_percent(maxval(shares))//')'
+      if (known) return
+      text = text//', not known:'
+      do i = 1, yield_iteration - 1
+         if (shares(i) < 0.0_wp) text = text//' '//trim(yield_sources(i))//','
+      end do
+      text = text(:len(text) - 1)
    end function quantity_text
 
    !> In the summary
