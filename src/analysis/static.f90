@@ -5,6 +5,7 @@ module axijoint_analysis_static
       move_bodies
    use axijoint_analysis_core_left_out, only : what_was_left_out
    use axijoint_analysis_core_motion, only : motion_text
+   use axijoint_analysis_core_path, only : is_torn, turns_slip
    use axijoint_analysis_core_plastic_fields, only : plastic_fields
    use axijoint_analysis_core_remarks, only : remarks_on, mechanism_text
    use axijoint_analysis_core_results, only : results_type
@@ -264,6 +265,8 @@ contains
       results%residuals = history%residuals
       results%residual_part_node = model%mesh%node_label(structure%condensed%measure%part_node)
       call name_idle_motions(model, structure, history, results)
+      results%torn = results%converged .and. is_torn(history)
+      results%turns_slip = results%converged .and. turns_slip(structure, history)
       if (estimates) call estimate_yielding_errors(structure, history, other, left, results, mesh_error)
       results%plane_angles = structure%planes%angle
    end subroutine solve_joints

@@ -4,7 +4,7 @@ module axijoint_job_goal
    use axijoint_analysis_core_remarks, only : remark_on_goal
    use axijoint_analysis_core_results, only : results_type, round_type, error_share_type, source_iteration, source_harmonics
    use axijoint_analysis_core_structure, only : structure_type
-   use axijoint_analysis_error_goal, only : goal_error, unknown_source, refine_further, room_for
+   use axijoint_analysis_error_goal, only : goal_error, unknown_source, refine_further, room_for, mesh_misses
    use axijoint_base_error, only : error_type, fatal_error, exit_deck, exit_state, exit_stopped
    use axijoint_base_kinds, only : wp
    use axijoint_base_progress, only : show_progress
@@ -166,13 +166,13 @@ contains
             if (allocated(error)) return
             deallocate (refinement%sizes)
             if (.not. made) refinement%mesh = before%mesh
-            changed = changed .or. made
+            changed = made .or. (changed .and. .not. mesh_misses(job%model, budget))
          end if
          if (.not. changed) return
          call read_refined(job, refinement, error)
          if (allocated(error) .and. allocated(refinement%mesh_file)) then
             if (error%code /= exit_deck) return
-            note = 'the deck does not fit '//name_of(refinement%mesh_file)//', which Gmsh made'
+            note = 'the deck does not fit '//name_of(refinement%mesh_file)//', which Gmsh made: '//first_fault(error%message)
             deallocate (error)
             refinement = before
             call read_refined(job, refinement, error)
@@ -188,6 +188,17 @@ contains
       end do
       changed = .false.
    end subroutine refine_job
+
+   !> The first of the faults of a refined job
+   pure function first_fault(message) result(fault)
+      !> A line of its own, then the faults
+      character(len=*), intent(in) :: message
+      !> Without what is said more of it
+      character(len=:), allocatable :: fault
+
+      fault = message(index(message, new_line('a')) + 1:)
+      fault = fault(:index(fault//new_line('a'), new_line('a')) - 1)
+   end function first_fault
 
    !> Energy of the error of each element, of all combinations: each over the energy of its
    !> solution

@@ -45,9 +45,7 @@ contains
       call write_sizes(job, refinement%sizes, sizes, error)
       if (allocated(error)) return
       associate (geometry => job%model%error_goal%geometry)
-         ! notes are part of the results, which do not depend on folders
-         by_hand = command(name_of(geometry), name_of(sizes), &
-            name_of(geometry(:index(geometry, '.', back=.true.) - 1)//mesh_ending))
+         by_hand = command(geometry, sizes, geometry(:index(geometry, '.', back=.true.) - 1)//mesh_ending)
          if (len(geometry) == 0) then
             note = 'the deck names no .geo file that Gmsh could make its mesh of anew; '//name_of(sizes)// &
                ' has the sizes of elements wanted (gmsh -bgm)'

@@ -135,8 +135,8 @@ def rounds(program, folder):
 def sizes(program, folder):
     """Without gmsh the sizes are written, and a message says what to do; the least are where stress is infinite"""
     summary = solve(program, folder, 0.1, there=False)
-    faults = [] if any("gmsh is not installed; where it is: gmsh -2 'ring.geo' -bgm 'deck.size.pos' " in text
-                       for text in summary['messages']) else [f'found {summary["messages"]}']
+    faults = [] if any("gmsh is not installed; where it is: gmsh -2 '" in text for text in summary['messages']) else [
+        f'found {summary["messages"]}']
     found = sizes_of(os.path.join(folder, 'deck.size.pos'))
     faults += expected('corners', 64, len(found)) + expected('rounds', 1, len(summary['rounds']))
     least = min(found, key=lambda place: place[1])
@@ -151,7 +151,7 @@ def words(program, folder):
     are those of the first round"""
     faults = []
     for name, geometry, deck, wanted in (
-            ('fails', 'fails', DECK, 'gmsh made no mesh (see '), ('forgets', 'forgets', DECK, 'the deck does not fit '),
+            ('fails', 'fails', DECK, 'gmsh made no mesh (see '), ('forgets', 'forgets', DECK, 'the physical curve "top" has no elements'),
             ('plain', 'a ring', DECK.replace('ring.geo', 'ring.msh'), 'names no .geo file')):
         own = os.path.join(folder, name)
         os.makedirs(own)
@@ -161,10 +161,30 @@ def words(program, folder):
         faults += expected(f'{name}: rounds', 1, len(summary['rounds']))
         if not any(wanted in text for text in summary['messages']):
             faults.append(f'{name}: expected {wanted!r}, found {summary["messages"]}')
-        faults += [f'{name}: a folder in {text!r}' for text in summary['messages'] if folder in text]
     if 'no mesh of this' not in read_text(os.path.join(folder, 'fails', 'deck.gmsh.log')):
         faults.append('deck.gmsh.log does not say why')
     return faults
+
+
+def by_hand(program, folder):
+    """Deck, results and the folder of the run are three: the command that is told makes the mesh of the deck anew, and the target
+    is met then; harmonics are not raised before, as the mesh alone misses it"""
+    own, gmsh = with_gmsh(program, folder)
+    deck = write(os.path.join(folder, 'decks'), 'deck.dat', DECK.replace('TARGET', '0.3').replace('0, 0, 0.1', '1, 0, 0.1'))
+    write(os.path.join(folder, 'decks'), 'ring.geo', '// a ring')
+    os.system(f"'{gmsh}' -2 '{folder}/decks/ring.geo' -o '{folder}/decks/ring.msh'")
+    own.environment = dict(program.environment, PATH=os.path.join(folder, 'nothing'))
+    faults, elements = [], []
+    for _ in range(2):
+        ran = own.run('run', os.path.relpath(deck, folder), '-o', 'results', folder=folder)
+        faults += ran.ended_with(0)
+        summary = json.loads(read_text(os.path.join(folder, 'results', 'deck.json')))
+        faults += expected('rounds', 1, len(summary['rounds']))
+        elements.append(summary['elements'])
+        command = re.search("(gmsh -2 .*msh')", ' '.join(summary['messages']))
+        if command and len(elements) == 1:
+            os.system(f"cd '{folder}' && PATH=tools:$PATH {command[1]}")
+    return faults + ([] if elements[1] > elements[0] else [f'elements: {elements}, {summary["messages"]}'])
 
 
 def no_mesh(program, folder):
@@ -180,4 +200,4 @@ def tests(program):
     def test(name, function):
         return Test(f'remade: {name}', lambda folder: function(program, folder))
 
-    return [test('rounds', rounds), test('sizes', sizes), test('words', words), test('no mesh', no_mesh)]
+    return [test('rounds', rounds), test('sizes', sizes), test('words', words), test('no mesh', no_mesh), test('by hand', by_hand)]

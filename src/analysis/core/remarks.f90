@@ -212,7 +212,7 @@ contains
       if (history%n_faded > 0) call add(remarks, fading_text(history))
       if (results%keeps_slip) call add(remarks, 'joints slipped under larger loads: what was wrong then stays in the slip '// &
          'and is not counted in the errors')
-      if (results%torn) call add(remarks, 'some bonds broke and others hold: which of them hangs on their order, of which the '// &
+      if (results%torn) call add(remarks, 'some bonds broke and others hold: which of them hangs on their order, of which '// &
          'estimates of joint stress know nothing; more increments show how much')
       if (results%turns_slip) call add(remarks, 'joints slide along their bodies and, by torque, round them: how far depends '// &
          'on the way there, of which estimates of errors know nothing; more increments show how much')
@@ -485,6 +485,7 @@ contains
             why = 'the share of '//trim(source_names(unknown))//' is not known'
          else if (size(results%rounds) >= goal%most_rounds) then
             why = 'so many rounds are allowed'
+            if (len(note) > 0) why = why//'; '//note
          else if (len(note) > 0) then
             why = note
          else if (goal%mesh_too .or. goal%remesh) then

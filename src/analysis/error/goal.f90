@@ -12,7 +12,7 @@ module axijoint_analysis_error_goal
       goal_displacement, goal_energy
    implicit none
    private
-   public :: goal_error, unknown_source, refine_further, room_for
+   public :: goal_error, unknown_source, refine_further, room_for, mesh_misses
 
    !> How one source of error is brought down
    type :: rule_type
@@ -176,6 +176,7 @@ contains
 
       changed = .false.
       if (room_for_all < least_growth) return
+      if (.not. (model%error_goal%mesh_too .or. model%error_goal%remesh) .and. mesh_misses(model, budget)) return
       room = room_for_all
       need = 0.0_wp
       mesh_order = 1.0_wp
@@ -230,6 +231,22 @@ contains
          call size_mesh(model, element_error, need, mesh_order, room, refinement)
       changed = changed .and. room >= 1.0_wp
    end subroutine refine_further
+
+   !> Whether the mesh alone leaves more than the target: where it stays as it is, nothing else is worth raising
+   pure logical function mesh_misses(model, budget)
+      !> The job as it was solved, and its goal
+      type(model_type), intent(in) :: model
+      !> What its approximations leave
+      type(error_share_type), intent(in) :: budget(:)
+
+      integer :: i
+
+      mesh_misses = .false.
+      do i = 1, size(budget)
+         if (budget(i)%source == source_discretization) mesh_misses = &
+            safety_of(budget(i), model%error_goal)*share_of(budget(i), model%error_goal) > model%error_goal%target
+      end do
+   end function mesh_misses
 
    !> How many times the unknowns that a job has, or may have, its goal allows
    pure real(wp) function room_for(model)

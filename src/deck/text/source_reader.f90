@@ -302,7 +302,7 @@ contains
          fault = 'the mesh file '//path//': '//fault
          if (allocated(source%geometry)) then
             call add_error(diagnostics, card, first, last, fault, mend='make it by gmsh -2 '// &
-                           source%geometry)
+                           "'"//source%geometry//"'")
          else
             call add_error(diagnostics, card, first, last, fault)
          end if
