@@ -218,6 +218,20 @@ def stack(program, folder):
     return faults
 
 
+def not_utf8(program, folder):
+    """A comment that is not UTF-8 draws a warning, and all that is written is UTF-8"""
+    deck = os.path.join(folder, 'old.dat')
+    with open(deck, 'wb') as file:
+        file.write(read_text(os.path.join(INPUTS, 'first.dat')).replace('\nLAWS', '\n! Stöße\nLAWS', 1).encode('latin-1'))
+    ran = program.run('run', deck, '-o', folder)
+    faults = ran.ended_with(0) + expected('warnings', 1, ran.err.count('a comment is not valid UTF-8'))
+    for ending in ('lis', 'json'):
+        with open(os.path.join(folder, f'old.{ending}'), encoding='utf-8') as file:
+            text = file.read()
+        faults += expected(f'{ending}: the comment', ending == 'lis', '! St??e' in text)
+    return faults
+
+
 def mended(program, folder):
     """The summary of an error goes when the mended deck has results of several combinations under names of their own; a file
     of somebody else's with that name stays"""
@@ -265,7 +279,7 @@ def tests(program):
         'a deck named like a result': deck_named_like_a_result,
         'a deck named like what is removed': deck_named_like_what_is_removed,
         'full disk': full_disk, 'memory limit': memory, 'memory limit of small jobs': little_memory, 'stack limit': stack,
-        'output that is lost': lost_output, 'a deck that was mended': mended,
+        'a comment that is not UTF-8': not_utf8, 'output that is lost': lost_output, 'a deck that was mended': mended,
         'directory for a file': lambda program, folder: occupied(program, folder, os.mkdir),
         'pipe for a file': lambda program, folder: occupied(program, folder, os.mkfifo),
     }

@@ -7,7 +7,7 @@ module axijoint_deck_text_sections
    use axijoint_deck_text_section, only : cards_per_entry, keyword_fields, &
       form_entries, form_include, form_file, keyword_length, card_width
    use axijoint_deck_text_source, only : source_type, card_text, card_content, card_position, &
-      card_title, card_data, card_keyword, form_of, tab
+      card_title, card_data, card_keyword, form_of, keep_utf8, tab
    use axijoint_deck_text_table, only : table_type, new_table, read_entry, entry_error, &
       field_error, integer_value
    implicit none
@@ -56,6 +56,7 @@ contains
       call find_owners(source, owner, sections%complete, diagnostics)
       call check_repeated(source, diagnostics)
       call read_title(source, sections%title, diagnostics)
+      call check_comments(source, diagnostics)
       do card = 1, source%n_cards
          if (owner(card) == 0) cycle
          section = source%cards(owner(card))%keyword
@@ -179,6 +180,28 @@ contains
       end do
    end subroutine check_repeated
 
+   !> Warn of the first card with a comment that is not UTF-8; what else is not on a card is an error
+   subroutine check_comments(source, diagnostics)
+      !> The deck
+      type(source_type), intent(in) :: source
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+
+      character(len=:), allocatable :: text
+      integer :: card
+      logical :: valid
+
+      do card = 1, source%n_cards
+         if (source%cards(card)%kind == card_title) cycle
+         text = card_text(source, card)
+         call keep_utf8(text, valid)
+         if (valid) cycle
+         call add_warning(diagnostics, card, 0, 0, 'a comment is not valid UTF-8', &
+            mend='what is not UTF-8 is shown as ?; save the deck as UTF-8')
+         return
+      end do
+   end subroutine check_comments
+
    !> Read the title card: UTF-8 is kept, what is not UTF-8 becomes question marks
    subroutine read_title(source, title, diagnostics)
       !> The deck
@@ -195,6 +218,9 @@ contains
       card = findloc(source%cards(:source%n_cards)%kind, card_title, 1)
       if (card == 0) return
       title = trim(card_text(source, card))
+      do i = 1, len(title)
+         if (title(i:i) == tab) title(i:i) = ' '
+      end do
       call keep_utf8(title, valid)
       if (.not. valid) then
          call add_warning(diagnostics, card, 0, 0, 'the title is not valid UTF-8', &
@@ -206,43 +232,6 @@ contains
                         'the title runs past column 80', found=title(card_width + 1:))
       end if
    end subroutine read_title
-
-   !> Replace tabs by blanks, and bytes that do not form UTF-8 by question marks
-   pure subroutine keep_utf8(text, valid)
-      !> The text
-      character(len=*), intent(inout) :: text
-      !> Whether it was UTF-8
-      logical, intent(out) :: valid
-
-      integer :: i, k, n
-
-      valid = .true.
-      i = 1
-      do while (i <= len(text))
-         if (text(i:i) == tab) text(i:i) = ' '
-         select case (iachar(text(i:i)))
-         case (:127)
-            n = 1
-         case (194:223)
-            n = 2
-         case (224:239)
-            n = 3
-         case (240:244)
-            n = 4
-         case default
-            n = 0
-         end select
-         if (i + n - 1 > len(text)) n = 0
-         do k = i + 1, i + n - 1
-            if (iand(iachar(text(k:k)), 192) /= 128) n = 0
-         end do
-         if (n == 0) then
-            valid = .false.
-            text(i:i) = '?'
-         end if
-         i = i + max(n, 1)
-      end do
-   end subroutine keep_utf8
 
    !> Read the keyword cards and check the numbers of entries given there
    subroutine read_keywords(source, entries, sections, diagnostics)

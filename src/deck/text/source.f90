@@ -4,7 +4,7 @@ module axijoint_deck_text_source
    implicit none
    private
    public :: source_type, add_file, add_card
-   public :: card_text, card_content, card_file, card_line, card_position, form_of, printable, tab
+   public :: card_text, card_content, card_file, card_line, card_position, form_of, printable, keep_utf8, tab
    public :: card_title, card_data, card_keyword, card_ignored
 
    !> Blank card, comment card, or a card that was already found at fault
@@ -223,5 +223,41 @@ contains
          if (text(i:i) == tab) printable(i:i) = ' '
       end do
    end function printable
+
+   !> Replace bytes that do not form UTF-8 by question marks
+   pure subroutine keep_utf8(text, valid)
+      !> The text
+      character(len=*), intent(inout) :: text
+      !> Whether it was UTF-8
+      logical, intent(out) :: valid
+
+      integer :: i, k, n
+
+      valid = .true.
+      i = 1
+      do while (i <= len(text))
+         select case (iachar(text(i:i)))
+         case (:127)
+            n = 1
+         case (194:223)
+            n = 2
+         case (224:239)
+            n = 3
+         case (240:244)
+            n = 4
+         case default
+            n = 0
+         end select
+         if (i + n - 1 > len(text)) n = 0
+         do k = i + 1, i + n - 1
+            if (iand(iachar(text(k:k)), 192) /= 128) n = 0
+         end do
+         if (n == 0) then
+            valid = .false.
+            text(i:i) = '?'
+         end if
+         i = i + max(n, 1)
+      end do
+   end subroutine keep_utf8
 
 end module axijoint_deck_text_source

@@ -1,6 +1,6 @@
 !> The deck as it was read, in the listing and in the results file
 module axijoint_output_file_echo
-   use axijoint_deck_text_source, only : source_type, card_text, card_file, card_line
+   use axijoint_deck_text_source, only : source_type, card_text, card_file, card_line, keep_utf8
    use axijoint_output_file_headings, only : write_heading, write_lines
    use axijoint_output_file_text, only : text_file_type
    implicit none
@@ -33,7 +33,7 @@ contains
             last_file = source%cards(card)%file
          end if
          write (margin, format_line) card_line(source, card)
-         call write_lines(file, margin, card_text(source, card))
+         call write_lines(file, margin, readable(source, card))
       end do
    end subroutine write_echo
 
@@ -52,12 +52,27 @@ contains
       allocate (character(len=length) :: text)
       used = 0
       do card = 1, source%n_cards
-         associate (line => card_text(source, card)//new_line("a"))
+         associate (line => readable(source, card)//new_line("a"))
             text(used + 1:used + len(line)) = line
             used = used + len(line)
          end associate
       end do
    end function deck_text
+
+   !> A card with question marks for what is not UTF-8
+   pure function readable(source, card) result(text)
+      !> Cards of the deck
+      type(source_type), intent(in) :: source
+      !> The card
+      integer, intent(in) :: card
+      !> The text
+      character(len=:), allocatable :: text
+
+      logical :: valid
+
+      text = card_text(source, card)
+      call keep_utf8(text, valid)
+   end function readable
 
    !> Path of the deck itself
    pure function deck_path(source) result(path)
