@@ -191,9 +191,11 @@ contains
       integer :: card
       logical :: valid
 
+      if (.not. source%complete) return
       do card = 1, source%n_cards
          if (source%cards(card)%kind == card_title) cycle
          text = card_text(source, card)
+         text = text(len(card_content(source, card)) + 1:)
          call keep_utf8(text, valid)
          if (valid) cycle
          call add_warning(diagnostics, card, 0, 0, 'a comment is not valid UTF-8', &
