@@ -21,6 +21,7 @@ CASES = (
     (('help', 'card', 'NODES', '--markdown'), 0, '| 6–15 F | r [length] | | ≥ 0 |\n', ''),
     (('help', 'card', '--markdown'), 0, '| NODES | nodes one by one | any number |\n', ''),
     (('help', 'card', 'NODES', '--json'), 0, '"kind": "real", "card": 1, "columns": [6, 15], ', ''),
+    (('help', 'card', 'PRINT'), 0, 'least r, least z, largest r, largest z of a rectangle', ''),
     (('help', 'card', 'TITLE'), 0, 'TITLE: the next card', ''),
     (('help', 'help'), 0, 'usage: axijoint help [COMMAND]', ''),
     (('help', '--man'), 0, '\n.SS compare\n', ''),
