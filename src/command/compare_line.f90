@@ -4,6 +4,7 @@ module axijoint_command_compare_line
    use axijoint_base_kinds, only : wp
    use axijoint_command_line, only : word_type
    use axijoint_command_manual, only : option_type, compare_options
+   use axijoint_command_option_value, only : is_option, refuse_option
    use axijoint_command_unknown_word, only : unknown
    use axijoint_compare_tolerances, only : tolerances_type, special_type, name_type
    use axijoint_deck_text_token, only : read_real, read_integer, token_good
@@ -57,6 +58,8 @@ contains
          else if (k == size(words)) then
             call fatal_error(error, exit_deck, 'option '//words(k)%text//' needs '// &
                trim(options(option)%value)//": see 'axijoint help compare'")
+         else if (is_option(options, words(k + 1)%text)) then
+            call refuse_option(options(option), words(k + 1)%text, error)
          else
             k = k + 1
             call set_value(words(k - 1)%text, words(k)%text, compare, error)

@@ -10,6 +10,7 @@ module axijoint_command_line
    use axijoint_command_man_page, only : man_page
    use axijoint_command_manual, only : topic_type, all_topics, topic_named, option_named, &
       names_of_topics, names_of_options
+   use axijoint_command_option_value, only : is_option, refuse_option
    use axijoint_command_unknown_word, only : unknown
    use axijoint_deck_text_token, only : read_integer, read_real, token_good
    use axijoint_job_checkpoint, only : whenever_cheap
@@ -225,6 +226,8 @@ contains
             else if (k == size(words)) then
                call fatal_error(error, exit_deck, 'option '//word//' needs '// &
                   trim(topic%options(option)%value)//": see 'axijoint help "//command%name//"'")
+            else if (is_option(topic%options, words(k + 1)%text)) then
+               call refuse_option(topic%options(option), words(k + 1)%text, error)
             else
                k = k + 1
                call read_option(word, words(k)%text, command, error)

@@ -459,7 +459,7 @@ contains
       else
          means = count_of(study%rows%n_structures, 'structure')
          if (command%part%number == 0 .and. command%part%n > 0) &
-            means = means//', the others by '//to_text(command%part%n)//' parts'
+            means = means//', '//to_text(n_before)//' done before'
       end if
       write (output_unit, '(a)') 'study                 '//count_of(n, 'row')//', '// &
          to_text(n - n_before)//' solved now with '//means, &

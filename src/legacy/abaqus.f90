@@ -8,12 +8,13 @@ module axijoint_legacy_abaqus
    use axijoint_deck_text_file_bytes, only : end_of_bytes => line_end, &
       next_bytes => next_line
    use axijoint_legacy_abaqus_bodies, only : body_loads_type, open_body_loads, put_body_loads
-   use axijoint_legacy_abaqus_lines, only : line_type, next_line, is_data, parameter_of, real_of, &
-      fault_of, line_keyword, line_data, line_end
+   use axijoint_legacy_abaqus_lines, only : line_type, next_line, is_data, parameter_of, field_of, &
+      real_of, fault_of, line_keyword, line_data, line_end
    use axijoint_legacy_abaqus_loads, only : renew_boundary, add_boundary, add_ring_force, &
       add_distributed, add_faces
    use axijoint_legacy_abaqus_mesh, only : abaqus_type, read_nodes, read_elements, read_set, &
       gather_nodes, read_surface
+   use axijoint_legacy_abaqus_parameters, only : check_parameters, elsewhere, r_and_z
    use axijoint_legacy_cards, only : cards_type
    use axijoint_legacy_list, only : set_type, open_set, find_set
    use axijoint_legacy_sketch, only : sketch_type, leave_out, part_materials, part_nodes, &
@@ -63,7 +64,7 @@ contains
       type(body_loads_type) :: bodies
       type(set_type), allocatable :: names(:)
       type(material_type), allocatable :: materials(:)
-      type(line_type) :: line
+      type(line_type) :: line, data
       integer :: at, n_steps, n_boundaries, material
 
       sketch%title = ''
@@ -85,6 +86,7 @@ contains
             call next_line(cards, at, line)
             cycle
          end if
+         if (n_steps < merge(1, 2, line%keyword == 'STEP')) call check_parameters(cards, line, sketch)
          select case (line%keyword)
          case ('HEADING')
             call read_heading(cards, at, sketch)
@@ -137,6 +139,9 @@ contains
             n_steps = n_steps + 1
             if (n_steps > 1) call leave_out(sketch, line%card, '*STEP: only the first is translated')
          case ('STATIC', 'END STEP')
+         case ('SYSTEM')
+            ! without data it ends what one above began
+            if (is_data(cards, at, data)) call fault_of(cards, line, 0, '*SYSTEM: '//elsewhere, r_and_z)
          case ('INCLUDE')
             call fault_of(cards, line, 0, '*INCLUDE is not read', 'the lines of the file itself')
          case default
@@ -233,9 +238,9 @@ contains
          call fault_of(cards, line, 0, 'no material is named above', '*MATERIAL, NAME=')
          return
       end if
-      if (line%keyword == 'ELASTIC' .and. parameter_of(line, 'TYPE') /= '' .and. &
-          index(parameter_of(line, 'TYPE'), 'ISO') /= 1) then
-         call leave_data(cards, line, at, sketch)
+      if (line%keyword == 'ELASTIC' .and. index(parameter_of(line, 'TYPE')//'ISO', 'ISO') /= 1) then
+         call fault_of(cards, line, field_of(line, 'TYPE'), '*ELASTIC of this type is not translated', &
+            'isotropic materials: TYPE=ISOTROPIC, or no TYPE, and E, nu')
          return
       end if
       call next_line(cards, at, data)

@@ -8,7 +8,7 @@ module axijoint_legacy_abaqus_lines
    use axijoint_legacy_cards, only : cards_type
    implicit none
    private
-   public :: line_type, next_line, is_data, parameter_of, has_parameter, field_text, name_in, integer_of, real_of, &
+   public :: line_type, next_line, is_data, parameter_of, has_parameter, field_of, field_text, name_in, integer_of, real_of, &
       fault_of
    public :: line_keyword, line_data, line_end
 
@@ -147,7 +147,23 @@ contains
       if (n <= size(line%place, 2)) text = trim(line%text(line%place(1, n):line%place(2, n)))
    end function field_text
 
-   !> Value of a parameter of a keyword, in capital letters, without quotes; empty if it is not there
+   !> Field of a parameter of a keyword; 0 if it is not there
+   pure integer function field_of(line, name) result(field)
+      !> The line
+      type(line_type), intent(in) :: line
+      !> Name of the parameter
+      character(len=*), intent(in) :: name
+
+      character(len=:), allocatable :: text
+
+      do field = size(line%place, 2), 2, -1
+         text = upper(field_text(line, field))
+         if (text(:index(text//'=', '=') - 1) == name) return
+      end do
+      field = 0
+   end function field_of
+
+   !> Value of a parameter of a keyword, in capital letters, without quotes; empty if it is not there, or has none
    pure function parameter_of(line, name) result(value)
       !> The line
       type(line_type), intent(in) :: line
@@ -157,16 +173,11 @@ contains
       character(len=:), allocatable :: value
 
       character(len=:), allocatable :: text
-      integer :: k, equals
 
       value = ''
-      do k = 2, size(line%place, 2)
-         text = upper(field_text(line, k))
-         equals = index(text, '=')
-         if (equals == 0) cycle
-         if (text(:equals - 1) /= name) cycle
-         value = without_quotes(trim(adjustl(text(equals + 1:))))
-      end do
+      if (field_of(line, name) == 0) return
+      text = upper(field_text(line, field_of(line, name)))
+      if (index(text, '=') > 0) value = without_quotes(trim(adjustl(text(index(text, '=') + 1:))))
    end function parameter_of
 
    !> A name in a field, in capital letters, without quotes

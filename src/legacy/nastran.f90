@@ -65,6 +65,7 @@ contains
       do
          call next_entry(cards, at, entry)
          if (entry%name == '' .or. entry%name == 'ENDDATA') exit
+         call leave_fields(entry, sketch)
          select case (entry%name)
          case ('AXIC', 'RINGAX', 'PTRAPAX', 'PTRIAAX', 'SPCADD', 'LOAD')
          case ('CTRAPAX')
@@ -108,6 +109,49 @@ contains
       end do
    end subroutine leave_all
 
+   !> Note fields of an entry that are neither read nor blank nor zero
+   subroutine leave_fields(entry, sketch)
+      !> The entry
+      type(entry_type), intent(in) :: entry
+      !> The new deck
+      type(sketch_type), intent(inout) :: sketch
+
+      integer :: field
+
+      do field = 2, entry%n + 1
+         if (is_read(entry%name, field) .or. verify(entry%text(field - 1), '+-0. ') == 0) cycle
+         call leave_out(sketch, entry%place(1, field - 1), 'field '//to_text(field)//' of '//entry%name//', '// &
+            trim(entry%text(field - 1)))
+      end do
+   end subroutine leave_fields
+
+   !> Whether a field of an entry is read, or asks for output alone
+   pure logical function is_read(name, field)
+      !> Name of the entry
+      character(len=*), intent(in) :: name
+      !> The field, from 2
+      integer, intent(in) :: field
+
+      select case (name)
+      case ('AXIC')
+         is_read = field == 2
+      case ('RINGAX')
+         is_read = any(field == [2, 4, 5, 8])
+      case ('PTRAPAX', 'PTRIAAX')
+         is_read = field /= 3  ! angles of stresses from field 5 on
+      case ('MAT1')
+         is_read = field < 7 .or. any(field == [10, 11, 12])  ! limits of stresses
+      case ('CTRIAAX', 'SPCAX')
+         is_read = field < 7
+      case ('CTRAPAX', 'PRESAX', 'GRAV')
+         is_read = field < 8
+      case ('FORCEAX')
+         is_read = field < 9
+      case default  ! all of it, or it is left out as a whole
+         is_read = .true.
+      end select
+   end function is_read
+
    !> Executive and case control: title, sets, family
    subroutine read_case(cards, case, sketch, bulk)
       !> The deck
@@ -134,6 +178,10 @@ contains
          if (index(line, 'INCLUDE') == 1) call add_error(cards%diagnostics, bulk, 0, 0, included, &
             allowed=itself)
          if (line == 'CEND') control = .true.
+         if (.not. control .and. index(line, 'SOL ') == 1) then
+            if (all(first_word(line(5:)) /= [character(len=7) :: '1', '101', 'STATICS', 'STATIC'])) &
+               call leave_out(sketch, bulk, trim(line)//': linear statics is translated')
+         end if
          if (.not. control .or. line == 'CEND') cycle  ! executive control
          equals = index(line//'=', '=')
          word = trim(line(:equals - 1))
@@ -168,6 +216,17 @@ contains
       if (.not. chosen) call add_warning(cards%diagnostics, 1, 0, 0, &
          'no AXISYMMETRIC = COSINE or SINE: taken as COSINE')
    end subroutine read_case
+
+   !> What stands before a comma or a blank
+   pure function first_word(text) result(word)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> The word
+      character(len=:), allocatable :: word
+
+      word = trim(adjustl(text))
+      word = word(:scan(word//' ', ' ,') - 1)
+   end function first_word
 
    !> Whether a line of case control begins a subcase, or one that is made of others
    pure logical function begins_subcase(word)
@@ -314,6 +373,9 @@ contains
       if (.not. is_in(entry, 5) .and. shear > 0.0_wp .and. young > 0.0_wp) &
          poisson = young/(2.0_wp*shear) - 1.0_wp
       if (.not. is_in(entry, 3)) young = 2.0_wp*shear*(1.0_wp + poisson)
+      if (is_in(entry, 3) .and. is_in(entry, 4) .and. is_in(entry, 5) .and. &
+          abs(2.0_wp*shear*(1.0_wp + poisson) - young) > 1.0e-3_wp*young) &
+         call leave_out(sketch, entry%first, 'G of MAT1, which is not that of E and nu')
       if (.not. young > 0.0_wp) call fault_in(cards, entry, 3, 'two of E, G and nu are needed', &
          'E > 0')
       call put(sketch%parts(part_materials), to_text(integer_in(cards, entry, 2, 0))//', '// &

@@ -310,6 +310,10 @@ contains
       known = .true.
       g = factor_of(cards, entry, case)*real_in(cards, entry, 4, 0.0_wp)
       if (.not. acts(cards, entry, case, case%loads, sketch)) return
+      if (integer_in(cards, entry, 3, 0) /= 0) then
+         call leave_out(sketch, entry%first, 'GRAV in coordinate system '//to_text(integer_in(cards, entry, 3, 0)))
+         return
+      end if
       lateral(1) = real_in(cards, entry, 5, 0.0_wp)
       lateral(2) = real_in(cards, entry, 6, 0.0_wp)
       known = case%symmetric .and. .not. any(abs(lateral) > 0.0_wp)

@@ -21,6 +21,7 @@ CASES = (
     (('help', 'card', 'NODES', '--markdown'), 0, '| 6–15 F | r [length] | | ≥ 0 |\n', ''),
     (('help', 'card', '--markdown'), 0, '| NODES | nodes one by one | any number |\n', ''),
     (('help', 'card', 'NODES', '--json'), 0, '"kind": "real", "card": 1, "columns": [6, 15], ', ''),
+    (('help', 'card', 'PRINT'), 0, 'least r, least z, largest r, largest z of a rectangle', ''),
     (('help', 'card', 'TITLE'), 0, 'TITLE: the next card', ''),
     (('help', 'help'), 0, 'usage: axijoint help [COMMAND]', ''),
     (('help', '--man'), 0, '\n.SS compare\n', ''),
@@ -58,6 +59,14 @@ CASES = (
     (('run',), 2, '', 'no deck given'),
     (('check',), 2, '', 'no deck given'),
     (('run', FIRST, '-o'), 2, '', 'option -o needs DIR'),
+    (('run', FIRST, '-o', '--quiet'), 2, '', "option -o needs DIR, found '--quiet', which is an option itself\n"
+     'mend: a folder of this name is ./--quiet\n'),
+    (('run', FIRST, '--threads', '--'), 2, '', "option --threads needs N, found '--', which is an option itself\n"),
+    (('run', FIRST, '--solver', '-h'), 2, '', "option --solver needs NAME, found '-h', which is an option itself\n"),
+    (('envelope', FIRST, '--cases', '-o', 'out'), 2, '', "option --cases needs LIST, found '-o', which is an option itself\n"),
+    (('estimate', '--study', '--slurm', FIRST), 2, '', 'mend: a file of this name is ./--slurm\n'),
+    (('compare', FIRST, FIRST, '--skip', '--worst', '3'), 2, '', "option --skip needs NAME, found '--worst', which is an option itself"),
+    (('compare', FIRST, FIRST, '--format-a', '--exact-digits'), 2, '', 'mend: a file of this name is ./--exact-digits\n'),
     (('run', FIRST, '-o', ''), 2, '', 'option -o has an empty value'),
     (('estimate', FIRST, '--iterations', '0'), 2, '', "option --iterations: found '0', allowed is"),
     (('estimate', FIRST, '--estimates'), 2, '', 'options --estimates and --part go with --study TABLE'),
@@ -78,6 +87,12 @@ def case_faults(program, folder, arguments, code, out, err):
         if words not in text or bool(words) != bool(text):
             faults.append(f'expected {words!r}, found {text!r}')
     return faults + expected('files', [], os.listdir(folder))
+
+
+def folder_like_an_option(program, folder):
+    """A folder called like an option is made where its name is written so"""
+    ran = program.run('run', FIRST, '-o', './--quiet', '--quiet', folder=folder)
+    return ran.ended_with(0) + expected('files', ['--quiet'], os.listdir(folder))
 
 
 def several_decks(program, folder):
@@ -294,7 +309,8 @@ def tests(program):
                  'closed pipe': closed_pipe, 'longer names': longer_names,
                  'standard input': standard_input, '--quiet': quiet, '--verbose': verbose,
                  'environment': environment, 'completion': completed, 'manual page': manual_page, 'decks of the manuals': documented_decks,
-                 'decks of inputs': input_decks, 'values of options': values_of_options}
+                 'decks of inputs': input_decks, 'values of options': values_of_options,
+                 'folder like an option': folder_like_an_option}
     return [Test('command line: ' + (' '.join(case[0]) or 'none'),
                  lambda folder, case=case: case_faults(program, folder, *case))
             for case in CASES] + [

@@ -150,6 +150,54 @@ def left_out(program, folder):
     return faults
 
 
+def parameters(program, folder):
+    """Parameters of keywords that are translated: those that are not known are listed, each at its line; those that change nothing
+    are passed over"""
+    faults = []
+    text = bar('*CLOAD, FOLLOWER', '15, 2, 7.', '*DLOAD, OP=NEW', '103, P3, 5.')
+    for old, new, words in (
+            ('*STEP', '*STEP, NLGEOM=YES, INC=5,\n PERTURBATION, NAME=one', ('NLGEOM=YES of *STEP', 'PERTURBATION of *STEP')),
+            ('*STEP', '*Step, nlgeom', ('NLGEOM of *STEP',)),
+            ('*STATIC', '*STATIC, RIKS', ('RIKS of *STATIC',)),
+            ('*SOLID SECTION, ELSET=LOW,', '*SOLID SECTION, ELSET=LOW, ORIENTATION=O, CONTROLS=C,',
+             ('ORIENTATION=O of *SOLID SECTION', 'CONTROLS=C of *SOLID SECTION')),
+            ('*ELASTIC', '*ELASTIC, DEPENDENCIES=1', ('DEPENDENCIES=1 of *ELASTIC',)),
+            ('*DENSITY', '*DENSITY, DEPENDENCIES=1', ('DEPENDENCIES=1 of *DENSITY',)),
+            ('*BOUNDARY', '*BOUNDARY, FIXED', ('FIXED of *BOUNDARY',)),
+            ('*STEP', '*STEP, NLGEOM=NO, INC=5, UNSYMM=YES', ()),
+            ('*ELASTIC', '*ELASTIC, TYPE=ISOTROPIC, MODULI=LONG TERM', ()),
+            ('*NODE', '*NODE, SYSTEM=R, NSET=ALL', ()),
+            ('*NSET, NSET=FOOT, GENERATE', '*NSET, NSET=FOOT, INTERNAL, GENERATE', ())):
+        got = Converted(program, folder, 'bar.inp', text.replace(old, new, 1))
+        lines = text.replace(old, new, 1).upper().split('\n')
+        wanted = ('FOLLOWER of *CLOAD', *words)
+        for word in wanted:
+            at = [k for k, line in enumerate(lines, 1) if word.split(' of ')[0] in line]
+            got.told(f'bar.inp:{at[0]}: warning: not translated: {word}, line {at[0]}\n')
+        faults += got.faults
+        if got.said.count('not translated') != len(wanted):
+            faults.append(f'{new}: {got.said}')
+    return faults
+
+
+def fields(program, folder):
+    """Fields of entries that are translated: those that are not read are listed unless they are blank or zero"""
+    cards = ('MAT1,1,1000.,,0.,2.,1.-5,20.,0.', ',3.,4.,5.,6', 'PRESAX,1,5.,3,4,0.,360.,7', 'GRAV,1,4,10.,0.,0.,-1.', 'SPCAX,7,3,1,1,0.,8')
+    got = Converted(program, folder, 'ring.bdf', ring(*cards).replace('SOL 1', 'SOL 3,1').replace('1,2,3,4\n', '1,2,3,4,30.\n'))
+    lines = ring(*cards).split('\n')
+    faults = got.expect('GRAVITY').faults
+    for card, words in ((cards[0], 'field 7 of MAT1, 1.-5'), (cards[0], 'field 8 of MAT1, 20.'), (cards[1], 'field 13 of MAT1, 6'),
+                        (cards[2], 'field 8 of PRESAX, 7'), (cards[3], 'GRAV in coordinate system 4'), (cards[4], 'field 7 of SPCAX, 8'),
+                        ('CTRAPAX,1,1,1,2,3,4', 'field 8 of CTRAPAX, 30.'), ('SOL 1', 'SOL 3,1: linear statics is translated')):
+        faults += got.told(f'not translated: {words}, line {lines.index(card) + 1}\n').faults
+    if got.said.count('not translated') != 8:
+        faults.append(got.said)
+    got = Converted(program, folder, 'ring.bdf', ring('MAT1,1,1000.,500.,0.,2.'))
+    faults += got.faults + ([got.said] if 'MAT1' in got.said else [])
+    got = Converted(program, folder, 'ring.bdf', ring('MAT1,1,1000.,400.,0.,2.'))
+    return faults + got.told('not translated: G of MAT1, which is not that of E and nu, line').faults
+
+
 def tables(program, folder):
     """*ELASTIC and *DENSITY of several temperatures: the first line counts, the others are said to be left out"""
     text = bar('*DLOAD', '103, P3, 5.').replace('1000., 0.\n*DENSITY\n2.', '1000., 0., 20.\n500., 0.3, 300.\n*DENSITY\n2., 20.\n1., 300.', 1)
@@ -306,6 +354,12 @@ BAD += (
     ('a property twice', ring('PTRIAAX,1,,1'), 'bdf', r':\d+:9', 'a property of this number is there already'),
     ('displacements of no components', ring('SPCAX,7,3,1,X,0.1'), 'bdf', r':\d+:13', 'these are no components'),
     ('a held node that is not there', bar('*BOUNDARY', '99, 2, 2'), 'inp', r':\d+:1-2', 'there is no node 99'),
+    ('cylindrical coordinates', bar().replace('*NODE', '*NODE, SYSTEM=C', 1), 'inp', ':3:8-15', 'coordinates that are not r and z'),
+    ('coordinates from elsewhere', bar().replace('*NODE', '*SYSTEM\n0., 0., 0., 0., 1., 0.\n*NODE', 1), 'inp', ':3',
+     r'\*SYSTEM: coordinates that are not r and z'),
+    ('nodes of another file', bar().replace('*NODE', '*NODE, INPUT=nodes.inp', 1), 'inp', ':3:8-22', 'another file is not read'),
+    ('elastic constants that are not isotropic', bar().replace('*ELASTIC', '*ELASTIC, TYPE=ENGINEERING CONSTANTS', 1), 'inp',
+     r':\d+:11-36', r'\*ELASTIC of this type is not translated'),
     ('nodes of no elements', bar(before=('*NSET, NSET=WALL, ELSET=NONE',)), 'inp', r':\d+', 'there is no set NONE'),
     ('GENERATE backwards', bar(before=('*NSET, NSET=X, GENERATE', '3, 1, -1')), 'inp', r':\d+', 'GENERATE has no numbers from 3 to 1 in steps of -1'),
     ('GENERATE from below', bar(before=('*NSET, NSET=X, GENERATE', '3, 1')), 'inp', r':\d+', 'GENERATE has no numbers from 3 to 1 in steps of 1'),
@@ -382,7 +436,7 @@ def tests(program):
     def test(name, function, *arguments):
         return Test(f'legacy misread: convert, {name}', lambda folder: function(program, folder, *arguments))
 
-    return ([test(function.__name__.replace('_', ' '), function) for function in (body_loads, gravity_directions, sets_of_nodes, left_out, tables, boundaries_anew,
+    return ([test(function.__name__.replace('_', ' '), function) for function in (body_loads, gravity_directions, sets_of_nodes, left_out, parameters, fields, tables, boundaries_anew,
                       radial_force_on_axis, force_of_harmonics, subcases, titles, headings, force_on_axis,
                       moved_around, quotes, no_name, continued_keywords)]
             + [test(f'new deck, {name}', unreadable, text, words) for name, text, words in UNREADABLE]

@@ -575,8 +575,8 @@ class Cards:
         rows: its rows; allowed: ALL, EVERY n-th, UPTO n: all if they are so many at most, NONE
         number: n of EVERY and UPTO; if not given: 1000
         body: of which body; if not given: any; allowed: 1 … 9999
-        rectangle: least and largest r and z of a rectangle: of places in it; if not given: anywhere; allowed:
-            all four, or none
+        rectangle: least r, least z, largest r, largest z of a rectangle: of places in it; if not given:
+            anywhere; allowed: all four, or none
         """
         self._entry("PRINT", table, rows, number, body, rectangle)
 

@@ -48,7 +48,7 @@ contains
                      real_field('the least z', 46, default=0.0_wp, symbol='z'), &
                      real_field('the largest r', 56, default=0.0_wp, symbol='r'), &
                      real_field('the largest z', 66, default=0.0_wp, symbol='z')], &
-                    'least and largest r and z of a rectangle: of places in it', &
+                    'least r, least z, largest r, largest z of a rectangle: of places in it', &
                     blank='anywhere', limits='all four, or none')]
    end function print_section
 

@@ -1,7 +1,8 @@
 !> A card divided into its fields
 module axijoint_deck_text_card
    use axijoint_base_text, only : to_text
-   use axijoint_deck_text_decimal_comma, only : has_decimal_comma, report_decimal_comma
+   use axijoint_deck_text_decimal_comma, only : has_decimal_comma, report_decimal_comma, may_be_one_number, &
+      warn_of_decimal_comma
    use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, count_again
    use axijoint_deck_text_field, only : field_type, kind_text
    use axijoint_deck_text_foreign, only : comment_mark, trailing_comment
@@ -64,6 +65,7 @@ contains
       else if (fields(1)%kind == kind_text .and. .not. free) then
          call divide_keyword(card, content, fields, slots, diagnostics)
       else if (free) then
+         if (may_be_one_number(content, fields)) call warn_of_decimal_comma(diagnostics, card, content)
          call divide_free(card, content, fields, slots, diagnostics)
       else
          call divide_fixed(card, content, fields, slots, diagnostics)

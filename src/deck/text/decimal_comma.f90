@@ -1,13 +1,13 @@
 !> Commas that were meant as decimal points, where commas separate values
 module axijoint_deck_text_decimal_comma
    use axijoint_base_kinds, only : wp
-   use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error
-   use axijoint_deck_text_field, only : field_type
+   use axijoint_deck_text_diagnostics, only : diagnostics_type, add_error, add_warning
+   use axijoint_deck_text_field, only : field_type, kind_real
    use axijoint_deck_text_source, only : tab
    use axijoint_deck_text_token, only : read_real, token_good
    implicit none
    private
-   public :: has_decimal_comma, report_decimal_comma
+   public :: has_decimal_comma, report_decimal_comma, may_be_one_number, warn_of_decimal_comma
 
    !> What separates the values of a card with decimal commas
    character(len=*), parameter :: blanks = ' '//tab
@@ -46,6 +46,40 @@ contains
       has_decimal_comma = blank_inside .or. count_commas(content) >= size(fields)
       if (n_values == 1) has_decimal_comma = .false.  ! two values is as likely
    end function has_decimal_comma
+
+   !> Whether a card is digits, a comma and digits without a blank, two values as it stands, which may have been meant as one
+   !> number: the card may have a real and nothing else
+   pure logical function may_be_one_number(content, fields)
+      !> The card without its comment
+      character(len=*), intent(in) :: content
+      !> Fields that it may have
+      type(field_type), intent(in) :: fields(:)
+
+      may_be_one_number = .false.
+      if (fields(1)%kind /= kind_real .or. size(fields) == 1 .or. any(fields(2:)%required)) return
+      may_be_one_number = decimal_place(trim(adjustl(content))) > 0
+   end function may_be_one_number
+
+   !> Warn of a card that may have been meant as one number
+   subroutine warn_of_decimal_comma(diagnostics, card, content)
+      !> Messages
+      type(diagnostics_type), intent(inout) :: diagnostics
+      !> The card
+      integer, intent(in) :: card
+      !> The card without its comment
+      character(len=*), intent(in) :: content
+
+      integer :: first, last, comma
+
+      first = verify(content, blanks)
+      last = len_trim(content)
+      comma = index(content, ',')
+      call add_warning(diagnostics, card, first, last, &
+         'a comma separates values, so these are two; they look like one number with a decimal comma', &
+         found=content(first:last), mend='one number has a decimal point: '//content(first:comma - 1)//'.'// &
+         content(comma + 1:last)//'; two have a blank behind the comma: '//content(first:comma)//' '// &
+         content(comma + 1:last))
+   end subroutine warn_of_decimal_comma
 
    !> Report the first decimal comma of a card
    subroutine report_decimal_comma(diagnostics, card, content)

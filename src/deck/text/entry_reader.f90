@@ -81,7 +81,7 @@ contains
       end do
    end subroutine read_entries
 
-   !> Read an entry if nothing is wrong with it
+   !> Read an entry if nothing is wrong with it, nor doubtful
    subroutine try_entry(table, source, cards, good)
       !> The section
       type(table_type), intent(inout) :: table
@@ -95,7 +95,7 @@ contains
       type(diagnostics_type) :: faults
 
       call read_entry(table, source, cards, faults)
-      good = faults%n_errors == 0
+      good = faults%n_errors + faults%n_warnings == 0
       if (.not. good) table%n = table%n - 1
    end subroutine try_entry
 
