@@ -19,9 +19,15 @@ contains
       !> With more planes
       type(model_type), intent(out) :: denser
 
+      integer :: least
+
       denser = model
       call forget_history(denser)
-      denser%n_body_planes = more_planes(model%max_harmonic, model%n_body_planes)
+      associate (modes => used_modes(model))
+         least = 0  ! all may be multiples of it
+         if (any(modes%harmonic > 0)) least = minval(modes%harmonic, mask=modes%harmonic > 0)
+      end associate
+      denser%n_body_planes = more_planes(max(model%max_harmonic, 2*least), model%n_body_planes)
    end subroutine take_more_planes
 
    !> Twice as many intervals, or the usual planes of twice as many harmonics and one more
