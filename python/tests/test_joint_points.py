@@ -1,0 +1,105 @@
+"""Joints round the circle, how far their faces stand apart, and the figures and largest values of them"""
+import contextlib
+import io
+import json
+import pathlib
+import tempfile
+import unittest
+
+import jobs
+import numpy as np
+
+try:
+    from axijoint import plot
+    from overlaps import overlaps
+except ImportError:
+    plot = None
+
+import axijoint
+from axijoint import report
+from axijoint.joint_points import JointPoints
+from axijoint.report import view
+from axijoint.report.extremes import joint_peaks
+
+LAW = "    1     1.0E4     2.0E4     1.0E4       0.0      30.0\n"
+ELASTIC = "1, 1.0E4, 2.0E4, 1.0E4, , , ELASTIC\n"
+PUSH = "    1   LATERAL       0.4\n"
+# Not symmetric: pushed along 40 degrees, pulled and twisted
+ASKEW = "    1   LATERAL       0.4      40.0\n    1     AXIAL       0.2\n    1    TORQUE       0.1\n"
+# Faces are 2E-4 apart before loading
+APART = "LAWDETAILS\n1, RESULTANT, REVERSIBLE, , , , 2.0E-4\n"
+APART_BY = 2e-4
+ELASTIC_DECKS = ("curved_bodies", "in_situ_sum", "increments", "joint_cone_4", "joint_cone_6", "joint_cylinders_centroid",
+                 "joint_cylinders_lobatto", "joint_tension_lobatto_8", "joint_triangles")
+
+
+def peg(law=LAW, load=ASKEW, cards=""):
+    """The peg of inputs/first.dat with another law, other loads, further cards."""
+    deck = jobs.input_deck("first", *cards.splitlines())
+    assert LAW in deck and PUSH in deck
+    return deck.replace(LAW, law).replace(PUSH, load)
+
+
+class Peg(unittest.TestCase):
+    """A peg in a block"""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+
+    def result(self, name, *changes, **named):
+        """Result of a peg that is otherwise."""
+        return axijoint.open(f"{jobs.run(self.folder.name, name, peg(*changes, **named))}.h5")
+
+
+class Elastic(Peg):
+    """Joints that do not yield, under loads of both families"""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        outputs = {"usual": "", "other": "OUTPUT\n270.0, 90.0, 0.0, 180.0, 40.0", "single": "OUTPUT\n      40.0"}
+        cls.jobs = {name: cls.result(cls, name, ELASTIC, cards=cards) for name, cards in outputs.items()}
+
+    def test_sums_are_those_of_the_file(self):
+        """At the angles of OUTPUT the sums of the harmonics are what the program found there, whatever the joints are like"""
+        results = list(self.jobs.values())
+        for name in ELASTIC_DECKS:
+            text = (jobs.ROOT/f"test/decks/good/{name}.dat").read_text(encoding="utf-8")
+            results.append(axijoint.open(f"{jobs.run(self.folder.name, name, text)}.h5"))
+        for result in results:
+            for increment in result.history.increments_of("joints"):
+                points = JointPoints(result.at(int(increment)))
+                wanted = points.on_planes()
+                found = points.at(wanted.theta)
+                for one in ("stress", "jump", "gap"):
+                    np.testing.assert_allclose(getattr(found, one), getattr(wanted, one), rtol=0,
+                                               atol=1e-12*max(abs(getattr(wanted, one)).max(), 1e-12), err_msg=str(result))
+
+    def test_table_at_angles(self):
+        usual, other = self.jobs["usual"].joints(theta=[270, 40]), self.jobs["other"].joints()
+        self.assertEqual(self.jobs["usual"].joints()["theta"].max(), 180)
+        for theta in (270, 40):
+            here, there = (one.where(np.isclose(one["theta"], theta)) for one in (usual, other))
+            for name in ("sigma", "tau", "gap", "slip"):
+                np.testing.assert_allclose(here[name], there[name], rtol=1e-9, atol=1e-15)
+        with self.assertRaisesRegex(ValueError, "joints yield.* on the planes of their law alone"):
+            self.result("yielding", load=PUSH).joints(theta=30)
+
+
+class Gap(Peg):
+    """How far faces stand apart: a peg in a hole that is too large"""
+
+    def test_gap(self):
+        result = self.result("apart", LAW + APART, PUSH)
+        joints, d_eta = result.joints(), result.read("joints/jump")[..., 1].ravel()
+        np.testing.assert_array_equal(joints["d_eta"], d_eta)
+        np.testing.assert_array_equal(joints["gap"], np.maximum(d_eta + APART_BY, 0))
+        self.assertTrue((joints["gap"][joints["state"] == "open"] > 0).all())
+        self.assertTrue((joints["gap"][joints["sigma"] < 0] == 0).all())
+        self.assertTrue((d_eta[joints["state"] == "open"] < 0).any())  # open, and nearer than before
+
+
+if __name__ == "__main__":
+    unittest.main()
