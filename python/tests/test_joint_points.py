@@ -1,7 +1,5 @@
 """Joints round the circle, how far their faces stand apart, and the figures and largest values of them"""
-import contextlib
-import io
-import json
+import base64
 import pathlib
 import tempfile
 import unittest
@@ -19,7 +17,6 @@ import axijoint
 from axijoint import report
 from axijoint.joint_points import JointPoints
 from axijoint.report import view
-from axijoint.report.extremes import joint_peaks
 
 LAW = "    1     1.0E4     2.0E4     1.0E4       0.0      30.0\n"
 ELASTIC = "1, 1.0E4, 2.0E4, 1.0E4, , , ELASTIC\n"
@@ -87,6 +84,66 @@ class Elastic(Peg):
         with self.assertRaisesRegex(ValueError, "joints yield.* on the planes of their law alone"):
             self.result("yielding", load=PUSH).joints(theta=30)
 
+    @unittest.skipIf(plot is None, "matplotlib is not installed")
+    def test_pressure_round_the_circle(self):
+        """It is the same whatever OUTPUT says, and no mirror image"""
+        tables = [table for result in self.jobs.values() for _, table in plot.tables(result, ["pressure"])]
+        for table in tables:
+            np.testing.assert_allclose(table["pressure"], tables[0]["pressure"], atol=1e-12)
+        whole, other = tables[0], self.jobs["other"].joints()
+        self.assertEqual(np.unique(whole["theta"]).tolist(), list(range(0, 360, 5)))
+        here = whole.where(whole["theta"] == 270)
+        for z, pressure in zip(here["z"], here["pressure"]):
+            there = np.isclose(other["z"], z) & np.isclose(other["theta"], 270)
+            np.testing.assert_allclose(pressure, -other["sigma"][there], rtol=1e-9)
+        self.assertAlmostEqual(here["pressure"][here["z"].argmin()], -0.311335, 6)
+
+    @unittest.skipIf(plot is None, "matplotlib is not installed")
+    def test_map_of_the_joints(self):
+        """Angles ascend round the circle, whatever OUTPUT says"""
+        for result in self.jobs.values():
+            for name, figure in plot.figures(result, ["joints"]):
+                self.assertEqual(overlaps(figure), [], name)
+                cells = figure.axes[1].collections[0]
+                edges = cells.get_coordinates()[0, :, 0]
+                self.assertTrue((np.diff(edges) > 0).all())
+                np.testing.assert_allclose((edges[1:] + edges[:-1])/2, np.arange(0, 360, 5), atol=1e-9)
+                self.assertEqual(figure.axes[1].get_xlim(), (0, 355))
+                self.assertAlmostEqual(cells.get_array().min(), -result.history["largest_pressure"][0], 6)
+
+    def test_view_of_the_page(self):
+        """Its cells go round the circle, too"""
+        for name in self.jobs:
+            job, = report.jobs_of(pathlib.Path(self.folder.name)/name)
+            found = view.data(job)[0]["joints"]
+            self.assertEqual((found["mirrored"], found["planes"]), (False, list(range(0, 360, 5))))
+            pressure = np.frombuffer(base64.b64decode(found["values"][0][1]["data"]), "<i2")*found["values"][0][1]["scale"]
+            self.assertAlmostEqual(pressure.max(), job.result.history["largest_pressure"][0], 4)
+
+
+class Symmetric(Peg):
+    """Joints under a load that is symmetric"""
+
+    @unittest.skipIf(plot is None, "matplotlib is not installed")
+    def test_mirror_image(self):
+        for law in (LAW, ELASTIC):
+            result = self.result("symmetric", law, PUSH)
+            (_, table), = plot.tables(result, ["pressure"])
+            for z in np.unique(table["z"]):
+                here = table.where(table["z"] == z)
+                turned = np.interp((360 - here["theta"]) % 360, here["theta"], here["pressure"])
+                np.testing.assert_allclose(turned, here["pressure"], atol=1e-12)
+                self.assertTrue((np.diff(here["theta"]) > 0).all())
+            self.assertGreater(table["theta"].max(), 330)
+
+    @unittest.skipIf(plot is None, "matplotlib is not installed")
+    def test_a_load_that_is_not(self):
+        """Of both families the planes of the law go round the circle themselves"""
+        result = self.result("turned", LAW, ASKEW)
+        (_, table), = plot.tables(result, ["pressure"])
+        np.testing.assert_allclose(np.unique(table["theta"]), np.degrees(result.read("joints/planes")))
+        self.assertGreater(table["theta"].max(), 330)
+
 
 class Gap(Peg):
     """How far faces stand apart: a peg in a hole that is too large"""
@@ -99,6 +156,13 @@ class Gap(Peg):
         self.assertTrue((joints["gap"][joints["state"] == "open"] > 0).all())
         self.assertTrue((joints["gap"][joints["sigma"] < 0] == 0).all())
         self.assertTrue((d_eta[joints["state"] == "open"] < 0).any())  # open, and nearer than before
+        if plot is not None:
+            (_, figure), = plot.figures(result, ["joints"])
+            self.assertAlmostEqual(figure.axes[3].collections[0].get_array().max(), joints["gap"].max(), 12)
+        job, = report.jobs_of(pathlib.Path(self.folder.name)/"apart")
+        shown = view.data(job)[0]["joints"]
+        packed = shown["values"][0][shown["names"].index("gap")]
+        self.assertAlmostEqual(32767*packed["scale"], joints["gap"].max(), 9)
 
 
 if __name__ == "__main__":
