@@ -1,5 +1,6 @@
 """Joints round the circle, how far their faces stand apart, and the figures and largest values of them"""
 import base64
+import json
 import pathlib
 import tempfile
 import unittest
@@ -17,6 +18,7 @@ import axijoint
 from axijoint import report
 from axijoint.joint_points import JointPoints
 from axijoint.report import view
+from axijoint.report.extremes import joint_peaks
 
 LAW = "    1     1.0E4     2.0E4     1.0E4       0.0      30.0\n"
 ELASTIC = "1, 1.0E4, 2.0E4, 1.0E4, , , ELASTIC\n"
@@ -111,6 +113,21 @@ class Elastic(Peg):
                 self.assertEqual(figure.axes[1].get_xlim(), (0, 355))
                 self.assertAlmostEqual(cells.get_array().min(), -result.history["largest_pressure"][0], 6)
 
+    def test_largest_of_the_report(self):
+        """They are what the program says, not the largest of the angles of OUTPUT"""
+        for name, result in self.jobs.items():
+            found = joint_peaks(result)
+            for key, series in (("pressure", "largest_pressure"), ("shear stress", "largest_shear")):
+                self.assertAlmostEqual(found[key].value, result.history[series][0], 9)
+            summary = json.loads((pathlib.Path(self.folder.name)/f"{name}.json").read_text(encoding="utf-8"))
+            self.assertAlmostEqual(found["pressure"].value, summary["increments"][0]["largest_pressure"], 9)
+            page = report.page(report.jobs_of(pathlib.Path(self.folder.name)/name), figures=False)
+            self.assertIn("0.968578 MPa at joint 1, point 2, r = 0.5, z = 0.0264156, θ = 40°", page)
+        for law in (LAW, ELASTIC):
+            for load in (PUSH, ASKEW):
+                result = self.result("either", law, load)
+                self.assertAlmostEqual(joint_peaks(result)["pressure"].value, result.history["largest_pressure"][0], 9)
+
     def test_view_of_the_page(self):
         """Its cells go round the circle, too"""
         for name in self.jobs:
@@ -159,6 +176,7 @@ class Gap(Peg):
         if plot is not None:
             (_, figure), = plot.figures(result, ["joints"])
             self.assertAlmostEqual(figure.axes[3].collections[0].get_array().max(), joints["gap"].max(), 12)
+        self.assertEqual(joint_peaks(result)["gap"].value, joints["gap"].max())
         job, = report.jobs_of(pathlib.Path(self.folder.name)/"apart")
         shown = view.data(job)[0]["joints"]
         packed = shown["values"][0][shown["names"].index("gap")]
