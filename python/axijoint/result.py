@@ -480,8 +480,14 @@ def open_combinations(path):
 
 
 def text_of(value):
-    """A value of the file; bytes become text."""
-    return value.decode("utf-8").rstrip("\0") if isinstance(value, bytes) else value
+    """A value of the file; bytes become text: UTF-8 or, of decks with other bytes in comments, Latin-1."""
+    if not isinstance(value, bytes):
+        return value
+    try:
+        text = value.decode("utf-8")
+    except UnicodeDecodeError:
+        text = value.decode("latin-1")
+    return text.rstrip("\0")
 
 
 def _columns(names, values):

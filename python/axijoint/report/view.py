@@ -15,7 +15,7 @@ from ..joint_points import JointPoints
 from ..result import STATES
 from ..sweep import Sweep
 from .curves import curves
-from .markup import Markup, joined, tag
+from .markup import Markup, escaped, joined, tag
 
 # Bytes of data of all jobs of a page; base64 takes a third more, plotly 4.8 million
 LARGEST = 6_000_000
@@ -157,7 +157,7 @@ def element(job, identifier, largest=LARGEST):
     text = json.dumps(found, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
     return joined([tag("div", class_="view", id=f"{identifier}-shown", data_view=f"{identifier}-data"),
                    tag("p", words, class_="note"), tag("noscript", tag("p", "The view needs JavaScript.")),
-                   Markup(f'<script type="application/json" id="{identifier}-data">{text}</script>')])
+                   Markup(f'<script type="application/json" id="{escaped(identifier)}-data">{text}</script>')])
 
 
 def scripts():
