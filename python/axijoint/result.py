@@ -99,6 +99,8 @@ class Result:
             place, row = (name, ()) if self._wanted is None else place_of(file, name, self._wanted)
             if place not in file:
                 raise KeyError(f"{self.path} has no {place}")
+            if isinstance(file[place], h5py.Group):
+                raise KeyError(f"/{place} of {self.path} is a group; datasets in it: {', '.join(_datasets(file, place))}")
             value = text_of(file[place][row])
             if name == "joints/jump" and place != name:
                 value = circle.on_planes(value, file["modes/harmonic"][()], file["modes/family"][()],
@@ -488,6 +490,13 @@ def text_of(value):
     except UnicodeDecodeError:
         text = value.decode("latin-1")
     return text.rstrip("\0")
+
+
+def _datasets(file, group):
+    """Paths of all datasets in a group."""
+    found = []
+    file[group].visititems(lambda name, item: found.append(f"{group}/{name}") if isinstance(item, h5py.Dataset) else None)
+    return found
 
 
 def _columns(names, values):
