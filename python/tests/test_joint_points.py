@@ -5,6 +5,7 @@ import pathlib
 import tempfile
 import unittest
 
+import h5py
 import jobs
 import numpy as np
 
@@ -166,7 +167,7 @@ class Gap(Peg):
     """How far faces stand apart: a peg in a hole that is too large"""
 
     def test_gap(self):
-        result = self.result("apart", LAW + APART, PUSH)
+        result = self.result("apart", LAW + APART, PUSH, cards="SWEEP\n       0.0     180.0    8")
         joints, d_eta = result.joints(), result.read("joints/jump")[..., 1].ravel()
         np.testing.assert_array_equal(joints["d_eta"], d_eta)
         np.testing.assert_array_equal(joints["gap"], np.maximum(d_eta + APART_BY, 0))
@@ -177,6 +178,8 @@ class Gap(Peg):
             (_, figure), = plot.figures(result, ["joints"])
             self.assertAlmostEqual(figure.axes[3].collections[0].get_array().max(), joints["gap"].max(), 12)
         self.assertEqual(joint_peaks(result)["gap"].value, joints["gap"].max())
+        with h5py.File(f"{self.folder.name}/apart.joints.vtkhdf") as file:
+            np.testing.assert_array_equal(np.unique(file["VTKHDF/CellData/gap"]), np.unique(joints["gap"]))
         job, = report.jobs_of(pathlib.Path(self.folder.name)/"apart")
         shown = view.data(job)[0]["joints"]
         packed = shown["values"][0][shown["names"].index("gap")]
