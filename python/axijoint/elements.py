@@ -36,6 +36,14 @@ def shape_functions(size, natural):
             9: _biquadratic}[size](x, y)
 
 
+def line_functions(count, x):
+    """Shape functions (points, count) and their derivatives at points x of a line of 2 or 3 nodes at equal distances."""
+    x = np.asarray(x, float)
+    if count == 2:
+        return np.stack([(1 - x)/2, (1 + x)/2], -1), np.broadcast_to([-0.5, 0.5], (len(x), 2))
+    return np.stack([x*(x - 1)/2, 1 - x**2, x*(x + 1)/2], -1), np.stack([x - 0.5, -2*x, x + 0.5], -1)
+
+
 def _area_coordinates(x, y):
     area = np.stack([1 - x - y, x, y], -1)
     slope = np.array([(-1., -1.), (1., 0.), (0., 1.)])

@@ -34,8 +34,9 @@ class NotKeptError(LookupError):
 class History:
     """Series by increment; read when they are asked for, and kept.
 
-    history["work"]            any dataset of /history, as stored: the first axis is the increment
-    history.names              names of these datasets
+    history["work"]            any dataset of /history, as stored: the first axis is the increment; of a group
+                               history["points/position"]
+    history.names              names of these datasets and groups
     history.increment          numbers of the increments, (increments); of what else is kept
                                of some increments alone, history.increments_of("displacement"), ...
     history.point_names        names of the points of POINTS

@@ -11,6 +11,8 @@ from . import elements
 
 # Share of an element's extent by which its box is widened; curved sides may leave the box of the nodes
 STRAIGHT_MARGIN, CURVED_MARGIN = 1e-5, 0.25
+# Nodes of sides 1-2 and 4-3 of joints of 4 and of 6 nodes, in order along them
+SIDES = {4: ([0, 1], [3, 2]), 6: ([0, 4, 1], [3, 5, 2])}
 
 
 class Mesh:

@@ -7,7 +7,7 @@ from functools import cached_property
 import h5py
 import numpy as np
 
-from . import circle, convert, elements
+from . import circle, convert, elements, joint_points
 from .components import DISPLACEMENTS, STRESSES
 from .history import History, JUMPS, NotKeptError, place_of
 from .interface import read_interfaces
@@ -99,8 +99,10 @@ class Result:
             place, row = (name, ()) if self._wanted is None else place_of(file, name, self._wanted)
             if place not in file:
                 raise KeyError(f"{self.path} has no {place}")
+            if isinstance(file[place], h5py.Group):
+                raise KeyError(f"/{place} of {self.path} is a group; datasets in it: {', '.join(_datasets(file, place))}")
             value = text_of(file[place][row])
-            if place == f"history/{JUMPS}":
+            if name == "joints/jump" and place != name:
                 value = circle.on_planes(value, file["modes/harmonic"][()], file["modes/family"][()],
                                          np.degrees(file["joints/planes"][()]))
             return value
@@ -164,6 +166,16 @@ class Result:
     def displacement_amplitude(self):
         """Amplitudes u, v, w of the nodes, (modes, nodes, 3)."""
         return self.read("displacement")
+
+    @cached_property
+    def jump_amplitude(self):
+        """Amplitudes of the relative displacements d_xi, d_eta, d_theta of the joint points, (modes, points, 3)."""
+        if JUMPS not in self.history:  # a job of one increment
+            rule = self.read("joint_materials/rule")[self.mesh.joint_material]
+            return joint_points.jumps(self.mesh, self.read("joints/joint") - 1, rule, self.displacement_amplitude)
+        with h5py.File(self.path, "r") as file:
+            _, row = place_of(file, "joints/jump", self.increment)
+            return file[f"history/{JUMPS}"][-1 if row == () else row]
 
     @cached_property
     def gauss_amplitude(self):
@@ -366,31 +378,32 @@ class Result:
         return Table({"element": self.mesh.element_label[element], "point": _places(element),
                       "r": r, "z": z} | _columns(STRESSES, self._sum(self.gauss_amplitude, theta)))
 
-    def joints(self):
+    def joints(self, theta=None):
         """Table of the joint points on all planes on which the law is checked.
 
+        theta: where no joint yields, and so no law is checked: angles [degree]; without it those of OUTPUT.
+
         joint, law, point, r, z, theta [degree]; sigma (tension positive), tau_xi, tau_theta; tau, the
-        size of both; gap, the relative displacement d_eta (positive opens); slip_xi and slip_theta,
-        the relative displacements d_xi and d_theta, elastic parts included; slip, the size of both;
-        state: stick, slip, open.
+        size of both; gap, how far the faces stand apart, the gap before loading included, 0 where they touch; d_eta,
+        the normal relative displacement (positive opens); slip_xi and slip_theta, the relative
+        displacements d_xi and d_theta, elastic parts included; slip, the size of both; state: stick, slip, open.
         """
-        owner, planes = self.read("joints/joint") - 1, np.degrees(self.read("joints/planes"))
-        n, count = len(owner), len(planes)
-        if n == 0:
-            owner, count = np.empty(0, int), 0
+        points = joint_points.JointPoints(self)
+        owner, n = points.owner, len(points.owner)
+        field = points.on_planes() if theta is None else points.at(np.atleast_1d(theta))
+        count = len(field.theta) if n else 0
         position = self.read("joints/position").reshape(n, 2)
-        stress, jump, state = (self.read(f"joints/{name}") for name in ("stress", "jump", "state"))
         each = np.tile(np.arange(n), count)
-        tau_xi, sigma, tau_theta = stress.reshape(-1, 3).T[:, :n*count]
-        slip_xi, gap, slip_theta = jump.reshape(-1, 3).T[:, :n*count]
+        tau_xi, _, tau_theta = field.stress.reshape(-1, 3).T
+        slip_xi, d_eta, slip_theta = field.jump.reshape(-1, 3).T
         return Table({
             "joint": self.mesh.joint_label[owner][each],
             "law": self.mesh.law_label[self.mesh.joint_material[owner]][each],
             "point": _places(owner)[each], "r": position[each, 0], "z": position[each, 1],
-            "theta": np.repeat(planes[:count], n), "sigma": sigma, "tau_xi": tau_xi,
-            "tau_theta": tau_theta, "tau": np.hypot(tau_xi, tau_theta), "gap": gap, "slip_xi": slip_xi,
-            "slip_theta": slip_theta, "slip": np.hypot(slip_xi, slip_theta),
-            "state": STATES[state.reshape(-1)[:n*count]]})
+            "theta": np.repeat(field.theta[:count], n), "sigma": field.sigma.ravel(), "tau_xi": tau_xi,
+            "tau_theta": tau_theta, "tau": field.tau.ravel(), "gap": field.gap.ravel(), "d_eta": d_eta,
+            "slip_xi": slip_xi, "slip_theta": slip_theta, "slip": field.slip.ravel(),
+            "state": STATES[field.state.ravel()]})
 
     def convergence(self):
         """Table of the convergence path; no rows for a linear job."""
@@ -469,8 +482,21 @@ def open_combinations(path):
 
 
 def text_of(value):
-    """A value of the file; bytes become text."""
-    return value.decode("utf-8").rstrip("\0") if isinstance(value, bytes) else value
+    """A value of the file; bytes become text: UTF-8 or, of decks with other bytes in comments, Latin-1."""
+    if not isinstance(value, bytes):
+        return value
+    try:
+        text = value.decode("utf-8")
+    except UnicodeDecodeError:
+        text = value.decode("latin-1")
+    return text.rstrip("\0")
+
+
+def _datasets(file, group):
+    """Paths of all datasets in a group."""
+    found = []
+    file[group].visititems(lambda name, item: found.append(f"{group}/{name}") if isinstance(item, h5py.Dataset) else None)
+    return found
 
 
 def _columns(names, values):

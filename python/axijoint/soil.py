@@ -10,6 +10,7 @@ and H_b are positive along the direction asked for (theta); m, M_b, psi and psi_
 it - the opposite of MOMENT of a deck and of moments in tables, which lift that side; t, V_b and s
 downwards.
 """
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
@@ -98,11 +99,16 @@ def soil_reactions(result, body=None, theta=0.0, increments=None, source=None):
     source: "joints": those along z are the shaft, those across z the base, what is inside and outside a
         tube is added up; "cuts": what the resultants on CUTS of the body differ by, loads on the pile and its weight
         between them included, and the lowest of them as the base. Without it, cuts where bodies are bonded to it.
+        Joints alone leave out what goes through bonded interfaces, of which a warning tells.
     """
     body = pile_of(result) if body is None else body
-    source = _source(result, body) if source is None else source
+    bonded = _bonded(result, body)
+    source = _source(result, body, bonded) if source is None else source
     if source not in ("joints", "cuts"):
         raise ValueError(f"source is {source!r}; it may be 'joints' or 'cuts'")
+    if source == "joints" and bonded:
+        warnings.warn(f"{bonded} of body {body}: bonded; what goes through there is not in the reactions of the joints. "
+                      f"source='cuts' has it, from CUTS of body {body}", stacklevel=2)
     if source == "joints" and not (along_axis(result.mesh) & (sides_of(result.mesh, body) != 0)).any():
         raise NoShaftError(f"body {body} has no joints along z")
     history = result.history
@@ -118,13 +124,17 @@ def soil_reactions(result, body=None, theta=0.0, increments=None, source=None):
     return SoilReactions(body, theta, source, numbers, history["load_factor"][rows], **values)
 
 
-def _source(result, body):
+def _bonded(result, body):
+    """Names of the interfaces that bond another body to this one, with commas between."""
+    return ", ".join(one.name for one in result.interfaces if one.law is None and body in (one.body_a, one.body_b))
+
+
+def _source(result, body, bonded):
     """Joints, unless an interface bonds another body to this one."""
-    bonded = [one.name for one in result.interfaces if one.law is None and body in (one.body_a, one.body_b)]
     if not bonded:
         return "joints"
     if len(cuts_through(result, body)) < 2:
-        raise NoShaftError(f"{', '.join(bonded)} of body {body}: bonded, and forces there are known from CUTS of "
+        raise NoShaftError(f"{bonded} of body {body}: bonded, and forces there are known from CUTS of "
                            f"body {body} alone; the deck has fewer than two")
     return "cuts"
 

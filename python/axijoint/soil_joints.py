@@ -1,10 +1,9 @@
 """Soil reactions of the joints on a pile: segments between the ends of joints along z, joints across z below."""
 import numpy as np
 
-from . import circle
+from . import circle, elements
+from .mesh import SIDES
 
-# Nodes of the two sides of a joint of 4 and of 6 nodes, in order along it
-SIDES = {4: ([0, 1], [3, 2]), 6: ([0, 4, 1], [3, 5, 2])}
 # Columns of resultants along theta = 0 and 90 degrees
 FORCE, MOMENT = (1, 4), (2, 5)
 
@@ -86,9 +85,9 @@ def _at_heights(mesh, joints, sign, z, touching, motions):
         first, last = mesh.coordinates[nodes[[0, -1]], 1]
         here = touching[:, k]
         x = (2*z[here] - first - last)/(last - first)
-        shape = [(1 - x)/2, (1 + x)/2] if len(nodes) == 2 else [x*(x - 1)/2, 1 - x**2, x*(x + 1)/2]
+        shape, _ = elements.line_functions(len(nodes), x)
         for i, motion in enumerate(motions):
-            total[i, here] += np.transpose(shape) @ motion.of(nodes)
+            total[i, here] += shape @ motion.of(nodes)
     return total/touching.sum(axis=1)[:, None]
 
 

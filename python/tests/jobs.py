@@ -9,9 +9,9 @@ sys.path[:0] = [str(ROOT/"python"), str(ROOT/"test/decks")]
 
 
 def run(folder, name, text, exit_code=0):
-    """Run a deck that ends with an exit code; returns the path of the results without ending."""
+    """Run a deck, a text or its bytes, that ends with an exit code; returns the path of the results without ending."""
     deck = pathlib.Path(folder)/f"{name}.dat"
-    deck.write_text(text)
+    deck.write_bytes(text if isinstance(text, bytes) else text.encode("utf-8"))
     done = subprocess.run([os.environ["AXIJOINT"], "run", deck, "-o", folder], capture_output=True,
                           text=True, check=False)
     if done.returncode != exit_code:

@@ -84,6 +84,19 @@ class Increments(unittest.TestCase):
         total = sum(history.interface(name) for name in ("shaft", "plug", 3))
         self.close(total[:, 1:3], -history["applied"][:, 1:3], 1e-6)
 
+    def test_series_as_stored(self):
+        """Groups name their datasets"""
+        history = self.result.history
+        with self.assertRaisesRegex(KeyError, "history/points .* is a group; datasets in it: .*history/points/displacement, "):
+            history["points"]
+        with self.assertRaisesRegex(KeyError, "/mesh .* is a group"):
+            self.result.read("mesh")
+        self.assertEqual(history["points/position"].shape, (3, 2))
+        self.assertEqual(history["joint_amplitude"].shape[:2], (8, len(self.result.harmonic)))
+        for name in history.names:
+            if name not in ("points", "sections"):
+                self.assertTrue(len(history[name]) > 0, name)
+
     def test_only_what_is_asked_for_is_read(self):
         path = f"{self.folder.name}/hollow.h5"
         shutil.copy(self.result.path, path)

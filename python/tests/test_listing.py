@@ -123,7 +123,7 @@ class Listing(unittest.TestCase):
             keyed = {(int(j), int(p), round(t, 3)): k for k, (j, p, t)
                      in enumerate(zip(table["joint"], table["point"], table["theta"]))}
             self.assertEqual(len(printed), table.rows)
-            columns = {"sigma": "sigma", "tau_xi": "tau_xi", "tau_theta": "tau_theta", "d_eta": "gap",
+            columns = {"sigma": "sigma", "tau_xi": "tau_xi", "tau_theta": "tau_theta", "d_eta": "d_eta",
                        "d_xi": "slip_xi", "d_theta": "slip_theta"}
             for row in printed:
                 k = keyed[int(row["joint"]), int(row["point"]), round(row["theta"], 3)]

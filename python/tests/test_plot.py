@@ -139,7 +139,9 @@ class Figures(unittest.TestCase):
                     self.assertEqual(overlaps(figure), [], f"{name} {figure_name}")
                     found.add(figure_name)
                 self.assertEqual(found, drawn[name])
-            self.heights_of_curves(axijoint.open_study(f"{folder}/grid.study.h5"))
+            grid = axijoint.open_study(f"{folder}/grid.study.h5")
+            self.heights_of_curves(grid)
+            self.means_of_maps(grid, axijoint.open_study(f"{folder}/samples.study.h5"))
             self.command_of_studies(folder)
 
     def test_an_envelope(self):
@@ -180,6 +182,15 @@ class Figures(unittest.TestCase):
         cells = figure.axes[0].collections[0].get_array()
         alike = (rows["LAWS 1 C"] == 0.1) & (rows["LAWS 1 PHI"] == 20)
         self.assertAlmostEqual(cells[1, 2], np.mean(rows["work"][alike]), 15)
+
+    def means_of_maps(self, grid, samples):
+        """A map says over what it takes the mean, also under a title of one's own; nothing where it takes none"""
+        for study, said in ((grid, "mean over LAWS 1 C"), (samples, "")):
+            for title in (None, "A title"):
+                (_, figure), = plot.figures(study, ["map"], plot.Options(
+                    against=[name for name in ("LAWS 1 PHI", "RESULTANTS 1 VALUE", "LAWS 1 C") if name in study.columns][:2],
+                    title=title))
+                self.assertEqual(figure.get_supxlabel(), said)
 
     def command_of_studies(self, folder):
         """Files of studies on the command line"""

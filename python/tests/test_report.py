@@ -194,6 +194,15 @@ class Reports(unittest.TestCase):
             with self.subTest(deck.stem):
                 self.assertIn("Resultants", self.page(deck.stem).texts["caption"])
 
+    def test_a_deck_that_is_not_utf_8(self):
+        """Letters of Latin-1 in a comment, and what is an end of a line there, are shown in place"""
+        deck = jobs.input_deck("first", "! Faserbeton f\u00fcr Pf\u00e4hle \u0085 B25")
+        path = jobs.run(self.folder, "first", deck.encode("latin-1"))
+        self.assertEqual(axijoint.open(f"{path}.h5").deck.strip(), deck.strip())
+        page = self.page("first", figures=plot is not None)
+        self.assertIn("f\u00fcr Pf\u00e4hle", page.texts["pre"])
+        self.assertEqual(page.texts["pre"].count("\n"), deck.rstrip("\n").count("\n"))
+
     def test_numbers(self):
         for value, words in ((-0.0, "0"), (1.5e-7, "1.5E-7"), (float("nan"), "–"), (None, "–"), (12, "12"),
                              (-2.5e12, "-2.5E12")):

@@ -1,6 +1,7 @@
 """Soil reactions on a pile: made-up files with numbers by hand, and the balance of the monopile"""
 import tempfile
 import unittest
+import warnings
 
 import h5py
 import jobs
@@ -168,13 +169,16 @@ class Monopile(unittest.TestCase):
         text = text.replace("    2       0.0   9.81E-3       0.5", "    2       0.0   9.81E-3       0.5" + 20*" " + "MEANT")
         cards = "CUTS" + text.split("\nCUTS")[1].split("SECTIONS")[0]
         result = axijoint.open(f"{jobs.run(self.folder.name, 'bonded', text)}.h5")
-        soil = axijoint.soil_reactions(result)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            soil = axijoint.soil_reactions(result)
         self.assertEqual(soil.source, "cuts")
         applied = result.history["applied"]
         force, moment = soil.totals()
         self.assertLess(abs(force - applied[:, 1]).max(), 1e-6*5.0)
         self.assertLess(abs(moment + applied[:, 2]).max(), 1e-6*125.0)
-        joints = axijoint.soil_reactions(result, source="joints")
+        with self.assertWarnsRegex(UserWarning, "toe of body 1: bonded; .* source='cuts' has it, from CUTS of body 1"):
+            joints = axijoint.soil_reactions(result, source="joints")
         self.assertGreater(abs(joints.totals()[0] - applied[:, 1]).max(), 1e-2*5.0)
         uncut = axijoint.open(f"{jobs.run(self.folder.name, 'uncut', text.replace(cards, ''))}.h5")
         with self.assertRaisesRegex(LookupError, "toe of body 1: bonded, .* CUTS of body 1 alone"):

@@ -5,6 +5,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
+from ..joint_points import JointPoints
 from . import pieces, style
 from .options import Options
 from .style import plt
@@ -18,21 +19,18 @@ NAMES = ("stick", "slip", "open")
 def draw(result, interface, options=Options()):
     """State, normal stress, shear stress, gap and slip of an interface against theta: a Figure."""
     units = style.Units(result, options)
-    theta = np.degrees(result.read("joints/planes"))
-    stress, jump, state = (result.read(f"joints/{name}")[:, interface.points]
-                           for name in ("stress", "jump", "state"))
+    field, points = JointPoints(result).part(), interface.points
+    theta = field.theta
     name, place = interface.coordinate()
     order = np.argsort(place)
     place = place[order]
     figure, axes = plt.subplots(1, 5, figsize=(style.TWO_COLUMNS, 3.3), sharey=True)
-    shown = draw_state(axes[0], theta, place, state.T[order])
+    shown = draw_state(axes[0], theta, place, field.state[:, points].T[order])
     _state_bar(figure.colorbar(shown, ax=axes[0], orientation="horizontal", aspect=12, pad=0.02))
-    panels = ((stress[..., 1], units.of_stress("sigma")),
-              (np.hypot(stress[..., 0], stress[..., 2]), units.label(r"$|\tau|$", units.stress)),
-              (jump[..., 1], units.of_length("gap")),
-              (np.hypot(jump[..., 0], jump[..., 2]), units.of_length("slip")))
+    panels = ((field.sigma, units.of_stress("sigma")), (field.tau, units.label(r"$|\tau|$", units.stress)),
+              (field.gap, units.of_length("gap")), (field.slip, units.of_length("slip")))
     for one, (values, label) in zip(axes[1:], panels):
-        _map(figure, one, theta, place, values.T[order], label)
+        _map(figure, one, theta, place, values[:, points].T[order], label)
     for one in axes:
         axis_of_planes(one, theta)
     axes[0].set_ylabel(units.of_length(f"${name}$"))

@@ -1,6 +1,7 @@
 """Polar plots of the pressure in joints round the circle."""
 import numpy as np
 
+from ..joint_points import JointPoints
 from ..table import Table
 from . import joints, style
 from .style import plt
@@ -33,15 +34,9 @@ def _increments(result, options):
 
 
 def pressure_round(result, points):
-    """theta [degree] round the whole circle and pressure there, (points, angles); planes up to 180 are mirrored."""
-    theta = np.degrees(result.read("joints/planes"))
-    pressure = -result.read("joints/stress")[:, points, 1].T
-    if theta.max() <= 180.001:
-        inner = (theta > 1e-9) & (theta < 180 - 1e-9)
-        theta = np.append(theta, 360 - theta[inner][::-1])
-        pressure = np.concatenate([pressure, pressure[:, inner][:, ::-1]], axis=1)
-    order = np.argsort(theta)
-    return theta[order], pressure[:, order]
+    """theta [degree] round the whole circle and pressure there, (points, angles)."""
+    field = JointPoints(result).around()
+    return field.theta, -field.sigma[:, points].T
 
 
 @style.styled

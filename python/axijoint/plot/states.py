@@ -66,7 +66,7 @@ def draw_curves(study, options=Options()):
 
 @style.styled
 def draw_map(study, options=Options()):
-    """Quantities over two columns: mean of the rows that have the same two values."""
+    """Quantities over two columns: mean of the rows that have the same two values, which a line below says."""
     pair, names = varied(study, options, 2), quantities(study, options)
     figure, axes = plt.subplots(1, len(names), figsize=(0.6 + 2.6*len(names), 2.5), sharey=True, squeeze=False)
     x, y = (study.rows[name] for name in pair)
@@ -88,6 +88,9 @@ def draw_map(study, options=Options()):
         bar.set_label(style.with_power(label_of(name), power))
         bar.ax.xaxis.set_major_locator(style.matplotlib.ticker.MaxNLocator(4))
     axes[0, 0].set_ylabel(pair[1])
+    averaged = _averaged(study, pair)
+    if grid is not None and averaged:
+        figure.supxlabel(f"mean over {', '.join(averaged)}", fontsize=7, color="0.25")
     _heading(figure, study, options)
     return figure
 
@@ -119,14 +122,25 @@ def label_of(name):
 
 def _curves(study, against):
     """Label and rows of each combination of the other columns' values, in the order of the table."""
-    others = [name for name in study.columns if name != against and len(set(map(str, study.rows[name]))) > 1]
-    found = {}
+    others, found = _others(study, (against,)), {}
     for k in range(study.rows.rows):
         values = [study.rows[name][k] for name in others]
         label = "\n".join(f"{name} = {value:g}" if isinstance(value, float) else f"{name} = {value}"
                           for name, value in zip(others, values))
         found.setdefault(label, []).append(k)
     return [(label, np.array(rows)) for label, rows in found.items()]
+
+
+def _others(study, drawn):
+    """Names of the columns that vary beside those that are drawn against."""
+    return [name for name in study.columns if name not in drawn and len(set(map(str, study.rows[name]))) > 1]
+
+
+def _averaged(study, pair):
+    """Names of the columns that vary among solved rows which have the same two values."""
+    same = list(zip(*(study.rows[name][study.solved] for name in pair)))
+    return [name for name in _others(study, pair)
+            if len(set(zip(same, map(str, study.rows[name][study.solved])))) > len(set(same))]
 
 
 def _grid(study, x, y, values):

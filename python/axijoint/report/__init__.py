@@ -118,7 +118,7 @@ def chapter(job, name, several, figures, with_deck, views=0):
 
 def deck(job):
     """Cards of the deck; of a long one its beginning and its end."""
-    lines = job.result.deck.splitlines()
+    lines = job.result.deck.rstrip("\n").split("\n")
     left_out = len(lines) - 2*SHOWN_CARDS
     if left_out > 0:
         lines = [*lines[:SHOWN_CARDS], f"⋮ {left_out} lines left out; all are in the listing", *lines[-SHOWN_CARDS:]]

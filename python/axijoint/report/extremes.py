@@ -5,9 +5,15 @@ import numpy as np
 
 from ..circle import SYMMETRIC
 from ..components import DISPLACEMENTS, STRESSES
+from ..joint_points import JointPoints
 
 # Step of the angles at which nodes are looked at [degree], as in what the program says at the end of a run
 STEP = 5.0
+# Where joints do not yield, between these: steps to where it is looked for something larger, and the least of them [degree]
+AROUND, LEAST_STEP = np.array([0, 0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1, -1]), 1e-4
+# What is looked for in joints, of a JointField
+JOINT_VALUES = {"pressure": lambda field: -field.sigma, "tension": lambda field: field.sigma,
+                "shear stress": lambda field: field.tau, "gap": lambda field: field.gap, "slip": lambda field: field.slip}
 
 
 class Peak:
@@ -56,16 +62,39 @@ def _keep(found, names, values, nodes, theta):
         before[1] = max(before[1], here[1], key=lambda one: one[0])
 
 
-def joint_peaks(joints):
-    """Largest pressure, tension, shear stress, gap and slip of a table of joint points: name -> Peak.
+def joint_peaks(result, joints=None):
+    """Largest pressure, tension, shear stress, gap and slip of all joints or of some (index): name -> Peak.
 
-    Without tension, or without a gap, their value is 0 or less.
+    Without tension, or without a gap, their value is 0 or less. Of joints that yield they are those on the planes of their
+    law, of others anywhere round the circle, as the program tells them.
     """
-    columns = {"pressure": -joints["sigma"], "tension": joints["sigma"], "shear stress": joints["tau"],
-               "gap": joints["gap"], "slip": joints["slip"]}
+    owner, position, labels = JointPoints(result).owner, result.read("joints/position"), result.mesh.joint_label
+    chosen = np.flatnonzero(np.isin(owner, owner if joints is None else joints))
     found = {}
-    for name, values in columns.items():
-        row = int(np.argmax(np.where(np.isfinite(values), values, -np.inf)))
-        found[name] = Peak(values[row], (joints["r"][row], joints["z"][row]), joints["theta"][row],
-                           f"joint {joints['joint'][row]}, point {joints['point'][row]}")
+    for name, (values, theta) in _largest_of_points(result).items():
+        point = chosen[values[chosen].argmax()]
+        place = point - np.searchsorted(owner, owner[point]) + 1
+        found[name] = Peak(values[point], position[point], theta[point], f"joint {labels[owner[point]]}, point {place}")
     return found
+
+
+@lru_cache(maxsize=4)
+def _largest_of_points(result):
+    """The largest values of each joint point, and the angles where they are: name -> two arrays (points)."""
+    points = JointPoints(result)
+    field, found = points.part(), {}
+    for name, of in JOINT_VALUES.items():
+        values = np.where(np.isfinite(of(field)), of(field), -np.inf)
+        largest, theta = values.max(axis=0), field.theta[values.argmax(axis=0)]
+        found[name] = (largest, theta) if points.yields else _climbed(points, of, theta, field.theta[1] - field.theta[0])
+    return found
+
+
+def _climbed(points, of, theta, step):
+    """The largest values of joint points, and where, between the angles beside some [degree]."""
+    while step > LEAST_STEP:
+        tried = theta + step*AROUND[:, None]
+        values = of(points.at(tried))
+        theta = np.take_along_axis(tried, values.argmax(axis=0)[None], 0)[0]
+        step /= 4
+    return values.max(axis=0), theta % 360

@@ -143,7 +143,7 @@ def _joints(job, rest):
     chosen = np.isin(table["joint"], job.result.mesh.joint_label[interface.joints])
     joints = table.where(chosen)
     states = ", ".join(f"{int((joints['state'] == state).sum())} {state}" for state in STATES)
-    peak = joint_peaks(joints)["pressure"]
+    peak = joint_peaks(job.result, interface.joints)["pressure"]
     pressed = f"largest pressure {_place(job, peak)}" if peak.value > 0 else "no point is pressed"
     return (f"Joints of interface {rest}" if rest else "Joints",
             f"State, normal stress, shear stress and gap over {interface.coordinate()[0]} and θ. "

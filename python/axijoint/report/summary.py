@@ -67,7 +67,7 @@ def _main_numbers(job):
     if job.result is None:
         return [None]*6
     joints = job.result.joints()
-    peaks = joint_peaks(joints) if joints.rows else {}
+    peaks = joint_peaks(job.result) if joints.rows else {}
     opened = int((joints["state"] == "open").sum()) if joints.rows else None
     return [job.result.convergence().rows, job.result.attributes_of("convergence")["residual_ratio"],
             job.result.attributes_of("resultants")["part_equilibrium_error"], extremes(job.result)["length"][1].value,
@@ -130,7 +130,8 @@ def _outcome(job):
         states = ", ".join(f"{int((joints['state'] == state).sum())} {state}" for state in ("stick", "slip", "open"))
         rows.append(("joint states", f"{states} (points times planes)"))
         units = {"pressure": job.units.stress, "gap": job.units.length}
-        rows += [(f"largest {name}", _at(joint_peaks(joints)[name], unit)) for name, unit in units.items()]
+        peaks = joint_peaks(result)
+        rows += [(f"largest {name}", _at(peaks[name], unit)) for name, unit in units.items()]
     return rows
 
 

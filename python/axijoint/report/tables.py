@@ -211,16 +211,17 @@ def largest(job):
                 named_rows=True)
     joints = job.result.joints()
     if joints.rows:
-        yield table("Joints", *_joint_rows(job, joints), named_rows=True)
+        yield table("Joints", *_joint_rows(job), named_rows=True)
         yield table("States (points × planes)", ["law", *STATES],
                     [[int(law), *(int(((joints["law"] == law) & (joints["state"] == state)).sum())
                                   for state in STATES)] for law in np.unique(joints["law"])])
 
 
-def _joint_rows(job, joints):
-    units, rows = job.units, []
-    for law in np.unique(joints["law"]):
-        for name, peak in joint_peaks(joints.where(joints["law"] == law)).items():
+def _joint_rows(job):
+    units, mesh, rows = job.units, job.result.mesh, []
+    laws = mesh.law_label[mesh.joint_material]
+    for law in np.unique(laws):
+        for name, peak in joint_peaks(job.result, np.flatnonzero(laws == law)).items():
             unit = units.length if name in ("gap", "slip") else units.stress
             cells = peak.cells() if peak.value > 0 else [None, None, None, None, "none"]
             rows.append([with_unit(name, unit), int(law), *cells])

@@ -11,10 +11,11 @@ import pathlib
 import numpy as np
 
 from ..components import STRESSES
+from ..joint_points import JointPoints
 from ..result import STATES
 from ..sweep import Sweep
 from .curves import curves
-from .markup import Markup, joined, tag
+from .markup import Markup, escaped, joined, tag
 
 # Bytes of data of all jobs of a page; base64 takes a third more, plotly 4.8 million
 LARGEST = 6_000_000
@@ -23,7 +24,7 @@ MOST_WHOLE = 2500
 # Modes whose amplitudes are all smaller, of the largest, are left out
 LEAST_MODE = 1e-5
 # Joint quantities: what they are called, and the colours of states
-JOINT_VALUES = ("state", "pressure", "shear stress", "opening", "slip")
+JOINT_VALUES = ("state", "pressure", "shear stress", "gap", "slip")
 
 
 class Section:
@@ -110,25 +111,22 @@ def _within(kept, stressed, amplitudes, largest):
 
 def _joints(result, views, modes):
     """Joints: their ends, side 1-2, with amplitudes there; their points on planes with what was found."""
-    owner = result.read("joints/joint") - 1
-    planes = np.degrees(result.read("joints/planes")) if len(owner) else []
-    if not len(owner) or not len(planes):
+    mesh, points = result.mesh, JointPoints(result)
+    if not len(points.owner):
         return None
-    mesh = result.mesh
     ends = mesh.joint_nodes[:, :2]
     kept = set(result.history.increments_of("joints").tolist())
-    found = {"planes": list(map(float, planes)), "mirrored": bool((result.family == 1).all()),
+    found = {"planes": points.part().theta.tolist(), "mirrored": points.half,
              "position": exact(mesh.coordinates[ends].reshape(-1, 2)), "count": len(ends),
-             "points": np.bincount(owner, minlength=len(ends)).tolist(), "u": [], "values": [],
+             "points": np.bincount(points.owner, minlength=len(ends)).tolist(), "u": [], "values": [],
              "names": list(JOINT_VALUES), "states": list(map(str, STATES))}
     for k, view in views.items():
         found["u"].append(packed(view.displacement_amplitude[modes][:, ends.ravel()]))
         if k not in kept:
             found["values"].append(None)
             continue
-        stress, jump, state = (view.read(f"joints/{name}") for name in ("stress", "jump", "state"))
-        values = np.stack([state, np.maximum(-stress[..., 1], 0), np.hypot(stress[..., 0], stress[..., 2]),
-                           np.maximum(jump[..., 1], 0), np.hypot(jump[..., 0], jump[..., 2])])
+        field = JointPoints(view).part()
+        values = field.state, np.maximum(-field.sigma, 0), field.tau, field.gap, field.slip
         found["values"].append([packed(one) for one in values])
     return found
 
@@ -159,7 +157,7 @@ def element(job, identifier, largest=LARGEST):
     text = json.dumps(found, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
     return joined([tag("div", class_="view", id=f"{identifier}-shown", data_view=f"{identifier}-data"),
                    tag("p", words, class_="note"), tag("noscript", tag("p", "The view needs JavaScript.")),
-                   Markup(f'<script type="application/json" id="{identifier}-data">{text}</script>')])
+                   Markup(f'<script type="application/json" id="{escaped(identifier)}-data">{text}</script>')])
 
 
 def scripts():
