@@ -12,7 +12,7 @@ module axijoint_output_file_echo
 
 contains
 
-   !> Cards with their line numbers; a change of file is marked
+   !> Cards with their line numbers, question marks for what is not UTF-8; a change of file is marked
    subroutine write_echo(file, source, listed)
       !> The listing
       class(text_file_type), intent(inout) :: file
@@ -21,8 +21,10 @@ contains
       !> Which of them
       logical, intent(in) :: listed(:)
 
+      character(len=:), allocatable :: text
       character(len=9) :: margin
       integer :: card, last_file
+      logical :: valid
 
       call write_heading(file, "DECK")
       last_file = 0
@@ -33,11 +35,13 @@ contains
             last_file = source%cards(card)%file
          end if
          write (margin, format_line) card_line(source, card)
-         call write_lines(file, margin, readable(source, card))
+         text = card_text(source, card)
+         call keep_utf8(text, valid)
+         call write_lines(file, margin, text)
       end do
    end subroutine write_echo
 
-   !> All cards as lines, included files in place
+   !> All cards as lines, included files in place, question marks for what is not UTF-8
    pure function deck_text(source) result(text)
       !> Cards of the deck
       type(source_type), intent(in) :: source
@@ -45,6 +49,7 @@ contains
       character(len=:), allocatable :: text
 
       integer :: card, used, length
+      logical :: valid
 
       associate (cards => source%cards(:source%n_cards))
          length = sum(max(0, cards%last - cards%first + 1) + 1)
@@ -52,27 +57,13 @@ contains
       allocate (character(len=length) :: text)
       used = 0
       do card = 1, source%n_cards
-         associate (line => readable(source, card)//new_line("a"))
+         associate (line => card_text(source, card)//new_line("a"))
             text(used + 1:used + len(line)) = line
             used = used + len(line)
          end associate
       end do
-   end function deck_text
-
-   !> A card with question marks for what is not UTF-8
-   pure function readable(source, card) result(text)
-      !> Cards of the deck
-      type(source_type), intent(in) :: source
-      !> The card
-      integer, intent(in) :: card
-      !> The text
-      character(len=:), allocatable :: text
-
-      logical :: valid
-
-      text = card_text(source, card)
       call keep_utf8(text, valid)
-   end function readable
+   end function deck_text
 
    !> Path of the deck itself
    pure function deck_path(source) result(path)
