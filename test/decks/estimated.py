@@ -692,7 +692,7 @@ def locked(program, folder):
         summary, _ = solved(program, folder, 'locked', text)
         messages = ' '.join(summary['messages'])
         faults += expected(f'nu = {poisson}: at least', wanted, summary['errors']['in_words'].startswith('displacement at least'))
-        faults += expected(f'nu = {poisson}: remark', wanted, 'finer ones lock as well' in messages)
+        faults += expected(f'nu = {poisson}: remark', wanted, 'and finer ones as well' in messages)
         faults += expected(f'nu = {poisson}: missed', wanted, 'was not met in 1 round: elements lock' in messages)
     return faults
 

@@ -190,6 +190,46 @@ def torn(program, folder):
     return faults
 
 
+BOLTS = """TITLE
+Eight equal pressures at equal angles
+CONTROL
+6
+MATERIALS
+1, 2E5, 0.3
+BLOCKS
+1, 1, 8, 2, 3
+1, 0, 2, 1
+FACES
+1, 1, 1, 0, 2, 0
+2, 1, 1, 1, 2, 1
+FIXEDFACES
+1, 111
+SHAPES
+""" + ''.join(f'{k + 1}, PATCH, {45*k - 5}, {45*k + 5}\n' for k in range(8)) + 'PRESSURES\n' + ''.join(
+    f'2, , 100, , , {k + 1}\n' for k in range(8)) + 'END\n'
+
+
+def cancelled(program, folder):
+    """Loads that cancel each other in all harmonics up to M: what is above is not known, and ERROR takes so many that it is"""
+    share = solved(program, folder, 'bolts', BOLTS)[0]['errors']['harmonics']['displacement']
+    summary, _ = solved(program, folder, 'more', with_goal(BOLTS, 3.0))
+    finer, _ = solved(program, folder, 'finer', BOLTS.replace('CONTROL\n6', 'CONTROL\n64').replace('8, 2, 3', '8, 4, 6'))
+    largest = [found['increments'][-1]['largest_displacement'] for found in (summary, finer)]
+    return expected('share of harmonics', None, share) + close('displacement', largest[1], largest[0], 0.03*largest[1])
+
+
+def nearly_incompressible(program, folder):
+    """Elements that are near to locking beside corners: no target is met by what finer ones tell, of B-bar elements it is"""
+    faults = []
+    for nodes, word, said in ((8, '2, , ', True), (4, ', , BBAR', False)):
+        deck = FACING.replace('\n0\n', f'\n0, , , {word}\n').replace('1.0, 0.3', '1.0, 0.4995').replace(
+            '1, 1, 4', f'1, 1, {nodes}').replace('2, DISPL', '40, DISPL, 1')
+        summary, _ = solved(program, folder, 'near', deck)
+        faults += expected(f'{nodes} nodes: not met', said, any('elements lock' in text for text in summary['messages']))
+        faults += expected(f'{nodes} nodes: at least', said, 'at least' in summary['errors']['in_words'])
+    return faults
+
+
 def told(program, folder):
     """A target that is not met is a warning, once, whatever is shown besides; one that is met is none"""
     faults = []
@@ -255,7 +295,7 @@ def tests(program):
     return ([test('disc', disc), test("the paper's loop", paper_method), test('centroid', centroid), test('blocks that face others', facing),
              test('graded', graded), test('graded blocks conform', conforming),
              test('other divisions', other_divisions),
-             test('limits', limits), test('not known', not_known), test('torn bonds', torn), test('told', told), test('shared room', shared_room), test('options', swept),
+             test('limits', limits), test('not known', not_known), test('torn bonds', torn), test('loads that cancel', cancelled), test('nearly incompressible', nearly_incompressible), test('told', told), test('shared room', shared_room), test('options', swept),
              test('loads of a combination', loads_of_combinations)]
             + [test('memory', back_again)]
             + [test(f'case {number}, {nodes} nodes', case, number, nodes, refined)

@@ -69,7 +69,8 @@ contains
       call remark_on_cut_off(model, results, remarks)
       call remark_on_size(model, results, remarks)
       if (results%locks .and. allocated(results%budget)) call add(remarks, 'elements of a material that is nearly '// &
-         'incompressible lock, and finer ones lock as well: estimates of errors see little of that')
+         'incompressible lock, or nearly so beside corners, and finer ones as well: estimates of errors see little of that; '// &
+         '4-node BBAR and 6-node elements do not')
       pins = pin_text(model, structure, history%loading, field, results)
       if (len(pins) > 0) call add(remarks, pins)
       if (allocated(results%stiffer)) remarks = [remarks, proportion_remarks(model, results)]
@@ -488,6 +489,8 @@ contains
             if (len(note) > 0) why = why//'; '//note
          else if (len(note) > 0) then
             why = note
+         else if (size(model%harmonics) <= model%max_harmonic .and. 2.0_wp*last%n_unknowns < goal%most_unknowns) then
+            why = 'HARMONICS lists which there are, and no others are taken'
          else if (goal%mesh_too .or. goal%remesh) then
             why = 'more unknowns are not allowed'
          else

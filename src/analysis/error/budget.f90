@@ -4,7 +4,7 @@ module axijoint_analysis_error_budget
    use axijoint_analysis_core_results, only : results_type, error_share_type, &
       source_discretization, source_harmonics, &
       source_planes, source_iteration, source_solver, source_sum
-   use axijoint_analysis_error_response_tail, only : response_tail, tail_of_points
+   use axijoint_analysis_error_response_tail, only : response_tail, tail_of_points, is_cancelled
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text
    use axijoint_fe_circle_function, only : are_alike
@@ -113,6 +113,7 @@ contains
       share%source = source_harmonics
       share%remedy = 'harmonics: M = '//to_text(max(1, nint(1.4142*model%max_harmonic)))// &
          ' in CONTROL'
+      if (size(model%harmonics) <= model%max_harmonic) share%remedy = 'harmonics: more of them in HARMONICS'
       share%displacement = 0.0_wp
       if (size(results%joint_stress) > 0) share%joint_stress = 0.0_wp
       if (yields) call take(results%joint_errors(3), share)
@@ -127,6 +128,11 @@ contains
       harmonic = results%modes%harmonic
       amplitude = [(sqrt(maxval(sum(results%displacement(:, :, k)**2, 1))), k=1, &
          size(results%modes))]
+      if (is_cancelled(harmonic, amplitude)) then
+         share%displacement = -1.0_wp
+         share%joint_stress = -1.0_wp
+         return
+      end if
       associate (solution => results%discretization)
          call add_tail(largest_tail(model, case_factor, harmonic, amplitude), solution%largest_displacement, share%displacement)
          ! joints that stay elastic may carry nothing at the angles where their stress is known

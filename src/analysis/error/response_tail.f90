@@ -6,7 +6,7 @@ module axijoint_analysis_error_response_tail
    use axijoint_model_modes, only : greatest_divisor
    implicit none
    private
-   public :: response_tail, tail_of_points
+   public :: response_tail, tail_of_points, is_cancelled
 
    !> The sums over the octaves of harmonics fall at least by this factor, about 1/sqrt(2): that of
    !> amplitudes that fall with m^(-3/2), between a load that jumps and the response to it
@@ -66,6 +66,19 @@ contains
       load(step::step) = 1.0_wp
       call follow(load, m, upper, lower, near_points, tail)
    end function tail_of_points
+
+   !> Whether loads cancel each other in all harmonics of (M/2, M], as equal ones at equal angles do: what they do above M is
+   !> not known then
+   pure logical function is_cancelled(harmonic, amplitude)
+      !> Harmonic of each mode, and its amplitude, shape (modes)
+      integer, intent(in) :: harmonic(:)
+      real(wp), intent(in) :: amplitude(:)
+
+      !> Rounding of the response, less than any load leaves in its place
+      real(wp), parameter :: none = 1.0e-11_wp
+
+      is_cancelled = .not. maxval(amplitude, mask=2*harmonic > maxval(harmonic)) > none*maxval(amplitude)
+   end function is_cancelled
 
    !> The number that all harmonics of the response are multiples of: loads may cancel each other in others
    pure integer function step_of(harmonic, amplitude) result(step)
