@@ -1,6 +1,7 @@
 !> Loads while they are being read
 module axijoint_deck_load_lists
    use axijoint_base_kinds, only : wp
+   use axijoint_base_sort, only : lexical_order
    use axijoint_deck_load_shares, only : share_type, truncation_list_type
    use axijoint_deck_mesh_draft, only : edge_type
    use axijoint_fe_mode, only : mode_type, same_mode
@@ -265,8 +266,21 @@ contains
       !> The job
       type(model_type), intent(inout) :: model
 
-      model%edge_loads = lists%edge_loads(:lists%n_edge_loads)
-      model%ring_loads = lists%ring_loads(:lists%n_ring_loads)
+      integer :: k
+
+      associate (edges => lists%edge_loads(:lists%n_edge_loads), rings => lists%ring_loads(:lists%n_ring_loads))
+         if (lists%truncations%n > 1) then
+            model%edge_loads = pack(edges, .not. cancel_each_other( &
+               reshape([(edges(k)%case, edges(k)%mode%harmonic, edges(k)%mode%family, edges(k)%nodes(:2), k=1, size(edges))], &
+               [5, size(edges)]), reshape([(edges(k)%traction, k=1, size(edges))], [9, size(edges)])))
+            model%ring_loads = pack(rings, .not. cancel_each_other( &
+               reshape([(rings(k)%case, rings(k)%mode%harmonic, rings(k)%mode%family, rings(k)%node, k=1, size(rings))], &
+               [4, size(rings)]), reshape([(rings(k)%force, k=1, size(rings))], [3, size(rings)])))
+         else
+            model%edge_loads = edges
+            model%ring_loads = rings
+         end if
+      end associate
       call move_alloc(lists%body_loads, model%body_loads)
       call move_alloc(lists%thermal_loads, model%thermal_loads)
       call move_alloc(lists%initial_stresses, model%initial_stresses)
@@ -275,5 +289,34 @@ contains
       if (lists%truncations%n > 0) &
          model%truncations = lists%truncations%entries(:lists%truncations%n)
    end subroutine take_loads
+
+   !> Which loads of the same place and mode come to nothing but rounding together, as equal ones at equal angles in most harmonics:
+   !> what is left of them would need restraints of its own
+   pure function cancel_each_other(keys, values) result(cancel)
+      !> Case, mode and place of each load, shape (keys, loads), and its components, shape (components, loads)
+      integer, intent(in) :: keys(:, :)
+      real(wp), intent(in) :: values(:, :)
+      !> Which do, shape (loads)
+      logical :: cancel(size(keys, 2))
+
+      !> Rounding of a sum over the sizes of what is summed
+      real(wp), parameter :: rounding = 1.0e-13_wp
+      integer :: order(size(keys, 2)), first, last
+
+      order = lexical_order(real(keys, wp))
+      cancel = .false.
+      first = 1
+      do while (first <= size(order))
+         last = first
+         do while (last < size(order))
+            if (any(keys(:, order(last + 1)) /= keys(:, order(first)))) exit
+            last = last + 1
+         end do
+         associate (these => values(:, order(first:last)))
+            cancel(order(first:last)) = last > first .and. all(abs(sum(these, 2)) <= rounding*sum(abs(these), 2))
+         end associate
+         first = last + 1
+      end do
+   end function cancel_each_other
 
 end module axijoint_deck_load_lists
