@@ -220,6 +220,15 @@ def cancelled(program, folder):
     return faults + expected('share of harmonics', None, share) + close('displacement', largest[1], largest[0], 0.03*largest[1])
 
 
+def settled(program, folder):
+    """Displacements given in a harmonic tell nothing of what a load on a part of the circle leaves: a tank that settles unevenly"""
+    deck = BOLTS.replace('1, 111', '1, 101').replace('CONTROL\n6', 'CONTROL\n4').replace(
+        'SHAPES', 'MOVEDFACES\n1, 0, , 0\n1, 3, , 0.01\nSHAPES')
+    deck = re.sub('(?<=PRESSURES\n)(.*\n)*END', '2, , 0.1, , , 1\nEND', deck)
+    share = solved(program, folder, 'tank', deck)[0]['errors']['harmonics']['displacement']
+    return [] if share is not None and 0.0 < share < 1e-3 else [f'share of harmonics: {share}']
+
+
 def nearly_incompressible(program, folder):
     """Elements that are near to locking beside corners: no target is met by what finer ones tell, of B-bar elements it is"""
     faults = []
@@ -297,7 +306,7 @@ def tests(program):
     return ([test('disc', disc), test("the paper's loop", paper_method), test('centroid', centroid), test('blocks that face others', facing),
              test('graded', graded), test('graded blocks conform', conforming),
              test('other divisions', other_divisions),
-             test('limits', limits), test('not known', not_known), test('torn bonds', torn), test('loads that cancel', cancelled), test('nearly incompressible', nearly_incompressible), test('told', told), test('shared room', shared_room), test('options', swept),
+             test('limits', limits), test('not known', not_known), test('torn bonds', torn), test('loads that cancel', cancelled), test('uneven settlement', settled), test('nearly incompressible', nearly_incompressible), test('told', told), test('shared room', shared_room), test('options', swept),
              test('loads of a combination', loads_of_combinations)]
             + [test('memory', back_again)]
             + [test(f'case {number}, {nodes} nodes', case, number, nodes, refined)

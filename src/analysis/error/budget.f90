@@ -107,7 +107,8 @@ contains
 
       real(wp), allocatable :: amplitude(:)
       real(wp) :: tail
-      integer, allocatable :: harmonic(:)
+      logical, allocatable :: counts(:)
+      integer, allocatable :: harmonic(:), moved(:)
       integer :: k
 
       share%source = source_harmonics
@@ -134,17 +135,28 @@ contains
          return
       end if
       associate (solution => results%discretization)
-         call add_tail(largest_tail(model, case_factor, harmonic, amplitude), solution%largest_displacement, share%displacement)
+         ! displacements that are given in a harmonic tell nothing of what loads leave above M
+         moved = pack(model%prescribed%mode%harmonic, abs(model%prescribed%value) > 0.0_wp .and. &
+            abs(case_factor(model%prescribed%case)) > 0.0_wp .and. model%prescribed%mode%harmonic > 0)
+         counts = [(all(moved /= harmonic(k)), k=1, size(harmonic))]
+         if (any(counts .and. 2*harmonic > maxval(harmonic))) then
+            harmonic = pack(harmonic, counts)
+         else
+            counts = .true.
+            moved = [integer ::]
+         end if
+         call add_tail(largest_tail(model, case_factor, harmonic, pack(amplitude, counts), moved), solution%largest_displacement, &
+            share%displacement)
          ! joints that stay elastic may carry nothing at the angles where their stress is known
-         call add_tail(largest_tail(model, case_factor, harmonic, solution%joint_amplitude), &
+         call add_tail(largest_tail(model, case_factor, harmonic, pack(solution%joint_amplitude, counts), moved), &
             max(solution%joint_scale, maxval(solution%joint_amplitude)), share%joint_stress)
-         tail = response_tail(harmonic, solution%energy)
+         tail = response_tail(harmonic, pack(solution%energy, counts))
          if (tail >= 0.0_wp) share%energy = sqrt(ratio(tail, sum(solution%energy)))
       end associate
    end function harmonics_share
 
    !> What harmonics above M would add to the response, by that of the loads which is most; negative if it is not known
-   pure real(wp) function largest_tail(model, case_factor, harmonic, amplitude) result(tail)
+   pure real(wp) function largest_tail(model, case_factor, harmonic, amplitude, without) result(tail)
       !> The job
       type(model_type), intent(in) :: model
       !> Factors of its load cases, shape (cases)
@@ -152,6 +164,8 @@ contains
       !> Harmonic of each mode, and its amplitude, shape (modes)
       integer, intent(in) :: harmonic(:)
       real(wp), intent(in) :: amplitude(:)
+      !> Harmonics up to M of which these tell nothing
+      integer, intent(in) :: without(:)
 
       integer :: k
 
@@ -161,7 +175,7 @@ contains
             if (.not. (cut%left_out > 0.0_wp .and. abs(case_factor(cut%case)) > 0.0_wp)) cycle
             if (allocated(cut%course)) then
                if (is_like_the_last(model, k)) cycle
-               tail = max(tail, response_tail(harmonic, amplitude, cut%course))
+               tail = max(tail, response_tail(harmonic, amplitude, cut%course, without))
             else
                tail = max(tail, tail_of_points(harmonic, amplitude))
             end if

@@ -25,12 +25,14 @@ contains
    !> m that the response up to M tells; else the sums over (M, 2M], (2M, 4M] ... are taken to fall on by the
    !> factor from (M/4, M/2] to (M/2, M]. Negative if it is not known, as up to M = 1: harmonics 0 and 1, which move parts as
    !> rigid, tell nothing of those above
-   pure real(wp) function response_tail(harmonic, amplitude, course) result(tail)
+   pure real(wp) function response_tail(harmonic, amplitude, course, without) result(tail)
       !> Harmonic of each mode, and its amplitude, shape (modes)
       integer, intent(in) :: harmonic(:)
       real(wp), intent(in) :: amplitude(:)
       !> The load
       type(circle_function_type), intent(in), optional :: course
+      !> Harmonics up to M that are not among the modes, though the load has them; none if absent
+      integer, intent(in), optional :: without(:)
 
       real(wp) :: upper, lower, factor
       integer :: m
@@ -43,7 +45,7 @@ contains
       factor = slowest
       if (upper < slowest*lower) factor = upper/lower
       tail = upper*factor/(1.0_wp - factor)
-      if (present(course)) call follow_load(course, m, step_of(harmonic, amplitude), upper, lower, tail)
+      if (present(course)) call follow_load(course, m, step_of(harmonic, amplitude), upper, lower, tail, without)
    end function response_tail
 
    !> The same under forces at points, whose harmonics are all alike. Negative if no harmonic in (M/2, M] answers
@@ -98,7 +100,7 @@ contains
    end function step_of
 
    !> The same from the harmonics of the load
-   pure subroutine follow_load(course, m, step, upper, lower, tail)
+   pure subroutine follow_load(course, m, step, upper, lower, tail, without)
       !> The load
       type(circle_function_type), intent(in) :: course
       !> M, and the number that all harmonics of the response are multiples of
@@ -107,6 +109,8 @@ contains
       real(wp), intent(in) :: upper, lower
       !> Takes the sum
       real(wp), intent(inout) :: tail
+      !> Harmonics up to M that do not count; none if absent
+      integer, intent(in), optional :: without(:)
 
       real(wp), allocatable :: load(:)  ! threads have small stacks
       real(wp) :: a, b
@@ -116,6 +120,8 @@ contains
       do k = step, 4*m, step
          call fourier_coefficients(course, k, a, b)
          load(k) = hypot(a, b)
+         if (.not. present(without)) cycle
+         if (any(without == k)) load(k) = 0.0_wp
       end do
       call follow(load, m, upper, lower, bounds_of_power, tail)
    end subroutine follow_load
