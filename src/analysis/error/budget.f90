@@ -136,15 +136,13 @@ contains
       end if
       associate (solution => results%discretization)
          ! displacements that are given in a harmonic tell nothing of what loads leave above M
-         moved = pack(model%prescribed%mode%harmonic, abs(model%prescribed%value) > 0.0_wp .and. &
-            abs(case_factor(model%prescribed%case)) > 0.0_wp .and. model%prescribed%mode%harmonic > 0)
-         counts = [(all(moved /= harmonic(k)), k=1, size(harmonic))]
-         if (any(counts .and. 2*harmonic > maxval(harmonic))) then
-            harmonic = pack(harmonic, counts)
-         else
-            counts = .true.
-            moved = [integer ::]
-         end if
+         associate (given => model%prescribed)
+            counts = [(harmonic(k) == 0 .or. .not. any(given%mode%harmonic == harmonic(k) .and. abs(given%value) > 0.0_wp .and. &
+               abs(case_factor(given%case)) > 0.0_wp), k=1, size(harmonic))]
+         end associate
+         if (.not. any(counts .and. 2*harmonic > maxval(harmonic))) counts = .true.
+         moved = pack(harmonic, .not. counts)
+         harmonic = pack(harmonic, counts)
          call add_tail(largest_tail(model, case_factor, harmonic, pack(amplitude, counts), moved), solution%largest_displacement, &
             share%displacement)
          ! joints that stay elastic may carry nothing at the angles where their stress is known
