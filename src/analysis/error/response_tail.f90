@@ -76,8 +76,8 @@ contains
       integer, intent(in) :: harmonic(:)
       real(wp), intent(in) :: amplitude(:)
 
-      !> Rounding of the response, less than any load leaves in its place
-      real(wp), parameter :: none = 1.0e-11_wp
+      !> Rounding of the response, less than what a load has in the harmonics above M/2
+      real(wp), parameter :: none = 1.0e-13_wp
 
       is_cancelled = .not. maxval(amplitude, mask=2*harmonic > maxval(harmonic)) > none*maxval(amplitude)
    end function is_cancelled

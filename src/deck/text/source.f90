@@ -1,5 +1,6 @@
 !> The physical lines of a deck and of the files that it includes
 module axijoint_deck_text_source
+   use axijoint_base_text, only : utf8_length
    use axijoint_deck_text_section, only : section_type
    implicit none
    private
@@ -231,27 +232,12 @@ contains
       !> Whether it was UTF-8
       logical, intent(out) :: valid
 
-      integer :: i, k, n
+      integer :: i, n
 
       valid = .true.
       i = 1
       do while (i <= len(text))
-         select case (iachar(text(i:i)))
-         case (:127)
-            n = 1
-         case (194:223)
-            n = 2
-         case (224:239)
-            n = 3
-         case (240:244)
-            n = 4
-         case default
-            n = 0
-         end select
-         if (i + n - 1 > len(text)) n = 0
-         do k = i + 1, i + n - 1
-            if (iand(iachar(text(k:k)), 192) /= 128) n = 0
-         end do
+         n = utf8_length(text(i:))
          if (n == 0) then
             valid = .false.
             text(i:i) = '?'

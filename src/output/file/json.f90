@@ -2,7 +2,7 @@
 module axijoint_output_file_json
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use axijoint_base_kinds, only : wp
-   use axijoint_base_text, only : to_text
+   use axijoint_base_text, only : to_text, utf8_length
    implicit none
    private
    public :: json_string, json_number, known_number, json_integers, json_strings
@@ -151,43 +151,5 @@ contains
          json = character
       end select
    end function escaped
-
-   !> Bytes of the UTF-8 character that a text begins with; 0 if it is none
-   !> (Unicode standard, table 3-7)
-   pure integer function utf8_length(text) result(length)
-      !> At least one byte
-      character(len=*), intent(in) :: text
-
-      integer :: first, second, i
-
-      first = ichar(text(1:1))
-      length = 0
-      select case (first)
-      case (0:127)
-         length = 1
-      case (194:223)
-         length = 2
-      case (224:239)
-         length = 3
-      case (240:244)
-         length = 4
-      end select
-      if (length <= 1) return
-      if (length > len(text)) then
-         length = 0
-         return
-      end if
-      second = ichar(text(2:2))
-      if (first == 224 .and. second < 160) length = 0
-      if (first == 237 .and. second > 159) length = 0
-      if (first == 240 .and. second < 144) length = 0
-      if (first == 244 .and. second > 143) length = 0
-      do i = 2, length
-         if (iand(ichar(text(i:i)), 192) /= 128) then
-            length = 0
-            return
-         end if
-      end do
-   end function utf8_length
 
 end module axijoint_output_file_json
