@@ -5,6 +5,7 @@ module axijoint_analysis_static
       move_bodies
    use axijoint_analysis_core_left_out, only : what_was_left_out
    use axijoint_analysis_core_motion, only : motion_text
+   use axijoint_analysis_core_named_points, only : largest_at_points
    use axijoint_analysis_core_path, only : is_torn, turns_slip
    use axijoint_analysis_core_plastic_fields, only : plastic_fields
    use axijoint_analysis_core_remarks, only : remarks_on, mechanism_text
@@ -157,6 +158,7 @@ contains
       results%converged = results%converged .and. max(results%residual_ratio, results%mismatch) &
          <= results%tolerance
       if (results%converged) then
+         results%point_size = largest_at_points(model%points, results%modes, results%displacement)
          if (estimates) results%budget = new_budget(model, history%loading%case_factor, results)
          results%converged = solver_keeps_claim(results)
       end if
@@ -267,7 +269,7 @@ contains
       call name_idle_motions(model, structure, history, results)
       results%torn = results%converged .and. is_torn(history)
       results%turns_slip = results%converged .and. turns_slip(structure, history)
-      if (estimates) call estimate_yielding_errors(structure, history, other, left, results, mesh_error)
+      if (estimates) call estimate_yielding_errors(model%points, structure, history, other, left, results, mesh_error)
       results%plane_angles = structure%planes%angle
    end subroutine solve_joints
 

@@ -89,6 +89,7 @@ contains
          call put_pair(file, "in_situ", in_situ_json(model, results%in_situ))
          call put_pair(file, "left_out", left_out_text(results))
          call put_pair(file, "errors", errors_text(results))
+         call put_pair(file, "point_errors", point_errors_json(model, results))
          call put_pair(file, "singular", singular_json(model, results))
          call put_pair(file, "error_seconds", error_seconds_text(results))
          call put_pair(file, "increment_seconds", json_number(results%increment_seconds))
@@ -224,10 +225,39 @@ contains
 
          json = '"'//trim(source_names(share%source))//'": {"energy": '//known_number(share%energy)// &
                 ', "displacement": '//known_number(share%displacement)//', "joint_stress": '// &
-                known_number(share%joint_stress)//', "load": '//known_number(share%load)//'}, '
+                known_number(share%joint_stress)//', "points": '//known_number(share%points)//', "load": '// &
+                known_number(share%load)//'}, '
       end function share_text
 
    end function errors_text
+
+   !> What is estimated of the displacement of each point with a name
+   pure function point_errors_json(model, results) result(json)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results
+      type(results_type), intent(in) :: results
+      !> A JSON array
+      character(len=:), allocatable :: json
+
+      type(error_share_type) :: total
+      integer :: i, p
+
+      json = "[]"
+      if (.not. allocated(results%budget)) return
+      total = sum_of_shares(results%budget)
+      json = "["
+      do p = 1, size(model%points)
+         if (p > 1) json = json//", "
+         json = json//'{"point": '//json_number(model%points(p)%label)//', "name": '//json_string(trim(model%points(p)%name))// &
+            ', "displacement": '//json_number(results%point_size(p))//', "error": '//known_number(total%at_points(p))
+         do i = 1, size(results%budget)
+            json = json//', "'//trim(source_names(results%budget(i)%source))//'": '//known_number(results%budget(i)%at_points(p))
+         end do
+         json = json//"}"
+      end do
+      json = json//"]"
+   end function point_errors_json
 
    !> Summary of a run that ended with an error; what is not known is null
    subroutine write_failure_summary(file, run, messages)

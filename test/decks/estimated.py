@@ -102,6 +102,55 @@ PRESSURES
 1,{m},1
 {more}END
 """
+# A short tube, built in at its top; with a joint across it that stays elastic, or none
+TUBE = """TITLE
+Built in
+CONTROL
+1
+MATERIALS
+1,1,0.3
+LAWS
+1,2,2,2,,,ELASTIC
+BLOCKS
+1,1,{nodes},{n},{n}
+1,0,2,1
+{upper},1,{nodes},{n},{n}
+1,1,2,2
+FACES
+1,1,1,0,2,0
+4,{upper},1,2,2,2
+{between}FIXEDFACES
+4,111
+RESULTANTS
+1,{load}
+END
+"""
+# A peg in a block, pushed sideways, with points that have names
+NAMED = """TITLE
+Peg
+CONTROL
+4
+MATERIALS
+1,2E4,0.17
+BLOCKS
+1,1,4,{across},{along}
+0,-0.5,0.5,1
+1,1,4,{across},{along}
+0.5,-0.5,1,1
+POINTS
+1,0,-0.5,,axis
+2,1,0.1,,side
+3,0.3,0.3,,within
+FACES
+1,1,0,-0.5,1,-0.5
+4,1,0,1,1,1
+5,1,1,-0.5,1,1
+FIXEDFACES
+4,111
+RESULTANTS
+1,LATERAL,0.4
+{more}END
+"""
 # Ground at rest, in balance, of elements that are to be integrated by a rule
 GROUND = """TITLE
 Ground at rest
@@ -684,6 +733,57 @@ def bent(program, folder):
     return faults
 
 
+def built_in(program, folder):
+    """Bodies with infinite stress at corners: the error in the energy norm, whose square is what a finer mesh has more of energy under
+    the same loads"""
+    faults = []
+    for load in ('AXIAL,1', 'LATERAL,1'):
+        for name, joint in (('whole', {'upper': 1, 'between': ''}), ('jointed', {'upper': 2, 'between': '2,1,1,1,2,1\n3,2,1,1,2,1\nINTERFACES\n1,2,3\n'})):
+            def energy(nodes, n, load=load, joint=joint):
+                summary, _ = solved(program, folder, 'tube', TUBE.format(nodes=nodes, n=n, load=load, **joint))
+                return summary['increments'][-1]['energy'], summary['errors']['discretization']['energy']
+
+            most, _ = energy(9, 32)
+            for nodes in (3, 4, 6, 8, 9):
+                found, told = energy(nodes, 3)
+                ratio = told/math.sqrt(most/found - 1)
+                faults += [] if 0.7 < ratio < 1.4 else [f'{name}, {load}, {nodes} nodes: {ratio:.2f} of the true error']
+    return faults
+
+
+def named_points(program, folder):
+    """Errors of the displacements of points with names, at nodes and between them, on the axis too, are near to those by a finer mesh;
+    what harmonics leave does not reach the axis; a target of them takes fewer unknowns than one of all displacements"""
+    def moved(across, along, more=''):
+        summary, _ = solved(program, folder, 'peg', NAMED.format(across=across, along=along, more=more))
+        return summary
+
+    coarse, fine = moved(2, 6), moved(12, 36)
+    faults = []
+    for rough, better in zip(coarse['point_errors'], fine['point_errors'], strict=True):
+        true = abs(rough['displacement'] - better['displacement'])
+        faults += [] if 0.5 < rough['discretization']/true < 2.5 else [f'{rough["name"]}: true {true:.3e}, told {rough["discretization"]:.3e}']
+        sources = [rough[source] for source in ('discretization', 'harmonics', 'planes', 'iteration', 'solver')]
+        faults += close(rough['name'], rough['error'], sum(sources), 1e-12*rough['error'])
+    share = coarse['errors']['discretization']
+    faults += close('relative', share['points'], max(point['discretization'] for point in coarse['point_errors'])/
+                    max(point['displacement'] for point in coarse['point_errors']), 1e-6*share['points'])
+    faults += expected('mesh at the points', True, share['points'] < share['displacement'])
+    patched = moved(2, 6, 'SHAPES\n1,PATCH,-20,20\nPRESSURES\n5,,1,1,,1\n')
+    by_name = {point['name']: point['harmonics'] for point in patched['point_errors']}
+    faults += expected('harmonics: none on the axis, some elsewhere', True, by_name['axis'] <= 1e-9*by_name['side'])
+    unknowns = {}
+    for goal in ('POINTS', 'DISPL'):
+        met = moved(2, 6, f'ERROR\n1,{goal}\n')
+        unknowns[goal] = met['unknowns']
+        faults += expected(f'{goal}: not met', [], [line for line in met['messages'] if 'not met' in line])
+    faults += expected('fewer unknowns', True, unknowns['POINTS'] < unknowns['DISPL'])
+    text = NAMED.format(across=2, along=6, more='ERROR\n1,POINTS\n')
+    named = text[text.index('POINTS'):text.index('FACES')]
+    ran = program.run('check', write(folder, 'none.dat', text.replace(named, '')), folder=folder)
+    return faults + ran.ended_with(2) + expected('no points', True, 'no point has a name' in ran.out + ran.err)
+
+
 def locked(program, folder):
     """Elements that lock are said to, their errors told as the least that they are, and no target is met with them"""
     faults = []
@@ -840,7 +940,7 @@ def stiff_in_part(program, folder):
 def tests(program):
     """The tests of this module"""
     named = {'joint that reaches the axis': reaches_axis, 'gaps between harmonics': gaps, 'patch of rigid motion': rigid_patch,
-             'flies off': flies_off, 'idle motion': idle_motion, 'bent': bent, 'rules in ground': rules_in_ground, 'loose': loose, 'units of length': units_of_length,
+             'flies off': flies_off, 'idle motion': idle_motion, 'bent': bent, 'built in': built_in, 'points with names': named_points, 'rules in ground': rules_in_ground, 'loose': loose, 'units of length': units_of_length,
              'least of yielding': least_of_yielding, 'locked': locked, 'torn bonds': torn_bonds, 'nearly incompressible': nearly_incompressible,
              'load beyond M': load_beyond, 'pressed bonds': pressed_bonds, 'slip of larger loads': slip_of_larger_loads,
              'smooth pile': smooth_pile, 'free of stress': stress_free, 'stiff beside soft': stiff_beside_soft,

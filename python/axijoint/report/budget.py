@@ -1,7 +1,7 @@
 """What each approximation of a run leaves of the error, as its summary says it: key `errors`."""
 from .markup import is_number, joined, number, running, table, tag
 
-COLUMNS = {"energy": "energy", "displacement": "displacement", "joint_stress": "joint stress", "load": "load"}
+COLUMNS = {"energy": "energy", "displacement": "displacement", "joint_stress": "joint stress", "points": "at POINTS", "load": "load"}
 
 
 def said_of(job):
@@ -25,13 +25,23 @@ def errors(job):
     seconds = seconds if isinstance(seconds, dict) else {}
     shares = {source: share for source, share in budget.items() if isinstance(share, dict)}
     said = [_sentence(key, value) for key, value in budget.items() if not isinstance(value, dict) and value is not None]
-    present = dict.fromkeys(key for share in shares.values() for key in share)
+    present = dict.fromkeys(key for share in shares.values() for key in share if share[key] is not None)
     keys = list(dict.fromkeys([*(key for key in COLUMNS if key in present), *present]))
     rows = [[words(source), *(_cell(share.get(key)) for key in keys), seconds.get(source)]
             for source, share in shares.items()]
     return joined([*said, table("Left by each approximation",
                                 ["of", *(COLUMNS.get(key, words(key)) for key in keys), "seconds"], rows,
-                                "Estimates, relative; – is not known.", named_rows=True)])
+                                "Estimates, relative; – is not known.", named_rows=True), *_at_points(job)])
+
+
+def _at_points(job):
+    """How far the displacement of each named point may be off, as a list of a table; an empty one without points."""
+    found = [point for point in job.summary.get("point_errors") or [] if isinstance(point, dict)]
+    sources = list(dict.fromkeys(key for point in found for key in point if key not in ("point", "name")))
+    rows = [[point.get("name"), *(_cell(point.get(key)) for key in sources)] for point in found]
+    return [table("Displacements of points", ["point", *map(words, sources)], rows,
+                  "Largest round the circle, and how far it may be off, in all and by source [length]; – is not known.",
+                  named_rows=True)] if rows else []
 
 
 def line(job):

@@ -104,6 +104,10 @@ module axijoint_analysis_core_results
       real(wp) :: displacement = -1.0_wp
       !> Of the joint stress, over the largest
       real(wp) :: joint_stress = -1.0_wp
+      !> Of the displacements at points with names, over the largest of these
+      real(wp) :: points = -1.0_wp
+      !> The same of each by itself [length], shape (points)
+      real(wp), allocatable :: at_points(:)
       !> Of a load given as a function of theta: root mean square that is left out
       real(wp) :: load = -1.0_wp
       !> Time that the estimate took [second]
@@ -291,6 +295,8 @@ module axijoint_analysis_core_results
       type(error_share_type) :: joint_errors(3)
       !> What the approximations leave of the error, side by side
       type(error_share_type), allocatable :: budget(:)
+      !> Largest displacement of each point with a name, shape (points) [length]
+      real(wp), allocatable :: point_size(:)
       !> The same of bodies that yield; allocated if there are any
       type(yield_errors_type), allocatable :: yield_errors
       !> What the mesh leaves of the error

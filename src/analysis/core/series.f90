@@ -1,6 +1,7 @@
 !> What is followed from increment to increment: one entry for each
 module axijoint_analysis_core_series
    use axijoint_analysis_core_joint_work, only : in_situ_shift, sliding_work
+   use axijoint_analysis_core_named_points, only : at_points
    use axijoint_analysis_core_plastic_fields, only : plastic_fields_type, plastic_work
    use axijoint_analysis_core_results, only : results_type, n_resultants
    use axijoint_analysis_core_structure, only : structure_type
@@ -122,7 +123,7 @@ contains
          series%cut_motion(:, :, i) = now%cut_motion
          series%joints(:, :, i) = now%joint_resultants
          series%faces(:, :, i) = now%face_reactions
-         call interpolate_points(model, now, series%points(:, :, :, i))
+         series%points(:, :, :, i) = at_points(model%points, now%displacement)
          plastic = plastic_work(series%plastic, now%plastic)
          before = in_situ_work(model, structure, series, state%case_factor, now)
          series%work(i) = before(1) + mean_work(series%acting, now%acting, series%before, now%displacement)
@@ -220,25 +221,5 @@ contains
          end associate
       end do
    end function residual_of
-
-   !> Displacement amplitudes at the named points
-   pure subroutine interpolate_points(model, now, value)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Fields
-      type(results_type), intent(in) :: now
-      !> Displacements, shape (3, points, modes)
-      real(wp), intent(out) :: value(:, :, :)
-
-      integer :: k, p
-
-      do k = 1, size(now%modes)
-         do p = 1, size(model%points)
-            associate (point => model%points(p))
-               value(:, p, k) = matmul(now%displacement(:, point%nodes, k), point%shape)
-            end associate
-         end do
-      end do
-   end subroutine interpolate_points
 
 end module axijoint_analysis_core_series

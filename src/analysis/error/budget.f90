@@ -1,6 +1,7 @@
 !> What each approximation leaves of the error of a run, side by side and in all, and what
 !> would halve it
 module axijoint_analysis_error_budget
+   use axijoint_analysis_core_named_points, only : at_points
    use axijoint_analysis_core_results, only : results_type, error_share_type, &
       source_discretization, source_harmonics, &
       source_planes, source_iteration, source_solver, source_sum
@@ -22,12 +23,13 @@ contains
       type(model_type), intent(in) :: model
       !> Factors of its load cases, shape (cases)
       real(wp), intent(in) :: case_factor(:)
-      !> Results with the estimates of their parts
+      !> Results with the estimates of their parts, and the size of displacements at points with names
       type(results_type), intent(in) :: results
       !> Discretization, harmonics, planes, iteration, solver
       type(error_share_type), allocatable :: budget(:)
 
       logical :: yields
+      integer :: i
 
       yields = size(results%path) > 0
       allocate (budget(5))
@@ -42,11 +44,20 @@ contains
          call take(results%joint_errors(1), budget(source_iteration))
       else
          budget(source_planes:source_iteration)%displacement = 0.0_wp
+         budget(source_planes)%at_points = 0.0_wp*results%point_size
+         budget(source_iteration)%at_points = 0.0_wp*results%point_size
          if (size(results%joint_stress) > 0) budget(source_planes:source_iteration)%joint_stress = 0.0_wp
       end if
       budget(source_solver) = error_share_type(source=source_solver, &
          remedy='less contrast of the stiffnesses')
       budget(source_solver)%displacement = solver_error(results)
+      budget(source_solver)%at_points = 0.0_wp*results%point_size + &
+         solver_error(results)*results%discretization%largest_displacement
+      do i = 1, size(budget)
+         if (.not. allocated(budget(i)%at_points)) budget(i)%at_points = -1.0_wp + 0.0_wp*results%point_size
+         if (results%at_rest) budget(i)%at_points = min(0.0_wp, budget(i)%at_points)
+         call compare_points(results%point_size, budget(i))
+      end do
       if (results%at_rest) budget%displacement = min(0.0_wp, budget%displacement)  ! nothing is left to be off
    end function new_budget
 
@@ -81,6 +92,7 @@ contains
       share%energy = results%discretization%relative
       share%displacement = results%discretization%displacement
       share%joint_stress = results%discretization%joint_stress
+      share%at_points = results%discretization%at_points
       share%seconds = results%discretization%seconds
       if (results%locks) then
          share%remedy = 'elements that do not lock'
@@ -109,13 +121,15 @@ contains
       real(wp) :: tail
       logical, allocatable :: counts(:)
       integer, allocatable :: harmonic(:), moved(:)
-      integer :: k
+      real(wp), allocatable :: at_point(:, :, :)
+      integer :: k, p
 
       share%source = source_harmonics
       share%remedy = 'harmonics: M = '//to_text(max(1, nint(1.4142*model%max_harmonic)))// &
          ' in CONTROL'
       if (size(model%harmonics) <= model%max_harmonic) share%remedy = 'harmonics: more of them in HARMONICS'
       share%displacement = 0.0_wp
+      share%at_points = 0.0_wp*results%point_size
       if (size(results%joint_stress) > 0) share%joint_stress = 0.0_wp
       if (yields) call take(results%joint_errors(3), share)
       share%load = 0.0_wp
@@ -132,6 +146,7 @@ contains
       if (is_cancelled(harmonic, amplitude)) then
          share%displacement = -1.0_wp
          share%joint_stress = -1.0_wp
+         share%at_points = -1.0_wp
          return
       end if
       associate (solution => results%discretization)
@@ -145,6 +160,11 @@ contains
          harmonic = pack(harmonic, counts)
          call add_tail(largest_tail(model, case_factor, harmonic, pack(amplitude, counts), moved), solution%largest_displacement, &
             share%displacement)
+         at_point = at_points(model%points, results%displacement)
+         do p = 1, size(model%points)
+            amplitude = [(norm2(at_point(:, p, k)), k=1, size(results%modes))]
+            call add_tail(largest_tail(model, case_factor, harmonic, pack(amplitude, counts), moved), 1.0_wp, share%at_points(p))
+         end do
          ! joints that stay elastic may carry nothing at the angles where their stress is known
          call add_tail(largest_tail(model, case_factor, harmonic, pack(solution%joint_amplitude, counts), moved), &
             max(solution%joint_scale, maxval(solution%joint_amplitude)), share%joint_stress)
@@ -214,8 +234,21 @@ contains
 
       share%displacement = error%displacement
       share%joint_stress = error%joint_stress
+      if (allocated(error%at_points)) share%at_points = error%at_points
       share%seconds = error%seconds
    end subroutine take
+
+   !> Largest error at a point with a name over the largest displacement of these
+   pure subroutine compare_points(displacement, share)
+      !> Largest displacement of each, shape (points)
+      real(wp), intent(in) :: displacement(:)
+      !> Errors of each; takes the ratio
+      type(error_share_type), intent(inout) :: share
+
+      if (size(displacement) == 0) return
+      if (any(share%at_points < 0.0_wp)) return
+      share%points = ratio(maxval(share%at_points), maxval(displacement))
+   end subroutine compare_points
 
    !> All shares together, each quantity without those that are not known; negative if none is
    pure function sum_of_shares(budget) result(total)
@@ -224,10 +257,14 @@ contains
       !> The sums
       type(error_share_type) :: total
 
+      integer :: i, p
+
       total%source = source_sum
       total%energy = known_sum((budget%energy))
       total%displacement = known_sum((budget%displacement))
       total%joint_stress = known_sum((budget%joint_stress))
+      total%points = known_sum((budget%points))
+      total%at_points = [(known_sum([(budget(i)%at_points(p), i=1, size(budget))]), p=1, size(budget(1)%at_points))]
       total%seconds = sum(budget%seconds)
    end function sum_of_shares
 

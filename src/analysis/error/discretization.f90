@@ -1,13 +1,14 @@
 !> The discretization error of a run: energy norm, displacements, joint stresses
 module axijoint_analysis_error_discretization
    use omp_lib, only : omp_get_wtime
+   use axijoint_analysis_core_named_points, only : largest_error_at_points
    use axijoint_analysis_core_results, only : results_type, peak_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest, largest_vector, of_component
    use axijoint_analysis_error_largest_stress, only : largest_elastic_stress
    use axijoint_analysis_error_rounding, only : is_slight, rounding_energy, rounding_stress
    use axijoint_analysis_error_solid_error, only : solid_errors
-   use axijoint_analysis_fine_mesh_error, only : mesh_error_type, away_from_infinite
+   use axijoint_analysis_fine_mesh_error, only : mesh_error_type, away_from_infinite, error_over_difference
    use axijoint_assembly_loading, only : loading_type
    use axijoint_assembly_support, only : support_point_type, add_support_force
    use axijoint_base_kinds, only : wp
@@ -51,6 +52,7 @@ contains
          results%stress, error, energy)
       call note_joints(structure, field, yielding_stress, results, in_joints, carried)
       associate (estimate => results%discretization)
+         if (mesh_error%known) call raise_to_difference(mesh_error%energy, error)
          associate (moved => maxval(abs(results%displacement)), left => sum(error, 2))
             if (is_slight(model, moved, minval(left, left > 0.0_wp))) call take_rounding_away( &
                rounding_energy(model, structure, loading%initial, moved), sum(energy, 2) + in_joints, error)
@@ -66,10 +68,12 @@ contains
             call add_motions(structure%condensed%floating, field%offset, total)
          estimate%largest_displacement = largest_vector(results%modes, total)
          estimate%displacement = -1.0_wp
+         allocate (estimate%at_points(size(model%points)), source=-1.0_wp)
          estimate%joint_stress = -1.0_wp
          if (mesh_error%known) then
             estimate%displacement = ratio(largest_vector(results%modes, mesh_error%displacement), &
                                           max(estimate%largest_displacement, elastic_displacement))
+            estimate%at_points = largest_error_at_points(model%points, results%modes, mesh_error%displacement)
             if (results%at_rest) estimate%displacement = 0.0_wp
             estimate%joint_stress = joint_stress_error()
          end if
@@ -102,6 +106,24 @@ contains
       end function joint_stress_error
 
    end subroutine estimate_discretization
+
+   !> Where patches see less than the difference to the fine mesh has, which is no more than the error has (Galerkin's solutions
+   !> on nested meshes), let the errors of the elements come to what that tells in all: polynomials on patches take for smooth
+   !> what grows towards a corner. Where in the mesh the error is, patches tell
+   pure subroutine raise_to_difference(energy, error)
+      !> Energy of the error by that of the difference, shape (modes)
+      real(wp), intent(in) :: energy(:)
+      !> Energy of the errors, shape (modes, elements)
+      real(wp), intent(inout) :: error(:, :)
+
+      integer :: k
+
+      do k = 1, size(energy)
+         associate (seen => sum(error(k, :)))
+            if (seen > 0.0_wp .and. seen < energy(k)/error_over_difference) error(k, :) = energy(k)/seen*error(k, :)
+         end associate
+      end do
+   end subroutine raise_to_difference
 
    !> Modes whose stresses are rounding have no errors of these
    pure subroutine take_rounding_away(rounding, energy, error)

@@ -9,7 +9,7 @@ module axijoint_analysis_error_goal
    use axijoint_model_model, only : model_type, method_newton
    use axijoint_model_modes, only : used_modes, greatest_divisor
    use axijoint_model_request, only : error_goal_type, refinement_type, goal_joints, &
-      goal_displacement, goal_energy
+      goal_displacement, goal_energy, goal_points
    implicit none
    private
    public :: goal_error, unknown_source, refine_further, room_for, mesh_misses
@@ -124,6 +124,8 @@ contains
          share_of = share%joint_stress
       case (goal_energy)
          share_of = merge(share%energy, share%displacement, share%energy >= 0.0_wp)
+      case (goal_points)
+         share_of = share%points
       case default
          share_of = share%displacement
       end select
@@ -136,9 +138,8 @@ contains
       !> What is asked for, one of the `goal_` parameters
       integer, intent(in) :: quantity
 
-      ! orders of meshes at corners that make stresses infinite, for displacements, joint stresses,
-      ! energy norm
-      real(wp), parameter :: order(3) = [1.0_wp, 1.5_wp, 0.75_wp]  ! JOINTS, DISPL, ENERGY
+      ! orders of meshes at corners that make stresses infinite
+      real(wp), parameter :: order(4) = [1.0_wp, 1.5_wp, 0.75_wp, 1.5_wp]  ! JOINTS, DISPL, ENERGY, POINTS
 
       select case (source)
       case (source_discretization)

@@ -1,6 +1,7 @@
 !> Errors of a job whose joints yield in relative numbers: what they are measured by
 module axijoint_analysis_error_joint_shares
    use omp_lib, only : omp_get_wtime
+   use axijoint_analysis_core_named_points, only : at_points, largest_error_at_points
    use axijoint_analysis_core_results, only : results_type, error_share_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest_vector
@@ -13,6 +14,7 @@ module axijoint_analysis_error_joint_shares
    use axijoint_joints_joint_errors, only : joint_change_type
    use axijoint_joints_residual, only : ratio
    use axijoint_joints_scene, only : elastic_stress
+   use axijoint_model_request, only : point_type
    implicit none
    private
    public :: take_share, nothing_is_left, has_moved, unloaded, displacement_scale, elastic_points, yielding_scale, held_share, &
@@ -30,7 +32,7 @@ module axijoint_analysis_error_joint_shares
 contains
 
    !> An error in relative numbers
-   subroutine take_share(structure, history, results, largest, change, effect, share)
+   subroutine take_share(structure, history, results, largest, change, effect, share, points)
       !> The structure
       type(structure_type), intent(in) :: structure
       !> What the increments came to
@@ -45,6 +47,8 @@ contains
       real(wp), intent(in) :: effect(:, :, :)
       !> Takes stress, displacement and time
       type(error_share_type), intent(inout) :: share
+      !> Points with names; none if absent
+      type(point_type), intent(in), optional :: points(:)
 
       real(wp), allocatable :: displacement(:, :, :)
       real(wp) :: start, stress, scale, least
@@ -62,8 +66,39 @@ contains
       share%joint_stress = ratio(max(change%stress, stress), scale)
       share%displacement = ratio(largest_vector(results%modes, displacement) + change%beyond, &
                                  displacement_scale(history, largest))
+      if (present(points)) share%at_points = largest_error_at_points(points, results%modes, displacement) + &
+         change%beyond*part_of_jumps(points, structure, results)
       share%seconds = share%seconds + omp_get_wtime() - start
    end subroutine take_share
+
+   !> Displacements of points over the largest jumps of joints, in harmonics above M: no more than in those above M/2, since
+   !> higher ones reach less far
+   function part_of_jumps(points, structure, results) result(part)
+      !> Points with names
+      type(point_type), intent(in) :: points(:)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> Results with displacements
+      type(results_type), intent(in) :: results
+      !> Shape (points); 1 where no harmonic tells
+      real(wp) :: part(size(points))
+
+      real(wp) :: moved(3, size(points), size(results%modes)), jump
+      integer :: k, p
+
+      jump = 0.0_wp
+      part = 0.0_wp
+      moved = at_points(points, results%displacement)
+      do k = 1, size(results%modes)
+         associate (m => results%modes(k)%harmonic)
+            if (m <= 1 .or. 2*m <= maxval(results%modes%harmonic)) cycle  ! bodies move without strain up to 1
+         end associate
+         jump = max(jump, maxval(norm2(joint_jump(structure%joint_points, results%displacement(:, :, k)), 1)))
+         part = max(part, [(norm2(moved(:, p, k)), p=1, size(points))])
+      end do
+      part = min(1.0_wp, ratio(part, jump))
+      if (.not. jump > 0.0_wp) part = 1.0_wp
+   end function part_of_jumps
 
    !> Whether displacements and stress of joints were taken away, with all loads as far as the tolerance
    !> goes. Then bodies that joints alone held may stand anywhere, and there is nothing that an error is a

@@ -18,6 +18,7 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_joints_history, only : history_type
    use axijoint_joints_joint_errors, only : joint_change_type, joint_changes_type, find_joint_changes, settled_change
    use axijoint_joints_settle, only : settle_wholly
+   use axijoint_model_request, only : point_type
    implicit none
    private
    public :: estimate_yielding_errors
@@ -26,7 +27,9 @@ contains
 
    !> Estimate all errors. The paper's loop is another approximation: its errors are the difference
    !> to equilibrium on total jumps, if that was found, and the errors of that
-   subroutine estimate_yielding_errors(structure, history, other, left, results, mesh_error)
+   subroutine estimate_yielding_errors(points, structure, history, other, left, results, mesh_error)
+      !> Points with names
+      type(point_type), intent(in) :: points(:)
       !> The structure, condensed
       type(structure_type), intent(inout) :: structure
       !> What the increments came to
@@ -60,9 +63,11 @@ contains
       largest = largest_vector(results%modes, displacement)
       displacement = results%displacement + left%effect(:, :, :, 1)
       call find_other_changes(structure, history, left%balanced, displacement, changes, others, mesh_error)
-      call take_share(structure, history, results, largest, changes%iteration, left%effect(:, :, :, 1), results%joint_errors(1))
-      call take_share(structure, history, results, largest, changes%planes, others(:, :, :, 1), results%joint_errors(2))
-      call take_share(structure, history, results, largest, changes%harmonics, others(:, :, :, 2), results%joint_errors(3))
+      associate (shares => results%joint_errors)
+         call take_share(structure, history, results, largest, changes%iteration, left%effect(:, :, :, 1), shares(1), points)
+         call take_share(structure, history, results, largest, changes%planes, others(:, :, :, 1), shares(2), points)
+         call take_share(structure, history, results, largest, changes%harmonics, others(:, :, :, 2), shares(3), points)
+      end associate
       ! what slip has left is as wrong as the mesh was under the loads that are gone
       if (unloaded(history)) mesh_error%known = .false.
       results%keeps_slip = keeps_slip(history)

@@ -39,6 +39,8 @@ module axijoint_analysis_fine_difference
       real(wp), allocatable :: displacement(:, :, :)
       !> Of the jumps at its joint points, amplitudes, shape (3, points, modes)
       real(wp), allocatable :: jump(:, :, :)
+      !> Energy of the whole of it, shape (modes)
+      real(wp), allocatable :: energy(:)
       !> Whether what was found is made of numbers, shape (modes)
       logical, allocatable :: known(:)
       !> Time of all threads [second], and share of the time of the solution that went into
@@ -70,6 +72,7 @@ contains
 
       allocate (difference%displacement(3, n_nodes, n_modes), source=0.0_wp)
       allocate (difference%jump(3, n_points, n_modes), source=0.0_wp)
+      allocate (difference%energy(n_modes), source=0.0_wp)
       allocate (difference%known(n_modes), source=.true.)
    end subroutine new_difference
 
@@ -83,6 +86,7 @@ contains
       associate (displacement => difference%displacement, jump => difference%jump)
          call equations%team%gather(displacement, size(displacement, kind=i8), equations%last_mode)
          call equations%team%gather(jump, size(jump, kind=i8), equations%last_mode)
+         call equations%team%gather(difference%energy, size(difference%energy, kind=i8), equations%last_mode)
       end associate
       difference%known = equations%team%all_of(all(difference%known))
    end subroutine share_difference
@@ -223,7 +227,7 @@ contains
                call keep_apart(way(:, :, :step - 1), room%pull(:, :, :step - 1), energy(:step - 1), room%u)
                call see_change(level, of_blocks, room%u, size(difference%displacement, 2), room%external, jump)
                if (step > steps .or. is_small(room%external, jump, difference, k)) then
-                  call add_change(room%external, jump, k, difference)
+                  call add_change(room%external, jump, 0.5_wp*of_blocks*work(room%u, force), k, difference)
                   exit
                end if
             end if
@@ -239,7 +243,7 @@ contains
                if (astray) exit
                guided = length >= usual .and. of_blocks >= usual .and. .not. heated
             end if
-            call go(level, equations, k, length, step, room, difference, small)
+            call go(level, equations, k, length, energy(step), step, room, difference, small)
             if (small .and. .not. guided) exit
          end do
       end associate
@@ -286,7 +290,7 @@ contains
                difference%known(k) = energy(turn) <= 0.0_wp
                return
             end if
-            call go(level, equations, k, length, turn, room, difference, small)
+            call go(level, equations, k, length, energy(turn), turn, room, difference, small)
             if (small .and. was_small) return
             was_small = small
          end do
@@ -317,15 +321,15 @@ contains
    end subroutine find_length
 
    !> Go so far along a way
-   subroutine go(level, equations, k, length, i, room, difference, small)
+   subroutine go(level, equations, k, length, energy, i, room, difference, small)
       !> The fine level
       type(fine_level_type), intent(in) :: level
       !> The equations, for the modes
       type(equations_type), intent(in) :: equations
       !> Place of the mode
       integer, intent(in) :: k
-      !> How far, and the way
-      real(wp), intent(in) :: length
+      !> How far, the work of the way, and the way
+      real(wp), intent(in) :: length, energy
       integer, intent(in) :: i
       !> Ways and the forces that they take; takes what is left of the forces
       type(room_type), intent(inout) :: room
@@ -338,7 +342,7 @@ contains
 
       call see_change(level, length, room%way(:, :, i), size(difference%displacement, 2), room%external, jump)
       small = is_small(room%external, jump, difference, k)
-      call add_change(room%external, jump, k, difference)
+      call add_change(room%external, jump, 0.5_wp*length**2*energy, k, difference)
       call daxpy(size(room%force), -length, room%pull(:, :, i), 1, room%force, 1)
       call take_reactions(level%conditions(equations%systems(equations%system(k))%class), room%force)
    end subroutine go
@@ -431,9 +435,11 @@ contains
    end function is_part
 
    !> Add a change of a mode
-   pure subroutine add_change(change, jump, k, difference)
+   pure subroutine add_change(change, jump, energy, k, difference)
       !> The change at the nodes, those of the coarse mesh first, and of the jumps, shape (3, any)
       real(wp), intent(in) :: change(:, :), jump(:, :)
+      !> Its energy
+      real(wp), intent(in) :: energy
       !> Place of the mode
       integer, intent(in) :: k
       !> Takes it
@@ -443,6 +449,7 @@ contains
          u = u + change(:, :size(u, 2))
       end associate
       difference%jump(:, :, k) = difference%jump(:, :, k) + jump
+      difference%energy(k) = difference%energy(k) + energy
    end subroutine add_change
 
    !> A way down: what the blocks make of forces, and what the coarse mesh does then

@@ -25,6 +25,8 @@ module axijoint_analysis_fine_mesh_error
       real(wp), allocatable :: displacement(:, :, :)
       !> Of the jumps at all joint points, their stress fixed, amplitudes, shape (3, points, modes)
       real(wp), allocatable :: jump(:, :, :)
+      !> Energy of the error, the stress of joints that yield fixed, shape (modes)
+      real(wp), allocatable :: energy(:)
       !> Largest error of a stress of joints that can yield; negative if not known [stress]
       real(wp) :: joint_stress = -1.0_wp
       !> Time [second]
@@ -42,11 +44,13 @@ contains
 
       error%displacement = error_over_difference*difference%displacement
       error%jump = error_over_difference*difference%jump
+      error%energy = error_over_difference*difference%energy  ! falls as displacements do at corners
       error%seconds = difference%seconds
       error%known = all(difference%known)
       if (error%known) return
       error%displacement = 0.0_wp
       error%jump = 0.0_wp
+      error%energy = 0.0_wp
    end subroutine new_mesh_error
 
 end module axijoint_analysis_fine_mesh_error

@@ -17,7 +17,7 @@ module axijoint_deck_section_points
    use axijoint_model_request, only : point_type, line_type, line_point_type
    implicit none
    private
-   public :: points_section, place_points
+   public :: points_section, place_points, keyword_points
 
    !> The keyword
    character(len=*), parameter :: keyword_points = 'POINTS'

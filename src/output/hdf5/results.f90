@@ -269,6 +269,14 @@ contains
             "Of the largest joint stress; (source), relative, negative if not known")
          call file%write("/errors/load", (budget%load), &
             "Of loads given as functions of theta; (source), relative, negative if not known")
+         if (size(results%point_size) == 0) return
+         call file%write("/errors/points", (budget%points), &
+            "Of displacements at points with names, over the largest of these; (source), relative, negative if not known")
+         call file%write("/errors/at_points", reshape([(budget(i)%at_points, i=1, size(budget))], &
+            [size(results%point_size), size(budget)]), &
+            "Of the displacement of each point with a name, as in /history/points; "// &
+            "(point, source) [length], negative if not known")
+         call file%write("/errors/point_size", results%point_size, "Largest displacement of each of them; (point) [length]")
       end associate
    end subroutine write_errors
 

@@ -7,7 +7,7 @@ module axijoint_output_listing_budget
    use axijoint_base_text, only : to_text, fine_percent
    use axijoint_model_mesh, only : n_joints
    use axijoint_model_model, only : model_type
-   use axijoint_output_file_columns, only : known_column
+   use axijoint_output_file_columns, only : columns, known_column
    use axijoint_output_file_headings, only : write_heading, write_result_heading, write_sentence
    use axijoint_output_file_text, only : text_file_type
    implicit none
@@ -38,9 +38,11 @@ contains
    end subroutine write_left_out
 
    !> Approximations side by side, and the largest
-   subroutine write_budget(file, results)
+   subroutine write_budget(file, model, results)
       !> The listing
       class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
       !> Results
       type(results_type), intent(in) :: results
 
@@ -57,7 +59,48 @@ contains
       call write_sentence(file, "  ", sum_text(results))
       if (len(remedy_text(results%budget)) > 0) &
          call file%put("  about half with "//remedy_text(results%budget))
+      if (size(model%points) > 0) call write_points(file, model, results)
    end subroutine write_budget
+
+   !> Errors of the displacements of points with names
+   subroutine write_points(file, model, results)
+      !> The listing
+      class(text_file_type), intent(inout) :: file
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Results with a budget
+      type(results_type), intent(in) :: results
+
+      character(len=10) :: label
+      type(error_share_type) :: total
+      character(len=:), allocatable :: heading
+      integer :: i, p
+
+      total = sum_of_shares(results%budget)
+      call write_result_heading(file, "ERRORS AT POINTS (estimates of the largest round the circle; - not known)", &
+         results%converged)
+      heading = "     point  name              displacement          error       relative"
+      do i = 1, size(results%budget)
+         heading = heading//repeat(" ", wide - len_trim(source_names(results%budget(i)%source)))// &
+            trim(source_names(results%budget(i)%source))
+      end do
+      call file%put(heading)
+      do p = 1, size(model%points)
+         write (label, "(i10)") model%points(p)%label
+         associate (moved => results%point_size(p), error => total%at_points(p))
+            heading = label//"  "//model%points(p)%name//columns([moved], wide - 1)//known_column(error, wide)
+            if (moved > 0.0_wp) then
+               heading = heading//known_column(error/moved, wide)
+            else
+               heading = heading//known_column(-1.0_wp, wide)
+            end if
+         end associate
+         do i = 1, size(results%budget)
+            heading = heading//known_column(results%budget(i)%at_points(p), wide)
+         end do
+         call file%put(heading)
+      end do
+   end subroutine write_points
 
    !> A share as a line of the table
    pure function share_line(share) result(line)
@@ -216,6 +259,8 @@ contains
          at_least = in_any_case .or. &
             (total%joint_stress >= 0.0_wp .and. .not. is_known(budget, (budget%joint_stress)))
          text = "displacement "//quantity_text(budget, (budget%displacement), total%displacement, at_least)
+         if (total%points >= 0.0_wp) &
+            text = text//"; at POINTS "//quantity_text(budget, (budget%points), total%points, at_least)
          if (total%joint_stress < 0.0_wp) return
          text = text//"; joint stress "//quantity_text(budget, (budget%joint_stress), &
             total%joint_stress, in_any_case .or. results%torn)

@@ -102,7 +102,7 @@ contains
          call write_reactions(file, model, results)
          call write_face_reactions(file, model, results)
          call write_equilibrium(file, model, results)
-         call write_budget(file, results)
+         call write_budget(file, model, results)
          call write_yield_errors(file, results)
          call write_singular(file, model, results)
          call write_rounds(file, results)
