@@ -6,7 +6,7 @@ module axijoint_analysis_static
    use axijoint_analysis_core_left_out, only : what_was_left_out
    use axijoint_analysis_core_motion, only : motion_text
    use axijoint_analysis_core_named_points, only : largest_at_points
-   use axijoint_analysis_core_path, only : is_torn, turns_slip
+   use axijoint_analysis_core_path, only : is_torn, is_soft_in_part, turns_slip
    use axijoint_analysis_core_plastic_fields, only : plastic_fields
    use axijoint_analysis_core_remarks, only : remarks_on, mechanism_text
    use axijoint_analysis_core_results, only : results_type
@@ -238,13 +238,6 @@ contains
       results%increment_seconds = history%seconds
       results%tolerance = model%increments(size(model%increments))%tolerance
       allocate (results%displacement, mold=history%loading%right)
-      if (allocated(history%runaway)) then
-         call solve_displacements(structure, model, history%loading, results%displacement, &
-            results%solves, error, &
-                                  history%runaway)
-         if (allocated(error)) return
-         results%mechanism = mechanism_text(model, history%reached, history%loading%case_factor, results)
-      end if
       if (allocated(history%motion)) then
          results%displacement = 0.0_wp
          call add_motions(structure%condensed%floating, history%motion, results%displacement)
@@ -268,6 +261,7 @@ contains
       results%residual_part_node = model%mesh%node_label(structure%condensed%measure%part_node)
       call name_idle_motions(model, structure, history, results)
       results%torn = results%converged .and. is_torn(history)
+      results%soft_in_part = results%converged .and. is_soft_in_part(history)
       results%turns_slip = results%converged .and. turns_slip(structure, history)
       if (estimates) call estimate_yielding_errors(model%points, structure, history, other, left, results, mesh_error)
       results%plane_angles = structure%planes%angle
@@ -363,7 +357,7 @@ contains
          state = state_of(history, history%field, last%increment, last%load_factor, &
                           history%loading%case_factor)
       end associate
-      if (allocated(history%runaway) .or. allocated(history%motion) .or. history%strayed) &
+      if (allocated(history%motion) .or. history%strayed) &
          state%load_factor = history%reached
    end function last_state
 

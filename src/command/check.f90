@@ -1,7 +1,8 @@
 !> `axijoint check`: read decks and report on them
 module axijoint_command_check
-   use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
+   use, intrinsic :: iso_fortran_env, only : output_unit
    use axijoint_base_error, only : exit_ok, exit_deck
+   use axijoint_base_progress, only : tell_below
    use axijoint_base_text, only : to_text
    use axijoint_command_line, only : command_type
    use axijoint_deck_text_diagnostics, only : diagnostics_type, render
@@ -31,9 +32,9 @@ contains
          job = job_type()
          job%options = command%options
          call read_job(command%decks(k)%text, job, diagnostics)
-         if (allocated(job%conversion)) write (error_unit, '(a)') job%conversion
+         if (allocated(job%conversion)) call tell_below(job%conversion)
          if (diagnostics%n_errors + diagnostics%n_warnings > 0) then
-            write (error_unit, '(a)') render(diagnostics, job%source)
+            call tell_below(render(diagnostics, job%source))
          end if
          if (diagnostics%n_errors > 0) then
             exit_code = exit_deck

@@ -1,7 +1,8 @@
 !> `axijoint compare`: two listings or result files, column by column
 module axijoint_command_compare
-   use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
+   use, intrinsic :: iso_fortran_env, only : output_unit
    use axijoint_base_error, only : error_type, exit_ok, exit_deck
+   use axijoint_base_progress, only : tell_below
    use axijoint_command_compare_line, only : compare_type, read_compare
    use axijoint_command_line, only : word_type
    use axijoint_command_run, only : print_error
@@ -54,19 +55,19 @@ contains
          call read_file(compare%path(k)%text, compare%format(k)%text, dictionary, listings(k), &
             error)
          if (allocated(error)) then
-            write (error_unit, '(a)') error%message
+            call tell_below(error%message)
             return
          end if
       end do
       do k = 1, 2
          call add_increments(listings(k), listings(3 - k), error)
          if (allocated(error)) then
-            write (error_unit, '(a)') error%message
+            call tell_below(error%message)
             return
          end if
          call add_history(listings(k), listings(3 - k), dictionary, error)
          if (allocated(error)) then
-            write (error_unit, '(a)') error%message
+            call tell_below(error%message)
             return
          end if
          call fit_old_layout(listings(k), listings(3 - k))

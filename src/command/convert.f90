@@ -1,7 +1,8 @@
 !> `axijoint convert`: a deck of an older program, written anew
 module axijoint_command_convert
-   use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
+   use, intrinsic :: iso_fortran_env, only : output_unit
    use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_io
+   use axijoint_base_progress, only : tell_below
    use axijoint_base_system, only : path_kind, path_absent, same_file
    use axijoint_command_line, only : command_type
    use axijoint_command_run, only : print_error
@@ -97,7 +98,7 @@ contains
       if (cards%diagnostics%n_errors > 0) then
          call fatal_error(error, exit_deck, messages)
       else if (len(messages) > 0) then
-         write (error_unit, '(a)') messages
+         call tell_below(messages)
       end if
    end subroutine translate
 

@@ -1,11 +1,11 @@
 !> `axijoint envelope`: what loads joints can carry, direction by direction
 module axijoint_command_envelope
-   use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
+   use, intrinsic :: iso_fortran_env, only : output_unit
    use axijoint_analysis_core_structure, only : structure_type, build_structure
    use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_singular, &
       exit_not_converged
    use axijoint_base_kinds, only : wp
-   use axijoint_base_progress, only : show_progress, clear_progress
+   use axijoint_base_progress, only : show_progress, clear_progress, tell_below
    use axijoint_base_stop, only : heed_signals, check_stop
    use axijoint_base_system, only : error_output_is_terminal
    use axijoint_base_text, only : to_text, count_of
@@ -78,7 +78,7 @@ contains
          name = job_name(command%decks(1)%text)//'.envelope'
          call begin_undertaking(command%options%directory, name, [name], &
             'envelope '//command%decks(1)%text, job%source, undertaking, notes, error)
-         if (len(notes) > 0) write (error_unit, '(a)') notes
+         if (len(notes) > 0) call tell_below(notes)
          if (.not. allocated(error)) &
             call search_all(command, job, control, cases, directions, undertaking, found, error)
          call end_undertaking(undertaking, error)
@@ -242,11 +242,11 @@ contains
          command%cases//' '//to_text(command%n_directions)//' '//to_text(command%tolerance), &
          n_kept, journal, rows, put_aside, error)
       if (allocated(error)) return
-      if (len(put_aside) > 0) write (error_unit, '(a)') 'axijoint: the directions of another '// &
-         'envelope of this name, deck or options changed, are '//put_aside//' now'
+      if (len(put_aside) > 0) call tell_below('axijoint: the directions of another '// &
+         'envelope of this name, deck or options changed, are '//put_aside//' now')
       n_before = count(rows%number > 0)
-      if (n_before > 0 .and. .not. command%quiet) write (error_unit, '(a)') 'axijoint: '// &
-         count_of(n_before, 'direction')//' of '//to_text(size(rows))//' were found before'
+      if (n_before > 0 .and. .not. command%quiet) call tell_below('axijoint: '// &
+         count_of(n_before, 'direction')//' of '//to_text(size(rows))//' were found before')
       allocate (job%structure)
       call build_structure(job%model, job%structure, job%timer, job%progress, error, estimated=.false.)
       if (allocated(error)) return

@@ -1,10 +1,10 @@
 !> `axijoint run`: decks to results
 module axijoint_command_run
-   use, intrinsic :: iso_fortran_env, only : output_unit, error_unit, compiler_options
+   use, intrinsic :: iso_fortran_env, only : output_unit, compiler_options
    use axijoint_analysis_core_results, only : results_type
    use axijoint_base_error, only : error_type, fatal_error, exit_ok, exit_deck, exit_io, &
       exit_in_use, exit_state, exit_stopped
-   use axijoint_base_progress, only : show_progress, clear_progress
+   use axijoint_base_progress, only : show_progress, clear_progress, tell_below
    use axijoint_base_stop, only : heed_signals, check_stop
    use axijoint_base_system, only : error_output_is_terminal, target_kind, path_file
    use axijoint_base_sha256, only : sha256
@@ -192,7 +192,7 @@ contains
       !> Lines, or nothing
       character(len=*), intent(in) :: notes
 
-      if (len(notes) > 0) write (error_unit, '(a)') notes
+      if (len(notes) > 0) call tell_below(notes)
    end subroutine tell
 
    !> Make sure that all processes that share the work read the same deck without errors
@@ -245,11 +245,11 @@ contains
       call show_progress(job%progress, 'reading '//deck_name(deck))
       call read_job(deck, job, diagnostics)
       call clear_progress(job%progress)
-      if (allocated(job%conversion)) write (error_unit, '(a)') job%conversion
+      if (allocated(job%conversion)) call tell_below(job%conversion)
       if (diagnostics%n_errors > 0) then
          call fatal_error(error, exit_deck, render(diagnostics, job%source))
       else if (diagnostics%n_warnings > 0) then
-         write (error_unit, '(a)') render(diagnostics, job%source)
+         call tell_below(render(diagnostics, job%source))
       end if
    end subroutine begin
 
@@ -276,17 +276,17 @@ contains
          write (output_unit, '(a)') brief_text(job, results)
          flush (output_unit)
       else if (exit_code_of(results) /= exit_ok) then
-         write (error_unit, '(a)') 'axijoint: '//deck_name(job%deck)//': '//status_text(results)
-         if (len(reason_text(results)) > 0) write (error_unit, '(a)') reason_text(results)
+         call tell_below('axijoint: '//deck_name(job%deck)//': '//status_text(results))
+         if (len(reason_text(results)) > 0) call tell_below(reason_text(results))
       end if
    end subroutine write_combination
 
    !> Say that the program was built for debugging: fpm does so unless it is told otherwise
    subroutine warn_if_slow()
       if (index(compiler_options(), ' -O') > 0 .and. index(compiler_options(), ' -O0') == 0) return
-      write (error_unit, '(a)') 'axijoint: built without optimization, several times slower '// &
+      call tell_below('axijoint: built without optimization, several times slower '// &
          'than need be; `fpm @install` '// &
-         'or `fpm @release` builds it with'
+         'or `fpm @release` builds it with')
    end subroutine warn_if_slow
 
    !> Two decks of one name would write the same files
@@ -345,11 +345,11 @@ contains
       type(error_type), intent(in) :: error
 
       if (error%code == exit_deck .and. len(deck) > 0 .and. index(error%message, ': error: ') > 0) then
-         write (error_unit, '(a)') error%message  ! names file and line itself
+         call tell_below(error%message)  ! names file and line itself
       else if (len(deck) > 0) then
-         write (error_unit, '(a)') 'axijoint: '//deck_name(deck)//': '//error%message
+         call tell_below('axijoint: '//deck_name(deck)//': '//error%message)
       else
-         write (error_unit, '(a)') 'axijoint: '//error%message
+         call tell_below('axijoint: '//error%message)
       end if
    end subroutine print_error
 

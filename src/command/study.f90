@@ -1,11 +1,11 @@
 !> `axijoint study`: many states of a deck, as a table says
 module axijoint_command_study
-   use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
+   use, intrinsic :: iso_fortran_env, only : output_unit
    use axijoint_base_error, only : error_type, exit_ok, exit_singular, exit_not_converged, &
       exit_stopped
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_memory, only : give_back_memory
-   use axijoint_base_progress, only : show_progress, clear_progress
+   use axijoint_base_progress, only : show_progress, clear_progress, tell_below
    use axijoint_base_stop, only : heed_signals, check_stop
    use axijoint_base_system, only : error_output_is_terminal
    use axijoint_base_team, only : team_type
@@ -97,7 +97,7 @@ contains
             call begin_undertaking(command%options%directory, study%name, &
                claimed_names(study%name, command%part), 'study '//command%decks(1)%text, &
                study%rows%source, study%undertaking, notes, error, study%table%source)
-            if (len(notes) > 0) write (error_unit, '(a)') notes
+            if (len(notes) > 0) call tell_below(notes)
          end if
          call agree(command, error)
          if (.not. allocated(error)) call solve_rows(command, study, done, error)
@@ -384,11 +384,11 @@ contains
          end if
          n_before = count(done%number > 0)
          if (len(put_aside) > 0) &
-            write (error_unit, '(a)') 'axijoint: the rows of another study '// &
-            'of this name, deck or table changed, are '//put_aside//' now'
+            call tell_below('axijoint: the rows of another study '// &
+               'of this name, deck or table changed, are '//put_aside//' now')
          ! rows of parts are no surprise to who gathers them
          if (n_before > 0 .and. .not. (command%quiet .or. part%n > 0 .and. part%number == 0)) &
-            write (error_unit, '(a)') 'axijoint: '//count_of(n_before, 'row')//' of '//to_text(size(done))//' were done before'
+            call tell_below('axijoint: '//count_of(n_before, 'row')//' of '//to_text(size(done))//' were done before')
       end associate
    end subroutine find_done
 
@@ -405,10 +405,10 @@ contains
       n_shown = n_shown + 1
       if (n_shown > most_messages) return
       call clear_progress(study%rows%progress)
-      write (error_unit, '(a)') 'axijoint: row '//to_text(row%number)//' ('// &
-         varied(study%table, row%number)//'):', row%message
-      if (n_shown == most_messages) write (error_unit, '(a)') &
-         'axijoint: messages of further rows stand in the table of results'
+      call tell_below('axijoint: row '//to_text(row%number)//' ('// &
+         varied(study%table, row%number)//'):'//new_line('a')//row%message)
+      if (n_shown == most_messages) call tell_below('axijoint: messages of further rows '// &
+         'stand in the table of results')
    end subroutine tell_row
 
    !> What a row varies

@@ -1,13 +1,12 @@
 !> Rows of a study by several processes of this machine, each a part by itself
 module axijoint_command_study_processes
    use, intrinsic :: iso_c_binding, only : c_null_char
-   use, intrinsic :: iso_fortran_env, only : error_unit
    use axijoint_base_children, only : child_type, start_child, look_at_child, ask_to_end, &
       pause_a_moment
    use axijoint_base_error, only : error_type, exit_in_use, exit_stopped
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_memory, only : free_memory, resident_bytes
-   use axijoint_base_progress, only : progress_type, show_progress
+   use axijoint_base_progress, only : progress_type, show_progress, tell_below
    use axijoint_base_stop, only : stop_wished, check_stop
    use axijoint_base_text, only : to_text
    use axijoint_command_line, only : command_type
@@ -114,9 +113,9 @@ contains
          part = part_type(k, size(children))
          if (all(done(order(first_row(part, size(order)):last_row(part, size(order))))%number > 0)) &
             cycle
-         write (error_unit, '(a)') 'axijoint: the process of part '//to_text(k)//' of '// &
+         call tell_below('axijoint: the process of part '//to_text(k)//' of '// &
             to_text(size(children))//' '//how_it_ended(children(k)%code)// &
-            '; what it left is solved here'
+            '; what it left is solved here')
       end do
    end subroutine solve_in_processes
 

@@ -65,10 +65,8 @@ module axijoint_joints_history
       !> shape
       !> (3, points, modes)
       real(wp), allocatable :: balanced(:, :, :)
-      !> Excess stress of joints that ran away, shape (3, points, modes), and the motion that
-      !> nothing resists, in multiples of the floating motions; one is allocated if the joints came
-      !> to a mechanism
-      real(wp), allocatable :: runaway(:, :, :), motion(:)
+      !> The motion that nothing resists, in multiples of the floating motions; allocated if the joints came to a mechanism
+      real(wp), allocatable :: motion(:)
       !> The share of the increment that was to be behind then
       real(wp) :: failed_share = 0.0_wp
       !> Sum of the load factors of the last step in equilibrium
@@ -182,7 +180,7 @@ contains
                         state_of(history, field, increment, load_factor, case_factor)]
    end subroutine keep_state
 
-   !> Note where joints ran away to, if a load drives them on there, or which motion nothing resists
+   !> Note which motion nothing resists, or a load drives on where joints ran away
    subroutine note_failure(condensed, step, history)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
@@ -199,8 +197,8 @@ contains
       if (.not. (driven .or. history%verdict%mechanism%loaded)) return
       call forget_failure(history)
       history%failed_share = step%share
+      if (driven) call move_alloc(motion, history%motion)
       if (history%verdict%mechanism%loaded) history%motion = history%verdict%mechanism%motion
-      if (driven) history%runaway = history%field%excess
    end subroutine note_failure
 
    !> Smaller steps got there
@@ -208,7 +206,6 @@ contains
       !> The history
       type(history_type), intent(inout) :: history
 
-      if (allocated(history%runaway)) deallocate (history%runaway)
       if (allocated(history%motion)) deallocate (history%motion)
    end subroutine forget_failure
 

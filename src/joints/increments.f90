@@ -142,7 +142,7 @@ contains
       if (allocated(history%failure)) return
       ! what much larger steps came to says nothing of this one
       if (history%failed_share - history%at%share > near*(step%share - history%at%share)) call forget_failure(history)
-      nothing_resists = allocated(history%runaway) .or. allocated(history%motion)
+      nothing_resists = allocated(history%motion)
       if (.not. (nothing_resists .or. history%verdict%ran_away .or. is_newton(history%method))) return
       if (.not. ends(history)) call second_opinion(history%method, second)
       if (allocated(second)) then
@@ -159,7 +159,7 @@ contains
          ! where iterations were used up, nothing is known of what resists
          if (.not. (nothing_resists .or. history%newton_finds) .and. (history%verdict%stalled .or. history%verdict%ran_away)) &
             call take_motion(self, step, asked, history)
-         nothing_resists = allocated(history%runaway) .or. allocated(history%motion)
+         nothing_resists = allocated(history%motion)
       end if
       history%strayed = .not. nothing_resists .and. (history%newton_finds .or. history%verdict%ran_away)
       if (.not. (nothing_resists .or. history%strayed)) return
@@ -184,9 +184,8 @@ contains
       logical :: driven
 
       call note_failure(self%condensed, step, asked)
-      if (allocated(asked%runaway)) call move_alloc(asked%runaway, history%runaway)
       if (allocated(asked%motion)) call move_alloc(asked%motion, history%motion)
-      if (allocated(history%runaway) .or. allocated(history%motion)) return
+      if (allocated(history%motion)) return
       call drives_on(self%condensed, history%scene, history%field, driven, motion)
       if (driven) call move_alloc(motion, history%motion)
    end subroutine take_motion

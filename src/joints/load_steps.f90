@@ -6,7 +6,7 @@ module axijoint_joints_load_steps
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: step_type, first_step, next_step, halfway, on_the_way, unloads, loads_of_increments, final_factors
+   public :: step_type, first_step, next_step, halfway, on_the_way, loads_of_increments, final_factors
 
    !> Loads of a step
    type :: step_type
@@ -86,18 +86,6 @@ contains
       step%case_factor = from%case_factor + share*(to%case_factor - from%case_factor)
       step%share = from%share + share*(to%share - from%share)
    end function on_the_way
-
-   !> Whether a step takes all loads away
-   pure logical function unloads(from, to)
-      !> Loads before and after it
-      type(step_type), intent(in) :: from, to
-
-      !> Sums of factors that differ from zero by this part of the factors are rounding
-      real(wp), parameter :: rounding = 1.0e-12_wp
-
-      unloads = .not. allocated(to%steered) .and. any(abs(from%case_factor) > 0.0_wp) &
-         .and. maxval(abs(to%case_factor)) <= rounding*maxval(abs(from%case_factor))
-   end function unloads
 
    !> Loads after each increment, without states of joints
    pure function loads_of_increments(model, combination) result(states)

@@ -12,8 +12,9 @@ module axijoint_joints_stage
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_history, only : history_type, target_type
    use axijoint_joints_keeper, only : keeper_type
-   use axijoint_joints_load_steps, only : step_type, first_step, next_step, halfway, on_the_way, unloads
+   use axijoint_joints_load_steps, only : step_type, first_step, next_step, halfway, on_the_way
    use axijoint_joints_methods, only : is_newton
+   use axijoint_joints_residual, only : load_norm
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type
    use axijoint_model_model, only : model_type
@@ -166,12 +167,33 @@ contains
       associate (increments => stage%model%increments, n => history%increment)
          next = next_step(history%at, increments(n), stage%combination)
          history%ahead = [target_type(next, most_halvings)]
-         if (unloads(history%at, next) .and. size(stage%condensed%floating) > 0 .and. is_newton(history%method)) &
-            history%ahead = [history%ahead, target_type(on_the_way(history%at, next, most_of_it), few_halvings, helps=.true.)]
+         if (size(stage%condensed%floating) > 0 .and. is_newton(history%method)) then
+            if (takes_loads_away(stage, next, history)) history%ahead = [history%ahead, &
+               target_type(on_the_way(history%at, next, most_of_it), few_halvings, helps=.true.)]
+         end if
          call show_progress(progress, 'increment '//to_text(n)//' of '//to_text(size(increments)))
       end associate
       call stage%begin_increment()
    end subroutine go_ahead
+
+   !> Whether a step takes all loads away, of whichever load cases they are
+   logical function takes_loads_away(stage, step, history) result(all_go)
+      !> What the increments act on
+      class(stage_type), intent(in) :: stage
+      !> The step
+      type(step_type), intent(in) :: step
+      !> The history
+      type(history_type), intent(in) :: history
+
+      !> Loads that are no more than this part of those before are rounding
+      real(wp), parameter :: rounding = 1.0e-12_wp
+      type(loading_type) :: loading
+
+      all_go = .false.
+      if (allocated(step%steered) .or. .not. history%load_norm > 0.0_wp) return
+      call stage%put_on_nodes(step%case_factor, loading)
+      all_go = load_norm(stage%equations, loading) <= rounding*history%load_norm
+   end function takes_loads_away
 
    !> Go to the loads that lie ahead next. If that finds no equilibrium, half the way there lies ahead then, or, where
    !> the loads were no more than a help, those behind them, or nothing any more: the history has ended

@@ -21,7 +21,7 @@ module axijoint_output_state
    public :: begin_state, end_state, stopped_text, note_written, is_written, remove_stop_file
 
    !> Number of what the bytes of a state mean: another wherever that changes
-   character(len=*), parameter :: layout = '5'
+   character(len=*), parameter :: layout = '6'
 
 contains
 

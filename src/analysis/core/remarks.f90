@@ -211,11 +211,13 @@ contains
          end do
       end if
       if (history%n_faded > 0) call add(remarks, fading_text(history))
-      if (results%keeps_slip) call add(remarks, 'joints slipped under larger loads: what was wrong then stays in the slip '// &
-         'and is not counted in the errors')
+      if (results%keeps_slip) call add(remarks, 'joints that slipped in earlier increments hold now, slipped back, or slip all '// &
+         'together: what was wrong then stays in the slip and is not counted in the errors')
       if (results%torn) call add(remarks, 'some bonds broke and others hold: which of them hangs on their order, of which '// &
          'estimates of joint stress know nothing; more increments show how much')
-      if (results%turns_slip) call add(remarks, 'joints slide along their bodies and, by torque, round them: how far depends '// &
+      if (results%soft_in_part) call add(remarks, 'some points softened as they slipped and others did not: which of them '// &
+         'hangs on their order, of which estimates of errors know nothing; finer meshes and more increments show how much')
+      if (results%turns_slip) call add(remarks, 'slip of joints turns within an increment: how far they slide depends '// &
          'on the way there, of which estimates of errors know nothing; more increments show how much')
       if (history%verdict%at_rounding .and. .not. results%unsettled > 0.0_wp) then
          call add(remarks, 'rounding allows no smaller residual ratio: the stress of open '// &
@@ -482,6 +484,12 @@ contains
             why = 'elements lock'
          else if (last%error <= goal%target .and. results%torn .and. goal%quantity == goal_joints) then
             why = 'which bonds break hangs on their order'
+         else if (last%error <= goal%target .and. results%soft_in_part) then
+            why = 'which points soften hangs on their order'
+         else if (last%error <= goal%target .and. results%turns_slip) then
+            why = 'slip turns within an increment'
+         else if (last%error <= goal%target .and. results%keeps_slip) then
+            why = 'of what slipped in earlier increments the errors are not known'
          else if (last%error <= goal%target) then
             why = 'the share of '//trim(source_names(unknown))//' is not known'
          else if (size(results%rounds) >= goal%most_rounds) then

@@ -244,12 +244,14 @@ module axijoint_analysis_core_results
       !> Whether loads balance each other before anything moves, and joints hold: displacements are
       !> rounding
       logical :: at_rest = .false.
-      !> Whether joints have slipped under loads that were larger: what the estimates tell is of the last loads alone
+      !> Whether joints hold, or slipped back, that slipped in earlier increments: what the estimates tell is of the last one alone
       logical :: keeps_slip = .false.
-      !> Whether torque slides joints that other loads slide, too, in few increments: estimates know nothing of the way there
+      !> Whether slip turns aside within an increment: estimates know nothing of the way there
       logical :: turns_slip = .false.
       !> Whether some bonds broke and others hold: which of them hangs on their order, of which estimates of joint stress know nothing
       logical :: torn = .false.
+      !> Whether some points softened and others did not: estimates know nothing of the order that they do it in
+      logical :: soft_in_part = .false.
       !> Whether elements lock, as finer ones do: estimates see little of what that leaves
       logical :: locks = .false.
       !> Error of displacements or joint stresses that the iterations leave, where it is more than
@@ -313,6 +315,19 @@ module axijoint_analysis_core_results
       type(remark_type), allocatable :: left_out(:)
       !> What the user should know about the results
       type(remark_type), allocatable :: remarks(:)
+   contains
+      !> Whether there are errors in any case that estimates do not see
+      procedure :: hides_errors
    end type results_type
+
+contains
+
+   !> Whether there are errors of displacements and joint stress in any case that estimates do not see
+   pure logical function hides_errors(self)
+      !> Results
+      class(results_type), intent(in) :: self
+
+      hides_errors = self%keeps_slip .or. self%turns_slip .or. self%soft_in_part .or. self%locks
+   end function hides_errors
 
 end module axijoint_analysis_core_results

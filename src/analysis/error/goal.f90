@@ -83,8 +83,9 @@ contains
       end do
    end function unknown_source
 
-   !> Whether errors of the mesh are known in part: elements lock, bonds break in an order of their own, or joints had no answer
-   !> to them, and what that would move is lacking in those of displacements
+   !> Whether errors of the mesh are known in part: what joints slipped before, the way of their slip, the order in which bonds
+   !> break and points soften is as wrong as it was, elements lock, or joints had no answer to them, and what that would move is
+   !> lacking in those of displacements
    pure logical function sees_part(share, goal, results)
       !> The share
       type(error_share_type), intent(in) :: share
@@ -95,7 +96,7 @@ contains
 
       sees_part = .false.
       if (share%source /= source_discretization) return
-      sees_part = results%locks .or. (results%torn .and. goal%quantity == goal_joints) .or. &
+      sees_part = results%hides_errors() .or. (results%torn .and. goal%quantity == goal_joints) .or. &
          (share%joint_stress < 0.0_wp .and. any(results%budget%joint_stress >= 0.0_wp))
    end function sees_part
 

@@ -70,7 +70,7 @@ contains
       end associate
       ! what slip has left is as wrong as the mesh was under the loads that are gone
       if (unloaded(history)) mesh_error%known = .false.
-      results%keeps_slip = keeps_slip(history)
+      results%keeps_slip = keeps_slip(structure, history, largest)
    end subroutine estimate_yielding_errors
 
    !> Find the state in which the joints are wholly balanced, the change to that and its effect, unless they are there

@@ -255,7 +255,7 @@ contains
       if (max(total%displacement, total%joint_stress) <= 0.0_wp) return
       associate (budget => results%budget)
          ! what joints would answer moves the bodies, too
-         in_any_case = results%keeps_slip .or. results%turns_slip .or. results%locks
+         in_any_case = results%hides_errors()
          at_least = in_any_case .or. &
             (total%joint_stress >= 0.0_wp .and. .not. is_known(budget, (budget%joint_stress)))
          text = "displacement "//quantity_text(budget, (budget%displacement), total%displacement, at_least)
