@@ -46,9 +46,10 @@ command -v "$AXIJOINT" >/dev/null || {
    exit 127
 }
 export OMP_NUM_THREADS=${SLURM_CPUS_PER_TASK:-1} # what the job has
+memory=${SLURM_MEM_PER_NODE#0}                     # 0 is all of the machine
 
 list=${1:?the list of decks}
 shift
-deck=$(grep . "$list" | sed -n "${SLURM_ARRAY_TASK_ID:?submit this script with --array=1-N}p")
+deck=$(sed 's/^[[:blank:]]*//; s/[[:space:]]*$//' "$list" | grep . | sed -n "${SLURM_ARRAY_TASK_ID:?submit this script with --array=1-N}p")
 [ -n "$deck" ] || { echo "$list has no deck $SLURM_ARRAY_TASK_ID" >&2; exit 2; }
-run_job "$AXIJOINT" run "$deck" "$@" --resume ${SLURM_MEM_PER_NODE:+--memory "$SLURM_MEM_PER_NODE"}
+run_job "$AXIJOINT" run "$deck" "$@" --resume ${memory:+--memory "$memory"}

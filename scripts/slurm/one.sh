@@ -45,5 +45,6 @@ command -v "$AXIJOINT" >/dev/null || {
    exit 127
 }
 export OMP_NUM_THREADS=${SLURM_CPUS_PER_TASK:-1} # what the job has
+memory=${SLURM_MEM_PER_NODE#0}                     # 0 is all of the machine
 
-run_job "$AXIJOINT" run "$@" --resume ${SLURM_MEM_PER_NODE:+--memory "$SLURM_MEM_PER_NODE"}
+run_job "$AXIJOINT" run "$@" --resume ${memory:+--memory "$memory"}

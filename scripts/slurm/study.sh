@@ -50,15 +50,17 @@ command -v "$AXIJOINT" >/dev/null || {
    exit 127
 }
 export OMP_NUM_THREADS=${SLURM_CPUS_PER_TASK:-1} # what the job has
+memory=${SLURM_MEM_PER_NODE#0}                     # 0 is all of the machine
 
 parts=${1:?the number of parts}
 shift
 case "$parts" in *[!0-9]* | 0) echo "$parts is no number of parts" >&2; exit 2 ;; esac
-if [ -z "${SLURM_JOB_ID:-}" ]; then
+# Slurm runs a copy of this script, which has another name; inside an allocation it is submitted, too
+if [ -z "${SLURM_JOB_ID:-}" ] || [ "${0##*/}" = study.sh ]; then
    array=$(sbatch --parsable --array="1-$parts" "$0" "$parts" "$@") || exit
    gather=$(sbatch --parsable --dependency="afterany:${array%%;*}" "$0" "$parts" "$@") || exit
    echo "array ${array%%;*} solves $parts parts, job ${gather%%;*} gathers them"
    exit
 fi
 run_job "$AXIJOINT" study "$@" --part "${SLURM_ARRAY_TASK_ID:-0}/$parts" \
-   ${SLURM_MEM_PER_NODE:+--memory "$SLURM_MEM_PER_NODE"}
+   ${memory:+--memory "$memory"}

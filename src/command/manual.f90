@@ -80,7 +80,7 @@ contains
           option_type('--vtk', '', 'NAME.vtkhdf for ParaView, too (whole circle; SWEEP of the '// &
                       'deck says more)'), &
           option_type('--resume', '', 'go on from NAME.state, which a run that was stopped or '// &
-                      'died left beside its results'), &
+                      'died left beside its results; a deck whose results are complete is left'), &
           option_type('--checkpoint', 'MINUTES', 'keep NAME.state up to date every so many '// &
                       'minutes; 0: after each load step (default: as often as takes 1 % of the '// &
                       'time)'), &

@@ -22,7 +22,7 @@ module axijoint_command_run
    use axijoint_output_file_run, only : exit_code_of
    use axijoint_output_other_results, only : other_results_text
    use axijoint_output_output, only : check_output, write_output, write_error_summary, remove_error_summary
-   use axijoint_output_state, only : begin_state, end_state, stopped_text, note_written, is_written
+   use axijoint_output_state, only : begin_state, earlier_exit_code, end_state, stopped_text, note_written, is_written
    use omp_lib, only : omp_set_num_threads
    implicit none
    private
@@ -39,9 +39,10 @@ contains
 
       type(error_type), allocatable :: error
       type(claim_type) :: claim
-      integer :: k, code
+      integer :: k, codes(size(command%decks))
 
       exit_code = exit_ok
+      codes = exit_ok
       call warn_if_slow()
       if (command%threads > 0) call omp_set_num_threads(command%threads)
       call heed_signals(with_others=allocated(command%options%team))
@@ -53,19 +54,46 @@ contains
       end if
       do k = 1, size(command%decks)
          associate (deck => command%decks(k)%text)
-            call run_deck(deck, command, claim, code, error)
+            call run_deck(deck, command, claim, codes(k), error)
             if (allocated(error)) then
                call print_error(deck, error)
                if (speaks(command)) &
                   call leave_summary(deck, command%options%directory, claim, error)
-               code = error%code
+               codes(k) = error%code
             end if
          end associate
          call release_output(claim)
-         exit_code = max(exit_code, code)
-         if (code == exit_stopped) exit
+         if (codes(k) == exit_stopped) exit
       end do
+      exit_code = maxval(codes)
+      if (speaks(command)) call tell(failed_decks(command%decks, codes, min(k, size(codes))))
    end subroutine run_decks
+
+   !> Which of several decks did not end well, so that nobody has to look for them in what was said of all
+   pure function failed_decks(decks, codes, n) result(text)
+      !> The decks
+      type(word_type), intent(in) :: decks(:)
+      !> Their exit codes, and how many were begun
+      integer, intent(in) :: codes(:), n
+      !> A line; empty if there is nothing to say
+      character(len=:), allocatable :: text
+
+      integer, parameter :: most = 20
+      integer :: k, named
+
+      text = ''
+      if (size(decks) == 1 .or. all(codes == exit_ok)) return
+      text = 'axijoint: '//to_text(count(codes /= exit_ok))//' of '//to_text(size(decks))//' decks did not end well:'
+      named = 0
+      do k = 1, n
+         if (codes(k) == exit_ok) cycle
+         named = named + 1
+         if (named <= most) text = text//' '//deck_name(decks(k)%text)//' ('//to_text(codes(k))//'),'
+      end do
+      if (named > most) text = text//' and more,'
+      text = text(:len(text) - 1)
+      if (n < size(decks)) text = text//'; '//to_text(size(decks) - n)//' were not begun'
+   end function failed_decks
 
    !> A summary of an error, unless the deck is not there – a name that was mistyped leaves
    !> nothing – or another run writes these files
@@ -114,6 +142,16 @@ contains
          end if
       end if
       if (allocated(job%options%team)) call agree_on_deck(job, error)
+      if (command%resume .and. .not. allocated(error)) then
+         exit_code = earlier_exit_code(job)
+         if (exit_code >= exit_ok) then
+            if (speaks(command)) call tell('axijoint: '//deck_name(deck)// &
+               ': its results are there already; a run without --resume makes them anew')
+            call clear_progress(job%progress)
+            return
+         end if
+         exit_code = exit_ok
+      end if
       if (.not. allocated(error)) then
          call begin_state(job, command%interval, command%resume, notes, error)
          call tell(notes)

@@ -6,7 +6,7 @@ module axijoint_output_state
    use axijoint_base_sha256, only : sha256
    use axijoint_base_state_file, only : state_mark_type, read_state_file, is_state_file
    use axijoint_base_stop, only : heed_file
-   use axijoint_base_system, only : path_kind, path_absent, error_text, rename_path, unlink_path
+   use axijoint_base_system, only : path_kind, path_absent, path_file, error_text, rename_path, unlink_path
    use axijoint_base_text, only : to_text
    use axijoint_base_version, only : program_name, program_version
    use axijoint_base_whole_file, only : file_size, is_not_there, read_whole_file
@@ -18,12 +18,72 @@ module axijoint_output_state
    use axijoint_output_file_pending, only : join_path
    implicit none
    private
-   public :: begin_state, end_state, stopped_text, note_written, is_written, remove_stop_file
+   public :: begin_state, end_state, stopped_text, note_written, is_written, remove_stop_file, earlier_exit_code, job_hash
 
    !> Number of what the bytes of a state mean: another wherever that changes
    character(len=*), parameter :: layout = '6'
 
 contains
+
+   !> Exit code of an earlier run of the same job whose results are there, complete; negative if they are not. A state goes
+   !> before them: it is of a later run, which was not ended. Of several processes the first looks
+   integer function earlier_exit_code(job) result(code)
+      !> The job, read
+      type(job_type), intent(in) :: job
+
+      character(len=:), allocatable :: text
+
+      code = -1
+      if (.not. is_another(job)) code = code_of_results(job)
+      if (.not. allocated(job%options%team)) return
+      text = to_text(code)
+      call job%options%team%tell(text)
+      read (text, *) code
+   end function earlier_exit_code
+
+   !> The same of one process
+   integer function code_of_results(job) result(code)
+      !> The job, read
+      type(job_type), intent(in) :: job
+
+      character(len=*), parameter :: key = '"exit_code": '
+      character(len=:), allocatable :: hash, name, summary
+      integer, allocatable :: files(:)
+      integer :: errno, found, i, k, place
+
+      code = -1
+      if (path_kind(join_path(job%options%directory, job_name(job%deck)//state_ending)) /= path_absent) return
+      hash = '"job_sha256": "'//job_hash(job)//'"'
+      files = files_of(job%model)
+      do k = 1, size(job%model%combinations)
+         name = result_name(job, combination_label(job, k))
+         found = -1
+         call read_whole_file(final_path(job%options%directory, name, file_summary), summary, errno)
+         if (errno == 0) then
+            place = index(summary, key) + len(key)
+            if (index(summary, hash) > 0) read (summary(place:place + 1), *, iostat=errno) found
+         end if
+         do i = 1, size(files)
+            if (path_kind(final_path(job%options%directory, name, files(i))) /= path_file) found = -1
+         end do
+         code = merge(max(code, found), -1, found >= 0)
+         if (code < 0) return
+      end do
+   end function code_of_results
+
+   !> What tells a job from others whose results differ: hash of the program and its version, of all files of the deck and of
+   !> the solver that was asked for
+   function job_hash(job) result(hash)
+      !> The job
+      type(job_type), intent(in) :: job
+      !> The hash
+      character(len=64) :: hash
+
+      type(state_mark_type) :: mark
+
+      mark = mark_of(job)
+      hash = sha256(mark%program//new_line('a')//mark%deck//new_line('a')//mark%options)
+   end function job_hash
 
    !> Begin to keep the state of a job, from where an earlier run was if that is asked for. Of several
    !> processes the first keeps it, and tells the others what was there

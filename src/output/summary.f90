@@ -21,6 +21,7 @@ module axijoint_output_summary
    use axijoint_output_file_run, only : run_type, status_name, status_error
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_listing_budget, only : sum_text, laws_at
+   use axijoint_output_state, only : job_hash
    use axijoint_output_table_in_situ, only : in_situ_json
    use axijoint_output_table_increments, only : increments_json
    use axijoint_output_table_interfaces, only : interfaces_json
@@ -57,6 +58,7 @@ contains
       associate (model => job%model)
          call write_tags(file, run, status_name(results), messages, json_string(model%title))
          call put_pair(file, "deck_sha256", json_string(sha256(deck_text(job%source))))
+         call put_pair(file, "job_sha256", json_string(job_hash(job)))
          call put_pair(file, "combination", json_number(results%combination))
          call put_pair(file, "nodes", json_number(n_nodes(model%mesh)))
          call put_pair(file, "elements", json_number(n_elements(model%mesh)))

@@ -404,6 +404,33 @@ def written_already(program, folder):
     return faults
 
 
+def done_already(program, folder):
+    """Decks whose results are there are not solved again by --resume: not if the deck, the solver or the files are others, and not
+    where a later run left a state. Decks that did not end well are named at the end"""
+    decks = [write(folder, name, input_deck('first.dat')) for name in ('a.dat', 'b.dat')]
+    two = write(folder, 'two.dat', JOBS['two combinations'])
+    broken = write(folder, 'broken.dat', input_deck('first.dat').replace('LAWS', 'FLAWS', 1))
+
+    def run(*words):
+        ran = program.run('run', *words, '-o', folder, '--resume', folder=folder)
+        return ran.code, ran.out.count('status '), ran.err.count('results are there already'), ran.err
+
+    code, solved, left, _ = run(decks[0], two)
+    faults = expected('first start: code, solved, left', (0, 3, 0), (code, solved, left))
+    code, solved, left, _ = run(decks[0], two, decks[1])
+    faults += expected('second start', (0, 1, 2), (code, solved, left))
+    code, solved, left, err = run(decks[0], broken, two, decks[1])
+    faults += expected('with a broken deck', (2, 0, 3), (code, solved, left))
+    faults += expected('last line', True, '1 of 4 decks did not end well: ' in err and err.rstrip().endswith('broken.dat (2)'))
+    os.unlink(os.path.join(folder, 'two.2.lis'))
+    faults += expected('a listing is gone', (0, 2, 1), run(decks[0], two)[:3])
+    faults += expected('another solver', (0, 1, 0), run(decks[0], '--solver', 'band')[:3])
+    faults += expected('the deck\'s solver again', (0, 1, 0), run(decks[0])[:3])
+    faults += expected('a file more', (0, 1, 0), run(decks[0], '--vtk')[:3])
+    write(folder, 'a.dat', input_deck('first.dat') + '! changed\n')
+    return faults + expected('deck changed', (0, 1, 1), run(*decks)[:3])
+
+
 def disk_full(program, folder):
     """A state that cannot be written does not end the run, which says so once"""
     place = Place(program, folder, 1, False)
@@ -447,7 +474,7 @@ def tests(program):
     functions = {'signals': signals, 'interrupted twice': interrupted_twice, 'while reading': while_reading,
                  'STOP file': stop_file, 'states that are refused': refused, 'states that are forgotten': forgotten,
                  'states of others': foreign, 'STOP folder': stop_folder,
-                 'written already': written_already, 'states that cannot be written': disk_full, 'while METIS works': signal_in_metis,
+                 'written already': written_already, 'done already': done_already, 'states that cannot be written': disk_full, 'while METIS works': signal_in_metis,
                  '--checkpoint': option_faults}
     found = [Test(f'resumed: {what}', lambda folder, check=check: check(program, folder))
              for what, check in functions.items()]
