@@ -21,22 +21,23 @@ contains
       integer(int32) :: state(8), key(rounds)
       character(len=block_bytes) :: block
       character(len=2*block_bytes) :: tail
-      integer :: blocks, i, n, used
+      integer(int64) :: blocks, i
+      integer :: k, n, used
 
       call constants(state, key)
-      blocks = len(text)/block_bytes
+      blocks = len(text, int64)/block_bytes
       do i = 1, blocks
          block = text(block_bytes*(i - 1) + 1:block_bytes*i)
          call mix(block, key, state)
       end do
-      used = len(text) - block_bytes*blocks
+      used = int(len(text, int64) - block_bytes*blocks)
       n = merge(1, 2, used < block_bytes - 8)
       tail = repeat(achar(0), len(tail))
       tail(:used) = text(block_bytes*blocks + 1:)
       tail(used + 1:used + 1) = char(128)
-      do i = 0, 7  ! length in bits, the highest byte first
-         tail(block_bytes*n - i:block_bytes*n - i) = &
-            char(int(ibits(8_int64*len(text, int64), 8*i, 8)))
+      do k = 0, 7  ! length in bits, the highest byte first
+         tail(block_bytes*n - k:block_bytes*n - k) = &
+            char(int(ibits(8_int64*len(text, int64), 8*k, 8)))
       end do
       do i = 1, n
          block = tail(block_bytes*(i - 1) + 1:block_bytes*i)

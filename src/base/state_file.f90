@@ -39,18 +39,23 @@ contains
       !> What failed, and then the earlier one stands; not allocated if nothing did
       character(len=:), allocatable, intent(out) :: failure
 
-      character(len=:), allocatable :: text, beside
+      character(len=:), allocatable :: head, text, beside
       character(len=8) :: day
       character(len=10) :: clock
       character(len=5) :: zone
+      integer(i8) :: n
       integer :: errno, ignored
 
       call date_and_time(day, clock, zone)
-      text = first_line//nl//'program '//mark%program//nl//'deck '//mark%deck//nl//'options '// &
+      head = first_line//nl//'program '//mark%program//nl//'deck '//mark%deck//nl//'options '// &
          mark%options//nl//'place '//mark%place//nl//'date '//day(:4)//'-'//day(5:6)//'-'// &
          day(7:)//' '//clock(:2)//':'//clock(3:4)//':'//clock(5:6)//' '//zone//nl//'bytes '// &
-         to_text(len(body, i8))//nl//body
-      text = text//sha256(text)//nl
+         to_text(len(body, i8))//nl
+      n = len(head, i8) + len(body, i8)
+      allocate (character(len=n + hash_length) :: text)  ! a history may take much of the memory: no copies more
+      text(:len(head)) = head
+      text(len(head) + 1:n) = body
+      text(n + 1:) = sha256(text(:n))//nl
       beside = path//'.'//host_name()//'.'//to_text(process_id())//'.tmp'
       call unlink_path(beside, ignored)
       call write_new_file(beside, text, errno)

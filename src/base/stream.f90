@@ -21,8 +21,12 @@ module axijoint_base_stream
          put_logicals_2, put_reals_1, put_reals_2, put_reals_3
       procedure, private :: put_integer, put_long, put_real, put_logical, put_text, &
          put_integers_2, put_logicals_2, put_reals_1, put_reals_2, put_reals_3
+      !> Make room for so many bytes, so that none are copied as it grows
+      procedure :: reserve
       !> All that was written
       procedure :: bytes
+      !> Give it away: there is no copy where the room is filled
+      procedure :: give
       procedure, private :: add, put_shape
    end type writer_type
 
@@ -66,6 +70,33 @@ contains
       bytes = ''
       if (allocated(self%room)) bytes = self%room(:self%used)
    end function bytes
+
+   !> Make room for so many bytes, so that none are copied as it grows
+   subroutine reserve(self, n)
+      !> The writer, new
+      class(writer_type), intent(inout) :: self
+      !> How many
+      integer(i8), intent(in) :: n
+
+      if (.not. allocated(self%room)) allocate (character(len=n) :: self%room)
+   end subroutine reserve
+
+   !> Give all away that was written
+   subroutine give(self, bytes)
+      !> The writer; new on return
+      class(writer_type), intent(inout) :: self
+      !> The bytes
+      character(len=:), allocatable, intent(inout) :: bytes
+
+      if (.not. allocated(self%room)) allocate (character(len=0) :: self%room)
+      if (self%used < len(self%room, i8)) then
+         bytes = self%room(:self%used)
+         deallocate (self%room)
+      else
+         call move_alloc(self%room, bytes)
+      end if
+      self%used = 0
+   end subroutine give
 
    !> Append bytes
    subroutine add(self, piece)

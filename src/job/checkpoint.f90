@@ -7,6 +7,7 @@ module axijoint_job_checkpoint
    use axijoint_base_progress, only : tell_below
    use axijoint_base_state_file, only : state_mark_type, write_state_file
    use axijoint_base_stream, only : writer_type, reader_type, new_reader
+   use axijoint_base_system, only : path_kind, path_absent
    use axijoint_base_text, only : to_text
    use axijoint_joints_history, only : history_type
    use axijoint_joints_history_record, only : write_history, read_history
@@ -72,7 +73,7 @@ module axijoint_job_checkpoint
       !> Write what is pending
       procedure :: flush
       !> What a file holds
-      procedure :: bytes
+      procedure :: tell_bytes
       !> Take over what a file holds
       procedure :: take
       procedure, private :: now_and_then
@@ -150,8 +151,13 @@ contains
       call system_clock(now, rate)
       if (abs(self%interval) > 0.0_wp .and. real(now - self%noted, wp) < &
           self%noting/cheap_share*real(rate, wp)) return
-      call write_history(history, writer)
-      self%parts(self%at)%history = writer%bytes()
+      associate (part => self%parts(self%at))
+         ! one increment more than before, as a rule
+         call writer%reserve(len(part%history, i8) + 2*len(part%history, i8)/max(1, history%increment - 1))
+         part%history = ''
+         call write_history(history, writer)
+         call writer%give(part%history)
+      end associate
       call system_clock(self%noted)
       self%noting = real(self%noted - now, wp)/real(rate, wp)
       self%place = 'increment '//to_text(history%increment)//' of '//to_text(self%n_increments)
@@ -222,16 +228,19 @@ contains
       class(checkpoint_type), intent(inout) :: self
 
       integer(i8) :: before, rate
+      character(len=:), allocatable :: body
 
       if (.not. self%pending) return
       call system_clock(before)
       self%mark%place = self%place
-      call write_state_file(self%path, self%mark, self%bytes(), self%failure)
+      call self%tell_bytes(body)
+      call write_state_file(self%path, self%mark, body, self%failure)
       self%pending = .false.
       if (.not. allocated(self%failure)) then
          self%there = .true.
       else if (.not. self%told) then
          self%told = .true.
+         self%there = self%there .and. path_kind(self%path) /= path_absent
          call tell_below('axijoint: warning: the state '//self%path//' cannot be written: '//self%failure// &
             '; the run goes on, but if it is stopped or dies, --resume '//trim(merge( &
             'goes on from what was kept before', 'begins anew                      ', self%there)))
@@ -241,15 +250,23 @@ contains
    end subroutine flush
 
    !> What a file holds
-   function bytes(self)
+   subroutine tell_bytes(self, bytes)
       !> The state
       class(checkpoint_type), intent(in) :: self
       !> The bytes
-      character(len=:), allocatable :: bytes
+      character(len=:), allocatable, intent(out) :: bytes
 
+      !> Bytes of a part besides its history and its digest: more than numbers and lengths take
+      integer(i8), parameter :: few = 128
       type(writer_type) :: writer
+      integer(i8) :: n
       integer :: k
 
+      n = few + len(self%round, i8)
+      do k = 1, size(self%parts)
+         n = n + few + len(self%parts(k)%history, i8) + len(self%parts(k)%digest, i8)
+      end do
+      call writer%reserve(n)
       call writer%put(self%round)
       call writer%put(size(self%parts))
       do k = 1, size(self%parts)
@@ -258,8 +275,8 @@ contains
          call writer%put(self%parts(k)%exit_code)
          call writer%put(self%parts(k)%digest)
       end do
-      bytes = writer%bytes()
-   end function bytes
+      call writer%give(bytes)
+   end subroutine tell_bytes
 
    !> Take over what a file holds
    subroutine take(self, bytes, place, taken)

@@ -14,7 +14,7 @@ module axijoint_joints_history
    use axijoint_joints_planes, only : on_all
    use axijoint_joints_residual, only : residual_record_type, ratios_of
    use axijoint_joints_scene, only : scene_type, new_scene, stand_where_they_are
-   use axijoint_joints_states, only : increment_state_type
+   use axijoint_joints_states, only : increment_state_type, append_state
    use axijoint_model_model, only : model_type
    implicit none
    private
@@ -176,8 +176,7 @@ contains
 
       field = history%field
       call stand_where_they_are(condensed, history%scene, field)
-      history%states = [history%states, &
-                        state_of(history, field, increment, load_factor, case_factor)]
+      call append_state(history%states, state_of(history, field, increment, load_factor, case_factor))
    end subroutine keep_state
 
    !> Note which motion nothing resists, or a load drives on where joints ran away

@@ -3,7 +3,7 @@ module axijoint_joints_states
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: increment_state_type, plastic_state_type
+   public :: increment_state_type, plastic_state_type, append_state
 
    !> Bodies that yield at the end of an increment
    type :: plastic_state_type
@@ -49,5 +49,65 @@ module axijoint_joints_states
       !> Bodies that yield
       type(plastic_state_type) :: bodies
    end type increment_state_type
+
+contains
+
+   !> Append a state to others. What these hold is moved, not copied: of long histories it is most of the memory
+   subroutine append_state(states, state)
+      !> The others
+      type(increment_state_type), allocatable, intent(inout) :: states(:)
+      !> The state
+      type(increment_state_type), intent(in) :: state
+
+      type(increment_state_type), allocatable :: longer(:)
+      integer :: k
+
+      allocate (longer(size(states) + 1))
+      do k = 1, size(states)
+         call move_state(states(k), longer(k))
+      end do
+      longer(size(longer)) = state
+      call move_alloc(longer, states)
+   end subroutine append_state
+
+   !> Move a state
+   subroutine move_state(from, to)
+      !> From there; empty on return
+      type(increment_state_type), intent(inout) :: from
+      !> There
+      type(increment_state_type), intent(inout) :: to
+
+      to%increment = from%increment
+      to%load_factor = from%load_factor
+      if (allocated(from%case_factor)) call move_alloc(from%case_factor, to%case_factor)
+      if (allocated(from%peak_factor)) call move_alloc(from%peak_factor, to%peak_factor)
+      if (allocated(from%jump)) call move_alloc(from%jump, to%jump)
+      if (allocated(from%stress)) call move_alloc(from%stress, to%stress)
+      if (allocated(from%state)) call move_alloc(from%state, to%state)
+      if (allocated(from%excess)) call move_alloc(from%excess, to%excess)
+      if (allocated(from%pending)) call move_alloc(from%pending, to%pending)
+      if (allocated(from%offset)) call move_alloc(from%offset, to%offset)
+      call move_bodies(from%bodies, to%bodies)
+   end subroutine move_state
+
+   !> Move what bodies that yield have
+   subroutine move_bodies(from, to)
+      !> From there; empty on return
+      type(plastic_state_type), intent(inout) :: from
+      !> There
+      type(plastic_state_type), intent(inout) :: to
+
+      if (allocated(from%place)) call move_alloc(from%place, to%place)
+      if (allocated(from%taken)) call move_alloc(from%taken, to%taken)
+      if (allocated(from%gained)) call move_alloc(from%gained, to%gained)
+      if (allocated(from%amplitude)) call move_alloc(from%amplitude, to%amplitude)
+      if (allocated(from%carried)) call move_alloc(from%carried, to%carried)
+      if (allocated(from%dissipation)) call move_alloc(from%dissipation, to%dissipation)
+      to%dissipated = from%dissipated
+      to%iterations = from%iterations
+      to%solutions = from%solutions
+      to%on_planes = from%on_planes
+      to%n_yielding = from%n_yielding
+   end subroutine move_bodies
 
 end module axijoint_joints_states

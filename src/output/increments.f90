@@ -126,6 +126,7 @@ contains
             if (is_kept(model%keep(keep_series), results%states(i)%increment, &
                         results%states(last)%increment)) &
                call append_increment(model, structure, results, i, now, series)
+            call arrays%mute()  ! in this thread
             call put_history(arrays, model, results, i, now, fields)
             call arrays%to_disk()
             call put_bodies(bodies, now)

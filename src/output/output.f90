@@ -125,6 +125,8 @@ contains
       if (allocated(error)) return
       call take_team(job%options%team, team)
       if (team%rank == 0) then
+         call make_place(job%options%directory, error)  ! which may be gone since
+         if (allocated(error)) deallocate (error)  ! then the first file says so
          call write_files(job, results, team, error)
       else
          call team%agree(error)

@@ -114,7 +114,7 @@ contains
       associate (team => job%options%team)
          call team%agree(error)
          if (allocated(error)) return
-         bytes = job%checkpoint%bytes()
+         call job%checkpoint%tell_bytes(bytes)
          call team%tell(bytes)
          if (is_another(job)) call job%checkpoint%take(bytes, '', taken)
       end associate

@@ -36,6 +36,8 @@ module axijoint_analysis_core_footprint
    !> Vectors that the linear solutions of Newton's method touch; more are there for those that need
    !> them, but joints a thousand times as stiff as usual do with these
    integer(i8), parameter :: newton_vectors = 100
+   !> Copies of what is kept of earlier increments: itself, as bytes, and two of these while they are written
+   integer(i8), parameter :: kept_states = 4
    !> Bytes of a node in the mesh, its elements, graph, orders and equations, as measured
    integer(i8), parameter :: mesh_bytes = 520
    !> Bytes of a node of the fine mesh besides its stiffness, as measured
@@ -89,7 +91,7 @@ contains
 
       type(reference_type), allocatable :: references(:)
       type(mode_type), allocatable :: modes(:)
-      integer(i8) :: nodes, jumps, unknowns, planes
+      integer(i8) :: nodes, jumps, unknowns, planes, kept_planes
 
       references = element_references(model%mesh)
       nodes = n_nodes(model%mesh)
@@ -111,16 +113,20 @@ contains
       unknowns = 3*count(yielding_nodes(model), kind=i8)
       planes = model%n_planes
       modes = used_modes(model)
-      if (any(modes%family == family_antisymmetric)) planes = around*(planes - 1)/2
+      kept_planes = planes
+      if (any(modes%family == family_antisymmetric)) then
+         planes = around*(planes - 1)/2
+         kept_planes = 2*(kept_planes - 1)
+      end if
       if (maxval(model%harmonics) > 0) planes = planes + more_planes*planes
       footprint%joints = real_bytes*(n_systems*jumps**2 &
                                      + plane_numbers*jumps/3*max(planes, int(n_modes, i8)) &
                                      + jumps*n_modes*min(newton_vectors, jumps*n_modes))
       if (jumps > 0) footprint%joints = footprint%joints + plane_matrix_bytes(model, modes)
       if (size(model%increments) > 1) then
-         ! jumps, stresses and states are kept; earlier increments are solved again, some at a time
-         footprint%joints = footprint%joints + real_bytes*(size(model%increments, kind=i8) - 1) &
-            *jumps/3*(7*model%n_planes + 6*n_modes)
+         ! jumps, stresses and states are kept, and as bytes for who goes on; earlier increments are solved again, some at a time
+         footprint%joints = footprint%joints + kept_states*real_bytes*(size(model%increments, kind=i8) - 1) &
+            *jumps/3*(7*kept_planes + 6*n_modes)
          if (jumps > 0) footprint%joints = footprint%joints + real_bytes*acting_cases(model)*(jumps*n_modes + 3*nodes)
          footprint%stresses = 2*footprint%stresses + footprint%loads
       end if
