@@ -246,7 +246,15 @@ def estimated_memory(program, folder):
         ground[name] = found - told
         if abs(found - told - ground['small']) > 0.1*found:
             faults.append(f'{name}: {found} MB, expected {told} MB, and {ground["small"]} MB more of the program')
-    return faults
+    text = read_text(os.path.join(INPUTS, 'monopile.dat'))
+    steps = ''.join(f'{factor:10}    1.0E-8         2\n' for factor in (0.2, 0.2, -0.2, -0.2)*25)
+    deck = write(folder, 'history.dat', text[:text.index('INCREMENTS')] + 'INCREMENTS\n       1.0    1.0E-8         1\n' + steps
+                 + text[text.index('POINTS'):])
+    ran = program.run('run', deck, '-o', folder, '--threads', '1')
+    found = json.loads(read_text(os.path.join(folder, 'history.json')))['peak_memory_mb'] - ground['small']
+    told = counts(program, deck, '--threads', '1')['memory']
+    # how often it is written to go on from hangs on the speed of the disk
+    return faults + ran.ended_with(0) + expected('history: enough, and not far too much', True, 0.6*told < found < told)
 
 
 def job_lines(program, folder):
