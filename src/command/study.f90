@@ -237,7 +237,7 @@ contains
       if (allocated(error)) return
       call system_clock(now)
       if (command%part%number == 0) then
-         call write_study(study%undertaking, study%table, study%names, done, &
+         call write_study(study%undertaking, study%rows%source, study%table, study%names, done, &
             new_statistics(done, size(study%names)), error)
          if (allocated(error)) return
          call close_journal(journal)
@@ -385,7 +385,7 @@ contains
          n_before = count(done%number > 0)
          if (len(put_aside) > 0) &
             call tell_below('axijoint: the rows of another study '// &
-               'of this name, deck or table changed, are '//put_aside//' now')
+               'of this name, deck, table or options changed, are '//put_aside//' now')
          ! rows of parts are no surprise to who gathers them
          if (n_before > 0 .and. .not. (command%quiet .or. part%n > 0 .and. part%number == 0)) &
             call tell_below('axijoint: '//count_of(n_before, 'row')//' of '//to_text(size(done))//' were done before')

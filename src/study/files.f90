@@ -6,6 +6,8 @@ module axijoint_study_files
    use axijoint_base_kinds, only : wp
    use axijoint_base_text, only : to_text, lower
    use axijoint_base_version, only : program_name, program_version
+   use axijoint_deck_text_source, only : source_type
+   use axijoint_output_file_echo, only : deck_text
    use axijoint_output_file_hdf5, only : hdf5_file_type
    use axijoint_output_file_text, only : text_file_type
    use axijoint_study_quantities, only : name_length
@@ -20,9 +22,11 @@ module axijoint_study_files
 contains
 
    !> Write the files
-   subroutine write_study(undertaking, table, names, rows, statistics, error)
+   subroutine write_study(undertaking, deck, table, names, rows, statistics, error)
       !> What is under way: where the files go
       type(undertaking_type), intent(in) :: undertaking
+      !> The deck
+      type(source_type), intent(in) :: deck
       !> The table
       type(study_table_type), intent(in) :: table
       !> Names of the quantities
@@ -44,7 +48,7 @@ contains
       call csv%finish(error)
       if (.not. allocated(error)) call arrays%create(undertaking%stem//'.h5', error)
       if (.not. allocated(error)) then
-         call write_arrays(arrays, table, names, rows, statistics)
+         call write_arrays(arrays, deck, table, names, rows, statistics)
          call arrays%finish(error)
       end if
       halfway = .false.
@@ -143,9 +147,11 @@ contains
    end function on_one_line
 
    !> All increments of all rows
-   subroutine write_arrays(file, table, names, rows, statistics)
+   subroutine write_arrays(file, deck, table, names, rows, statistics)
       !> The file
       type(hdf5_file_type), intent(inout) :: file
+      !> The deck
+      type(source_type), intent(in) :: deck
       !> The table
       type(study_table_type), intent(in) :: table
       !> Names of the quantities
@@ -172,6 +178,8 @@ contains
       call file%attribute('/', 'version', program_version)
       call file%attribute('/', 'columns', joined((table%columns%name)))
       call file%attribute('/', 'quantities', joined(names))
+      call file%write('/deck', deck_text(deck), 'Cards as read, included files in place')
+      call file%write('/table', deck_text(table%source), 'Table as read')
       call file%write('/varied', merge(values_on_cards(table), missing(), table%given), &
          'What varies, nan where the value of the deck stays, words by their place among those '// &
          'allowed; (column, row)')
