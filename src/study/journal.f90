@@ -33,10 +33,13 @@ module axijoint_study_journal
       integer(i8) :: synced = 0
    end type journal_type
 
+   !> Ending of a journal while it changes places with one that was put aside
+   character(len=*), parameter :: meanwhile = '.meanwhile'
+
 contains
 
    !> Open a journal, with the rows that stand in it if it is of the same study. One of another
-   !> study is put aside, and a new one begun
+   !> study is put aside, and a new one begun, or that of this study taken back which was put aside before
    subroutine open_journal(path, key, n_quantities, journal, rows, put_aside, error)
       !> The file
       character(len=*), intent(in) :: path
@@ -53,26 +56,29 @@ contains
       !> The file cannot be written, or is no journal
       type(error_type), allocatable, intent(out) :: error
 
-      logical :: there, ours, torn
+      logical :: there, ours, torn, aside_there, aside_ours
       integer :: errno
 
       journal%path = path
       put_aside = ''
       errno = 0
       call read_journal(path, key, n_quantities, rows, there, ours, torn)
-      if (ours) then
-         if (torn) call append_to_file(path, new_line('a'), .true., errno)
-      else
+      if (.not. ours) then
          if (there) then
             call check_journal(path, error)
             if (.not. allocated(error)) call check_journal(path//aside, error)
             if (allocated(error)) return
             put_aside = path//aside
-            call rename_path(path, put_aside, errno)
          end if
-         if (errno == 0) &
+         call read_journal(path//aside, key, n_quantities, rows, aside_there, aside_ours, torn)
+         if (there .and. aside_ours) call rename_path(path, path//meanwhile, errno)
+         if (there .and. .not. aside_ours) call rename_path(path, path//aside, errno)
+         if (errno == 0 .and. aside_ours) call rename_path(path//aside, path, errno)
+         if (errno == 0 .and. aside_ours .and. there) call rename_path(path//meanwhile, path//aside, errno)
+         if (errno == 0 .and. .not. aside_ours) &
             call append_to_file(path, opening//sha256(key)//new_line('a'), .true., errno)
       end if
+      if (errno == 0 .and. torn) call append_to_file(path, new_line('a'), .true., errno)
       call system_clock(journal%synced)
       if (errno /= 0) call io_error(error, 'write', path, errno)
    end subroutine open_journal

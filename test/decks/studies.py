@@ -472,6 +472,21 @@ def files_of_others(program, folder):
     return faults + ran.ended_with(5) + ([] if 'rows.study.STOP would end the run at once' in ran.err else [ran.err])
 
 
+def taken_back(program, folder):
+    """Rows that were put aside, as a table was changed for a while, are taken back by the study that they are of"""
+    deck = os.path.join(INPUTS, 'case3_balanced.dat')
+    faults, said = [], []
+    for values in ('30; 31; 32; 33', '40; 41', '30; 31; 32; 33'):
+        table = write(folder, 'rows.csv', f'LAWS 1 PHI\n{values}\n')
+        ran = program.run('study', table, deck, '-o', folder, '--part', '1/2', folder=folder)
+        faults += ran.ended_with(0)
+        said.append(ran.err)
+    journals = sorted(name for name in os.listdir(folder) if '.rows' in name)
+    faults += expected('journals', 2, len(journals))
+    faults += expected('put aside', [False, True, True], ['are ' in err and '.old now' in err for err in said])
+    return faults + expected('done before', [False, False, True], ['2 rows of 4 were done before' in err for err in said])
+
+
 def bad_rows(program, folder):
     """Values that a deck cannot have together: the row says so, the others are solved"""
     table = 'MATERIALS 1 E, LAWS 1 kind of law, LAWS 1 phi\n2E4,,\n2E4,ELASTIC,20\n1E4,,\n'
@@ -733,6 +748,7 @@ def tests(program):
         Test('studies/wrong tables', lambda folder: wrong_tables(program, folder)),
         Test('studies/taken names', lambda folder: taken_names(program, folder)),
         Test('studies/files of others', lambda folder: files_of_others(program, folder)),
+        Test('studies/taken back', lambda folder: taken_back(program, folder)),
         Test('studies/as written', lambda folder: as_written(program, folder)),
         Test('studies/bad rows', lambda folder: bad_rows(program, folder)),
         Test('studies/samples', lambda folder: samples(program, folder)),
