@@ -194,6 +194,7 @@ contains
       !> state is not renamed, nor is another file replaced by one
       subroutine put_state_aside()
          character(len=:), allocatable :: what
+         logical :: replaces
 
          if (foreign) then
             call fatal_error(error, exit_io, job%checkpoint%path//' '//failure//', and the state of this run '// &
@@ -208,9 +209,11 @@ contains
          end if
          what = ''
          if (.not. allocated(failure)) what = ' ('//found%place//', '//found%date//')'
+         replaces = path_kind(job%checkpoint%path//put_aside) /= path_absent
          call rename_path(job%checkpoint%path, job%checkpoint%path//put_aside, errno)
          if (errno == 0) call add('a run that was not ended left its state'//what//', now '// &
             job%checkpoint%path//put_aside//'; --resume would have gone on from it, this run begins anew')
+         if (errno == 0 .and. replaces) call add('the state that had this name, of a run before that, is gone')
       end subroutine put_state_aside
 
       !> Add a line to the notes

@@ -335,7 +335,10 @@ def forgotten(program, folder):
     ran = runs.run('out', '--resume')
     faults += expected('exit code', 0, ran.returncode) + runs.same('out')
     write(folder, 'anew/job.state', state)
-    faults += expected('exit code', 0, runs.run('anew').returncode) + runs.same('anew')
+    write(folder, 'anew/job.state.old', state)
+    ran = runs.run('anew')
+    faults += expected('exit code', 0, ran.returncode) + runs.same('anew')
+    faults += expected('the one before that', True, 'of a run before that, is gone' in ran.stderr)
     ran = runs.run('none', '--resume')
     if f'there is no state {folder}/none/job.state to go on from: the run begins anew' not in ran.stderr:
         faults.append(ran.stderr)
