@@ -145,9 +145,11 @@ contains
       if (command%resume .and. .not. allocated(error)) then
          exit_code = earlier_exit_code(job)
          if (exit_code >= exit_ok) then
-            if (speaks(command)) call tell('axijoint: '//deck_name(deck)// &
-               ': its results are there already; a run without --resume makes them anew')
             call clear_progress(job%progress)
+            if (.not. speaks(command)) return
+            call tell('axijoint: '//deck_name(deck)//': its results are there already, with exit code '//to_text(exit_code)// &
+               '; a run without --resume makes them anew')
+            call remove_error_summary(job)
             return
          end if
          exit_code = exit_ok

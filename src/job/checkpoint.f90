@@ -240,7 +240,7 @@ contains
          self%there = .true.
       else if (.not. self%told) then
          self%told = .true.
-         self%there = self%there .and. path_kind(self%path) /= path_absent
+         if (path_kind(self%path) == path_absent) self%there = .false.
          call tell_below('axijoint: warning: the state '//self%path//' cannot be written: '//self%failure// &
             '; the run goes on, but if it is stopped or dies, --resume '//trim(merge( &
             'goes on from what was kept before', 'begins anew                      ', self%there)))

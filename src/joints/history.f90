@@ -154,6 +154,7 @@ contains
       associate (planes => history%scene%planes)
          state%jump = on_all(planes, field%jump)
          state%stress = on_all(planes, field%stress)
+         state%initial = field%initial
          state%state = field%state(:, planes%place)
          state%excess = field%excess
          state%pending = field%pending

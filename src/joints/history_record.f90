@@ -444,6 +444,7 @@ contains
       call writer%put(state%state)
       call writer%put(state%excess)
       call writer%put(state%pending)
+      call writer%put(state%initial)
       call writer%put(state%offset)
       call write_bodies(state%bodies, writer)
    end subroutine write_state
@@ -464,6 +465,7 @@ contains
       call reader%get(state%state)
       call reader%get(state%excess)
       call reader%get(state%pending)
+      call reader%get(state%initial)
       call reader%get(state%offset)
       call read_bodies(reader, state%bodies)
    end subroutine read_state

@@ -39,6 +39,8 @@ module axijoint_joints_states
       real(wp), allocatable :: case_factor(:), peak_factor(:)
       !> Relative displacement and stress, shape (3, points, planes)
       real(wp), allocatable :: jump(:, :, :), stress(:, :, :)
+      !> Stress before loading that the joints had, shape (3, points)
+      real(wp), allocatable :: initial(:, :)
       !> Stick, slip or open, shape (points, planes)
       integer, allocatable :: state(:, :)
       !> Amplitudes of the stress that was not admitted, and of what the last iteration changed of
@@ -83,6 +85,7 @@ contains
       if (allocated(from%peak_factor)) call move_alloc(from%peak_factor, to%peak_factor)
       if (allocated(from%jump)) call move_alloc(from%jump, to%jump)
       if (allocated(from%stress)) call move_alloc(from%stress, to%stress)
+      if (allocated(from%initial)) call move_alloc(from%initial, to%initial)
       if (allocated(from%state)) call move_alloc(from%state, to%state)
       if (allocated(from%excess)) call move_alloc(from%excess, to%excess)
       if (allocated(from%pending)) call move_alloc(from%pending, to%pending)

@@ -58,7 +58,7 @@ contains
       associate (model => job%model)
          call write_tags(file, run, status_name(results), messages, json_string(model%title))
          call put_pair(file, "deck_sha256", json_string(sha256(deck_text(job%source))))
-         call put_pair(file, "job_sha256", json_string(job_hash(job)))
+         call put_pair(file, "job_sha256", json_string(job_hash(job, results%rounds)))
          call put_pair(file, "combination", json_number(results%combination))
          call put_pair(file, "nodes", json_number(n_nodes(model%mesh)))
          call put_pair(file, "elements", json_number(n_elements(model%mesh)))

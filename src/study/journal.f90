@@ -62,26 +62,59 @@ contains
       journal%path = path
       put_aside = ''
       errno = 0
+      call bring_home(path)
       call read_journal(path, key, n_quantities, rows, there, ours, torn)
       if (.not. ours) then
          if (there) then
             call check_journal(path, error)
             if (.not. allocated(error)) call check_journal(path//aside, error)
+            if (.not. allocated(error)) call check_journal(path//meanwhile, error)
             if (allocated(error)) return
             put_aside = path//aside
          end if
          call read_journal(path//aside, key, n_quantities, rows, aside_there, aside_ours, torn)
-         if (there .and. aside_ours) call rename_path(path, path//meanwhile, errno)
-         if (there .and. .not. aside_ours) call rename_path(path, path//aside, errno)
-         if (errno == 0 .and. aside_ours) call rename_path(path//aside, path, errno)
-         if (errno == 0 .and. aside_ours .and. there) call rename_path(path//meanwhile, path//aside, errno)
-         if (errno == 0 .and. .not. aside_ours) &
-            call append_to_file(path, opening//sha256(key)//new_line('a'), .true., errno)
+         if (aside_ours) then
+            call exchange(path, path//aside, there, errno)
+         else
+            if (there) call rename_path(path, path//aside, errno)
+            if (errno == 0) call append_to_file(path, opening//sha256(key)//new_line('a'), .true., errno)
+         end if
       end if
       if (errno == 0 .and. torn) call append_to_file(path, new_line('a'), .true., errno)
       call system_clock(journal%synced)
       if (errno /= 0) call io_error(error, 'write', path, errno)
    end subroutine open_journal
+
+   !> Let a journal and one that was put aside change places
+   subroutine exchange(path, other, there, errno)
+      !> The journal, and the one that was put aside
+      character(len=*), intent(in) :: path, other
+      !> Whether the first is there
+      logical, intent(in) :: there
+      !> Zero, or the system's error
+      integer, intent(out) :: errno
+
+      errno = 0
+      if (there) call rename_path(path, path//meanwhile, errno)
+      if (errno == 0) call rename_path(other, path, errno)
+      if (errno == 0 .and. there) call rename_path(path//meanwhile, other, errno)
+   end subroutine exchange
+
+   !> A process may have died while journals changed places: what has no place takes that which is free
+   subroutine bring_home(path)
+      !> The journal
+      character(len=*), intent(in) :: path
+
+      integer :: ignored
+
+      if (target_kind(path//meanwhile) /= path_file) return
+      if (index(opening, first_bytes(path//meanwhile, len(opening))) /= 1) return  ! somebody else's
+      if (path_kind(path) == path_absent) then
+         call rename_path(path//meanwhile, path, ignored)
+      else if (path_kind(path//aside) == path_absent) then
+         call rename_path(path//meanwhile, path//aside, ignored)
+      end if
+   end subroutine bring_home
 
    !> What is renamed, and what is replaced then, is a journal, if only the beginning of one: its writer
    !> may have died. Other files are somebody else's

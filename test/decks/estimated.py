@@ -778,6 +778,11 @@ def named_points(program, folder):
         unknowns[goal] = met['unknowns']
         faults += expected(f'{goal}: not met', [], [line for line in met['messages'] if 'not met' in line])
     faults += expected('fewer unknowns', True, unknowns['POINTS'] < unknowns['DISPL'])
+    still = NAMED.format(across=2, along=6, more='ERROR\n1,POINTS\n').replace('2,1,0.1,,side\n3,0.3,0.3,,within\n', '').replace(
+        '1,0,-0.5,,axis', '1,1,1,,held')
+    summary, _ = solved(program, folder, 'still', still)
+    faults += expected('a point that is held', (True, False), (summary['errors']['sum']['points'] < 1e-6, any('not met' in line for line in
+                                                                                                       summary['messages'])))
     text = NAMED.format(across=2, along=6, more='ERROR\n1,POINTS\n')
     named = text[text.index('POINTS'):text.index('FACES')]
     ran = program.run('check', write(folder, 'none.dat', text.replace(named, '')), folder=folder)

@@ -49,6 +49,59 @@ INCREMENTS
 1,,,2
 {more}END
 """
+# A cone in ground, whose stress at rest has shear along the cone, pushed a little
+CONE = """TITLE
+Cone
+CONTROL
+2
+MATERIALS
+1,60,0.25,1E-3
+LAWS
+1,100,200,100,1E6,26
+LAWDETAILS
+1,RESULTANT
+BLOCKS
+1,1,8,3,6
+0,-10,2,-10,4,0,0,0
+2,1,8,6,6
+2,-10,20,-10,20,0,4,0
+2,1,8,3,4
+0,-14,2,-14,2,-10,0,-10
+2,1,8,6,4
+2,-14,20,-14,20,-10,2,-10
+FACES
+1,1,0,0,4,0
+2,1,2,-10,4,0
+3,2,2,-10,4,0
+4,1,0,-10,2,-10
+5,2,0,-10,2,-10
+6,2,0,-14,20,-14
+7,2,20,-14,20,0
+INTERFACES
+1,2,3
+1,4,5
+FIXEDFACES
+6,111
+7,101
+CASE
+1
+GRAVITY
+-9.81
+INSITU
+,0,9.81E-3,0.5
+CASE
+2
+RESULTANTS
+1,LATERAL,0.001
+COMBINE
+1,1,1,2,1
+INCREMENTS
+1,1E-8,,1
+1,1E-8,,2
+ERROR
+5
+END
+"""
 # A rod that is pulled out of a rigid hub, by a joint that loses cohesion and friction as it slips
 ROD = """TITLE
 Rod in a hub
@@ -162,7 +215,15 @@ def lasting_slip(program, folder):
         summary, _ = solved(program, folder, 'peg', first(cases, increments))
         faults += expected(f'{cases}: at least', True, summary['errors']['in_words'].startswith('displacement at least'))
     summary, _ = solved(program, folder, 'peg', first((('LATERAL', 0.4),), ((0.5, 1), (0.5, 1))))
-    return faults + expected('loads that grow', False, 'at least' in summary['errors']['in_words'])
+    faults += expected('loads that grow', False, 'at least' in summary['errors']['in_words'])
+    summary, _ = solved(program, folder, 'cone', CONE)
+    faults += expected('ground at rest: slip', 0, sum(increment['slip'] for increment in summary['increments']))
+    faults += expected('ground at rest', (False, False), ('at least' in summary['errors']['in_words'], says(summary, 'not met')))
+    held = ROD.format(residual='', force=20, more='').replace('1,RESULTANT,,0,,', '1,RESULTANT,,,,').replace(
+        'FIXEDFACES\n4,111', 'FIXEDFACES\n4,111\n5,111').replace('INTERFACES', '5,1,0,0,0.1,0\nINTERFACES').replace(
+        'INCREMENTS\n1,', 'INCREMENTS\n0.5,1E-8\n0.5,')
+    summary, _ = solved(program, folder, 'held', held)
+    return faults + expected('bodies that others hold', False, 'at least' in summary['errors']['in_words'])
 
 
 def softening(program, folder):
@@ -183,7 +244,7 @@ def turning(program, folder):
     faults = []
     pulled = (('AXIAL', -0.485), ('LATERAL', 0.2))
     for cases, increments, wanted in ((pulled, ((1, 1), (1, 2)), True), (pulled, ((1, 1), *[(0.05, 2)]*20), False),
-                                      (pulled[:1], ((0.9, 1), (0.1, 1)), False)):
+                                      (pulled, (*[(0.02, 1)]*50, (1, 2)), True), (pulled[:1], ((0.9, 1), (0.1, 1)), False)):
         summary, _ = solved(program, folder, 'peg', first(cases, increments))
         faults += expected(f'{len(increments)} increments, {increments[-1]}: turns', wanted, says(summary, 'turns within an increment'))
     return faults

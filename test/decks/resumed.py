@@ -430,8 +430,19 @@ def done_already(program, folder):
     faults += expected('another solver', (0, 1, 0), run(decks[0], '--solver', 'band')[:3])
     faults += expected('the deck\'s solver again', (0, 1, 0), run(decks[0])[:3])
     faults += expected('a file more', (0, 1, 0), run(decks[0], '--vtk')[:3])
-    write(folder, 'a.dat', input_deck('first.dat') + '! changed\n')
-    return faults + expected('deck changed', (0, 1, 1), run(*decks)[:3])
+    write(folder, 'a.dat', input_deck('first.dat').replace('0.4', '0.3'))
+    faults += expected('deck changed', (0, 1, 1), run(*decks)[:3])
+    faults += expected('files of another deck', (0, 1, 0), run(decks[0], '--vtk')[:3])
+    write(folder, 'two.json', '{\n  "program": "axijoint",\n  "status": "error",\n}\n')
+    faults += expected('two again', (0, 0, 1), run(two)[:3])
+    faults += expected('summary of an error', False, os.path.exists(os.path.join(folder, 'two.json')))
+    turned = write(folder, 'slides.dat', input_deck('first.dat').replace('   LATERAL       0.4', '     AXIAL     100.0'))
+    faults += expected('a mechanism', (4, 1, 0), run(turned)[:3])
+    code, solved, left, err = run(turned)
+    faults += expected('a mechanism again', (4, 0, 1), (code, solved, left)) + expected('its code', True, 'with exit code 4' in err)
+    little = write(folder, 'little.dat', input_deck('first.dat').replace('\nEND', '\nERROR\n0.3\nEND'))
+    faults += expected('too little memory', (0, 1, 0), run(little, '--memory', '40')[:3])
+    return faults + expected('more memory', (0, 1, 0), run(little)[:3])
 
 
 def disk_full(program, folder):

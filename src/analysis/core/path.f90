@@ -15,7 +15,7 @@ module axijoint_analysis_core_path
 contains
 
    !> Whether joints slipped in earlier increments that hold now, or slipped back or aside since, or with next to all others slip
-   !> still, so that little but their earlier slip tells where the bodies stand: it is as wrong as mesh, planes and harmonics were
+   !> still, so that little but their earlier slip tells where bodies stand that joints alone hold: it is as wrong as mesh, planes and harmonics were
    !> then, of which estimates of the last increment know nothing
    pure logical function keeps_slip(structure, history, largest)
       !> Its joint points
@@ -36,7 +36,8 @@ contains
       if (size(history%states) == 0) return
       resists = max(history%scene%laws%cohesion, history%scene%laws%friction) > 0.0_wp  ! others slip freely
       associate (state => history%field%state, of => spread(resists, 2, size(history%field%state, 2)))
-         slides = count(of .and. state == state_stick) <= few*count(of .and. state /= state_open)
+         slides = size(structure%condensed%floating) > 0 .and. &
+            count(of .and. state == state_stick) <= few*count(of .and. state /= state_open)
          do j = 1, size(state, 2)
             do i = 1, size(state, 1)
                if (.not. resists(i)) cycle
@@ -59,7 +60,7 @@ contains
       !> Whether that stays
       logical, intent(in) :: stays
 
-      real(wp) :: begun(2), before(2), now(2), way, stress(2)
+      real(wp) :: begun(2), before(2), now(2), way
       logical :: closed, was_closed
       integer :: k
 
@@ -69,21 +70,17 @@ contains
       way = 0.0_wp
       before = 0.0_wp
       lasting = 0.0_wp
-      associate (stiffness => structure%joint_points(structure%yielding(i))%stiffness(along), states => history%states, &
-                 last => history%field)
+      associate (states => history%states, last => history%field)
          do k = 1, size(states) + 1
             was_closed = closed
             before = now
             if (k <= size(states)) then
                closed = states(k)%state(i, j) /= state_open
-               now = states(k)%jump(along, i, j)
-               stress = states(k)%stress(along, i, j)
+               now = slip_of(structure, i, states(k)%jump(:, i, j), states(k)%stress(:, i, j) - states(k)%initial(:, i))
             else
                closed = last%state(i, j) /= state_open
-               now = last%jump(along, i, j)
-               stress = last%stress(along, i, j)
+               now = slip_of(structure, i, last%jump(:, i, j), last%stress(:, i, j) - last%initial(:, i))
             end if
-            where (stiffness > 0.0_wp) now = now - stress/stiffness
             if (was_closed .and. closed) then
                way = way + norm2(now - before)
             else
@@ -97,6 +94,23 @@ contains
       lasting = way - norm2(now - begun)
       if (stays) lasting = max(lasting, norm2(before - begun))
    end function lasting_slip
+
+   !> What of a relative displacement along a joint its stiffness does not take
+   pure function slip_of(structure, i, jump, stress) result(slip)
+      !> Joint points
+      type(structure_type), intent(in) :: structure
+      !> The point
+      integer, intent(in) :: i
+      !> The displacement, and the stress that it has beyond that before loading
+      real(wp), intent(in) :: jump(3), stress(3)
+      !> Along the meridian and round the axis
+      real(wp) :: slip(2)
+
+      slip = jump(along)
+      associate (stiffness => structure%joint_points(structure%yielding(i))%stiffness(along))
+         where (stiffness > 0.0_wp) slip = slip - stress(along)/stiffness
+      end associate
+   end function slip_of
 
    !> Whether some bonds broke and others hold
    pure logical function is_torn(history)
@@ -134,13 +148,12 @@ contains
       !> What the increments came to
       type(history_type), intent(in) :: history
 
-      !> Increments that make a way there
+      !> Increments that make a way there, of torque and other loads at once
       integer, parameter :: many = 40
       integer :: k
 
       turns_slip = .false.
-      if (size(history%states) + 1 >= many) return
-      if (any(is_torsion(structure%modes))) turns_slip = goes_both_ways(structure, history)
+      if (any(is_torsion(structure%modes)) .and. size(history%states) + 1 < many) turns_slip = goes_both_ways(structure, history)
       associate (states => history%states, last => history%field)
          do k = 2, size(states)
             if (.not. turns_slip) turns_slip = turns(structure, states(k - 1)%state, states(k - 1)%stress, &

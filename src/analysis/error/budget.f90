@@ -40,23 +40,22 @@ contains
       budget(source_iteration) = error_share_type(source=source_iteration, &
          remedy='half the tolerance in INCREMENTS')
       if (yields) then
-         call take(results%joint_errors(2), budget(source_planes))
-         call take(results%joint_errors(1), budget(source_iteration))
+         call take(results%joint_errors(2), size(results%point_size), budget(source_planes))
+         call take(results%joint_errors(1), size(results%point_size), budget(source_iteration))
       else
          budget(source_planes:source_iteration)%displacement = 0.0_wp
-         budget(source_planes)%at_points = 0.0_wp*results%point_size
-         budget(source_iteration)%at_points = 0.0_wp*results%point_size
+         budget(source_planes)%at_points = spread(0.0_wp, 1, size(results%point_size))
+         budget(source_iteration)%at_points = budget(source_planes)%at_points
          if (size(results%joint_stress) > 0) budget(source_planes:source_iteration)%joint_stress = 0.0_wp
       end if
       budget(source_solver) = error_share_type(source=source_solver, &
          remedy='less contrast of the stiffnesses')
       budget(source_solver)%displacement = solver_error(results)
-      budget(source_solver)%at_points = 0.0_wp*results%point_size + &
-         solver_error(results)*results%discretization%largest_displacement
+      budget(source_solver)%at_points = spread(solver_error(results)*results%discretization%largest_displacement, 1, &
+         size(results%point_size))
       do i = 1, size(budget)
-         if (.not. allocated(budget(i)%at_points)) budget(i)%at_points = -1.0_wp + 0.0_wp*results%point_size
          if (results%at_rest) budget(i)%at_points = min(0.0_wp, budget(i)%at_points)
-         call compare_points(results%point_size, budget(i))
+         call compare_points(results%point_size, results%discretization%largest_displacement, budget(i))
       end do
       if (results%at_rest) budget%displacement = min(0.0_wp, budget%displacement)  ! nothing is left to be off
    end function new_budget
@@ -129,9 +128,9 @@ contains
          ' in CONTROL'
       if (size(model%harmonics) <= model%max_harmonic) share%remedy = 'harmonics: more of them in HARMONICS'
       share%displacement = 0.0_wp
-      share%at_points = 0.0_wp*results%point_size
+      share%at_points = spread(0.0_wp, 1, size(results%point_size))
       if (size(results%joint_stress) > 0) share%joint_stress = 0.0_wp
-      if (yields) call take(results%joint_errors(3), share)
+      if (yields) call take(results%joint_errors(3), size(results%point_size), share)
       share%load = 0.0_wp
       do k = 1, size(model%truncations)
          associate (cut => model%truncations(k))
@@ -226,28 +225,34 @@ contains
    end subroutine add_tail
 
    !> Take an estimate of the joints
-   pure subroutine take(error, share)
+   pure subroutine take(error, n, share)
       !> The estimate
       type(error_share_type), intent(in) :: error
+      !> Points with names
+      integer, intent(in) :: n
       !> The share
       type(error_share_type), intent(inout) :: share
 
       share%displacement = error%displacement
       share%joint_stress = error%joint_stress
+      share%at_points = spread(-1.0_wp, 1, n)
       if (allocated(error%at_points)) share%at_points = error%at_points
       share%seconds = error%seconds
    end subroutine take
 
    !> Largest error at a point with a name over the largest displacement of these
-   pure subroutine compare_points(displacement, share)
-      !> Largest displacement of each, shape (points)
-      real(wp), intent(in) :: displacement(:)
+   pure subroutine compare_points(displacement, largest, share)
+      !> Largest displacement of each, shape (points), and of all nodes
+      real(wp), intent(in) :: displacement(:), largest
       !> Errors of each; takes the ratio
       type(error_share_type), intent(inout) :: share
 
+      !> Part of the largest displacement below which that of points is none
+      real(wp), parameter :: slight = 1.0e-6_wp
+
       if (size(displacement) == 0) return
       if (any(share%at_points < 0.0_wp)) return
-      share%points = ratio(maxval(share%at_points), maxval(displacement))
+      share%points = ratio(maxval(share%at_points), max(maxval(displacement), slight*largest))
    end subroutine compare_points
 
    !> All shares together, each quantity without those that are not known; negative if none is

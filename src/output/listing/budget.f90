@@ -46,16 +46,19 @@ contains
       !> Results
       type(results_type), intent(in) :: results
 
+      logical :: points
       integer :: i
 
       if (.not. allocated(results%budget)) return
       call write_result_heading(file, "ERROR BUDGET (estimates; relative, - not known)", &
          results%converged)
-      call file%put("  left by           energy norm   displacement   joint stress           load")
+      points = size(model%points) > 0
+      call file%put("  left by           energy norm   displacement   joint stress"// &
+         repeat("      at POINTS", merge(1, 0, points))//"           load")
       do i = 1, size(results%budget)
-         call file%put(share_line(results%budget(i)))
+         call file%put(share_line(results%budget(i), points))
       end do
-      call file%put(share_line(sum_of_shares(results%budget)))
+      call file%put(share_line(sum_of_shares(results%budget), points))
       call write_sentence(file, "  ", sum_text(results))
       if (len(remedy_text(results%budget)) > 0) &
          call file%put("  about half with "//remedy_text(results%budget))
@@ -73,45 +76,49 @@ contains
 
       character(len=10) :: label
       type(error_share_type) :: total
-      character(len=:), allocatable :: heading
+      character(len=:), allocatable :: line
       integer :: i, p
 
       total = sum_of_shares(results%budget)
       call write_result_heading(file, "ERRORS AT POINTS (estimates of the largest round the circle; - not known)", &
          results%converged)
-      heading = "     point  name              displacement          error       relative"
+      line = "     point  name              displacement          error       relative"
       do i = 1, size(results%budget)
-         heading = heading//repeat(" ", wide - len_trim(source_names(results%budget(i)%source)))// &
+         line = line//repeat(" ", wide - len_trim(source_names(results%budget(i)%source)))// &
             trim(source_names(results%budget(i)%source))
       end do
-      call file%put(heading)
+      call file%put(line)
       do p = 1, size(model%points)
          write (label, "(i10)") model%points(p)%label
          associate (moved => results%point_size(p), error => total%at_points(p))
-            heading = label//"  "//model%points(p)%name//columns([moved], wide - 1)//known_column(error, wide)
+            line = label//"  "//model%points(p)%name//columns([moved], wide - 1)//known_column(error, wide)
             if (moved > 0.0_wp) then
-               heading = heading//known_column(error/moved, wide)
+               line = line//known_column(error/moved, wide)
             else
-               heading = heading//known_column(-1.0_wp, wide)
+               line = line//known_column(-1.0_wp, wide)
             end if
          end associate
          do i = 1, size(results%budget)
-            heading = heading//known_column(results%budget(i)%at_points(p), wide)
+            line = line//known_column(results%budget(i)%at_points(p), wide)
          end do
-         call file%put(heading)
+         call file%put(line)
       end do
    end subroutine write_points
 
    !> A share as a line of the table
-   pure function share_line(share) result(line)
+   pure function share_line(share, points) result(line)
       !> The share
       type(error_share_type), intent(in) :: share
+      !> Whether there are points with names
+      logical, intent(in) :: points
       !> The line
       character(len=:), allocatable :: line
 
       line = "  "//source_names(share%source)//known_column(share%energy, wide)// &
          known_column(share%displacement, wide)// &
-             known_column(share%joint_stress, wide)//known_column(share%load, wide)
+             known_column(share%joint_stress, wide)
+      if (points) line = line//known_column(share%points, wide)
+      line = line//known_column(share%load, wide)
    end function share_line
 
    !> Rounds of refinement; no times, which differ from run to run
