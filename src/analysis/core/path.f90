@@ -117,7 +117,7 @@ contains
       !> What the increments came to
       type(history_type), intent(in) :: history
 
-      is_torn = in_part(history%field%memory%broken, &
+      is_torn = in_part((history%field%memory%broken), &
          history%scene%laws%opening == opening_bond .and. history%scene%laws%cohesion > 0.0_wp)
    end function is_torn
 
@@ -126,7 +126,7 @@ contains
       !> What the increments came to
       type(history_type), intent(in) :: history
 
-      is_soft_in_part = in_part(history%field%memory%softened, history%scene%laws%softens)
+      is_soft_in_part = in_part((history%field%memory%softened), (history%scene%laws%softens))
    end function is_soft_in_part
 
    !> Whether something happened to some points that it can happen to, and not to others
