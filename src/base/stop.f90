@@ -1,5 +1,5 @@
 !> A wish that the program ends before its time, at the next place from which it can be gone on:
-!> SIGTERM, SIGINT or SIGUSR1, or a file that somebody makes. It stays once it is there, so that
+!> SIGTERM, SIGINT, SIGUSR1, SIGUSR2, SIGHUP or SIGXCPU, or a file that somebody makes. It stays once it is there, so that
 !> whoever leaves a loop for it can count on those above to see it, too. Processes that work together
 !> would leave their loops at different places: a wish that one of them knows of counts when it is
 !> shared.
@@ -44,7 +44,7 @@ module axijoint_base_stop
 
 contains
 
-   !> From now on SIGTERM, SIGINT and SIGUSR1 are wishes; a second SIGINT ends the program at once
+   !> From now on these signals are wishes; a second SIGINT ends the program at once
    subroutine heed_signals(with_others)
       !> Whether several processes work together: what counts is what they agree on
       logical, intent(in) :: with_others
@@ -83,8 +83,9 @@ contains
       !> The cause
       character(len=:), allocatable :: cause
 
-      character(len=*), parameter :: names(0:4) = [character(len=11) :: &
-         'nobody', 'SIGTERM', 'SIGINT', 'SIGUSR1', 'a STOP file']
+      character(len=*), parameter :: names(0:7) = [character(len=11) :: &
+         'nobody', 'SIGTERM', 'SIGINT', 'SIGUSR1', 'SIGUSR2', 'SIGHUP', 'SIGXCPU', &
+         'a STOP file']
 
       cause = trim(names(c_stop_wish()))
    end function stop_cause

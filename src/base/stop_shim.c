@@ -6,6 +6,10 @@
 #include <time.h>
 #include <unistd.h>
 
+/* What schedulers, terminals and limits of processor time send */
+static const int signals[] = {SIGTERM, SIGINT, SIGUSR1, SIGUSR2, SIGHUP, SIGXCPU};
+enum { n_signals = sizeof signals / sizeof signals[0], by_file = -1 };
+
 static volatile sig_atomic_t wish = 0;
 static char file[4096];
 static volatile time_t looked = 0;
@@ -26,15 +30,14 @@ static void note_signal(int number)
 void axijoint_heed_signals(int with_others)
 {
    together = with_others;
-   const int numbers[] = {SIGTERM, SIGINT, SIGUSR1};
-   for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+   for (int k = 0; k < n_signals; k++) {
       struct sigaction action, before;
-      if (sigaction(numbers[k], NULL, &before) == 0 && before.sa_handler == SIG_IGN) continue;
+      if (sigaction(signals[k], NULL, &before) == 0 && before.sa_handler == SIG_IGN) continue;
       memset(&action, 0, sizeof action);
       action.sa_handler = note_signal;
       action.sa_flags = SA_RESTART;
       sigemptyset(&action.sa_mask);
-      sigaction(numbers[k], &action, NULL);
+      sigaction(signals[k], &action, NULL);
    }
 }
 
@@ -45,7 +48,7 @@ void axijoint_heed_file(const char *path)
    looked = 0;
 }
 
-/* The wish that this process knows of: 0 none, 1 SIGTERM, 2 SIGINT, 3 SIGUSR1, 4 the file, for the
+/* The wish that this process knows of: 0 none, the place of the signal from 1, then the file, for the
    numbers of signals are not the same everywhere. The file is looked for once a second. */
 int axijoint_own_wish(void)
 {
@@ -53,10 +56,12 @@ int axijoint_own_wish(void)
       const time_t now = time(NULL);
       if (now != looked) {
          looked = now;
-         if (access(file, F_OK) == 0) wish = -1;
+         if (access(file, F_OK) == 0) wish = by_file;
       }
    }
-   return wish == SIGTERM ? 1 : wish == SIGINT ? 2 : wish == SIGUSR1 ? 3 : wish == -1 ? 4 : 0;
+   for (int k = 0; k < n_signals; k++)
+      if (wish == signals[k]) return k + 1;
+   return wish == by_file ? n_signals + 1 : 0;
 }
 
 /* The wish that counts */

@@ -175,10 +175,10 @@ def every_state(program, folder, deck, step):
 
 
 def signals(program, folder):
-    """SIGTERM, SIGUSR1, SIGINT: exit code 75, one line that says how to go on, earlier results stay"""
+    """Signals of schedulers, of a terminal, of a limit of processor time: exit code 75, one line that says how to go on, earlier results stay"""
     runs = Runs(program, folder, JOBS['history'])
     faults = []
-    for number in (signal.SIGTERM, signal.SIGUSR1, signal.SIGINT):
+    for number in (signal.SIGTERM, signal.SIGUSR1, signal.SIGINT, signal.SIGUSR2, signal.SIGHUP, signal.SIGXCPU):
         output = number.name
         runs.run(output)
         earlier = {name: read_bytes(os.path.join(folder, output, name)) for name in os.listdir(os.path.join(folder, output))}
