@@ -23,9 +23,7 @@ module axijoint_base_stream
          put_integers_2, put_logicals_2, put_reals_1, put_reals_2, put_reals_3
       !> Make room for so many bytes, so that none are copied as it grows
       procedure :: reserve
-      !> All that was written
-      procedure :: bytes
-      !> Give it away: there is no copy where the room is filled
+      !> Give all away that was written: there is no copy where the room is filled
       procedure :: give
       procedure, private :: add, put_shape
    end type writer_type
@@ -60,17 +58,6 @@ contains
       reader%bytes = bytes
    end function new_reader
 
-   !> All that was written
-   function bytes(self)
-      !> The writer
-      class(writer_type), intent(in) :: self
-      !> The bytes
-      character(len=:), allocatable :: bytes
-
-      bytes = ''
-      if (allocated(self%room)) bytes = self%room(:self%used)
-   end function bytes
-
    !> Make room for so many bytes, so that none are copied as it grows
    subroutine reserve(self, n)
       !> The writer, new
@@ -86,7 +73,7 @@ contains
       !> The writer; new on return
       class(writer_type), intent(inout) :: self
       !> The bytes
-      character(len=:), allocatable, intent(inout) :: bytes
+      character(len=:), allocatable, intent(out) :: bytes
 
       if (.not. allocated(self%room)) allocate (character(len=0) :: self%room)
       if (self%used < len(self%room, i8)) then

@@ -16,13 +16,14 @@ module axijoint_command_run
    use axijoint_job_goal, only : refine_to_goal
    use axijoint_job_job, only : job_type, job_name, deck_name, result_name, standard_input
    use axijoint_job_read, only : read_job
-   use axijoint_output_claim, only : claim_type, claim_output, release_output
    use axijoint_output_brief, only : brief_text, status_text, reason_text
+   use axijoint_output_claim, only : claim_type, claim_output, release_output
+   use axijoint_output_done, only : earlier_exit_code
    use axijoint_output_file_echo, only : deck_text
    use axijoint_output_file_run, only : exit_code_of
    use axijoint_output_other_results, only : other_results_text
    use axijoint_output_output, only : check_output, write_output, write_error_summary, remove_error_summary
-   use axijoint_output_state, only : begin_state, earlier_exit_code, end_state, stopped_text, note_written, is_written
+   use axijoint_output_state, only : begin_state, end_state, stopped_text, note_written, is_written
    use omp_lib, only : omp_set_num_threads
    implicit none
    private

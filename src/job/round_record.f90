@@ -41,7 +41,7 @@ contains
             if (allocated(round%failure)) call writer%put(round%failure)
          end associate
       end do
-      bytes = writer%bytes()
+      call writer%give(bytes)
    end function round_bytes
 
    !> Bring a round back; nothing changes if there are no bytes

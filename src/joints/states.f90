@@ -72,7 +72,7 @@ contains
       call move_alloc(longer, states)
    end subroutine append_state
 
-   !> Move a state
+   !> Move a state: all that the type has, as history_record.f90 writes it
    subroutine move_state(from, to)
       !> From there; empty on return
       type(increment_state_type), intent(inout) :: from
@@ -81,31 +81,31 @@ contains
 
       to%increment = from%increment
       to%load_factor = from%load_factor
-      if (allocated(from%case_factor)) call move_alloc(from%case_factor, to%case_factor)
-      if (allocated(from%peak_factor)) call move_alloc(from%peak_factor, to%peak_factor)
-      if (allocated(from%jump)) call move_alloc(from%jump, to%jump)
-      if (allocated(from%stress)) call move_alloc(from%stress, to%stress)
-      if (allocated(from%initial)) call move_alloc(from%initial, to%initial)
-      if (allocated(from%state)) call move_alloc(from%state, to%state)
-      if (allocated(from%excess)) call move_alloc(from%excess, to%excess)
-      if (allocated(from%pending)) call move_alloc(from%pending, to%pending)
-      if (allocated(from%offset)) call move_alloc(from%offset, to%offset)
+      call move_alloc(from%case_factor, to%case_factor)
+      call move_alloc(from%peak_factor, to%peak_factor)
+      call move_alloc(from%jump, to%jump)
+      call move_alloc(from%stress, to%stress)
+      call move_alloc(from%initial, to%initial)
+      call move_alloc(from%state, to%state)
+      call move_alloc(from%excess, to%excess)
+      call move_alloc(from%pending, to%pending)
+      call move_alloc(from%offset, to%offset)
       call move_bodies(from%bodies, to%bodies)
    end subroutine move_state
 
-   !> Move what bodies that yield have
+   !> Move what bodies that yield have, all of the type, too
    subroutine move_bodies(from, to)
       !> From there; empty on return
       type(plastic_state_type), intent(inout) :: from
       !> There
       type(plastic_state_type), intent(inout) :: to
 
-      if (allocated(from%place)) call move_alloc(from%place, to%place)
-      if (allocated(from%taken)) call move_alloc(from%taken, to%taken)
-      if (allocated(from%gained)) call move_alloc(from%gained, to%gained)
-      if (allocated(from%amplitude)) call move_alloc(from%amplitude, to%amplitude)
-      if (allocated(from%carried)) call move_alloc(from%carried, to%carried)
-      if (allocated(from%dissipation)) call move_alloc(from%dissipation, to%dissipation)
+      call move_alloc(from%place, to%place)
+      call move_alloc(from%taken, to%taken)
+      call move_alloc(from%gained, to%gained)
+      call move_alloc(from%amplitude, to%amplitude)
+      call move_alloc(from%carried, to%carried)
+      call move_alloc(from%dissipation, to%dissipation)
       to%dissipated = from%dissipated
       to%iterations = from%iterations
       to%solutions = from%solutions

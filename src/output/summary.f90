@@ -16,12 +16,12 @@ module axijoint_output_summary
    use axijoint_job_job, only : job_type
    use axijoint_model_mesh, only : n_nodes, n_elements, n_joints
    use axijoint_model_model, only : model_type, method_names
+   use axijoint_output_done, only : job_hash
    use axijoint_output_file_echo, only : deck_text
    use axijoint_output_file_json, only : json_string, json_number, known_number, json_integers, json_strings
    use axijoint_output_file_run, only : run_type, status_name, status_error
    use axijoint_output_file_text, only : text_file_type
    use axijoint_output_listing_budget, only : sum_text, laws_at
-   use axijoint_output_state, only : job_hash
    use axijoint_output_table_in_situ, only : in_situ_json
    use axijoint_output_table_increments, only : increments_json
    use axijoint_output_table_interfaces, only : interfaces_json

@@ -81,7 +81,7 @@ contains
       call writer%put(field%goes_down)
       call writer%put(counts(1))
       call writer%put(counts(2))
-      bytes = writer%bytes()
+      call writer%give(bytes)
    end function bytes_of
 
    !> Go back to a state; `fits` is false if it is of other bodies

@@ -783,6 +783,11 @@ def named_points(program, folder):
     summary, _ = solved(program, folder, 'still', still)
     faults += expected('a point that is held', (True, False), (summary['errors']['sum']['points'] < 1e-6, any('not met' in line for line in
                                                                                                        summary['messages'])))
+    # no harmonic up to M = 1 tells how far those above reach: not to the axis, nor to what is held
+    slipping = peg('RESULTANTS\n1,LATERAL,0.4', control='1,,,,,,NEWTON').replace('FACES', 'POINTS\n1,0,-0.5,1,axis\n2,0.5,0,2,side\n3,1.5,1,2,held\nFACES', 1)
+    summary, _ = solved(program, folder, 'slipping', slipping)
+    by_name = {point['name']: point['harmonics'] for point in summary['point_errors']}
+    faults += expected('M = 1: held', 0.0, by_name['held']) + expected('M = 1: axis, side', True, by_name['axis'] < by_name['side'])
     text = NAMED.format(across=2, along=6, more='ERROR\n1,POINTS\n')
     named = text[text.index('POINTS'):text.index('FACES')]
     ran = program.run('check', write(folder, 'none.dat', text.replace(named, '')), folder=folder)

@@ -15,8 +15,8 @@ module axijoint_analysis_core_path
 contains
 
    !> Whether joints slipped in earlier increments that hold now, or slipped back or aside since, or with next to all others slip
-   !> still, so that little but their earlier slip tells where bodies stand that joints alone hold: it is as wrong as mesh, planes and harmonics were
-   !> then, of which estimates of the last increment know nothing
+   !> still, so that little but their earlier slip tells where bodies stand that joints alone hold: it is as wrong as mesh, planes
+   !> and harmonics were then, of which estimates of the last increment know nothing
    pure logical function keeps_slip(structure, history, largest)
       !> Its joint points
       type(structure_type), intent(in) :: structure
@@ -156,8 +156,8 @@ contains
       if (any(is_torsion(structure%modes)) .and. size(history%states) + 1 < many) turns_slip = goes_both_ways(structure, history)
       associate (states => history%states, last => history%field)
          do k = 2, size(states)
-            if (.not. turns_slip) turns_slip = turns(structure, states(k - 1)%state, states(k - 1)%stress, &
-               states(k)%state, states(k)%stress)
+            if (turns_slip) return
+            turns_slip = turns(structure, states(k - 1)%state, states(k - 1)%stress, states(k)%state, states(k)%stress)
          end do
          k = size(states)
          if (k == 0 .or. turns_slip) return

@@ -72,7 +72,7 @@ contains
    end subroutine take_share
 
    !> Displacements of points over the largest jumps of joints, in harmonics above M: no more than in those above M/2, since
-   !> higher ones reach less far
+   !> higher ones reach less far; none where a point is held, or on the axis, which harmonics above 1 do not move
    function part_of_jumps(points, structure, results) result(part)
       !> Points with names
       type(point_type), intent(in) :: points(:)
@@ -98,6 +98,8 @@ contains
       end do
       part = min(1.0_wp, ratio(part, jump))
       if (.not. jump > 0.0_wp) part = 1.0_wp
+      if (maxval(results%modes%harmonic) > 0) where (points%position(1) <= 0.0_wp) part = 0.0_wp
+      where ([(maxval(abs(moved(:, p, :))) <= 0.0_wp, p=1, size(points))]) part = 0.0_wp
    end function part_of_jumps
 
    !> Whether displacements and stress of joints were taken away, with all loads as far as the tolerance

@@ -16,7 +16,7 @@ module axijoint_output_listing_budget
       sum_text, remedy_text
 
    !> Columns of a value
-   integer, parameter :: wide = 15
+   integer, parameter :: wide = 15, narrow = 12
 
 contains
 
@@ -75,34 +75,45 @@ contains
       type(results_type), intent(in) :: results
 
       character(len=10) :: label
+      character(len=len(source_names)) :: name
       type(error_share_type) :: total
       character(len=:), allocatable :: line
+      real(wp) :: relative
       integer :: i, p
 
       total = sum_of_shares(results%budget)
       call write_result_heading(file, "ERRORS AT POINTS (estimates of the largest round the circle; - not known)", &
          results%converged)
-      line = "     point  name              displacement          error       relative"
+      line = "     point  name              displacement       error    relative"
       do i = 1, size(results%budget)
-         line = line//repeat(" ", wide - len_trim(source_names(results%budget(i)%source)))// &
-            trim(source_names(results%budget(i)%source))
+         name = source_names(results%budget(i)%source)
+         line = line//repeat(" ", column(i) - len_trim(name))//trim(name)
       end do
       call file%put(line)
       do p = 1, size(model%points)
          write (label, "(i10)") model%points(p)%label
          associate (moved => results%point_size(p), error => total%at_points(p))
-            line = label//"  "//model%points(p)%name//columns([moved], wide - 1)//known_column(error, wide)
-            if (moved > 0.0_wp) then
-               line = line//known_column(error/moved, wide)
-            else
-               line = line//known_column(-1.0_wp, wide)
-            end if
+            relative = -1.0_wp  ! where nothing moves it means nothing
+            if (moved > error) relative = max(-1.0_wp, error/moved)
+            line = label//"  "//model%points(p)%name//columns([moved], wide - 1)//known_column(error, narrow)// &
+               known_column(relative, narrow)
          end associate
          do i = 1, size(results%budget)
-            line = line//known_column(results%budget(i)%at_points(p), wide)
+            line = line//known_column(results%budget(i)%at_points(p), column(i))
          end do
          call file%put(line)
       end do
+
+   contains
+
+      !> Columns of a source: the name of the first is longest
+      pure integer function column(i)
+         !> Its place
+         integer, intent(in) :: i
+
+         column = merge(wide, narrow, i == 1)
+      end function column
+
    end subroutine write_points
 
    !> A share as a line of the table
