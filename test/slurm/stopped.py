@@ -20,11 +20,11 @@ class History:
         self.count = min(4000, int(self.count*12/took))
         self.run(program)
 
-    def text(self):
+    def text(self, harmonics=4):
         """The peg of first.dat, pushed to and fro"""
         factors = ['0.5', *('0.3', '-0.3')*(self.count//2)]
         cards = ''.join(f'{factor:>10}{"1.0E-7":>10}{400:5d}\n' for factor in factors)
-        text = input_deck('first.dat').replace('harmonic M\n    4\n', f'harmonic M\n    4{"":35}NEWTON\n')
+        text = input_deck('first.dat').replace('harmonic M\n    4\n', f'harmonic M\n{harmonics:5d}{"":35}NEWTON\n')
         return text.replace('\nEND', f'\nINCREMENTS\n{cards}END')
 
     def run(self, program):
@@ -38,9 +38,9 @@ class History:
         return time.time() - start
 
 
-def interrupted(place, end, before=(), again='', script='one.sh'):
+def interrupted(place, end, before=(), again='', script='one.sh', text='', whole='../whole/history'):
     """A history that is stopped in the middle goes back to the queue and on, to the same bits"""
-    write(place.folder, 'history.dat', place.history.text())
+    write(place.folder, 'history.dat', text or place.history.text())
     job = place.submit(script, 'history.dat', '-o', 'out', '--checkpoint', '0.01', before=before)
     place.cluster.wait_for(lambda: increment_of(place) >= 3, 'an increment')
     end(place, job)
@@ -53,7 +53,7 @@ def interrupted(place, end, before=(), again='', script='one.sh'):
         r'stopped by \w+ after increment (\d+)', r'goes on from \S+ increment (\d+)'))
     if stopped != went_on or not 0 < int(stopped[0]):
         faults.append(f'stopped after increments {stopped}, went on from {went_on}')
-    return faults + same(place, 'out/history', '../whole/history')
+    return faults + same(place, 'out/history', whole)
 
 
 def increment_of(place):
@@ -85,9 +85,12 @@ def pre_empted(place):
 
 
 def out_of_time(place):
-    """The time limit is near: nobody but Slurm does anything"""
+    """The time limit is near: nobody but Slurm does anything, and that twice a minute, which takes a longer history"""
+    text = place.history.text(harmonics=32)
+    write(place.folder, 'longer.dat', text)
+    place.program.run('run', 'longer.dat', '-o', 'whole', '--threads', '1', folder=place.folder, time_limit=300)
     return interrupted(place, lambda place, job: None, before=['--time=1', '--signal=B:USR1@55'],
-                       again='The job goes back to the queue')
+                       again='The job goes back to the queue', text=text, whole='whole/longer')
 
 
 def cancelled(place):
