@@ -116,6 +116,13 @@ def tube(setting, thickness=0.5, height=2.0, shape="TABLE, -45, 0, 0, 1, 45, 0")
     return scene.add("SHAPES", f"1, {shape}").add("PRESSURES", "1, , 1, , , 1").text()
 
 
+def chimney(setting, m=1, thickness=0.05):
+    """A thin tube in elements far longer than what bends at its ends, pressed round its rim like cos m theta"""
+    scene = Scene("Chimney", setting).add("HARMONICS", str(m)).add("MATERIALS", "1, 2e5, 0.3")
+    scene.block(1, 1, 1, 6, (2 - thickness, 0, 2, 12), (0, 0)).add("FACES", f"1, 1, {2 - thickness}, 0, 2, 0", f"2, 1, {2 - thickness}, 12, 2, 12")
+    return scene.add("FIXEDFACES", "1, 111").add("TRACTIONS", f"2, {m}, 1, .2").text()
+
+
 def plate(setting, m=2):
     """A thin disc, held at its rim and pressed by cos m theta: one or two elements bend"""
     scene = Scene("Plate", setting).add("HARMONICS", str(m)).add("MATERIALS", "1, 2e5, 0.3")
@@ -225,6 +232,21 @@ def soil_pile(setting, steps=((1, 1), (1, 2))):
     scene.add("GRAVITY", "-1").add("INSITU", "1, 0, 0.02, 0.5", "2, 0, 0.02, 0.5").add("CASE", "2, lateral")
     scene.add("RESULTANTS", "1, LATERAL, 0.04").add("COMBINE", "1, 1, 1, 2, 1")
     return scene.text(*steps)
+
+
+def pipe_pile(setting, *steps):
+    """A steel tube driven into ground, slipping inside and outside and open behind: weight, then a lateral load on its head"""
+    scene = Scene("Pipe pile", setting).add("MATERIALS", "1, 2e5, 0.3, 0.007", "2, 40, 0.3, 0.01")
+    scene.law(1, 200, 0.0, 25.0, RESULTANT)
+    scene.block(1, 1, 1, 6, (.95, -9, 1, 0)).block(1, 1, 1, 2, (.95, 0, 1, 3))
+    scene.block(2, 2, 5, 6, (1, -9, 8, 0), (1, 0)).block(2, 2, 5, 3, (1, -14, 8, -9), (1, 2))
+    scene.block(2, 2, 1, 3, (.95, -14, 1, -9), (0, 2)).block(2, 2, 2, 3, (0, -14, .95, -9), (0, 2)).block(2, 2, 2, 6, (0, -9, .95, 0))
+    scene.add("FACES", "1, 1, .95, 3, 1, 3", "2, 1, 1, -9, 1, 0", "3, 2, 1, -9, 1, 0", "4, 1, .95, -9, .95, 0", "5, 2, .95, -9, .95, 0",
+              "6, 1, .95, -9, 1, -9", "7, 2, .95, -9, 1, -9", "8, 2, 0, -14, 8, -14", "9, 2, 8, -14, 8, 0")
+    scene.add("INTERFACES", "1, 2, 3", "1, 4, 5", "1, 6, 7").add("FIXEDFACES", "8, 111", "9, 101").add("CASE", "1, weight")
+    scene.add("GRAVITY", "-1").add("INSITU", "2, 0, 0.01, 0.5", "1, 0, 0.01, 0.5, 0, 1, MEANT").add("CASE", "2, lateral")
+    scene.add("RESULTANTS", "1, LATERAL, 0.2", "1, MOMENT, -1").add("COMBINE", "1, 1, 1, 2, 1")
+    return scene.text(*(steps or ((1, 1), (1, 2))))
 
 
 def shrunk_on(setting, torque=0.5):

@@ -79,6 +79,11 @@ def mesh_rows():
         yield row("pile in the ground", scenes.soil_pile, setting, setting.fine(n=3))
         yield row("hub", scenes.shrunk_on, setting)
         yield row("heated plug", scenes.heated, setting)
+    for kind in ("8", "8R", "9"):
+        for m in (0, 1, 2):
+            setting = replace(linear, kind=kind, harmonic=m)
+            yield row(f"chimney, m = {m}", scenes.chimney, setting, setting.fine(n=12), m=m)
+        yield row("pipe pile", scenes.pipe_pile, Setting(kind), Setting().fine(n=3))
     for kind in ("4B", "8R"):
         yield row("built in, nu = 0.49", scenes.built_in, replace(linear, kind=kind), poisson=0.49)
     for kind in ("4B", "8R", "9R"):

@@ -1,6 +1,6 @@
 !> Memory that a job takes besides its equations
 module axijoint_analysis_core_footprint
-   use axijoint_analysis_fine_smoother, only : is_slender
+   use axijoint_analysis_fine_blocks, only : is_slender
    use axijoint_assembly_node_blocks, only : block_size
    use axijoint_base_kinds, only : wp, i8
    use axijoint_element_yield_law, only : yield_none

@@ -12,7 +12,6 @@ module axijoint_analysis_fine_difference
    use axijoint_assembly_loading, only : add_external, still_force
    use axijoint_assembly_node_blocks, only : block_product
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_element_joint_law, only : xi, theta
    use axijoint_linalg_lapack, only : daxpy, ddot
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_mesh, only : n_nodes
@@ -403,12 +402,9 @@ contains
       jump = joint_jump(level%coarse_points, change)
       fine = joint_jump(level%joint_points, change)
       do k = 1, size(jump, 2)
-         if (level%first_fine(k) == 0) cycle  ! too stiff to slide
+         if (level%first_fine(k) == 0) cycle  ! too stiff to move
          m = min(most_fine, size(fine, 2) - level%first_fine(k) + 1)  ! beyond those of the joint factors are zero
-         associate (here => fine(:, level%first_fine(k):level%first_fine(k) + m - 1), factors => level%of_fine(:m, k))
-            jump(xi, k) = dot_product(here(xi, :), factors)
-            jump(theta, k) = dot_product(here(theta, :), factors)
-         end associate
+         jump(:, k) = matmul(fine(:, level%first_fine(k):level%first_fine(k) + m - 1), level%of_fine(:m, k))
       end do
    end subroutine see_change
 

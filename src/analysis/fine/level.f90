@@ -1,10 +1,10 @@
 !> The job on the fine mesh, as far as estimates of errors need it: stiffness and blocks, no factor
 module axijoint_analysis_fine_level
+   use axijoint_analysis_fine_blocks, only : new_blocks, order_by_blocks
    use axijoint_analysis_fine_conditions, only : conditions_type, new_conditions
    use axijoint_analysis_fine_mesh, only : fine_mesh_type, parents_type, new_fine_mesh, ordered
    use axijoint_analysis_fine_model, only : new_fine_model
-   use axijoint_analysis_fine_smoother, only : smoother_type, new_blocks, order_by_blocks, &
-      new_smoother
+   use axijoint_analysis_fine_smoother, only : smoother_type, new_smoother
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_loading, only : loading_type, new_initial_state
    use axijoint_assembly_node_blocks, only : node_blocks_type, new_node_blocks, assemble_blocks, tell_blocks, block_size
@@ -44,9 +44,10 @@ module axijoint_analysis_fine_level
       !> The same joint points in the joints of the coarse mesh, and the joint points of the coarse
       !> mesh in the fine joints, with their weights
       type(model_joint_point_type), allocatable :: on_coarse(:), coarse_points(:)
-      !> What a joint of the coarse mesh has at each of its points of the slip at the points of the fine joints: the polynomial
-      !> through these that is nearest to it, so that what slides it in all is the same. First fine point, zero where a joint is
-      !> too stiff to slide, shape (points); factors of it and those that follow, shape (most_fine, points)
+      !> What a joint of the coarse mesh has at each of its points of the jumps at the points of the fine joints: the polynomial
+      !> through these that is nearest to them, so that where a joint slides or opens as a whole, which changes its stress by as
+      !> much along it all, that does the same work on the motions of the coarse mesh. First fine point, zero where a joint is
+      !> too stiff to move, shape (points); factors of it and those that follow, shape (most_fine, points)
       integer, allocatable :: first_fine(:)
       real(wp), allocatable :: of_fine(:, :)
       !> Stiffness in blocks of two nodes; all that follows is in the order of its rows

@@ -1,0 +1,268 @@
+!> Which nodes of the fine mesh are solved for together
+module axijoint_analysis_fine_blocks
+   use axijoint_analysis_fine_mesh, only : fine_mesh_type, find_edge
+   use axijoint_base_kinds, only : wp
+   use axijoint_fe_shape, only : n_corners
+   use axijoint_fe_subdivision, only : n_children
+   use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, n_joints
+   use axijoint_order_graph, only : graph_type
+   use axijoint_order_rcm, only : reverse_cuthill_mckee
+   implicit none
+   private
+   public :: new_blocks, order_by_blocks, is_slender
+
+   !> An element longer than this times its width is strongly coupled to its neighbours across its
+   !> long sides
+   real(wp), parameter :: slender = 2.0_wp*(1.0_wp + 1.0e-9_wp)  ! rounding, of units, does not decide
+   !> A wall of elements longer than this times sqrt(r t), the length over which a tube of radius r bends where it is
+   !> loaded or held, is strongly coupled along itself: what bends it within an element moves its neighbours. In a
+   !> monopile (t = r/38) steps came to 0.6 of the difference in elements of 4 sqrt(r t), to all of it in those of 2
+   real(wp), parameter :: bending = 2.0_wp
+
+contains
+
+   !> Block of each fine node. Blocks are the new nodes inside an element, those on an edge, a
+   !> coarse node at a corner; united are an outer edge and its element, the two sides of a joint,
+   !> the long sides of a slender element and its inside: lines across slender elements; and all of a thin wall
+   function new_blocks(coarse, fine) result(block)
+      !> The coarse mesh
+      type(mesh_type), intent(in) :: coarse
+      !> The fine mesh
+      type(fine_mesh_type), intent(in) :: fine
+      !> The blocks, shape (fine nodes)
+      integer, allocatable :: block(:)
+
+      integer :: root(n_nodes(coarse) + size(fine%edges) + n_elements(coarse))
+      logical :: thin(n_elements(coarse))
+      integer :: k, i, side, before_edges, before_elements
+
+      before_edges = n_nodes(coarse)
+      before_elements = before_edges + size(fine%edges)
+      root = [(k, k=1, size(root))]
+      do k = 1, size(fine%edges)
+         if (fine%edges(k)%elements(2) > 0) cycle
+         call unite(root, before_edges + k, before_elements + fine%edges(k)%elements(1))
+      end do
+      do k = 1, n_joints(coarse)
+         associate (nodes => coarse%joint_nodes(:, k))
+            call unite(root, nodes(1), nodes(4))
+            call unite(root, nodes(2), nodes(3))
+            call unite(root, before_edges + find_edge(fine, nodes(1), nodes(2)), &
+                       before_edges + find_edge(fine, nodes(4), nodes(3)))
+         end associate
+      end do
+      thin = in_thin_walls(coarse, fine)
+      do k = 1, n_elements(coarse)
+         associate (joined => long_sides(coarse, k) .or. thin(k))
+            do side = 1, n_corners(coarse%element_size(k))
+               if (joined(side)) call unite(root, before_elements + k, before_edges + fine%element_edges(side, k))
+               if (thin(k)) call unite(root, before_elements + k, coarse%element_nodes(side, k))
+            end do
+         end associate
+      end do
+      allocate (block(n_nodes(fine%mesh)))
+      block(:before_edges) = [(root_of(root, k), k=1, before_edges)]
+      do k = 1, size(fine%edges)
+         associate (edge => fine%edges(k))
+            i = root_of(root, before_edges + k)
+            if (edge%nodes(3) > 0) block([edge%nodes(3), edge%new]) = i
+            if (edge%nodes(3) == 0) block(edge%new(1)) = i
+         end associate
+      end do
+      do k = 1, n_elements(coarse)
+         i = root_of(root, before_elements + k)
+         block(fine%inside(k):fine%inside(k + 1) - 1) = i
+         if (coarse%element_size(k) == 9) block(coarse%element_nodes(9, k)) = i
+      end do
+   end function new_blocks
+
+   !> Which elements are parts of a thin wall that bends within them: from one surface of a body to the other, along long
+   !> sides, there are slender elements only, and these are long beside its thickness and sqrt(r t)
+   function in_thin_walls(coarse, fine) result(thin)
+      !> The coarse mesh
+      type(mesh_type), intent(in) :: coarse
+      !> The fine mesh, for the edges
+      type(fine_mesh_type), intent(in) :: fine
+      !> Shape (elements)
+      logical :: thin(n_elements(coarse))
+
+      integer, dimension(n_elements(coarse)) :: root, surfaces
+      real(wp), dimension(n_elements(coarse)) :: thickness, length, radius
+      logical :: long(4, n_elements(coarse))
+      integer :: k, side, i
+
+      root = [(k, k=1, size(root))]
+      do k = 1, size(root)
+         long(:, k) = long_sides(coarse, k)
+      end do
+      do k = 1, size(root)
+         do side = 1, n_corners(coarse%element_size(k))
+            if (.not. long(side, k)) cycle
+            associate (other => fine%edges(fine%element_edges(side, k))%elements(2))
+               if (other > 0) call unite(root, fine%edges(fine%element_edges(side, k))%elements(1), other)
+            end associate
+         end do
+      end do
+      surfaces = 0
+      thickness = 0.0_wp
+      radius = 0.0_wp
+      length = huge(1.0_wp)
+      do k = 1, size(root)
+         i = root_of(root, k)
+         if (n_corners(coarse%element_size(k)) == 3 .or. .not. any(long(:, k))) then
+            length(i) = 0.0_wp
+            cycle
+         end if
+         associate (sides => side_lengths(coarse, k))
+            thickness(i) = thickness(i) + minval(sides)
+            length(i) = min(length(i), maxval(sides))
+         end associate
+         radius(i) = max(radius(i), maxval(coarse%coordinates(1, coarse%element_nodes(:4, k))))
+         surfaces(i) = surfaces(i) + count(long(:, k) .and. fine%edges(fine%element_edges(:, k))%elements(2) == 0)
+      end do
+      do k = 1, size(root)
+         i = root_of(root, k)
+         thin(k) = surfaces(i) == 2 .and. length(i) > max(slender*thickness(i), bending*sqrt(radius(i)*thickness(i)))
+      end do
+   end function in_thin_walls
+
+   !> Unite two blocks
+   pure subroutine unite(root, a, b)
+      !> Parent of each piece
+      integer, intent(inout) :: root(:)
+      !> The pieces
+      integer, intent(in) :: a, b
+
+      root(root_of(root, a)) = root_of(root, b)
+   end subroutine unite
+
+   !> The piece that stands for all of its block
+   pure integer function root_of(root, piece)
+      !> Parent of each piece
+      integer, intent(in) :: root(:)
+      !> The piece
+      integer, intent(in) :: piece
+
+      root_of = piece
+      do while (root(root_of) /= root_of)
+         root_of = root(root_of)
+      end do
+   end function root_of
+
+   !> Which sides of an element are long ones; none if it is not slender
+   pure function long_sides(mesh, element) result(long)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The element
+      integer, intent(in) :: element
+      !> Whether a side is long
+      logical :: long(4)
+
+      real(wp) :: length(4)
+
+      associate (n => n_corners(mesh%element_size(element)))
+         length = side_lengths(mesh, element)
+         long = .false.
+         long(:n) = length(:n) > slender*minval(length(:n))
+      end associate
+   end function long_sides
+
+   !> Lengths of the sides of an element, of four sides the means of opposite ones
+   pure function side_lengths(mesh, element) result(length)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The element
+      integer, intent(in) :: element
+      !> Lengths; that of a fourth side of a triangle is zero
+      real(wp) :: length(4)
+
+      integer :: i, n
+
+      n = n_corners(mesh%element_size(element))
+      length = 0.0_wp
+      associate (x => mesh%coordinates(:, mesh%element_nodes(:n, element)))
+         length(:n) = [(norm2(x(:, mod(i, n) + 1) - x(:, i)), i=1, n)]
+      end associate
+      if (n == 3) return
+      length(1::2) = 0.5_wp*sum(length(1::2))
+      length(2::2) = 0.5_wp*sum(length(2::2))
+   end function side_lengths
+
+   !> Whether an element is strongly coupled to its neighbours across its long sides
+   pure logical function is_slender(mesh, element)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The element
+      integer, intent(in) :: element
+
+      is_slender = any(long_sides(mesh, element))
+   end function is_slender
+
+   !> Order of the fine nodes, block by block and neighbours close in each; blocks of one coarse
+   !> element are close, too
+   subroutine order_by_blocks(coarse, fine, graph, block, order)
+      !> The coarse mesh
+      type(mesh_type), intent(in) :: coarse
+      !> The fine mesh
+      type(fine_mesh_type), intent(in) :: fine
+      !> Graph of the fine nodes
+      type(graph_type), intent(in) :: graph
+      !> Block of each node
+      integer, intent(in) :: block(:)
+      !> order(k) is the k-th node
+      integer, allocatable, intent(out) :: order(:)
+
+      type(graph_type) :: within
+      integer, allocatable :: close(:), start(:)
+      integer :: node, k, n, element, i
+
+      within%n = graph%n
+      allocate (within%start(graph%n + 1), within%neighbour(size(graph%neighbour)))
+      n = 0
+      do node = 1, graph%n
+         within%start(node) = n + 1
+         do k = graph%start(node), graph%start(node + 1) - 1
+            if (block(graph%neighbour(k)) /= block(node)) cycle
+            n = n + 1
+            within%neighbour(n) = graph%neighbour(k)
+         end do
+      end do
+      within%start(graph%n + 1) = n + 1
+      call reverse_cuthill_mckee(within, close)
+      allocate (start(maxval(block)), source=0)
+      do k = graph%n, 1, -1
+         start(block(close(k))) = k
+      end do
+      allocate (order(graph%n))
+      n = 0
+      do element = 1, n_elements(coarse)
+         do k = n_children*(element - 1) + 1, n_children*element
+            do i = 1, fine%mesh%element_size(k)
+               call place_block(block(fine%mesh%element_nodes(i, k)))
+            end do
+         end do
+      end do
+
+   contains
+
+      !> Place all nodes of a block, once
+      subroutine place_block(b)
+         !> The block
+         integer, intent(in) :: b
+
+         integer :: from
+
+         if (start(b) == 0) return
+         from = start(b)
+         start(b) = 0
+         do while (from <= size(close))
+            if (block(close(from)) /= b) exit
+            n = n + 1
+            order(n) = close(from)
+            from = from + 1
+         end do
+      end subroutine place_block
+
+   end subroutine order_by_blocks
+
+end module axijoint_analysis_fine_blocks
