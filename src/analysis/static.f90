@@ -263,7 +263,7 @@ contains
       results%torn = results%converged .and. is_torn(history)
       results%soft_in_part = results%converged .and. is_soft_in_part(history)
       results%turns_slip = results%converged .and. turns_slip(structure, history)
-      if (estimates) call estimate_yielding_errors(model%points, structure, history, other, left, results, mesh_error)
+      if (estimates) call estimate_yielding_errors(model, structure, history, other, left, results, mesh_error)
       results%plane_angles = structure%planes%angle
    end subroutine solve_joints
 

@@ -4,7 +4,7 @@ module axijoint_linalg_lapack
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: band_cholesky, dpbtrs, dtrsm, dgemm, dgemv, dsyrk, dpotrf, ddot, daxpy
+   public :: band_cholesky, dpbtrf, dpbtrs, dtrsm, dgemm, dgemv, dsyrk, dpotrf, ddot, daxpy
    public :: cholesky, inverse_from_cholesky, symmetric_eigen, &
       use_one_blas_thread
    public :: product_rate

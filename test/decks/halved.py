@@ -2,9 +2,10 @@
 bears, torque near what joints can carry, heat that hides bending; slip that turns round on the circle"""
 import json
 import os
+import re
 
 import hard_scenes as scenes
-from support import Test, read_text, write
+from support import Test, input_deck, read_text, write
 
 # Least part of the change by half the elements that is told: the error is that change and what still finer meshes add to it; and of
 # that by elements of a quarter of the size
@@ -68,6 +69,28 @@ def told(scene, times):
     return check
 
 
+def monopile(n):
+    """The monopile of inputs/monopile.dat, pushed in its ground and let go half, with `n` times as many elements along both sides"""
+    before, blocks, after = re.fullmatch(r'(.*\nBLOCKS[^\n]*\n)(.*?)(\nFACES.*)', input_deck('monopile.dat'), re.DOTALL).groups()
+    lines = blocks.split('\n')
+    for k in range(0, len(lines), 2):
+        lines[k] = lines[k][:15] + ''.join(f'{n*int(lines[k][column:column + 5]):5d}' for column in (15, 20)) + lines[k][25:]
+    return before + '\n'.join(lines) + after
+
+
+def slip_that_lasts(folder, program):
+    """What the mesh left while loads were larger stays in the slip, and is told at the points with names"""
+    found = []
+    for n in (1, 2):
+        ran = program.run('run', write(folder, 'mesh.dat', monopile(n)), '-o', folder)
+        if ran.ended_with(0):
+            return ran.ended_with(0)
+        found.append(json.loads(read_text(os.path.join(folder, 'mesh.json')))['point_errors'])
+    return [f'{own["name"]}: told {own["discretization"]}, changed {change}' for own, other in zip(*found)
+            for change in [abs(other['displacement'] - own['displacement'])]
+            if not LEAST[2]*change <= own['discretization'] <= MOST*change]
+
+
 def lining(harmonic):
     """A lining in ground that presses it more from above than from the sides; it slips both ways from its crown"""
     deck = scenes.Deck('Lining', harmonic, None).material(1, 2e4, 0.2).material(2, 100.0, 0.3).law(1, [1e4]*3, 0.0, 10.0)
@@ -95,4 +118,6 @@ def turns_round(folder, program):
 def tests(program):
     """The tests of this module"""
     return [Test(f'halved: {name}', lambda folder, check=told(scene, 4 if scene is rod else 2): check(folder, program))
-            for name, scene in SCENES.items()] + [Test('halved: slip that turns round', lambda folder: turns_round(folder, program))]
+            for name, scene in SCENES.items()] + [
+                Test('halved: slip that turns round', lambda folder: turns_round(folder, program)),
+                Test('halved: slip that lasts', lambda folder: slip_that_lasts(folder, program))]

@@ -212,7 +212,9 @@ contains
       end if
       if (history%n_faded > 0) call add(remarks, fading_text(history))
       if (results%keeps_slip) call add(remarks, 'joints that slipped in earlier increments hold now, slipped back, or slip all '// &
-         'together: what was wrong then stays in the slip and is not counted in the errors')
+         'together: '//trim(merge('what planes and harmonics had wrong then stays in the slip and is not counted in the errors', &
+                                  'what was wrong then stays in the slip and is not counted in the errors                     ', &
+                                  results%follows_slip)))
       if (results%torn) call add(remarks, 'some bonds broke and others hold: which of them hangs on their order, of which '// &
          'estimates of joint stress know nothing; more increments show how much')
       if (results%soft_in_part) call add(remarks, 'some points softened as they slipped and others did not: which of them '// &
@@ -489,7 +491,7 @@ contains
          else if (last%error <= goal%target .and. results%turns_slip) then
             why = 'slip turns within an increment'
          else if (last%error <= goal%target .and. results%keeps_slip) then
-            why = 'of what slipped in earlier increments the errors are not known'
+            why = 'of what slipped in earlier increments not all errors are known'
          else if (last%error <= goal%target) then
             why = 'the share of '//trim(source_names(unknown))//' is not known'
          else if (size(results%rounds) >= goal%most_rounds) then

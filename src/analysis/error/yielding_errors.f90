@@ -7,9 +7,10 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest_vector
    use axijoint_analysis_error_excess_effect, only : find_effects
+   use axijoint_analysis_error_held_error, only : judged_state_type, error_of_held
    use axijoint_analysis_error_iteration_left, only : iteration_left_type
    use axijoint_analysis_error_joint_shares, only : take_share, nothing_is_left, has_moved, unloaded, least_changes
-   use axijoint_analysis_error_joints_mesh_error, only : mesh_error_of_held, mesh_error_of_balanced, add_answer
+   use axijoint_analysis_error_joints_mesh_error, only : mesh_error_of_balanced, add_answer
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
    use axijoint_assembly_equations, only : equations_type
    use axijoint_base_kinds, only : wp
@@ -18,7 +19,7 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_joints_history, only : history_type
    use axijoint_joints_joint_errors, only : joint_change_type, joint_changes_type, find_joint_changes, settled_change
    use axijoint_joints_settle, only : settle_wholly
-   use axijoint_model_request, only : point_type
+   use axijoint_model_model, only : model_type
    implicit none
    private
    public :: estimate_yielding_errors
@@ -27,19 +28,19 @@ contains
 
    !> Estimate all errors. The paper's loop is another approximation: its errors are the difference
    !> to equilibrium on total jumps, if that was found, and the errors of that
-   subroutine estimate_yielding_errors(points, structure, history, other, left, results, mesh_error)
-      !> Points with names
-      type(point_type), intent(in) :: points(:)
+   subroutine estimate_yielding_errors(model, structure, history, other, left, results, mesh_error)
+      !> The job
+      type(model_type), intent(in) :: model
       !> The structure, condensed
       type(structure_type), intent(inout) :: structure
       !> What the increments came to
-      type(history_type), intent(in) :: history
+      type(history_type), intent(in), target :: history
       !> State of Newton's method where the paper's loop was used
       type(joint_field_type), allocatable, intent(in) :: other
       !> What the iteration left, as far as it was found
       type(iteration_left_type), intent(inout) :: left
       !> Results with displacements; take the errors
-      type(results_type), intent(inout) :: results
+      type(results_type), intent(inout), target :: results
       !> Takes those of the mesh
       type(mesh_error_type), intent(out) :: mesh_error
 
@@ -51,7 +52,8 @@ contains
       judged = results%converged
       if (judged) judged = .not. nothing_is_left(structure, history, results)
       if (.not. judged .or. (history%method%accumulates .and. .not. allocated(other))) then
-         call mesh_error_of_held(structure, history, history%field, results%displacement, mesh_error)
+         call error_of_held(structure, history%scene, judged_state_type(history%loading, history%field, results%displacement), &
+            mesh_error)
          if (results%converged .and. .not. judged) &
             mesh_error%known = mesh_error%known .and. .not. has_moved(structure, history)
          return
@@ -62,15 +64,17 @@ contains
       call add_motions(structure%condensed%floating, history%field%offset, displacement)
       largest = largest_vector(results%modes, displacement)
       displacement = results%displacement + left%effect(:, :, :, 1)
-      call find_other_changes(structure, history, left%balanced, displacement, changes, others, mesh_error)
+      results%keeps_slip = keeps_slip(structure, history, largest)
+      call find_other_changes(model, structure, history, left%balanced, displacement, results%keeps_slip, changes, others, &
+         mesh_error)
+      results%follows_slip = mesh_error%follows_slip
       associate (shares => results%joint_errors)
-         call take_share(structure, history, results, largest, changes%iteration, left%effect(:, :, :, 1), shares(1), points)
-         call take_share(structure, history, results, largest, changes%planes, others(:, :, :, 1), shares(2), points)
-         call take_share(structure, history, results, largest, changes%harmonics, others(:, :, :, 2), shares(3), points)
+         call take_share(structure, history, results, largest, changes%iteration, left%effect(:, :, :, 1), shares(1), model%points)
+         call take_share(structure, history, results, largest, changes%planes, others(:, :, :, 1), shares(2), model%points)
+         call take_share(structure, history, results, largest, changes%harmonics, others(:, :, :, 2), shares(3), model%points)
       end associate
       ! what slip has left is as wrong as the mesh was under the loads that are gone
-      if (unloaded(history)) mesh_error%known = .false.
-      results%keeps_slip = keeps_slip(structure, history, largest)
+      if (unloaded(history) .and. .not. mesh_error%follows_slip) mesh_error%known = .false.
    end subroutine estimate_yielding_errors
 
    !> Find the state in which the joints are wholly balanced, the change to that and its effect, unless they are there
@@ -108,7 +112,9 @@ contains
 
    !> What planes, harmonics and the mesh leave. They know nothing of each other: where threads have little to do in
    !> each, they are found at once; and each factor is read once for what they do to the displacements
-   subroutine find_other_changes(structure, history, balanced, displacement, changes, effect, mesh_error)
+   subroutine find_other_changes(model, structure, history, balanced, displacement, lasts, changes, effect, mesh_error)
+      !> The job
+      type(model_type), intent(in) :: model
       !> The structure
       type(structure_type), intent(inout) :: structure
       !> What the increments came to
@@ -117,6 +123,8 @@ contains
       type(joint_field_type), intent(in) :: balanced
       !> Displacement amplitudes of that state, shape (3, nodes, modes)
       real(wp), intent(in) :: displacement(:, :, :)
+      !> Whether slip of earlier increments lasts
+      logical, intent(in) :: lasts
       !> Takes the changes by planes and harmonics
       type(joint_changes_type), intent(inout) :: changes
       !> What they, and the answer of the joints to the errors of the mesh, do to the displacements, shape (3, nodes, modes, 3)
@@ -161,7 +169,8 @@ contains
 
       !> What the mesh leaves, and the answer of the joints
       subroutine see_mesh()
-         call mesh_error_of_balanced(structure, history, balanced, displacement, mesh_error, all(3))
+         call mesh_error_of_balanced(model, structure, history, balanced, displacement, lasts .or. unloaded(history), mesh_error, &
+            all(3))
       end subroutine see_mesh
 
       !> What planes and harmonics leave

@@ -91,7 +91,7 @@ contains
    end subroutine share_difference
 
    !> Find the difference of the modes of one system
-   subroutine find_difference(level, equations, s, load, displacement, points, excess, room, difference, steps)
+   subroutine find_difference(level, equations, s, load, displacement, points, excess, room, difference, steps, again)
       !> The fine level
       type(fine_level_type), intent(in) :: level
       !> Equations of the coarse mesh; the factor of the system is there
@@ -111,13 +111,18 @@ contains
       type(difference_type), intent(inout) :: difference
       !> Steps at most of each mode; as many as it takes if absent
       integer, intent(in), optional :: steps(:)
+      !> Whether the memory has the factors of the blocks of this system; false if absent
+      logical, intent(in), optional :: again
 
-      logical :: failed
+      logical :: failed, formed
       integer :: i, k
 
       call make_room(n_nodes(level%model%mesh), room)
+      formed = .false.
+      if (present(again)) formed = again
+      failed = .false.
       associate (system => equations%systems(s))
-         call factor_blocks(level%smoother, level%stiffness, system%harmonic, &
+         if (.not. formed) call factor_blocks(level%smoother, level%stiffness, system%harmonic, &
             level%conditions(system%class), room%factor, failed)
          if (failed) then
             difference%known(system%modes) = .false.

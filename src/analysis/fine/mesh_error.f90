@@ -29,6 +29,8 @@ module axijoint_analysis_fine_mesh_error
       real(wp), allocatable :: energy(:)
       !> Largest error of a stress of joints that can yield; negative if not known [stress]
       real(wp) :: joint_stress = -1.0_wp
+      !> Whether what the mesh left in earlier increments of slip that lasts is among them
+      logical :: follows_slip = .false.
       !> Time [second]
       real(wp) :: seconds = 0.0_wp
    end type mesh_error_type

@@ -8,9 +8,13 @@ module axijoint_analysis_fine_smoother
    use axijoint_base_ranges, only : range_end
    use axijoint_base_sort, only : refine_order
    use axijoint_linalg_band_cholesky, only : factor_band, solve_band, n_lanes, factor_bands, solve_bands
+   use axijoint_linalg_lapack, only : dpbtrf
    implicit none
    private
    public :: smoother_type, new_smoother, factor_blocks, solve_blocks
+
+   !> Half-bandwidth from which on a block is worth a call of LAPACK: of a thin wall
+   integer, parameter :: wide = 40
 
    !> Most shares that threads take, and groups of a share at least
    integer, parameter :: most_shares = 16, least_share = 64
@@ -204,7 +208,11 @@ contains
             associate (nodes => n_nodes_of(smoother, b), width => 3*smoother%width(b) + 2)
                factor(start:start + factor_size(smoother, b) - 1) = 0.0_wp
                call fill_block(stiffness, factors, conditions, plain, smoother%first(b), nodes, width, 1, 1, factor(start))
-               call factor_band(3*nodes, width, factor(start), info)
+               if (width >= wide) then
+                  call dpbtrf('L', 3*nodes, width, factor(start), width + 1, info)
+               else
+                  call factor_band(3*nodes, width, factor(start), info)
+               end if
             end associate
          end associate
          failed = failed .or. info > 0

@@ -1,0 +1,262 @@
+!> What the mesh left wrong under loads that acted before: in what joints that slipped then, and hold now, remember
+module axijoint_analysis_error_remembered
+   use axijoint_analysis_core_increment_fields, only : load_plastic_strain
+   use axijoint_analysis_core_solution, only : solve_states, solved_state_type
+   use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_analysis_fine_mesh_error, only : mesh_error_type
+   use axijoint_assembly_loading, only : loading_type
+   use axijoint_base_error, only : error_type
+   use axijoint_base_kinds, only : wp
+   use axijoint_element_joint_law, only : memory_type, opening_bond
+   use axijoint_joints_field, only : joint_field_type, set_initial_stress, commit_field
+   use axijoint_joints_history, only : history_type, new_state
+   use axijoint_joints_loads, only : joint_loads_type, put_loads
+   use axijoint_joints_planes, only : synthesize
+   use axijoint_joints_scene, only : scene_type, motion_of
+   use axijoint_joints_settle, only : settle
+   use axijoint_joints_states, only : increment_state_type
+   use axijoint_model_model, only : model_type
+   implicit none
+   private
+   public :: way_type, look_back, find_remembered
+
+   !> Increments that the way is followed through at most, and turns of the loads on it
+   integer, parameter :: most_increments = 100, most_turns = 4
+   !> Loads turn where the cosine of the angle between their changes is less
+   real(wp), parameter :: straight = 1.0_wp - 1.0e-6_wp
+
+   !> Loads where they turn, and what the mesh leaves there
+   type :: turn_type
+      !> On the nodes, and as joints see them
+      type(loading_type) :: loading
+      type(joint_loads_type) :: loads
+      !> Displacements, amplitudes, shape (3, nodes, modes), and joints before their slip was added to what they remember
+      real(wp), allocatable :: displacement(:, :, :)
+      type(joint_field_type) :: field
+      !> Errors of the jumps of joints that yield while their stress is held, amplitudes, shape (3, points, modes)
+      real(wp), allocatable :: error(:, :, :)
+   end type turn_type
+
+   !> The way that loads took
+   type :: way_type
+      !> Whether it is known
+      logical :: known = .false.
+      !> Places of the states after which loads turned
+      integer, allocatable :: places(:)
+      !> Loads there, and at the end
+      type(turn_type), allocatable :: turns(:)
+      !> What joints remember before the last increment, shape (points, planes)
+      type(memory_type), allocatable :: memory(:, :)
+   end type way_type
+
+contains
+
+   !> Look back on the way that loads took: where they turned
+   subroutine look_back(model, structure, history, way)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(inout) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> Takes the way
+      type(way_type), intent(out) :: way
+
+      if (any(model%increments%steered) .or. allocated(history%scene%given%jump)) return
+      if (any(history%scene%laws%opening == opening_bond .or. history%scene%laws%softens)) return
+      way%places = turning_places(history)
+      if (size(way%places) > most_turns .or. size(history%states) > most_increments) return
+      call load_turns(model, structure, history, way, way%known)
+      if (way%known) call follow(model, structure, history, .false., way, way%memory, way%known)
+   end subroutine look_back
+
+   !> Slip that joints would remember before the last increment without the errors of the mesh, less that which they do: the way is
+   !> gone again with the errors where loads turned, and between in proportion to the loads
+   subroutine find_remembered(model, structure, history, errors, way, slip)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> Errors where loads turned and at the end, while the stress of the joints is held
+      type(mesh_error_type), intent(in) :: errors(:)
+      !> The way, known
+      type(way_type), intent(inout) :: way
+      !> The slip, shape (3, points, planes); not allocated if it was not found
+      real(wp), allocatable, intent(out) :: slip(:, :, :)
+
+      type(memory_type), allocatable :: better(:, :)
+      logical :: found
+      integer :: i
+
+      if (.not. all(errors%known)) return
+      do i = 1, size(errors)
+         way%turns(i)%error = errors(i)%jump(:, structure%yielding, :)
+      end do
+      call follow(model, structure, history, .true., way, better, found)
+      if (.not. found) return
+      allocate (slip(3, size(better, 1), size(better, 2)))
+      do i = 1, 3
+         slip(i, :, :) = better%slip(i) - way%memory%slip(i)
+      end do
+   end subroutine find_remembered
+
+   !> Places of the states after which loads turn
+   pure function turning_places(history) result(places)
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> The places
+      integer, allocatable :: places(:)
+
+      real(wp), allocatable :: before(:), after(:)
+      integer :: k
+
+      allocate (places(0))
+      associate (states => history%states)
+         do k = 1, size(states)
+            before = states(k)%case_factor
+            if (k > 1) before = before - states(k - 1)%case_factor
+            after = history%loading%case_factor - states(k)%case_factor
+            if (k < size(states)) after = states(k + 1)%case_factor - states(k)%case_factor
+            if (dot_product(before, after) < straight*norm2(before)*norm2(after)) places = [places, k]
+         end do
+      end associate
+   end function turning_places
+
+   !> Find loads where they turn, and what they do
+   subroutine load_turns(model, structure, history, way, found)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(inout) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> The way; takes loads and displacements
+      type(way_type), intent(inout) :: way
+      !> Whether they were found
+      logical, intent(out) :: found
+
+      type(solved_state_type) :: solved(size(way%places))
+      type(error_type), allocatable :: error
+      integer :: i
+
+      do i = 1, size(solved)
+         associate (state => history%states(way%places(i)))
+            allocate (solved(i)%displacement(3, size(history%loading%right, 2), size(structure%modes)))
+            call load_plastic_strain(model, structure, state, solved(i)%loading)
+            solved(i)%excess = state%excess
+         end associate
+      end do
+      call solve_states(structure, model, solved, error)
+      found = .not. allocated(error)
+      if (.not. found) return
+      allocate (way%turns(size(solved) + 1))
+      do i = 1, size(solved)
+         associate (turn => way%turns(i))
+            turn%loading = solved(i)%loading
+            call move_alloc(solved(i)%displacement, turn%displacement)
+            turn%loads = history%scene%loads
+            call put_loads(structure%equations, structure%condensed, turn%loading, turn%loads)
+         end associate
+      end do
+      way%turns(i)%loading = history%loading
+      way%turns(i)%loads = history%scene%loads
+   end subroutine load_turns
+
+   !> Follow the increments but the last
+   subroutine follow(model, structure, history, with_errors, way, memory, found)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> Whether the errors of the mesh act; else the way takes the states where loads turn
+      logical, intent(in) :: with_errors
+      !> The way
+      type(way_type), intent(inout) :: way
+      !> What joints remember in the end, shape (points, planes)
+      type(memory_type), allocatable, intent(inout) :: memory(:, :)
+      !> Whether all states were found
+      logical, intent(out) :: found
+
+      type(joint_field_type) :: field
+      type(scene_type) :: scene
+      integer :: k, t
+
+      field = new_state(structure%condensed, history%scene)
+      scene = history%scene
+      t = 1
+      do k = 1, size(history%states)
+         call begin(model, structure, history, history%states(k), field)
+         call set_loads(way%turns, t, history%states(k)%case_factor, with_errors, scene)
+         call settle(structure%condensed, scene, field, found)
+         if (.not. found) return
+         if (any(way%places == k)) then
+            if (.not. with_errors) way%turns(t)%field = field
+            t = t + 1
+         end if
+         call commit_field(scene%laws, field)
+      end do
+      memory = field%memory
+   end subroutine follow
+
+   !> Begin from a state as it was kept
+   subroutine begin(model, structure, history, state, field)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> What the increments came to, for the planes
+      type(history_type), intent(in) :: history
+      !> The state
+      type(increment_state_type), intent(in) :: state
+      !> Takes it, but for what it remembers
+      type(joint_field_type), intent(inout) :: field
+
+      call set_initial_stress(model, structure%condensed%points, state%case_factor, field)
+      associate (place => history%scene%planes%place)
+         field%jump(:, :, place) = state%jump
+         field%stress(:, :, place) = state%stress
+         field%state(:, place) = state%state
+      end associate
+      field%carried = field%stress
+      field%excess = state%excess
+      field%pending = state%pending
+      field%offset = state%offset
+      field%moved = synthesize(history%scene%planes, motion_of(structure%condensed, history%scene, field%offset))
+   end subroutine begin
+
+   !> Loads on the way to a turn
+   subroutine set_loads(turns, t, case_factor, with_errors, scene)
+      !> The turns, and the next
+      type(turn_type), intent(in) :: turns(:)
+      integer, intent(in) :: t
+      !> Factors of the load cases
+      real(wp), intent(in) :: case_factor(:)
+      !> Whether the errors of the mesh act, too
+      logical, intent(in) :: with_errors
+      !> Takes the loads
+      type(scene_type), intent(inout) :: scene
+
+      real(wp) :: share, from(size(case_factor))
+
+      from = 0.0_wp
+      if (t > 1) from = turns(t - 1)%loading%case_factor
+      associate (way => turns(t)%loading%case_factor - from, to => turns(t))
+         share = dot_product(case_factor - from, way)/dot_product(way, way)
+         scene%loads%free = share*to%loads%free
+         scene%loads%largest = to%loads%largest
+         scene%loads%work = share*to%loads%work
+         if (with_errors) scene%loads%free = scene%loads%free + share*to%error
+         if (t == 1) return
+         associate (last => turns(t - 1))
+            scene%loads%free = scene%loads%free + (1.0_wp - share)*last%loads%free
+            scene%loads%work = scene%loads%work + (1.0_wp - share)*last%loads%work
+            if (with_errors) scene%loads%free = scene%loads%free + (1.0_wp - share)*last%error
+         end associate
+      end associate
+   end subroutine set_loads
+
+end module axijoint_analysis_error_remembered
