@@ -234,7 +234,7 @@ def soil_pile(setting, steps=((1, 1), (1, 2))):
     return scene.text(*steps)
 
 
-def pipe_pile(setting, *steps):
+def pipe_pile(setting, steps=((1, 1), (1, 2))):
     """A steel tube driven into ground, slipping inside and outside and open behind: weight, then a lateral load on its head"""
     scene = Scene("Pipe pile", setting).add("MATERIALS", "1, 2e5, 0.3, 0.007", "2, 40, 0.3, 0.01")
     scene.law(1, 200, 0.0, 25.0, RESULTANT)
@@ -246,7 +246,7 @@ def pipe_pile(setting, *steps):
     scene.add("INTERFACES", "1, 2, 3", "1, 4, 5", "1, 6, 7").add("FIXEDFACES", "8, 111", "9, 101").add("CASE", "1, weight")
     scene.add("GRAVITY", "-1").add("INSITU", "2, 0, 0.01, 0.5", "1, 0, 0.01, 0.5, 0, 1, MEANT").add("CASE", "2, lateral")
     scene.add("RESULTANTS", "1, LATERAL, 0.2", "1, MOMENT, -1").add("COMBINE", "1, 1, 1, 2, 1")
-    return scene.text(*(steps or ((1, 1), (1, 2))))
+    return scene.text(*steps)
 
 
 def shrunk_on(setting, torque=0.5):

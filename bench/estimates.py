@@ -84,6 +84,10 @@ def mesh_rows():
             setting = replace(linear, kind=kind, harmonic=m)
             yield row(f"chimney, m = {m}", scenes.chimney, setting, setting.fine(n=12), m=m)
         yield row("pipe pile", scenes.pipe_pile, Setting(kind), Setting().fine(n=3))
+    for kind in ("4", "8"):
+        for name, steps in (("half let go", ((1, 1), (1, 2), (-.5, 2))), ("let go", ((1, 1), (1, 2), (-1, 2))), ("to and fro", ((1, 1), (1, 2), (-2, 2), (1.5, 2)))):
+            yield row(f"pile in the ground, {name}", scenes.soil_pile, Setting(kind), Setting().fine(n=3), steps=steps)
+            yield row(f"pipe pile, {name}", scenes.pipe_pile, Setting(kind), Setting().fine(n=3), steps=steps)
     for kind in ("4B", "8R"):
         yield row("built in, nu = 0.49", scenes.built_in, replace(linear, kind=kind), poisson=0.49)
     for kind in ("4B", "8R", "9R"):

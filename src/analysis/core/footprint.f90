@@ -1,6 +1,6 @@
 !> Memory that a job takes besides its equations
 module axijoint_analysis_core_footprint
-   use axijoint_analysis_fine_blocks, only : is_slender
+   use axijoint_analysis_fine_blocks, only : is_slender, may_be_wall
    use axijoint_assembly_node_blocks, only : block_size
    use axijoint_base_kinds, only : wp, i8
    use axijoint_element_yield_law, only : yield_none
@@ -241,20 +241,23 @@ contains
       type(mesh_type), intent(in) :: mesh
 
       !> Numbers of the factors for a fine node, of elements of 3 to 9 nodes: where each side and each
-      !> inside is a block, and where slender elements make lines; as counted in squares of them
+      !> inside is a block, and where slender elements make lines; as counted in squares of them; and where they are thin walls
+      !> of one element, as measured on long tubes
       real(wp), parameter :: compact(3:9) = [9.0_wp, 9.0_wp, 0.0_wp, 20.0_wp, 0.0_wp, 25.0_wp, &
-         38.0_wp], slender(3:9) = [13.0_wp, 13.0_wp, 0.0_wp, 65.0_wp, 0.0_wp, 47.0_wp, 65.0_wp]
+         38.0_wp], slender(3:9) = [13.0_wp, 13.0_wp, 0.0_wp, 65.0_wp, 0.0_wp, 47.0_wp, 65.0_wp], &
+         wall(3:9) = [0.0_wp, 68.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 138.0_wp, 160.0_wp]
       !> Vectors of three components: two a step, of which two to four are made, others, and memory
       !> between them that nobody uses; as measured
       real(wp), parameter :: vectors = 14.4_wp
-      real(wp) :: numbers
+      real(wp) :: numbers, of_blocks
       integer :: element
 
       numbers = 0.0_wp
       do element = 1, n_elements(mesh)
          associate (n => mesh%element_size(element))
-            numbers = numbers + fine_nodes(n)*(3.0_wp*vectors + merge(slender(n), compact(n), &
-                                                                      is_slender(mesh, element)))
+            of_blocks = merge(slender(n), compact(n), is_slender(mesh, element))
+            if (may_be_wall(mesh, element)) of_blocks = wall(n)
+            numbers = numbers + fine_nodes(n)*(3.0_wp*vectors + of_blocks)
          end associate
       end do
       bytes = nint(real_bytes*numbers, i8)

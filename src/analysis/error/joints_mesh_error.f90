@@ -4,7 +4,7 @@ module axijoint_analysis_error_joints_mesh_error
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_error_held_error, only : judged_state_type, errors_by_law
    use axijoint_analysis_error_joint_shares, only : least_changes
-   use axijoint_analysis_error_remembered, only : way_type, look_back, find_remembered
+   use axijoint_analysis_error_remembered, only : way_type, find_remembered
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
    use axijoint_assembly_force, only : joint_jump
    use axijoint_base_kinds, only : wp
@@ -15,7 +15,6 @@ module axijoint_analysis_error_joints_mesh_error
    use axijoint_joints_joint_errors, only : joint_change_type, change_between, offset_between
    use axijoint_joints_scene, only : scene_type
    use axijoint_joints_settle, only : find_again
-   use axijoint_model_model, only : model_type
    implicit none
    private
    public :: mesh_error_of_balanced, add_answer
@@ -24,9 +23,7 @@ contains
 
    !> Errors of the mesh while the stress of the joints is held, as the law gives it along the fine joints; and what joints
    !> answer to these, and to what the mesh left before of slip that lasts, whose effect on the displacements is for `add_answer`
-   subroutine mesh_error_of_balanced(model, structure, history, balanced, displacement, lasts, error, answer)
-      !> The job
-      type(model_type), intent(in) :: model
+   subroutine mesh_error_of_balanced(structure, history, balanced, displacement, way, error, answer)
       !> The structure
       type(structure_type), intent(inout) :: structure
       !> What the increments came to
@@ -35,14 +32,13 @@ contains
       type(joint_field_type), intent(in), target :: balanced
       !> Displacement amplitudes, shape (3, nodes, modes)
       real(wp), intent(in), target :: displacement(:, :, :)
-      !> Whether slip of earlier increments lasts
-      logical, intent(in) :: lasts
+      !> The way that loads took, if it is known, and slip that came about on it lasts
+      type(way_type), intent(inout), target :: way
       !> The errors
       type(mesh_error_type), intent(out) :: error
       !> The change of the joints by these; not known if no state was found
       type(joint_change_type), intent(out) :: answer
 
-      type(way_type), target :: way
       type(judged_state_type), allocatable :: states(:)
       type(mesh_error_type), allocatable :: errors(:)
       type(memory_type), allocatable :: start(:, :)
@@ -55,7 +51,6 @@ contains
 
       began = omp_get_wtime()
       associate (condensed => structure%condensed, scene => history%scene)
-         if (lasts) call look_back(model, structure, history, way)
          n = 0
          if (way%known) n = size(way%places)
          allocate (states(n + 1), errors(n + 1))
@@ -71,7 +66,7 @@ contains
          call find_again(condensed, corrected, history%start, after, found)
          if (found) then
             answer = change_by(corrected, after)
-            if (way%known) call find_remembered(model, structure, history, errors, way, slip)
+            if (way%known) call find_remembered(structure, history, errors, way, slip)
          end if
          if (allocated(slip)) then
             start = history%start

@@ -8,7 +8,7 @@ module axijoint_analysis_error_remembered
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : memory_type, opening_bond
-   use axijoint_joints_field, only : joint_field_type, set_initial_stress, commit_field
+   use axijoint_joints_field, only : joint_field_type, commit_field
    use axijoint_joints_history, only : history_type, new_state
    use axijoint_joints_loads, only : joint_loads_type, put_loads
    use axijoint_joints_planes, only : synthesize
@@ -67,14 +67,12 @@ contains
       way%places = turning_places(history)
       if (size(way%places) > most_turns .or. size(history%states) > most_increments) return
       call load_turns(model, structure, history, way, way%known)
-      if (way%known) call follow(model, structure, history, .false., way, way%memory, way%known)
+      if (way%known) call follow(structure, history, .false., way, way%memory, way%known)
    end subroutine look_back
 
    !> Slip that joints would remember before the last increment without the errors of the mesh, less that which they do: the way is
    !> gone again with the errors where loads turned, and between in proportion to the loads
-   subroutine find_remembered(model, structure, history, errors, way, slip)
-      !> The job
-      type(model_type), intent(in) :: model
+   subroutine find_remembered(structure, history, errors, way, slip)
       !> The structure
       type(structure_type), intent(in) :: structure
       !> What the increments came to
@@ -94,7 +92,7 @@ contains
       do i = 1, size(errors)
          way%turns(i)%error = errors(i)%jump(:, structure%yielding, :)
       end do
-      call follow(model, structure, history, .true., way, better, found)
+      call follow(structure, history, .true., way, better, found)
       if (.not. found) return
       allocate (slip(3, size(better, 1), size(better, 2)))
       do i = 1, 3
@@ -148,7 +146,7 @@ contains
             solved(i)%excess = state%excess
          end associate
       end do
-      call solve_states(structure, model, solved, error)
+      if (size(solved) > 0) call solve_states(structure, model, solved, error)
       found = .not. allocated(error)
       if (.not. found) return
       allocate (way%turns(size(solved) + 1))
@@ -165,9 +163,7 @@ contains
    end subroutine load_turns
 
    !> Follow the increments but the last
-   subroutine follow(model, structure, history, with_errors, way, memory, found)
-      !> The job
-      type(model_type), intent(in) :: model
+   subroutine follow(structure, history, with_errors, way, memory, found)
       !> The structure
       type(structure_type), intent(in) :: structure
       !> What the increments came to
@@ -189,7 +185,7 @@ contains
       scene = history%scene
       t = 1
       do k = 1, size(history%states)
-         call begin(model, structure, history, history%states(k), field)
+         call begin(structure, history, history%states(k), field)
          call set_loads(way%turns, t, history%states(k)%case_factor, with_errors, scene)
          call settle(structure%condensed, scene, field, found)
          if (.not. found) return
@@ -203,9 +199,7 @@ contains
    end subroutine follow
 
    !> Begin from a state as it was kept
-   subroutine begin(model, structure, history, state, field)
-      !> The job
-      type(model_type), intent(in) :: model
+   subroutine begin(structure, history, state, field)
       !> The structure
       type(structure_type), intent(in) :: structure
       !> What the increments came to, for the planes
@@ -215,7 +209,7 @@ contains
       !> Takes it, but for what it remembers
       type(joint_field_type), intent(inout) :: field
 
-      call set_initial_stress(model, structure%condensed%points, state%case_factor, field)
+      field%initial = state%initial
       associate (place => history%scene%planes%place)
          field%jump(:, :, place) = state%jump
          field%stress(:, :, place) = state%stress

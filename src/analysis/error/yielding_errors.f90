@@ -11,6 +11,7 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_analysis_error_iteration_left, only : iteration_left_type
    use axijoint_analysis_error_joint_shares, only : take_share, nothing_is_left, has_moved, unloaded, least_changes
    use axijoint_analysis_error_joints_mesh_error, only : mesh_error_of_balanced, add_answer
+   use axijoint_analysis_error_remembered, only : way_type, look_back
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
    use axijoint_assembly_equations, only : equations_type
    use axijoint_base_kinds, only : wp
@@ -65,8 +66,8 @@ contains
       largest = largest_vector(results%modes, displacement)
       displacement = results%displacement + left%effect(:, :, :, 1)
       results%keeps_slip = keeps_slip(structure, history, largest)
-      call find_other_changes(model, structure, history, left%balanced, displacement, results%keeps_slip, changes, others, &
-         mesh_error)
+      call find_other_changes(model, structure, history, left%balanced, displacement, &
+         results%keeps_slip .or. unloaded(history), changes, others, mesh_error)
       results%follows_slip = mesh_error%follows_slip
       associate (shares => results%joint_errors)
          call take_share(structure, history, results, largest, changes%iteration, left%effect(:, :, :, 1), shares(1), model%points)
@@ -123,7 +124,7 @@ contains
       type(joint_field_type), intent(in) :: balanced
       !> Displacement amplitudes of that state, shape (3, nodes, modes)
       real(wp), intent(in) :: displacement(:, :, :)
-      !> Whether slip of earlier increments lasts
+      !> Whether slip of earlier increments lasts, or is all that is left
       logical, intent(in) :: lasts
       !> Takes the changes by planes and harmonics
       type(joint_changes_type), intent(inout) :: changes
@@ -133,10 +134,13 @@ contains
       type(mesh_error_type), intent(out) :: mesh_error
 
       type(joint_change_type) :: all(3)
-      real(wp) :: seconds, share
+      type(way_type) :: way
+      real(wp) :: seconds, looked_back, share
       logical :: answered
 
       seconds = omp_get_wtime()
+      if (lasts) call look_back(model, structure, history, way)
+      looked_back = omp_get_wtime() - seconds
       if (is_small(structure%equations)) then
          !$omp parallel sections num_threads(2)
          !$omp section
@@ -158,7 +162,7 @@ contains
          mesh_error%known = mesh_error%known .and. all(3)%known
          call add_answer(structure, all(3), effect(:, :, :, 3), mesh_error)
       end if
-      mesh_error%seconds = mesh_error%seconds + all(3)%seconds
+      mesh_error%seconds = mesh_error%seconds + all(3)%seconds + looked_back
       seconds = omp_get_wtime() - seconds
       share = seconds/max(tiny(1.0_wp), mesh_error%seconds + changes%planes%seconds + changes%harmonics%seconds)
       mesh_error%seconds = share*mesh_error%seconds
@@ -169,8 +173,7 @@ contains
 
       !> What the mesh leaves, and the answer of the joints
       subroutine see_mesh()
-         call mesh_error_of_balanced(model, structure, history, balanced, displacement, lasts .or. unloaded(history), mesh_error, &
-            all(3))
+         call mesh_error_of_balanced(structure, history, balanced, displacement, way, mesh_error, all(3))
       end subroutine see_mesh
 
       !> What planes and harmonics leave

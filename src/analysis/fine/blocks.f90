@@ -9,7 +9,7 @@ module axijoint_analysis_fine_blocks
    use axijoint_order_rcm, only : reverse_cuthill_mckee
    implicit none
    private
-   public :: new_blocks, order_by_blocks, is_slender
+   public :: new_blocks, order_by_blocks, is_slender, may_be_wall
 
    !> An element longer than this times its width is strongly coupled to its neighbours across its
    !> long sides
@@ -61,16 +61,17 @@ contains
          end associate
       end do
       allocate (block(n_nodes(fine%mesh)))
-      block(:before_edges) = [(root_of(root, k), k=1, before_edges)]
+      call find_roots(root)
+      block(:before_edges) = root(:before_edges)
       do k = 1, size(fine%edges)
          associate (edge => fine%edges(k))
-            i = root_of(root, before_edges + k)
+            i = root(before_edges + k)
             if (edge%nodes(3) > 0) block([edge%nodes(3), edge%new]) = i
             if (edge%nodes(3) == 0) block(edge%new(1)) = i
          end associate
       end do
       do k = 1, n_elements(coarse)
-         i = root_of(root, before_elements + k)
+         i = root(before_elements + k)
          block(fine%inside(k):fine%inside(k + 1) - 1) = i
          if (coarse%element_size(k) == 9) block(coarse%element_nodes(9, k)) = i
       end do
@@ -103,12 +104,13 @@ contains
             end associate
          end do
       end do
+      call find_roots(root)
       surfaces = 0
       thickness = 0.0_wp
       radius = 0.0_wp
       length = huge(1.0_wp)
       do k = 1, size(root)
-         i = root_of(root, k)
+         i = root(k)
          if (n_corners(coarse%element_size(k)) == 3 .or. .not. any(long(:, k))) then
             length(i) = 0.0_wp
             cycle
@@ -121,7 +123,7 @@ contains
          surfaces(i) = surfaces(i) + count(long(:, k) .and. fine%edges(fine%element_edges(:, k))%elements(2) == 0)
       end do
       do k = 1, size(root)
-         i = root_of(root, k)
+         i = root(k)
          thin(k) = surfaces(i) == 2 .and. length(i) > max(slender*thickness(i), bending*sqrt(radius(i)*thickness(i)))
       end do
    end function in_thin_walls
@@ -133,21 +135,41 @@ contains
       !> The pieces
       integer, intent(in) :: a, b
 
-      root(root_of(root, a)) = root_of(root, b)
+      integer :: from, to
+
+      from = a
+      to = b
+      call climb(root, from)
+      call climb(root, to)
+      root(from) = to
    end subroutine unite
 
-   !> The piece that stands for all of its block
-   pure integer function root_of(root, piece)
+   !> Let the parent of each piece be the one that stands for all of its block
+   pure subroutine find_roots(root)
       !> Parent of each piece
-      integer, intent(in) :: root(:)
-      !> The piece
-      integer, intent(in) :: piece
+      integer, intent(inout) :: root(:)
 
-      root_of = piece
-      do while (root(root_of) /= root_of)
-         root_of = root(root_of)
+      integer :: k, top
+
+      do k = 1, size(root)
+         top = k
+         call climb(root, top)
+         root(k) = top
       end do
-   end function root_of
+   end subroutine find_roots
+
+   !> Go up to the piece that stands for all of its block; the way there is half as long afterwards
+   pure subroutine climb(root, piece)
+      !> Parent of each piece
+      integer, intent(inout) :: root(:)
+      !> A piece; that one on return
+      integer, intent(inout) :: piece
+
+      do while (root(piece) /= piece)
+         root(piece) = root(root(piece))
+         piece = root(piece)
+      end do
+   end subroutine climb
 
    !> Which sides of an element are long ones; none if it is not slender
    pure function long_sides(mesh, element) result(long)
@@ -197,6 +219,20 @@ contains
 
       is_slender = any(long_sides(mesh, element))
    end function is_slender
+
+   !> Whether an element is so long that it may be part of a thin wall that is solved as a whole
+   pure logical function may_be_wall(mesh, element)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The element
+      integer, intent(in) :: element
+
+      may_be_wall = n_corners(mesh%element_size(element)) == 4
+      if (.not. may_be_wall) return
+      associate (sides => side_lengths(mesh, element), r => mesh%coordinates(1, mesh%element_nodes(:4, element)))
+         may_be_wall = maxval(sides) > max(slender*minval(sides), bending*sqrt(maxval(r)*minval(sides)))
+      end associate
+   end function may_be_wall
 
    !> Order of the fine nodes, block by block and neighbours close in each; blocks of one coarse
    !> element are close, too
