@@ -211,10 +211,14 @@ contains
          end do
       end if
       if (history%n_faded > 0) call add(remarks, fading_text(history))
-      if (results%keeps_slip) call add(remarks, 'joints that slipped in earlier increments hold now, slipped back, or slip all '// &
-         'together: '//trim(merge('what planes and harmonics had wrong then stays in the slip and is not counted in the errors', &
-                                  'what was wrong then stays in the slip and is not counted in the errors                     ', &
-                                  results%follows_slip)))
+      if (results%keeps_slip .and. results%follows_slip) then
+         call add(remarks, 'joints that slipped in earlier increments hold now, slipped back, or slip all together: what '// &
+            'planes and harmonics had wrong then stays in the slip and is not counted in the errors, nor where a part '// &
+            'stands that slides as a whole; what the mesh had wrong is')
+      else if (results%keeps_slip) then
+         call add(remarks, 'joints that slipped in earlier increments hold now, slipped back, or slip all together: what '// &
+            'was wrong then stays in the slip and is not counted in the errors')
+      end if
       if (results%torn) call add(remarks, 'some bonds broke and others hold: which of them hangs on their order, of which '// &
          'estimates of joint stress know nothing; more increments show how much')
       if (results%soft_in_part) call add(remarks, 'some points softened as they slipped and others did not: which of them '// &

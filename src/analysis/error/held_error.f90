@@ -178,7 +178,7 @@ contains
                if (equations%systems(s)%failed .or. all(held(i)%steps(equations%systems(s)%modes) == 0)) cycle
                call find_difference(structure%fine, equations, s, held(i)%load, states(i)%displacement, points, held(i)%excess, &
                   rooms(own()), held(i)%difference, held(i)%steps, again)
-               again = .true.
+               again = all(held(i)%difference%known(equations%systems(s)%modes))
             end do
             call release_factor(equations, s, spaces(own()))
          end do

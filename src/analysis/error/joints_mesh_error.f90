@@ -4,7 +4,7 @@ module axijoint_analysis_error_joints_mesh_error
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_error_held_error, only : judged_state_type, errors_by_law
    use axijoint_analysis_error_joint_shares, only : least_changes
-   use axijoint_analysis_error_remembered, only : way_type, find_remembered
+   use axijoint_analysis_error_remembered, only : way_type, lag_type, find_remembered, shift
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
    use axijoint_assembly_force, only : joint_jump
    use axijoint_base_kinds, only : wp
@@ -44,7 +44,7 @@ contains
       type(memory_type), allocatable :: start(:, :)
       type(joint_field_type), allocatable :: after
       type(scene_type) :: corrected
-      real(wp), allocatable :: slip(:, :, :)
+      type(lag_type) :: lag
       real(wp) :: began, largest
       logical :: found
       integer :: i, n
@@ -66,12 +66,12 @@ contains
          call find_again(condensed, corrected, history%start, after, found)
          if (found) then
             answer = change_by(corrected, after)
-            if (way%known) call find_remembered(structure, history, errors, way, slip)
+            if (way%known) call find_remembered(structure, history, errors, way, lag)
          end if
-         if (allocated(slip)) then
+         if (lag%known) then
             start = history%start
-            call add_slip(slip, start)
-            call add_slip(slip, after%memory)
+            call add_slip(lag%slip, start)
+            call shift(structure, scene, lag, after)
             call find_again(condensed, corrected, start, after, error%follows_slip)
          end if
          if (error%follows_slip) then

@@ -13,17 +13,19 @@ module axijoint_analysis_error_remembered
    use axijoint_joints_loads, only : joint_loads_type, put_loads
    use axijoint_joints_planes, only : synthesize
    use axijoint_joints_scene, only : scene_type, motion_of
-   use axijoint_joints_settle, only : settle
+   use axijoint_joints_settle, only : find_again
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: way_type, look_back, find_remembered
+   public :: way_type, lag_type, look_back, find_remembered, shift
 
    !> Increments that the way is followed through at most, and turns of the loads on it
    integer, parameter :: most_increments = 100, most_turns = 4
    !> Loads turn where the cosine of the angle between their changes is less
    real(wp), parameter :: straight = 1.0_wp - 1.0e-6_wp
+   !> Changes of load factors up to this part of them are none
+   real(wp), parameter :: rounding = 1.0e-12_wp
 
    !> Loads where they turn, and what the mesh leaves there
    type :: turn_type
@@ -36,6 +38,16 @@ module axijoint_analysis_error_remembered
       !> Errors of the jumps of joints that yield while their stress is held, amplitudes, shape (3, points, modes)
       real(wp), allocatable :: error(:, :, :)
    end type turn_type
+
+   !> What joints would be without the errors of the mesh, less what they are
+   type :: lag_type
+      !> Whether it was found
+      logical :: known = .false.
+      !> Slip that they remember, shape (3, points, planes)
+      real(wp), allocatable :: slip(:, :, :)
+      !> Excess stress, amplitudes, shape (3, points, modes), and multiples of the floating motions
+      real(wp), allocatable :: excess(:, :, :), offset(:)
+   end type lag_type
 
    !> The way that loads took
    type :: way_type
@@ -62,7 +74,6 @@ contains
       !> Takes the way
       type(way_type), intent(out) :: way
 
-      if (any(model%increments%steered) .or. allocated(history%scene%given%jump)) return
       if (any(history%scene%laws%opening == opening_bond .or. history%scene%laws%softens)) return
       way%places = turning_places(history)
       if (size(way%places) > most_turns .or. size(history%states) > most_increments) return
@@ -70,9 +81,9 @@ contains
       if (way%known) call follow(structure, history, .false., way, way%memory, way%known)
    end subroutine look_back
 
-   !> Slip that joints would remember before the last increment without the errors of the mesh, less that which they do: the way is
-   !> gone again with the errors where loads turned, and between in proportion to the loads
-   subroutine find_remembered(structure, history, errors, way, slip)
+   !> What joints would be before the last increment without the errors of the mesh, less what they are: the way is gone again with
+   !> the errors where loads turned, and between in proportion to the loads
+   subroutine find_remembered(structure, history, errors, way, lag)
       !> The structure
       type(structure_type), intent(in) :: structure
       !> What the increments came to
@@ -81,22 +92,21 @@ contains
       type(mesh_error_type), intent(in) :: errors(:)
       !> The way, known
       type(way_type), intent(inout) :: way
-      !> The slip, shape (3, points, planes); not allocated if it was not found
-      real(wp), allocatable, intent(out) :: slip(:, :, :)
+      !> The difference
+      type(lag_type), intent(out) :: lag
 
       type(memory_type), allocatable :: better(:, :)
-      logical :: found
       integer :: i
 
       if (.not. all(errors%known)) return
       do i = 1, size(errors)
          way%turns(i)%error = errors(i)%jump(:, structure%yielding, :)
       end do
-      call follow(structure, history, .true., way, better, found)
-      if (.not. found) return
-      allocate (slip(3, size(better, 1), size(better, 2)))
+      call follow(structure, history, .true., way, better, lag%known, lag)
+      if (.not. lag%known) return
+      allocate (lag%slip(3, size(better, 1), size(better, 2)))
       do i = 1, 3
-         slip(i, :, :) = better%slip(i) - way%memory%slip(i)
+         lag%slip(i, :, :) = better%slip(i) - way%memory%slip(i)
       end do
    end subroutine find_remembered
 
@@ -111,12 +121,15 @@ contains
       integer :: k
 
       allocate (places(0))
+      before = 0.0_wp*history%loading%case_factor
       associate (states => history%states)
          do k = 1, size(states)
-            before = states(k)%case_factor
-            if (k > 1) before = before - states(k - 1)%case_factor
+            if (k == 1) after = states(1)%case_factor
+            if (k > 1) after = states(k)%case_factor - states(k - 1)%case_factor
+            if (norm2(after) > rounding*norm2(states(k)%case_factor)) before = after  ! else loads are held, and turn later if at all
             after = history%loading%case_factor - states(k)%case_factor
             if (k < size(states)) after = states(k + 1)%case_factor - states(k)%case_factor
+            if (.not. norm2(after) > rounding*norm2(states(k)%case_factor)) cycle
             if (dot_product(before, after) < straight*norm2(before)*norm2(after)) places = [places, k]
          end do
       end associate
@@ -163,7 +176,7 @@ contains
    end subroutine load_turns
 
    !> Follow the increments but the last
-   subroutine follow(structure, history, with_errors, way, memory, found)
+   subroutine follow(structure, history, with_errors, way, memory, found, lag)
       !> The structure
       type(structure_type), intent(in) :: structure
       !> What the increments came to
@@ -176,9 +189,13 @@ contains
       type(memory_type), allocatable, intent(inout) :: memory(:, :)
       !> Whether all states were found
       logical, intent(out) :: found
+      !> Takes by what the states differ from those that were kept: where nothing but slip on the way tells where parts stand, the next
+      !> begins there
+      type(lag_type), intent(inout), optional :: lag
 
       type(joint_field_type) :: field
       type(scene_type) :: scene
+      type(memory_type), allocatable :: start(:, :)
       integer :: k, t
 
       field = new_state(structure%condensed, history%scene)
@@ -186,12 +203,18 @@ contains
       t = 1
       do k = 1, size(history%states)
          call begin(structure, history, history%states(k), field)
+         if (present(lag)) call shift(structure, history%scene, lag, field)
          call set_loads(way%turns, t, history%states(k)%case_factor, with_errors, scene)
-         call settle(structure%condensed, scene, field, found)
+         start = field%memory
+         call find_again(structure%condensed, scene, start, field, found)
          if (.not. found) return
          if (any(way%places == k)) then
             if (.not. with_errors) way%turns(t)%field = field
             t = t + 1
+         end if
+         if (present(lag)) then
+            lag%excess = field%excess - history%states(k)%excess
+            lag%offset = field%offset - history%states(k)%offset
          end if
          call commit_field(scene%laws, field)
       end do
@@ -222,6 +245,30 @@ contains
       field%moved = synthesize(history%scene%planes, motion_of(structure%condensed, history%scene, field%offset))
    end subroutine begin
 
+   !> Let a state begin where it would be
+   subroutine shift(structure, scene, lag, field)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> Planes
+      type(scene_type), intent(in) :: scene
+      !> By what it lags; nothing if not allocated
+      type(lag_type), intent(in) :: lag
+      !> The state
+      type(joint_field_type), intent(inout) :: field
+
+      integer :: i
+
+      if (allocated(lag%slip)) then
+         do i = 1, 3
+            field%memory%slip(i) = field%memory%slip(i) + lag%slip(i, :, :)
+         end do
+      end if
+      if (.not. allocated(lag%excess)) return
+      field%excess = field%excess + lag%excess
+      field%offset = field%offset + lag%offset
+      field%moved = synthesize(scene%planes, motion_of(structure%condensed, scene, field%offset))
+   end subroutine shift
+
    !> Loads on the way to a turn
    subroutine set_loads(turns, t, case_factor, with_errors, scene)
       !> The turns, and the next
@@ -239,7 +286,8 @@ contains
       from = 0.0_wp
       if (t > 1) from = turns(t - 1)%loading%case_factor
       associate (way => turns(t)%loading%case_factor - from, to => turns(t))
-         share = dot_product(case_factor - from, way)/dot_product(way, way)
+         share = 0.0_wp
+         if (norm2(way) > 0.0_wp) share = dot_product(case_factor - from, way)/dot_product(way, way)
          scene%loads%free = share*to%loads%free
          scene%loads%largest = to%loads%largest
          scene%loads%work = share*to%loads%work

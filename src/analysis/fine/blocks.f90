@@ -18,6 +18,8 @@ module axijoint_analysis_fine_blocks
    !> loaded or held, is strongly coupled along itself: what bends it within an element moves its neighbours. In a
    !> monopile (t = r/38) steps came to 0.6 of the difference in elements of 4 sqrt(r t), to all of it in those of 2
    real(wp), parameter :: bending = 2.0_wp
+   !> Elements from one surface of such a wall to the other at most: more make its block wide
+   integer, parameter :: most_across = 2
 
 contains
 
@@ -33,14 +35,16 @@ contains
       integer, allocatable :: block(:)
 
       integer :: root(n_nodes(coarse) + size(fine%edges) + n_elements(coarse))
-      logical :: thin(n_elements(coarse))
+      logical :: thin(n_elements(coarse)), apart(size(fine%edges))
       integer :: k, i, side, before_edges, before_elements
 
       before_edges = n_nodes(coarse)
       before_elements = before_edges + size(fine%edges)
       root = [(k, k=1, size(root))]
+      thin = in_thin_walls(coarse, fine)
+      apart = beside_walls(coarse, fine, thin)
       do k = 1, size(fine%edges)
-         if (fine%edges(k)%elements(2) > 0) cycle
+         if (fine%edges(k)%elements(2) > 0 .or. apart(k)) cycle
          call unite(root, before_edges + k, before_elements + fine%edges(k)%elements(1))
       end do
       do k = 1, n_joints(coarse)
@@ -51,11 +55,11 @@ contains
                        before_edges + find_edge(fine, nodes(4), nodes(3)))
          end associate
       end do
-      thin = in_thin_walls(coarse, fine)
       do k = 1, n_elements(coarse)
          associate (joined => long_sides(coarse, k) .or. thin(k))
             do side = 1, n_corners(coarse%element_size(k))
-               if (joined(side)) call unite(root, before_elements + k, before_edges + fine%element_edges(side, k))
+               if (joined(side) .and. .not. apart(fine%element_edges(side, k))) &
+                  call unite(root, before_elements + k, before_edges + fine%element_edges(side, k))
                if (thin(k)) call unite(root, before_elements + k, coarse%element_nodes(side, k))
             end do
          end associate
@@ -77,8 +81,9 @@ contains
       end do
    end function new_blocks
 
-   !> Which elements are parts of a thin wall that bends within them: from one surface of a body to the other, along long
-   !> sides, there are slender elements only, and these are long beside its thickness and sqrt(r t)
+   !> Which elements are parts of a thin wall that is solved as a whole: from one surface of a body to the other, along long
+   !> sides, there are slender elements only, few of them, and these are long beside its thickness; in bodies with such elements
+   !> that are long beside sqrt(r t), too
    function in_thin_walls(coarse, fine) result(thin)
       !> The coarse mesh
       type(mesh_type), intent(in) :: coarse
@@ -87,9 +92,9 @@ contains
       !> Shape (elements)
       logical :: thin(n_elements(coarse))
 
-      integer, dimension(n_elements(coarse)) :: root, surfaces
+      integer, dimension(n_elements(coarse)) :: root, surfaces, across
       real(wp), dimension(n_elements(coarse)) :: thickness, length, radius
-      logical :: long(4, n_elements(coarse))
+      logical :: long(4, n_elements(coarse)), bends(n_elements(coarse))
       integer :: k, side, i
 
       root = [(k, k=1, size(root))]
@@ -106,6 +111,7 @@ contains
       end do
       call find_roots(root)
       surfaces = 0
+      across = 0
       thickness = 0.0_wp
       radius = 0.0_wp
       length = huge(1.0_wp)
@@ -121,12 +127,43 @@ contains
          end associate
          radius(i) = max(radius(i), maxval(coarse%coordinates(1, coarse%element_nodes(:4, k))))
          surfaces(i) = surfaces(i) + count(long(:, k) .and. fine%edges(fine%element_edges(:, k))%elements(2) == 0)
+         across(i) = across(i) + 1
       end do
       do k = 1, size(root)
          i = root(k)
-         thin(k) = surfaces(i) == 2 .and. length(i) > max(slender*thickness(i), bending*sqrt(radius(i)*thickness(i)))
+         thin(k) = surfaces(i) == 2 .and. across(i) <= most_across .and. length(i) > slender*thickness(i)
+         bends(k) = thin(k) .and. length(i) > bending*sqrt(radius(i)*thickness(i))
+      end do
+      do i = 1, maxval(coarse%element_body)
+         if (.not. any(bends .and. coarse%element_body == i)) where (coarse%element_body == i) thin = .false.
       end do
    end function in_thin_walls
+
+   !> Which edges lie across a joint from a thin wall: these are solved with it, the elements behind them, and lines that
+   !> end there, are not
+   function beside_walls(coarse, fine, thin) result(apart)
+      !> The coarse mesh
+      type(mesh_type), intent(in) :: coarse
+      !> The fine mesh, for the edges
+      type(fine_mesh_type), intent(in) :: fine
+      !> Whether elements are parts of thin walls
+      logical, intent(in) :: thin(:)
+      !> Shape (edges)
+      logical :: apart(size(fine%edges))
+
+      integer :: k, edges(2), side
+
+      apart = .false.
+      do k = 1, n_joints(coarse)
+         associate (nodes => coarse%joint_nodes(:, k))
+            edges = [find_edge(fine, nodes(1), nodes(2)), find_edge(fine, nodes(4), nodes(3))]
+         end associate
+         do side = 1, 2
+            if (thin(fine%edges(edges(3 - side))%elements(1))) &
+               apart(edges(side)) = .not. thin(fine%edges(edges(side))%elements(1))
+         end do
+      end do
+   end function beside_walls
 
    !> Unite two blocks
    pure subroutine unite(root, a, b)
