@@ -74,11 +74,16 @@ contains
       !> Takes the way
       type(way_type), intent(out) :: way
 
+      type(memory_type), allocatable :: memory(:, :)
+      logical :: found
+
       if (any(history%scene%laws%opening == opening_bond .or. history%scene%laws%softens)) return
       way%places = turning_places(history)
       if (size(way%places) > most_turns .or. size(history%states) > most_increments) return
-      call load_turns(model, structure, history, way, way%known)
-      if (way%known) call follow(structure, history, .false., way, way%memory, way%known)
+      call load_turns(model, structure, history, way, found)
+      if (found) call follow(structure, history, .false., way, memory, found)
+      way%known = found
+      if (found) call move_alloc(memory, way%memory)
    end subroutine look_back
 
    !> What joints would be before the last increment without the errors of the mesh, less what they are: the way is gone again with
@@ -96,14 +101,16 @@ contains
       type(lag_type), intent(out) :: lag
 
       type(memory_type), allocatable :: better(:, :)
+      logical :: found
       integer :: i
 
       if (.not. all(errors%known)) return
       do i = 1, size(errors)
          way%turns(i)%error = errors(i)%jump(:, structure%yielding, :)
       end do
-      call follow(structure, history, .true., way, better, lag%known, lag)
-      if (.not. lag%known) return
+      call follow(structure, history, .true., way, better, found, lag)
+      lag%known = found
+      if (.not. found) return
       allocate (lag%slip(3, size(better, 1), size(better, 2)))
       do i = 1, 3
          lag%slip(i, :, :) = better%slip(i) - way%memory%slip(i)
@@ -198,6 +205,7 @@ contains
       type(memory_type), allocatable :: start(:, :)
       integer :: k, t
 
+      found = .true.
       field = new_state(structure%condensed, history%scene)
       scene = history%scene
       t = 1
