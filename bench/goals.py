@@ -132,7 +132,8 @@ def main():
                     met = says_met(target, own)
                     counts["met"] += met
                     counts["said"] += error > target and not met
-                    counts["over"].append(error/max(says, 1e-12))
+                    if met:
+                        counts["over"].append(error/max(says, 1e-12))
                 if better is not None:
                     key = "displacement" if quantity == "DISPL" else "joint_stress"
                     line += f" | {100*good.summary['errors']['sum'][key]:.2f}"
@@ -141,7 +142,7 @@ def main():
     share = counts["kept"]/counts["runs"]
     print(f"\n{counts['kept']} of {counts['runs']} runs below their target ({100*share:.1f} %): "
           f"{'met' if share >= BAR else 'MISSED'}; of the others {counts['said']} say that it is not met. "
-          f"{counts['met']} runs say that they met it.\nThe error by the program was below the true one in "
+          f"{counts['met']} runs say that they met it.\nWhere it is said to be met, the error by the program was below the true one in "
           f"{sum(ratio > 1.0 for ratio in over)} runs, at most by a factor of {max(over):.2f}")
     sys.exit(0 if share >= BAR else 1)
 

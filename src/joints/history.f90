@@ -19,7 +19,10 @@ module axijoint_joints_history
    implicit none
    private
    public :: history_type, target_type, new_history, new_state, state_of, keep_state, &
-      note_failure, forget_failure, note_residual
+      note_failure, forget_failure, note_residual, most_turns, turning_places
+
+   !> Turns of the loads that errors are followed through at most
+   integer, parameter :: most_turns = 4
 
    !> Loads that are to be reached
    type :: target_type
@@ -230,5 +233,32 @@ contains
       history%residuals = [history%residuals, record]
       history%noted = history%verdict%converged
    end subroutine note_residual
+
+   !> Places of the states after which loads turn. Loads that are held turn nothing
+   pure function turning_places(history) result(places)
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> The places
+      integer, allocatable :: places(:)
+
+      !> Loads turn where the cosine of the angle between their changes is less; changes up to this part of them are none
+      real(wp), parameter :: straight = 1.0_wp - 1.0e-6_wp, rounding = 1.0e-12_wp
+      real(wp), allocatable :: before(:), after(:)
+      integer :: k
+
+      allocate (places(0))
+      before = 0.0_wp*history%loading%case_factor
+      associate (states => history%states)
+         do k = 1, size(states)
+            after = states(k)%case_factor
+            if (k > 1) after = after - states(k - 1)%case_factor
+            if (norm2(after) > rounding*norm2(states(k)%case_factor)) before = after
+            after = history%loading%case_factor - states(k)%case_factor
+            if (k < size(states)) after = states(k + 1)%case_factor - states(k)%case_factor
+            if (.not. norm2(after) > rounding*norm2(states(k)%case_factor)) cycle
+            if (dot_product(before, after) < straight*norm2(before)*norm2(after)) places = [places, k]
+         end do
+      end associate
+   end function turning_places
 
 end module axijoint_joints_history

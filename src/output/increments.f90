@@ -72,7 +72,7 @@ contains
          do first = 1, size(shown), size(solved)
             n = min(size(solved), size(shown) - first + 1)
             call show_progress(job%progress, 'fields of increment '//to_text(shown(first))//' of '//to_text(last))
-            call solve_increments(model, structure, shown(first:first + n - 1), results, solved(:n), error)
+            call solve_increments(model, structure, states, shown(first:first + n - 1), solved(:n), error)
             if (allocated(error)) exit
             !$omp parallel do ordered schedule(dynamic) if (n > 1)
             do k = 1, n

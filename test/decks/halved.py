@@ -43,6 +43,16 @@ def rod(n):
     return deck.add('FIXEDFACES', (2, '111')).resultants((1, 'AXIAL', 0.002)).add('TEMPERATURES', (1, 0, 12.0)).text()
 
 
+def tee(n):
+    """A thin tube with a flange outside, both in long elements, pulled outwards: a frame of walls that are joined"""
+    deck = scenes.Deck('Flange', 0, None)
+    deck.lines[-1] = '0,17,2,2'
+    deck.add('MATERIALS', (1, 2e5, 0.3)).block(1, 1, 8, n, 4*n, 1.95, 0.0, 2.0, 4.0).block(1, 1, 8, n, n, 1.95, 4.0, 2.0, 4.05)
+    deck.block(1, 1, 8, n, 4*n, 1.95, 4.05, 2.0, 8.0).block(1, 1, 8, 2*n, n, 2.0, 4.0, 3.0, 4.05)
+    deck.faces((1, 1, 1.95, 0.0, 2.0, 0.0), (2, 1, 1.95, 8.0, 2.0, 8.0), (3, 1, 3.0, 4.0, 3.0, 4.05))
+    return deck.add('FIXEDFACES', (1, '111')).add('TRACTIONS', (2, 0, 1.0, 0.2), (3, 0, 0.0, 0.2)).text()
+
+
 SCENES = {
     'shaft that slips, 4-node': lambda n: pile(n, nodes=4, stiffness=[2e3]*3, friction=20.0, loads=[('AXIAL', -2.0)], formulation='BBAR'),
     'shaft that slips, 8-node': lambda n: pile(n, nodes=8, stiffness=[2e3]*3, friction=20.0, loads=[('AXIAL', -2.0)]),
@@ -50,7 +60,8 @@ SCENES = {
     'torque': lambda n: pile(n, nodes=8, stiffness=[2e3]*3, friction=20.0, loads=[('AXIAL', -18.0), ('TORQUE', 18.0)], weight=True,
                              depth=2.0, outer=4.0, harmonic=1),
     'bonded toe': lambda n: pile(n, nodes=4, stiffness=[2e3]*3, friction=20.0, loads=[('AXIAL', -2.0)], toe=(None, 4, 5, 'BONDED')),
-    'heated rod': rod}
+    'heated rod': rod,
+    'tube with a flange': tee}
 
 
 def told(scene, times):
@@ -69,20 +80,22 @@ def told(scene, times):
     return check
 
 
-def monopile(n):
-    """The monopile of inputs/monopile.dat, pushed in its ground and let go half, with `n` times as many elements along both sides"""
+def monopile(n, held=False):
+    """The monopile of inputs/monopile.dat, pushed in its ground, perhaps held, and let go half, with `n` times as many elements along
+    both sides"""
     before, blocks, after = re.fullmatch(r'(.*\nBLOCKS[^\n]*\n)(.*?)(\nFACES.*)', input_deck('monopile.dat'), re.DOTALL).groups()
     lines = blocks.split('\n')
     for k in range(0, len(lines), 2):
         lines[k] = lines[k][:15] + ''.join(f'{n*int(lines[k][column:column + 5]):5d}' for column in (15, 20)) + lines[k][25:]
-    return before + '\n'.join(lines) + after
+    let_go = '      -0.5    1.0E-8         2\n'
+    return before + '\n'.join(lines) + (after.replace(let_go, let_go.replace('-0.5', ' 0.0') + let_go, 1) if held else after)
 
 
-def slip_that_lasts(folder, program):
+def slip_that_lasts(folder, program, held):
     """What the mesh left while loads were larger stays in the slip, and is told at the points with names"""
     found = []
     for n in (1, 2):
-        ran = program.run('run', write(folder, 'mesh.dat', monopile(n)), '-o', folder)
+        ran = program.run('run', write(folder, 'mesh.dat', monopile(n, held)), '-o', folder)
         if ran.ended_with(0):
             return ran.ended_with(0)
         found.append(json.loads(read_text(os.path.join(folder, 'mesh.json')))['point_errors'])
@@ -120,4 +133,5 @@ def tests(program):
     return [Test(f'halved: {name}', lambda folder, check=told(scene, 4 if scene is rod else 2): check(folder, program))
             for name, scene in SCENES.items()] + [
                 Test('halved: slip that turns round', lambda folder: turns_round(folder, program)),
-                Test('halved: slip that lasts', lambda folder: slip_that_lasts(folder, program))]
+                *(Test(f'halved: slip that lasts{words}', lambda folder, held=held: slip_that_lasts(folder, program, held))
+                  for words, held in (('', False), (', loads held', True)))]

@@ -229,14 +229,47 @@ def estimate_counts(program, folder):
     return faults
 
 
+TUBE = """TITLE
+Long elements of a thin tube, and of the ground across a joint
+CONTROL
+2
+MATERIALS
+1,2E5,0.3
+2,50,0.3
+LAWS
+1,200,400,200,,,ELASTIC
+BLOCKS
+1,1,8,1,60
+1.95,-300,2,0
+2,2,8,60,60
+2,-300,62,0
+FACES
+1,1,1.95,-300,2,-300
+2,1,2,-300,2,0
+3,2,2,-300,2,0
+4,1,1.95,0,2,0
+5,2,62,-300,62,0
+6,2,2,-300,62,-300
+INTERFACES
+1,2,3
+FIXEDFACES
+5,111
+6,111
+1,111
+RESULTANTS
+4,LATERAL,1
+END
+"""
+
+
 def estimated_memory(program, folder):
-    """Memory at the peak of a linear job, one of joints, one of many harmonics: within 10 % of that of the run, the program
-    itself, which is larger with checks, left aside"""
+    """Memory at the peak of a linear job, one of joints, one of many harmonics, a long tube beside slender elements: within 10 % of
+    that of the run, the program itself, which is larger with checks, left aside"""
     empty = write(folder, 'small.dat', RING.replace('1, 1, 8, 20, 20', '1, 1, 8, 2, 2'))
     faults, ground = [], {}
     for name, text in (('small', None), ('linear', RING.replace('1, 1, 8, 20, 20', '1, 1, 8, 90, 90')),
                        ('joints', example(3, refined=6, harmonic=6, planes=33)),
-                       ('many harmonics', example(3, harmonic=128, planes=513))):
+                       ('many harmonics', example(3, harmonic=128, planes=513)), ('tube', TUBE)):
         deck = write(folder, name + '.dat', text) if text else empty
         ran = program.run('run', deck, '-o', folder, '--threads', '1')
         if ran.code != 0:

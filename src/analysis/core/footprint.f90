@@ -8,6 +8,7 @@ module axijoint_analysis_core_footprint
    use axijoint_fe_mode, only : mode_type, family_antisymmetric
    use axijoint_fe_reference, only : reference_type
    use axijoint_joints_circle_sums, only : are_worth_it
+   use axijoint_joints_history, only : most_turns
    use axijoint_joints_planes, only : planes_type, part_intervals
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, element_references
@@ -129,6 +130,9 @@ contains
             *jumps/3*(7*kept_planes + 6*n_modes)
          if (jumps > 0) footprint%joints = footprint%joints + real_bytes*acting_cases(model)*(jumps*n_modes + 3*nodes)
          footprint%stresses = 2*footprint%stresses + footprint%loads
+         ! loads twice, displacements and what half the elements change of them, where loads turned
+         if (jumps > 0 .and. estimated) footprint%joints = footprint%joints &
+            + 12*real_bytes*nodes*n_modes*min(most_turns, size(model%increments) - 1)
       end if
       if (bodies_yield(model)) call add_bodies(model, references, modes, footprint)
       footprint%joint_work = real_bytes*unknowns**2  ! the inverse
@@ -241,8 +245,8 @@ contains
       type(mesh_type), intent(in) :: mesh
 
       !> Numbers of the factors for a fine node, of elements of 3 to 9 nodes: where each side and each
-      !> inside is a block, and where slender elements make lines; as counted in squares of them; and where they are thin walls
-      !> of one element, as measured on long tubes
+      !> inside is a block, and where slender elements make lines; as counted in squares of them; and where they may be
+      !> thin walls, as measured on long tubes of one element across
       real(wp), parameter :: compact(3:9) = [9.0_wp, 9.0_wp, 0.0_wp, 20.0_wp, 0.0_wp, 25.0_wp, &
          38.0_wp], slender(3:9) = [13.0_wp, 13.0_wp, 0.0_wp, 65.0_wp, 0.0_wp, 47.0_wp, 65.0_wp], &
          wall(3:9) = [0.0_wp, 68.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 138.0_wp, 160.0_wp]

@@ -24,7 +24,7 @@ module axijoint_analysis_core_increment_fields
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_load, only : combination_type
-   use axijoint_model_mesh, only : element_references
+   use axijoint_model_mesh, only : n_nodes, element_references
    use axijoint_model_model, only : model_type
    use axijoint_plastic_record, only : on_all_points
    implicit none
@@ -176,20 +176,20 @@ contains
 
       type(solved_state_type) :: solved(1)
 
-      call solve_increments(model, structure, [place], final, solved, error)
+      call solve_increments(model, structure, final%states, [place], solved, error)
       if (.not. allocated(error)) call recover_state(model, structure, final%states(place), final, solved(1), results)
    end subroutine solve_increment
 
    !> Find the displacements of increments again: one solution a mode and increment
-   subroutine solve_increments(model, structure, places, final, solved, error)
+   subroutine solve_increments(model, structure, states, places, solved, error)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure; its factors are made again where they are not kept
       type(structure_type), intent(inout) :: structure
-      !> Places of the increments among what was kept of all
+      !> What was kept of all
+      type(increment_state_type), intent(in) :: states(:)
+      !> Places of the increments among them; maybe none
       integer, intent(in) :: places(:)
-      !> Results at the end of the run, with what was kept of the increments
-      type(results_type), intent(in) :: final
       !> The displacements, as many as there are places
       type(solved_state_type), intent(out) :: solved(:)
       !> Out of memory
@@ -197,9 +197,10 @@ contains
 
       integer :: i
 
+      if (size(places) == 0) return
       do i = 1, size(places)
-         associate (state => final%states(places(i)))
-            allocate (solved(i)%displacement, mold=final%displacement)
+         associate (state => states(places(i)))
+            allocate (solved(i)%displacement(3, n_nodes(model%mesh), size(structure%modes)))
             call load_plastic_strain(model, structure, state, solved(i)%loading)
             ! where no joint yields there is no excess stress
             if (allocated(state%excess)) solved(i)%excess = state%excess

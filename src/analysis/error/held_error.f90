@@ -161,10 +161,10 @@ contains
       logical :: again
 
       do i = 1, size(states)
-         associate (own => held(i), n => size(structure%modes))
-            call new_difference(size(states(i)%displacement, 2), size(structure%joint_points), n, own%difference)
-            own%load = new_fine_load(structure%fine, structure%modes, states(i)%loading)
-            own%steps = steps_of(states(i)%loading, own%excess)
+         associate (one => held(i), n => size(structure%modes))
+            call new_difference(size(states(i)%displacement, 2), size(structure%joint_points), n, one%difference)
+            one%load = new_fine_load(structure%fine, structure%modes, states(i)%loading)
+            one%steps = steps_of(states(i)%loading, one%excess)
          end associate
       end do
       associate (equations => structure%equations)
@@ -172,10 +172,12 @@ contains
          allocate (rooms(size(spaces)))
          !$omp parallel do schedule(dynamic) num_threads(size(spaces)) private(i, again)
          do s = equations%first, equations%last
+            if (.not. any([(any(held(i)%steps(equations%systems(s)%modes) > 0), i=1, size(held))])) cycle
             call hold_factor(equations, s, spaces(own()))
             again = .false.
             do i = 1, size(held)
-               if (equations%systems(s)%failed .or. all(held(i)%steps(equations%systems(s)%modes) == 0)) cycle
+               if (equations%systems(s)%failed) exit
+               if (all(held(i)%steps(equations%systems(s)%modes) == 0)) cycle
                call find_difference(structure%fine, equations, s, held(i)%load, states(i)%displacement, points, held(i)%excess, &
                   rooms(own()), held(i)%difference, held(i)%steps, again)
                again = all(held(i)%difference%known(equations%systems(s)%modes))

@@ -4,7 +4,7 @@ module axijoint_analysis_error_joints_mesh_error
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_error_held_error, only : judged_state_type, errors_by_law
    use axijoint_analysis_error_joint_shares, only : least_changes
-   use axijoint_analysis_error_remembered, only : way_type, lag_type, find_remembered, shift
+   use axijoint_analysis_error_remembered, only : way_type, lag_type, find_remembered, shift, add_slip
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
    use axijoint_assembly_force, only : joint_jump
    use axijoint_base_kinds, only : wp
@@ -55,7 +55,7 @@ contains
          if (way%known) n = size(way%places)
          allocate (states(n + 1), errors(n + 1))
          do i = 1, n
-            states(i) = judged_state_type(way%turns(i)%loading, way%turns(i)%field, way%turns(i)%displacement)
+            states(i) = judged_state_type(way%solved(i)%loading, way%turns(i)%field, way%solved(i)%displacement)
          end do
          states(n + 1) = judged_state_type(history%loading, balanced, displacement)
          call errors_by_law(structure, scene, states, errors)
@@ -101,20 +101,6 @@ contains
       end function change_by
 
    end subroutine mesh_error_of_balanced
-
-   !> Add slip to what points remember
-   pure subroutine add_slip(slip, memory)
-      !> The slip, shape (3, points, planes)
-      real(wp), intent(in) :: slip(:, :, :)
-      !> What they remember, shape (points, planes)
-      type(memory_type), intent(inout) :: memory(:, :)
-
-      integer :: i
-
-      do i = 1, 3
-         memory%slip(i) = memory%slip(i) + slip(i, :, :)
-      end do
-   end subroutine add_slip
 
    !> Add what the joints answer to the errors of displacements and jumps
    subroutine add_answer(structure, answer, effect, error)

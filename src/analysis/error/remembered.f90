@@ -1,15 +1,14 @@
 !> What the mesh left wrong under loads that acted before: in what joints that slipped then, and hold now, remember
 module axijoint_analysis_error_remembered
-   use axijoint_analysis_core_increment_fields, only : load_plastic_strain
-   use axijoint_analysis_core_solution, only : solve_states, solved_state_type
+   use axijoint_analysis_core_increment_fields, only : solve_increments
+   use axijoint_analysis_core_solution, only : solved_state_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
-   use axijoint_assembly_loading, only : loading_type
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint_law, only : memory_type, opening_bond
    use axijoint_joints_field, only : joint_field_type, commit_field
-   use axijoint_joints_history, only : history_type, new_state
+   use axijoint_joints_history, only : history_type, new_state, turning_places, most_turns
    use axijoint_joints_loads, only : joint_loads_type, put_loads
    use axijoint_joints_planes, only : synthesize
    use axijoint_joints_scene, only : scene_type, motion_of
@@ -18,22 +17,17 @@ module axijoint_analysis_error_remembered
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: way_type, lag_type, look_back, find_remembered, shift
+   public :: way_type, lag_type, look_back, find_remembered, shift, add_slip
 
-   !> Increments that the way is followed through at most, and turns of the loads on it
-   integer, parameter :: most_increments = 100, most_turns = 4
-   !> Loads turn where the cosine of the angle between their changes is less
-   real(wp), parameter :: straight = 1.0_wp - 1.0e-6_wp
-   !> Changes of load factors up to this part of them are none
-   real(wp), parameter :: rounding = 1.0e-12_wp
+   !> Increments that the way is followed through at most
+   integer, parameter :: most_increments = 100
 
-   !> Loads where they turn, and what the mesh leaves there
+   !> Where loads turn, and what the mesh leaves there
    type :: turn_type
-      !> On the nodes, and as joints see them
-      type(loading_type) :: loading
+      !> Factors of the load cases, and the loads as joints see them
+      real(wp), allocatable :: case_factor(:)
       type(joint_loads_type) :: loads
-      !> Displacements, amplitudes, shape (3, nodes, modes), and joints before their slip was added to what they remember
-      real(wp), allocatable :: displacement(:, :, :)
+      !> Joints before their slip was added to what they remember
       type(joint_field_type) :: field
       !> Errors of the jumps of joints that yield while their stress is held, amplitudes, shape (3, points, modes)
       real(wp), allocatable :: error(:, :, :)
@@ -53,8 +47,9 @@ module axijoint_analysis_error_remembered
    type :: way_type
       !> Whether it is known
       logical :: known = .false.
-      !> Places of the states after which loads turned
+      !> Places of the states after which loads turned, and their displacements
       integer, allocatable :: places(:)
+      type(solved_state_type), allocatable :: solved(:)
       !> Loads there, and at the end
       type(turn_type), allocatable :: turns(:)
       !> What joints remember before the last increment, shape (points, planes)
@@ -81,7 +76,7 @@ contains
       way%places = turning_places(history)
       if (size(way%places) > most_turns .or. size(history%states) > most_increments) return
       call load_turns(model, structure, history, way, found)
-      if (found) call follow(structure, history, .false., way, memory, found)
+      if (found) call follow(structure, history, way, memory, found)
       way%known = found
       if (found) call move_alloc(memory, way%memory)
    end subroutine look_back
@@ -108,7 +103,7 @@ contains
       do i = 1, size(errors)
          way%turns(i)%error = errors(i)%jump(:, structure%yielding, :)
       end do
-      call follow(structure, history, .true., way, better, found, lag)
+      call follow(structure, history, way, better, found, lag)
       lag%known = found
       if (.not. found) return
       allocate (lag%slip(3, size(better, 1), size(better, 2)))
@@ -116,31 +111,6 @@ contains
          lag%slip(i, :, :) = better%slip(i) - way%memory%slip(i)
       end do
    end subroutine find_remembered
-
-   !> Places of the states after which loads turn
-   pure function turning_places(history) result(places)
-      !> What the increments came to
-      type(history_type), intent(in) :: history
-      !> The places
-      integer, allocatable :: places(:)
-
-      real(wp), allocatable :: before(:), after(:)
-      integer :: k
-
-      allocate (places(0))
-      before = 0.0_wp*history%loading%case_factor
-      associate (states => history%states)
-         do k = 1, size(states)
-            if (k == 1) after = states(1)%case_factor
-            if (k > 1) after = states(k)%case_factor - states(k - 1)%case_factor
-            if (norm2(after) > rounding*norm2(states(k)%case_factor)) before = after  ! else loads are held, and turn later if at all
-            after = history%loading%case_factor - states(k)%case_factor
-            if (k < size(states)) after = states(k + 1)%case_factor - states(k)%case_factor
-            if (.not. norm2(after) > rounding*norm2(states(k)%case_factor)) cycle
-            if (dot_product(before, after) < straight*norm2(before)*norm2(after)) places = [places, k]
-         end do
-      end associate
-   end function turning_places
 
    !> Find loads where they turn, and what they do
    subroutine load_turns(model, structure, history, way, found)
@@ -155,49 +125,37 @@ contains
       !> Whether they were found
       logical, intent(out) :: found
 
-      type(solved_state_type) :: solved(size(way%places))
       type(error_type), allocatable :: error
-      integer :: i
+      integer :: i, n
 
-      do i = 1, size(solved)
-         associate (state => history%states(way%places(i)))
-            allocate (solved(i)%displacement(3, size(history%loading%right, 2), size(structure%modes)))
-            call load_plastic_strain(model, structure, state, solved(i)%loading)
-            solved(i)%excess = state%excess
-         end associate
-      end do
-      if (size(solved) > 0) call solve_states(structure, model, solved, error)
+      n = size(way%places)
+      allocate (way%solved(n), way%turns(n + 1))
+      call solve_increments(model, structure, history%states, way%places, way%solved, error)
       found = .not. allocated(error)
       if (.not. found) return
-      allocate (way%turns(size(solved) + 1))
-      do i = 1, size(solved)
-         associate (turn => way%turns(i))
-            turn%loading = solved(i)%loading
-            call move_alloc(solved(i)%displacement, turn%displacement)
-            turn%loads = history%scene%loads
-            call put_loads(structure%equations, structure%condensed, turn%loading, turn%loads)
-         end associate
+      do i = 1, n
+         way%turns(i)%case_factor = history%states(way%places(i))%case_factor
+         way%turns(i)%loads = history%scene%loads
+         call put_loads(structure%equations, structure%condensed, way%solved(i)%loading, way%turns(i)%loads)
       end do
-      way%turns(i)%loading = history%loading
-      way%turns(i)%loads = history%scene%loads
+      way%turns(n + 1)%case_factor = history%loading%case_factor
+      way%turns(n + 1)%loads = history%scene%loads
    end subroutine load_turns
 
    !> Follow the increments but the last
-   subroutine follow(structure, history, with_errors, way, memory, found, lag)
+   subroutine follow(structure, history, way, memory, found, lag)
       !> The structure
       type(structure_type), intent(in) :: structure
       !> What the increments came to
       type(history_type), intent(in) :: history
-      !> Whether the errors of the mesh act; else the way takes the states where loads turn
-      logical, intent(in) :: with_errors
-      !> The way
+      !> The way; takes the states where loads turn if no errors act
       type(way_type), intent(inout) :: way
       !> What joints remember in the end, shape (points, planes)
       type(memory_type), allocatable, intent(inout) :: memory(:, :)
       !> Whether all states were found
       logical, intent(out) :: found
-      !> Takes by what the states differ from those that were kept: where nothing but slip on the way tells where parts stand, the next
-      !> begins there
+      !> Lets the errors of the mesh act, and takes by what the states differ from those that were kept then: where nothing but slip on
+      !> the way tells where parts stand, the next begins there
       type(lag_type), intent(inout), optional :: lag
 
       type(joint_field_type) :: field
@@ -212,12 +170,12 @@ contains
       do k = 1, size(history%states)
          call begin(structure, history, history%states(k), field)
          if (present(lag)) call shift(structure, history%scene, lag, field)
-         call set_loads(way%turns, t, history%states(k)%case_factor, with_errors, scene)
+         call set_loads(way%turns, t, history%states(k)%case_factor, present(lag), scene)
          start = field%memory
          call find_again(structure%condensed, scene, start, field, found)
          if (.not. found) return
          if (any(way%places == k)) then
-            if (.not. with_errors) way%turns(t)%field = field
+            if (.not. present(lag)) way%turns(t)%field = field
             t = t + 1
          end if
          if (present(lag)) then
@@ -264,18 +222,26 @@ contains
       !> The state
       type(joint_field_type), intent(inout) :: field
 
-      integer :: i
-
-      if (allocated(lag%slip)) then
-         do i = 1, 3
-            field%memory%slip(i) = field%memory%slip(i) + lag%slip(i, :, :)
-         end do
-      end if
+      if (allocated(lag%slip)) call add_slip(lag%slip, field%memory)
       if (.not. allocated(lag%excess)) return
       field%excess = field%excess + lag%excess
       field%offset = field%offset + lag%offset
       field%moved = synthesize(scene%planes, motion_of(structure%condensed, scene, field%offset))
    end subroutine shift
+
+   !> Add slip to what points remember
+   pure subroutine add_slip(slip, memory)
+      !> The slip, shape (3, points, planes)
+      real(wp), intent(in) :: slip(:, :, :)
+      !> What they remember, shape (points, planes)
+      type(memory_type), intent(inout) :: memory(:, :)
+
+      integer :: i
+
+      do i = 1, 3
+         memory%slip(i) = memory%slip(i) + slip(i, :, :)
+      end do
+   end subroutine add_slip
 
    !> Loads on the way to a turn
    subroutine set_loads(turns, t, case_factor, with_errors, scene)
@@ -292,8 +258,8 @@ contains
       real(wp) :: share, from(size(case_factor))
 
       from = 0.0_wp
-      if (t > 1) from = turns(t - 1)%loading%case_factor
-      associate (way => turns(t)%loading%case_factor - from, to => turns(t))
+      if (t > 1) from = turns(t - 1)%case_factor
+      associate (way => turns(t)%case_factor - from, to => turns(t))
          share = 0.0_wp
          if (norm2(way) > 0.0_wp) share = dot_product(case_factor - from, way)/dot_product(way, way)
          scene%loads%free = share*to%loads%free

@@ -15,8 +15,7 @@ module axijoint_analysis_fine_blocks
    !> long sides
    real(wp), parameter :: slender = 2.0_wp*(1.0_wp + 1.0e-9_wp)  ! rounding, of units, does not decide
    !> A wall of elements longer than this times sqrt(r t), the length over which a tube of radius r bends where it is
-   !> loaded or held, is strongly coupled along itself: what bends it within an element moves its neighbours. In a
-   !> monopile (t = r/38) steps came to 0.6 of the difference in elements of 4 sqrt(r t), to all of it in those of 2
+   !> loaded or held, is strongly coupled along itself: what bends it within an element moves its neighbours
    real(wp), parameter :: bending = 2.0_wp
    !> Elements from one surface of such a wall to the other at most: more make its block wide
    integer, parameter :: most_across = 2
