@@ -8,7 +8,7 @@
 !> digits are gathered (`gathered_flexibility`), products are in single precision, and what a solution leaves
 !> is found with all digits, and solved for again
 module axijoint_joints_newton_system
-   use omp_lib, only : omp_get_level
+   use omp_lib, only : omp_get_level, omp_get_num_threads, omp_get_thread_num
    use axijoint_base_kinds, only : wp, sp
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_gathered_flexibility, only : gathered_type, gathering_type, gather_moving, is_worth_threads
@@ -370,7 +370,7 @@ contains
       end if
    end subroutine apply
 
-   !> The same by points, components and modes. Flexibilities are halved among threads, whatever the number of these
+   !> The same by points, components and modes
    subroutine act(self, n, n_modes, x, y)
       !> The operator
       class(derivative_type), intent(in) :: self
@@ -380,40 +380,53 @@ contains
       real(wp), intent(in) :: x(n, 3, n_modes)
       real(wp), intent(inout) :: y(n, 3, n_modes)
 
-      integer :: k, part
-
-      associate (jump => self%room%jump, parts => self%room%parts, gathering => self%gathering, scene => self%scene)
-         !$omp parallel if (is_worth_threads(self%condensed, n))
-         !$omp do schedule(static, 1) collapse(2)
-         do k = 1, n_modes
-            do part = 1, 2
-               call flex(gathering%flexibilities(scene%system(k)), 3*n, gathering%weight, part, x(:, :, k), parts(:, part, k))
-            end do
-         end do
-         !$omp end do
-         !$omp do schedule(static)
-         do k = 1, n_modes
-            jump(:, :, k) = scene%scale(k)*gathering%largest*reshape(parts(:, 1, k) + parts(:, 2, k), [n, 3])
-         end do
-         !$omp end do
-         if (self%condensed%shared .or. allocated(self%given_jump)) then
-            !$omp master
-            call complete_jumps(self, x, jump)
-            !$omp end master
-            !$omp barrier
-         end if
-         !$omp do schedule(static)
-         do k = 1, n_parts(n)
-            call find_part(self, k, n, jump, y)
-            associate (first => last_of(k - 1, n) + 1, last => last_of(k, n))
-               y(first:last, :, :) = x(first:last, :, :) - y(first:last, :, :)
-            end associate
-         end do
-         !$omp end do
+      if (is_worth_threads(self%condensed, n)) then
+         !$omp parallel
+         call act_in_part(self, omp_get_thread_num(), omp_get_num_threads(), n, n_modes, x, y)
          !$omp end parallel
-      end associate
+      else  ! a region of one thread costs as much as the shortest products
+         call act_in_part(self, 0, 1, n, n_modes, x, y)
+      end if
       if (allocated(self%blocks)) call precondition(self%blocks, y)
    end subroutine act
+
+   !> The part of one thread. Flexibilities are halved among threads, whatever the number of these
+   subroutine act_in_part(self, thread, n_threads, n, n_modes, x, y)
+      !> The operator
+      class(derivative_type), intent(in) :: self
+      !> The thread, from 0, and how many there are
+      integer, intent(in) :: thread, n_threads
+      !> Numbers of points and modes
+      integer, intent(in) :: n, n_modes
+      !> Amplitudes of excess stress, and the product
+      real(wp), intent(in) :: x(n, 3, n_modes)
+      real(wp), intent(inout) :: y(n, 3, n_modes)
+
+      integer :: first, half, k, last, part
+
+      associate (jump => self%room%jump, parts => self%room%parts, gathering => self%gathering, scene => self%scene)
+         do half = 1 + thread, 2*n_modes, n_threads
+            k = (half + 1)/2
+            part = half - 2*(k - 1)
+            call flex(gathering%flexibilities(scene%system(k)), 3*n, gathering%weight, part, x(:, :, k), parts(:, part, k))
+         end do
+         call wait_for_all(n_threads)
+         do k = 1 + thread, n_modes, n_threads
+            jump(:, :, k) = scene%scale(k)*gathering%largest*reshape(parts(:, 1, k) + parts(:, 2, k), [n, 3])
+         end do
+         call wait_for_all(n_threads)
+         if (self%condensed%shared .or. allocated(self%given_jump)) then
+            if (thread == 0) call complete_jumps(self, x, jump)
+            call wait_for_all(n_threads)
+         end if
+         do k = 1 + thread, n_parts(n), n_threads
+            call find_part(self, k, n, jump, y)
+            first = last_of(k - 1, n) + 1
+            last = last_of(k, n)
+            y(first:last, :, :) = x(first:last, :, :) - y(first:last, :, :)
+         end do
+      end associate
+   end subroutine act_in_part
 
    !> The same in single precision
    subroutine act_by_few_digits(self, n, n_modes, x, y)
@@ -425,45 +438,69 @@ contains
       real(wp), intent(in) :: x(n, 3, n_modes)
       real(wp), intent(inout) :: y(n, 3, n_modes)
 
-      integer :: first, k, last, part
+      if (is_worth_threads(self%condensed, n)) then
+         !$omp parallel
+         call act_in_part_by_few_digits(self, omp_get_thread_num(), omp_get_num_threads(), n, n_modes, x, y)
+         !$omp end parallel
+      else
+         call act_in_part_by_few_digits(self, 0, 1, n, n_modes, x, y)
+      end if
+   end subroutine act_by_few_digits
+
+   !> The part of one thread
+   subroutine act_in_part_by_few_digits(self, thread, n_threads, n, n_modes, x, y)
+      !> The operator
+      class(derivative_type), intent(in) :: self
+      !> The thread, from 0, and how many there are
+      integer, intent(in) :: thread, n_threads
+      !> Numbers of points and modes
+      integer, intent(in) :: n, n_modes
+      !> Amplitudes of excess stress, and the product
+      real(wp), intent(in) :: x(n, 3, n_modes)
+      real(wp), intent(inout) :: y(n, 3, n_modes)
+
+      integer :: first, half, k, last, part
 
       associate (parts => self%room%few_digits, gathering => self%gathering, jump => self%gathering%product%jump, &
                  excess => self%gathering%product%excess)
-         !$omp parallel private(first, last) if (is_worth_threads(self%condensed, n))
-         !$omp do schedule(static, 1) collapse(2)
-         do k = 1, n_modes
-            do part = 1, 2
-               associate (flexibility => gathering%flexibilities(self%scene%system(k)))
-                  if (allocated(flexibility%single)) call symmetric_product(flexibility%single, &
-                     real(gathering%weight*reshape(x(:, :, k), [3*n]), sp), parts(:, part, k), part=part)
-               end associate
-            end do
+         do half = 1 + thread, 2*n_modes, n_threads
+            k = (half + 1)/2
+            part = half - 2*(k - 1)
+            associate (flexibility => gathering%flexibilities(self%scene%system(k)))
+               if (allocated(flexibility%single)) call symmetric_product(flexibility%single, &
+                  real(gathering%weight*reshape(x(:, :, k), [3*n]), sp), parts(:, part, k), part=part)
+            end associate
          end do
-         !$omp end do
-         !$omp do schedule(static)
-         do k = 1, n_modes
+         call wait_for_all(n_threads)
+         do k = 1 + thread, n_modes, n_threads
             jump(:n, :, k) = real(self%scale(k), sp)*reshape(parts(:, 1, k) + parts(:, 2, k), [n, 3])
          end do
-         !$omp end do
+         call wait_for_all(n_threads)
          if (self%condensed%shared .or. allocated(self%given_jump)) then
-            !$omp master
-            self%room%jump = real(jump(:n, :, :), wp)/self%largest
-            call complete_jumps(self, x, self%room%jump)
-            jump(:n, :, :) = real(self%largest*self%room%jump, sp)
-            !$omp end master
-            !$omp barrier
+            if (thread == 0) then
+               self%room%jump = real(jump(:n, :, :), wp)/self%largest
+               call complete_jumps(self, x, self%room%jump)
+               jump(:n, :, :) = real(self%largest*self%room%jump, sp)
+            end if
+            call wait_for_all(n_threads)
          end if
-         !$omp do schedule(static)
-         do k = 1, n_groups(n)
+         do k = 1 + thread, n_groups(n), n_threads
             first = (k - 1)*points_together + 1
             last = min(n, k*points_together)
             call multiply_group(gathering%product, k)
             y(first:last, :, :) = x(first:last, :, :) - excess(first:last, :, :)
          end do
-         !$omp end do
-         !$omp end parallel
       end associate
-   end subroutine act_by_few_digits
+   end subroutine act_in_part_by_few_digits
+
+   !> Wait for all threads that share a product
+   subroutine wait_for_all(n_threads)
+      !> How many there are
+      integer, intent(in) :: n_threads
+
+      if (n_threads == 1) return
+      !$omp barrier
+   end subroutine wait_for_all
 
    !> What other ranks know of jumps, and the load whose work is given
    subroutine complete_jumps(self, x, jump)

@@ -34,7 +34,7 @@ contains
 
    !> Find the state of a changed scene. Which bonds break and which points soften is found from the
    !> beginning of the increment, and so is what Newton's method does not reach by itself
-   subroutine find_again(condensed, scene, start, field, found)
+   subroutine find_again(condensed, scene, start, field, found, enough)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads
@@ -45,6 +45,8 @@ contains
       type(joint_field_type), intent(inout) :: field
       !> Whether a state was found
       logical, intent(out) :: found
+      !> Stress that may be missing over the stress, where the state is one that was found before; rounding if absent
+      real(wp), intent(in), optional :: enough
 
       type(joint_field_type), allocatable :: before
       type(iteration_type), allocatable :: path(:)
@@ -55,7 +57,11 @@ contains
       farthest = far*maxval([abs(scene%loads%largest), maxval(abs(scene%loads%free)), maxval(abs(field%jump))])
       if (all(scene%laws%opening /= opening_bond .and. .not. scene%laws%softens)) then
          allocate (before, source=field)
-         call settle(condensed, scene, field, found)
+         if (present(enough)) then
+            call go_on(condensed, scene, one_digit, enough, linear_tolerance, field, found)
+         else
+            call settle(condensed, scene, field, found)
+         end if
          if (found) found = is_near(condensed, scene, field, farthest)
          if (found) return
          field = before
@@ -103,7 +109,7 @@ contains
       !> Whether a state was found
       logical, intent(out) :: found
 
-      call go_on(condensed, scene, one_digit, linear_tolerance, field, found)
+      call go_on(condensed, scene, one_digit, strict, linear_tolerance, field, found)
    end subroutine settle
 
    !> Go as far as numbers do
@@ -117,17 +123,17 @@ contains
 
       logical :: found
 
-      call go_on(condensed, scene, 0.0_wp, strict_tolerance, field, found)
+      call go_on(condensed, scene, 0.0_wp, strict, strict_tolerance, field, found)
    end subroutine settle_wholly
 
    !> Steps of Newton's method
-   subroutine go_on(condensed, scene, share, tolerance, field, found)
+   subroutine go_on(condensed, scene, share, least, tolerance, field, found)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
-      !> What may be missing, over what is missing at first
-      real(wp), intent(in) :: share
+      !> What may be missing, over what is missing at first, and over the stress
+      real(wp), intent(in) :: share, least
       !> Tolerance of the linear solutions
       real(wp), intent(in) :: tolerance
       !> State of the joints
@@ -149,7 +155,7 @@ contains
       call evaluate(condensed, scene, field, residual)
       field%carried = field%stress
       call linearize(condensed, scene, 0.0_wp, field, newton)
-      enough = max(share**2*newton%merit, rounding(condensed, field))  ! squares
+      enough = max(share**2*newton%merit, rounding(condensed, field, least))  ! squares
       made = .true.
       do k = 1, most_steps
          if (newton%merit <= enough .or. .not. made) exit
@@ -158,18 +164,20 @@ contains
       found = newton%merit <= enough
    end subroutine go_on
 
-   !> What rounding may leave missing, squared
-   pure real(wp) function rounding(condensed, field)
+   !> What may be missing of the stress, and rounding of the excess stress, squared
+   pure real(wp) function rounding(condensed, field, least)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> State of the joints
       type(joint_field_type), intent(in) :: field
+      !> Stress over all of it
+      real(wp), intent(in) :: least
 
       integer :: k
 
       rounding = 0.0_wp
       do k = 1, size(condensed%points)
-         rounding = rounding + condensed%points(k)%weight*(strict**2*sum(field%stress(:, k, :)**2) &
+         rounding = rounding + condensed%points(k)%weight*(least**2*sum(field%stress(:, k, :)**2) &
             /size(field%stress, 3) + noise**2*sum(field%excess(:, k, :)**2))
       end do
    end function rounding

@@ -17,13 +17,13 @@ module axijoint_analysis_error_joints_mesh_error
    use axijoint_joints_settle, only : find_again
    implicit none
    private
-   public :: mesh_error_of_balanced, add_answer
+   public :: find_held_errors, find_answer, add_answer
 
 contains
 
-   !> Errors of the mesh while the stress of the joints is held, as the law gives it along the fine joints; and what joints
-   !> answer to these, and to what the mesh left before of slip that lasts, whose effect on the displacements is for `add_answer`
-   subroutine mesh_error_of_balanced(structure, history, balanced, displacement, way, error, answer)
+   !> Errors of the mesh while the stress of the joints is held, as the law gives it along the fine joints: where loads turned on the
+   !> way, if it is known, and in the end
+   subroutine find_held_errors(structure, history, balanced, displacement, way, errors)
       !> The structure
       type(structure_type), intent(inout) :: structure
       !> What the increments came to
@@ -33,33 +33,54 @@ contains
       !> Displacement amplitudes, shape (3, nodes, modes)
       real(wp), intent(in), target :: displacement(:, :, :)
       !> The way that loads took, if it is known, and slip that came about on it lasts
-      type(way_type), intent(inout), target :: way
-      !> The errors
+      type(way_type), intent(in), target :: way
+      !> The errors, those in the end last
+      type(mesh_error_type), allocatable, intent(out) :: errors(:)
+
+      type(judged_state_type), allocatable :: states(:)
+      real(wp) :: began
+      integer :: i, n
+
+      began = omp_get_wtime()
+      n = 0
+      if (way%known) n = size(way%places)
+      allocate (states(n + 1), errors(n + 1))
+      do i = 1, n
+         states(i) = judged_state_type(way%solved(i)%loading, way%turns(i)%field, way%solved(i)%displacement)
+      end do
+      states(n + 1) = judged_state_type(history%loading, balanced, displacement)
+      call errors_by_law(structure, history%scene, states, errors)
+      errors(n + 1)%seconds = omp_get_wtime() - began
+   end subroutine find_held_errors
+
+   !> What joints answer to these errors, and to what the mesh left before of slip that lasts; the effect on the displacements is
+   !> for `add_answer`
+   subroutine find_answer(structure, history, balanced, errors, way, error, answer)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> State of the joints, balanced
+      type(joint_field_type), intent(in) :: balanced
+      !> The errors while the stress of the joints is held
+      type(mesh_error_type), intent(in) :: errors(:)
+      !> The way that loads took
+      type(way_type), intent(inout) :: way
+      !> The errors of the mesh in the end
       type(mesh_error_type), intent(out) :: error
       !> The change of the joints by these; not known if no state was found
       type(joint_change_type), intent(out) :: answer
 
-      type(judged_state_type), allocatable :: states(:)
-      type(mesh_error_type), allocatable :: errors(:)
       type(memory_type), allocatable :: start(:, :)
       type(joint_field_type), allocatable :: after
       type(scene_type) :: corrected
       type(lag_type) :: lag
       real(wp) :: began, largest
       logical :: found
-      integer :: i, n
 
       began = omp_get_wtime()
+      error = errors(size(errors))
       associate (condensed => structure%condensed, scene => history%scene)
-         n = 0
-         if (way%known) n = size(way%places)
-         allocate (states(n + 1), errors(n + 1))
-         do i = 1, n
-            states(i) = judged_state_type(way%solved(i)%loading, way%turns(i)%field, way%solved(i)%displacement)
-         end do
-         states(n + 1) = judged_state_type(history%loading, balanced, displacement)
-         call errors_by_law(structure, scene, states, errors)
-         error = errors(n + 1)
          allocate (after, source=balanced)
          corrected = scene
          corrected%loads%free = scene%loads%free + error%jump(:, structure%yielding, :)
@@ -81,7 +102,7 @@ contains
          end if
          if (found) error%joint_stress = answer%stress
       end associate
-      error%seconds = omp_get_wtime() - began
+      error%seconds = error%seconds + omp_get_wtime() - began
 
    contains
 
@@ -100,7 +121,7 @@ contains
          end associate
       end function change_by
 
-   end subroutine mesh_error_of_balanced
+   end subroutine find_answer
 
    !> Add what the joints answer to the errors of displacements and jumps
    subroutine add_answer(structure, answer, effect, error)

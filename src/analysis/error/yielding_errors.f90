@@ -10,11 +10,12 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_analysis_error_held_error, only : judged_state_type, error_of_held
    use axijoint_analysis_error_iteration_left, only : iteration_left_type
    use axijoint_analysis_error_joint_shares, only : take_share, nothing_is_left, has_moved, unloaded, least_changes
-   use axijoint_analysis_error_joints_mesh_error, only : mesh_error_of_balanced, add_answer
+   use axijoint_analysis_error_joints_mesh_error, only : find_held_errors, find_answer, add_answer
    use axijoint_analysis_error_remembered, only : way_type, look_back
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
    use axijoint_assembly_equations, only : equations_type
    use axijoint_base_kinds, only : wp
+   use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_history, only : history_type
@@ -111,8 +112,8 @@ contains
       end associate
    end subroutine balance
 
-   !> What planes, harmonics and the mesh leave. They know nothing of each other: where threads have little to do in
-   !> each, they are found at once; and each factor is read once for what they do to the displacements
+   !> What planes, harmonics and the mesh leave. What joints answer to planes and harmonics and what they answer to the mesh are
+   !> found at once where threads have little to do in each; and each factor is read once for what that does to the displacements
    subroutine find_other_changes(model, structure, history, balanced, displacement, lasts, changes, effect, mesh_error)
       !> The job
       type(model_type), intent(in) :: model
@@ -135,13 +136,16 @@ contains
 
       type(joint_change_type) :: all(3)
       type(way_type) :: way
+      type(mesh_error_type), allocatable :: errors(:)
       real(wp) :: seconds, looked_back, share
-      logical :: answered
+      logical :: answered, apart
 
       seconds = omp_get_wtime()
       if (lasts) call look_back(model, structure, history, way)
       looked_back = omp_get_wtime() - seconds
-      if (is_small(structure%equations)) then
+      apart = is_small(structure%equations)
+      if (.not. apart) call find_held_errors(structure, history, balanced, displacement, way, errors)
+      if (apart .or. are_for_one_thread(structure%condensed, size(balanced%jump))) then
          !$omp parallel sections num_threads(2)
          !$omp section
          call see_mesh()
@@ -171,9 +175,10 @@ contains
 
    contains
 
-      !> What the mesh leaves, and the answer of the joints
+      !> What the mesh leaves, unless it is known, and what joints answer to it
       subroutine see_mesh()
-         call mesh_error_of_balanced(structure, history, balanced, displacement, way, mesh_error, all(3))
+         if (.not. allocated(errors)) call find_held_errors(structure, history, balanced, displacement, way, errors)
+         call find_answer(structure, history, balanced, errors, way, mesh_error, all(3))
       end subroutine see_mesh
 
       !> What planes and harmonics leave
@@ -197,5 +202,20 @@ contains
          .and. equations%n_kept == size(equations%systems)
       if (is_small) is_small = sum(equations%classes(equations%systems%class)%dofs%n_equations) <= few
    end function is_small
+
+   !> Whether threads gain less where they share the products and sums of one state of the joints than where each finds a state: as
+   !> long as there are few of them, or little to share
+   logical function are_for_one_thread(condensed, n_numbers)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Jumps on all planes
+      integer, intent(in) :: n_numbers
+
+      !> Threads at most, and jumps
+      integer, parameter :: few_threads = 4, few = 5000
+
+      are_for_one_thread = omp_get_max_threads() > 1 .and. .not. condensed%shared
+      if (n_numbers > few) are_for_one_thread = are_for_one_thread .and. omp_get_max_threads() <= few_threads
+   end function are_for_one_thread
 
 end module axijoint_analysis_error_yielding_errors
