@@ -19,6 +19,10 @@ BAND, SHARE, MOST = (0.5, 2.0), 0.9, 3.0
 MOST_BY_LOADS = 2.0  # what M cuts off loads is told by how these go on: the zeros of a patch are not seen, but it is no less than half
 ROUNDING = 1e-9  # a relative error below is that of the arithmetic, and not judged
 KINDS = ("3", "4", "4B", "6", "8", "8R", "9")
+# Increments of histories: factor and load case
+PUSHED = ((1, 1), *((.2, 2),)*5)
+HISTORIES = {"half let go": (*PUSHED, *((-.25, 2),)*2), "let go": (*PUSHED, *((-.25, 2),)*4),
+             "to and fro": (*PUSHED, *((-.25, 2),)*8, *((.3, 2),)*5)}
 
 
 @dataclass
@@ -85,7 +89,7 @@ def mesh_rows():
             yield row(f"chimney, m = {m}", scenes.chimney, setting, setting.fine(n=12), m=m)
         yield row("pipe pile", scenes.pipe_pile, Setting(kind), Setting().fine(n=3))
     for kind in ("4", "8"):
-        for name, steps in (("half let go", ((1, 1), (1, 2), (-.5, 2))), ("let go", ((1, 1), (1, 2), (-1, 2))), ("to and fro", ((1, 1), (1, 2), (-2, 2), (1.5, 2)))):
+        for name, steps in HISTORIES.items():
             yield row(f"pile in the ground, {name}", scenes.soil_pile, Setting(kind), Setting().fine(n=3), steps=steps)
             yield row(f"pipe pile, {name}", scenes.pipe_pile, Setting(kind), Setting().fine(n=3), steps=steps)
     for kind in ("4B", "8R"):
@@ -121,6 +125,9 @@ def circle_scenes():
     yield "peg", scenes.peg, "4", {}
     yield "rigid disc, e = 0.3 R", scenes.disc, "4", {"e": 0.3}
     yield "rigid disc, e = 0.6 R", scenes.disc, "4", {"e": 0.6}
+    for name in ("half let go", "to and fro"):
+        for pile, scene in (("pile in the ground", scenes.soil_pile), ("pipe pile", scenes.pipe_pile)):
+            yield f"{pile}, {name}", scene, "4", {"steps": HISTORIES[name]}
 
 
 def harmonic_rows():

@@ -10,7 +10,8 @@ module axijoint_joints_joint_errors
    use axijoint_joints_mechanism, only : mechanism_type, find_mechanism, hold_nothing, settle
    use axijoint_joints_planes, only : new_planes, synthesize, analyse
    use axijoint_joints_scene, only : scene_type, jumps, jumps_of_mode
-   use axijoint_joints_settle, only : find_again
+   use axijoint_joints_settle, only : find_again, roughly
+   use axijoint_joints_way, only : station_type, lag_type, remembered, find_lag, shift, add_slip
    use axijoint_model_joint_points, only : stiffest_base
    implicit none
    private
@@ -42,6 +43,8 @@ module axijoint_joints_joint_errors
    !> The changes by what makes them
    type :: joint_changes_type
       type(joint_change_type) :: iteration, planes, harmonics
+      !> Whether what planes and harmonics had wrong before the last increment is among theirs
+      logical :: follow_slip = .false.
    end type joint_changes_type
 
 contains
@@ -136,8 +139,9 @@ contains
       end do
    end function carry_nothing
 
-   !> Changes by more planes and harmonics, but for motions that nothing resists and no load acts on
-   subroutine find_joint_changes(condensed, scene, balanced, start, rounding, changes)
+   !> Changes by more planes and harmonics, but for motions that nothing resists and no load acts on; and by what these change of the
+   !> slip of earlier increments, if these are known and states are found
+   subroutine find_joint_changes(condensed, scene, balanced, start, stations, rounding, changes)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads
@@ -146,20 +150,22 @@ contains
       type(joint_field_type), intent(in) :: balanced
       !> What its points remembered at the beginning of its increment, shape (points, planes)
       type(memory_type), intent(in) :: start(:, :)
+      !> States on the way there; none if that is not known, or nothing of it lasts
+      type(station_type), intent(in) :: stations(:)
       !> Changes of stress up to this are none, shape (points)
       real(wp), intent(in) :: rounding(:)
       !> Takes the changes
       type(joint_changes_type), intent(inout) :: changes
 
-      type(scene_type) :: finer_scene, extended
-      type(joint_field_type), allocatable :: on_more, with_more
-      type(memory_type), allocatable :: memory(:, :)
+      type(scene_type) :: finer_scene
+      type(lag_type) :: of_planes, of_harmonics
       real(wp) :: clock
       integer :: n, step
 
       if (scene%planes%folds == 0) then  ! harmonic 0 alone: all planes are alike
          changes%planes = no_change(balanced)
          changes%harmonics = no_change(balanced)
+         changes%follow_slip = .true.
          return
       end if
       clock = omp_get_wtime()
@@ -168,35 +174,111 @@ contains
       step = max(finer, (4*maxval(scene%modes%harmonic) + n - 1)/n)
       finer_scene = scene
       finer_scene%planes = new_planes(step*n + 1, scene%modes, whole=scene%planes%folds == 1)
-      associate (count => size(finer_scene%planes%angle))
-         allocate (on_more, source=on_planes(balanced, step, count))
-         memory = on_planes_memory(start, step, count)
-      end associate
-      call find_again(condensed, finer_scene, memory, on_more, changes%planes%known)
-      changes%planes%stress = largest_change(scene, balanced, on_more, step, rounding)
-      changes%planes%excess = on_more%excess - balanced%excess
-      changes%planes%offset = offset_between(condensed, scene, balanced, finer_scene, on_more, rounding)
-      changes%planes%seconds = omp_get_wtime() - clock
-      changes%harmonics = no_change(on_more)
-      changes%harmonics%known = changes%planes%known
-      if (.not. changes%planes%known) return  ! more harmonics would begin from a state that is none
-      clock = omp_get_wtime()
-      call add_harmonics(condensed, finer_scene, on_more, extended, with_more)
-      if (allocated(with_more)) then
-         call find_again(condensed, extended, memory, with_more, changes%harmonics%known)
-         associate (m => size(scene%modes))
-            changes%harmonics%stress = beyond_twice(extended, with_more, m, condensed%points%proportion <= stiffest_base)* &
-               largest_change(scene, on_more, with_more, 1, rounding)
-            changes%harmonics%excess = with_more%excess(:, :, :m) - on_more%excess
-            changes%harmonics%offset = offset_between(condensed, finer_scene, on_more, extended, with_more, rounding)
-            with_more%excess(:, :, :m) = 0.0_wp
-         end associate
-         associate (jump => jumps(condensed, extended, with_more%excess, free=.false.))
-            changes%harmonics%beyond = sqrt(maxval(sum(synthesize(extended%planes, jump)**2, 1)))
-         end associate
+      if (size(stations) > 0) call follow(condensed, scene, finer_scene, step, stations, of_planes, of_harmonics)
+      clock = omp_get_wtime() - clock
+      call find_changes(of_planes, of_harmonics)
+      changes%follow_slip = of_planes%known .and. of_harmonics%known
+      if (changes%follow_slip .and. .not. (changes%planes%known .and. changes%harmonics%known)) then
+         changes%follow_slip = .false.
+         call find_changes(lag_type(), lag_type())
       end if
-      changes%harmonics%seconds = omp_get_wtime() - clock
+      changes%planes%seconds = changes%planes%seconds + 0.5_wp*clock
+      changes%harmonics%seconds = changes%harmonics%seconds + 0.5_wp*clock
+
+   contains
+
+      !> The changes, where joints remember so much more slip
+      subroutine find_changes(of_planes, of_harmonics)
+         !> By what they lag for few planes, and for few harmonics; nothing if not known
+         type(lag_type), intent(in) :: of_planes, of_harmonics
+
+         type(scene_type) :: extended
+         type(joint_field_type), allocatable :: on_more, with_more
+         type(memory_type), allocatable :: memory(:, :)
+         real(wp) :: clock
+
+         clock = omp_get_wtime()
+         associate (count => size(finer_scene%planes%angle))
+            allocate (on_more, source=on_planes(balanced, step, count))
+            memory = on_planes_memory(start, step, count)
+         end associate
+         call add_slip(of_planes, memory)
+         call shift(condensed, finer_scene, of_planes, on_more)
+         call find_again(condensed, finer_scene, memory, on_more, changes%planes%known)
+         changes%planes%stress = largest_change(scene, balanced, on_more, step, rounding)
+         changes%planes%excess = on_more%excess - balanced%excess
+         changes%planes%offset = offset_between(condensed, scene, balanced, finer_scene, on_more, rounding)
+         changes%planes%seconds = omp_get_wtime() - clock
+         changes%harmonics = no_change(on_more)
+         changes%harmonics%known = changes%planes%known
+         if (.not. changes%planes%known) return  ! more harmonics would begin from a state that is none
+         clock = omp_get_wtime()
+         call add_harmonics(condensed, finer_scene, on_more, extended, with_more)
+         if (allocated(with_more)) then
+            call add_slip(of_harmonics, memory)
+            call shift(condensed, extended, of_harmonics, with_more)
+            call find_again(condensed, extended, memory, with_more, changes%harmonics%known)
+            associate (m => size(scene%modes))
+               changes%harmonics%stress = beyond_twice(extended, with_more, m, condensed%points%proportion <= stiffest_base)* &
+                  largest_change(scene, on_more, with_more, 1, rounding)
+               changes%harmonics%excess = with_more%excess(:, :, :m) - on_more%excess
+               changes%harmonics%offset = offset_between(condensed, finer_scene, on_more, extended, with_more, rounding)
+               with_more%excess(:, :, :m) = 0.0_wp
+            end associate
+            associate (jump => jumps(condensed, extended, with_more%excess, free=.false.))
+               changes%harmonics%beyond = sqrt(maxval(sum(synthesize(extended%planes, jump)**2, 1)))
+            end associate
+         end if
+         changes%harmonics%seconds = omp_get_wtime() - clock
+      end subroutine find_changes
+
    end subroutine find_joint_changes
+
+   !> By what joints lag before the last increment for few planes and for few harmonics: the way is gone again from station to station
+   !> without these approximations
+   subroutine follow(condensed, scene, finer_scene, step, stations, of_planes, of_harmonics)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws and planes, and the same with so many times more planes
+      type(scene_type), intent(in) :: scene, finer_scene
+      integer, intent(in) :: step
+      !> The stations
+      type(station_type), intent(in) :: stations(:)
+      !> What planes and harmonics leave; both not known if a state was not found
+      type(lag_type), intent(out) :: of_planes, of_harmonics
+
+      type(scene_type) :: there, extended
+      type(joint_field_type), allocatable :: field, with_more
+      type(memory_type), allocatable :: start(:, :)
+      logical :: found
+      integer :: i
+
+      there = finer_scene
+      do i = 1, size(stations)
+         there%loads = stations(i)%loads
+         if (allocated(field)) deallocate (field)
+         allocate (field, source=on_planes(stations(i)%field, step, size(there%planes%angle)))
+         call shift(condensed, there, of_planes, field)
+         start = field%memory
+         call find_again(condensed, there, start, field, found, share=roughly)
+         if (.not. found) exit
+         call find_lag(on_planes_memory(remembered(scene%laws, stations(i)%field), step, size(there%planes%angle)), &
+            stations(i)%field, there%laws, field, of_planes)
+         call add_harmonics(condensed, there, field, extended, with_more)
+         if (.not. allocated(with_more)) then
+            of_harmonics = lag_type(.true., 0.0_wp*of_planes%slip, 0.0_wp*field%excess, 0.0_wp*field%offset)
+            cycle
+         end if
+         call shift(condensed, extended, of_harmonics, with_more)
+         start = with_more%memory
+         call find_again(condensed, extended, start, with_more, found, share=roughly)
+         if (.not. found) exit
+         call find_lag(remembered(there%laws, field), field, extended%laws, with_more, of_harmonics)
+      end do
+      if (found) return
+      of_planes%known = .false.
+      of_harmonics%known = .false.
+   end subroutine follow
 
    !> What all harmonics change of joint stress over what those up to 2 M do: 1 where they fall as fast as usual. Where slip turns
    !> round from one plane to the next, pressure has a peak there to which each doubling of M adds as much again, and no number of

@@ -13,12 +13,12 @@ module axijoint_joints_settle
    use axijoint_joints_scene, only : scene_type, evaluate
    implicit none
    private
-   public :: settle, settle_wholly, find_again
+   public :: settle, settle_wholly, find_again, roughly
 
    !> Stress that may be missing, over what is missing at first: of an error one digit is enough;
    !> over the stress, where nothing is to be left; and over the excess stress, of which points that
    !> stand open have rounding alone: a step would follow that
-   real(wp), parameter :: one_digit = 0.003_wp, strict = 1.0e-10_wp, noise = 1.0e-13_wp
+   real(wp), parameter :: one_digit = 0.003_wp, roughly = 0.03_wp, strict = 1.0e-10_wp, noise = 1.0e-13_wp
    !> Tolerance of the linear solutions, and most steps
    real(wp), parameter :: linear_tolerance = 0.01_wp, strict_tolerance = 1.0e-2_wp
    integer, parameter :: most_steps = 12
@@ -34,7 +34,7 @@ contains
 
    !> Find the state of a changed scene. Which bonds break and which points soften is found from the
    !> beginning of the increment, and so is what Newton's method does not reach by itself
-   subroutine find_again(condensed, scene, start, field, found, enough)
+   subroutine find_again(condensed, scene, start, field, found, share, enough)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws, planes and loads
@@ -45,23 +45,24 @@ contains
       type(joint_field_type), intent(inout) :: field
       !> Whether a state was found
       logical, intent(out) :: found
-      !> Stress that may be missing over the stress, where the state is one that was found before; rounding if absent
-      real(wp), intent(in), optional :: enough
+      !> Stress that may be missing over what is missing at first, if more than one digit leaves; and over the stress, if more than
+      !> rounding leaves: where the state is one that was found before
+      real(wp), intent(in), optional :: share, enough
 
       type(joint_field_type), allocatable :: before
       type(iteration_type), allocatable :: path(:)
       type(verdict_type) :: verdict
       type(newton_method_type) :: newton
-      real(wp) :: farthest
+      real(wp) :: farthest, of_change, of_stress
 
       farthest = far*maxval([abs(scene%loads%largest), maxval(abs(scene%loads%free)), maxval(abs(field%jump))])
       if (all(scene%laws%opening /= opening_bond .and. .not. scene%laws%softens)) then
          allocate (before, source=field)
-         if (present(enough)) then
-            call go_on(condensed, scene, one_digit, enough, linear_tolerance, field, found)
-         else
-            call settle(condensed, scene, field, found)
-         end if
+         of_change = one_digit
+         of_stress = strict
+         if (present(share)) of_change = share
+         if (present(enough)) of_stress = enough
+         call go_on(condensed, scene, of_change, of_stress, linear_tolerance, field, found)
          if (found) found = is_near(condensed, scene, field, farthest)
          if (found) return
          field = before

@@ -7,7 +7,7 @@ module axijoint_analysis_core_path
    use axijoint_joints_history, only : history_type
    implicit none
    private
-   public :: keeps_slip, is_torn, is_soft_in_part, turns_slip
+   public :: keeps_slip, slide_together, is_torn, is_soft_in_part, turns_slip
 
    !> Components of slip
    integer, parameter :: along(2) = [xi, theta]
@@ -27,17 +27,14 @@ contains
 
       !> Part of the largest displacement that such slip is worth a word from: if a tenth of it is wrong, a thousandth of that
       real(wp), parameter :: worth = 0.01_wp
-      !> Part of the points that hold up to which they hold next to nothing
-      real(wp), parameter :: few = 0.2_wp
       logical :: resists(size(history%field%state, 1)), slides
       integer :: i, j
 
       keeps_slip = .false.
       if (size(history%states) == 0) return
-      resists = max(history%scene%laws%cohesion, history%scene%laws%friction) > 0.0_wp  ! others slip freely
-      associate (state => history%field%state, of => spread(resists, 2, size(history%field%state, 2)))
-         slides = size(structure%condensed%floating) > 0 .and. &
-            count(of .and. state == state_stick) <= few*count(of .and. state /= state_open)
+      resists = are_rough(history)
+      slides = slide_together(structure, history)
+      associate (state => history%field%state)
          do j = 1, size(state, 2)
             do i = 1, size(state, 1)
                if (.not. resists(i)) cycle
@@ -47,6 +44,32 @@ contains
          end do
       end associate
    end function keeps_slip
+
+   !> Whether next to all joints slip, so that little but their slip tells where parts stand that they alone hold
+   pure logical function slide_together(structure, history) result(slide)
+      !> Its joint points
+      type(structure_type), intent(in) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+
+      !> Part of the points that hold up to which they hold next to nothing
+      real(wp), parameter :: few = 0.2_wp
+
+      associate (state => history%field%state, of => spread(are_rough(history), 2, size(history%field%state, 2)))
+         slide = size(structure%condensed%floating) > 0 .and. &
+            count(of .and. state == state_stick) <= few*count(of .and. state /= state_open)
+      end associate
+   end function slide_together
+
+   !> Whether points resist slip; others slip freely
+   pure function are_rough(history) result(rough)
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> Shape (points)
+      logical, allocatable :: rough(:)
+
+      rough = max(history%scene%laws%cohesion, history%scene%laws%friction) > 0.0_wp
+   end function are_rough
 
    !> How much longer the slip of a point was on its way than where that led; and all of it from before the last increment, if that
    !> stays. A point that stood open begins anew

@@ -246,8 +246,9 @@ module axijoint_analysis_core_results
       logical :: at_rest = .false.
       !> Whether joints hold, or slipped back, that slipped in earlier increments: what the estimates tell is of the last one alone
       logical :: keeps_slip = .false.
-      !> Whether what the mesh left of their slip then is among the errors
-      logical :: follows_slip = .false.
+      !> Whether what the mesh left of their slip then is among the errors, and whether what planes and harmonics left is, too: then
+      !> the first is so only where parts slide as a whole or most of a load is gone
+      logical :: follows_slip = .false., follows_all_slip = .false.
       !> Whether slip turns aside within an increment: estimates know nothing of the way there
       logical :: turns_slip = .false.
       !> Whether some bonds broke and others hold: which of them hangs on their order, of which estimates of joint stress know nothing

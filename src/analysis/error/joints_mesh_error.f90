@@ -4,7 +4,7 @@ module axijoint_analysis_error_joints_mesh_error
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_error_held_error, only : judged_state_type, errors_by_law
    use axijoint_analysis_error_joint_shares, only : least_changes
-   use axijoint_analysis_error_remembered, only : way_type, lag_type, find_remembered, shift, add_slip
+   use axijoint_analysis_error_remembered, only : way_type, find_remembered
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
    use axijoint_assembly_force, only : joint_jump
    use axijoint_base_kinds, only : wp
@@ -15,6 +15,7 @@ module axijoint_analysis_error_joints_mesh_error
    use axijoint_joints_joint_errors, only : joint_change_type, change_between, offset_between
    use axijoint_joints_scene, only : scene_type
    use axijoint_joints_settle, only : find_again
+   use axijoint_joints_way, only : lag_type, shift, add_slip
    implicit none
    private
    public :: find_held_errors, find_answer, add_answer
@@ -46,7 +47,7 @@ contains
       if (way%known) n = size(way%places)
       allocate (states(n + 1), errors(n + 1))
       do i = 1, n
-         states(i) = judged_state_type(way%solved(i)%loading, way%turns(i)%field, way%solved(i)%displacement)
+         states(i) = judged_state_type(way%solved(i)%loading, way%stations(i)%field, way%solved(i)%displacement)
       end do
       states(n + 1) = judged_state_type(history%loading, balanced, displacement)
       call errors_by_law(structure, history%scene, states, errors)
@@ -65,7 +66,7 @@ contains
       !> The errors while the stress of the joints is held
       type(mesh_error_type), intent(in) :: errors(:)
       !> The way that loads took
-      type(way_type), intent(inout) :: way
+      type(way_type), intent(in) :: way
       !> The errors of the mesh in the end
       type(mesh_error_type), intent(out) :: error
       !> The change of the joints by these; not known if no state was found
@@ -91,8 +92,8 @@ contains
          end if
          if (lag%known) then
             start = history%start
-            call add_slip(lag%slip, start)
-            call shift(structure, scene, lag, after)
+            call add_slip(lag, start)
+            call shift(condensed, scene, lag, after)
             call find_again(condensed, corrected, start, after, error%follows_slip)
          end if
          if (error%follows_slip) then

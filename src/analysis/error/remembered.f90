@@ -12,38 +12,26 @@ module axijoint_analysis_error_remembered
    use axijoint_joints_loads, only : joint_loads_type, put_loads
    use axijoint_joints_planes, only : synthesize
    use axijoint_joints_scene, only : scene_type, motion_of
-   use axijoint_joints_settle, only : find_again
+   use axijoint_joints_settle, only : find_again, roughly
    use axijoint_joints_states, only : increment_state_type
+   use axijoint_joints_way, only : station_type, lag_type, remembered, find_lag, shift
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: way_type, lag_type, look_back, find_remembered, shift, add_slip
+   public :: way_type, look_back, leaves_rest, find_remembered
 
    !> Increments that the way is followed through at most
    integer, parameter :: most_increments = 100
-   !> Stress that may be missing, over the stress, where the way is followed as it was
-   real(wp), parameter :: few_digits = 1.0e-6_wp
+   !> Stress that may be missing, over the stress, where the way is followed as it was; and what of jumps the iteration may have left
+   !> then, over these: of that no more is told
+   real(wp), parameter :: few_digits = 1.0e-6_wp, little_slip = 1.0e-3_wp
 
-   !> Where loads turn, and what the mesh leaves there
+   !> Where loads turn
    type :: turn_type
       !> Factors of the load cases, and the loads as joints see them
       real(wp), allocatable :: case_factor(:)
       type(joint_loads_type) :: loads
-      !> Joints before their slip was added to what they remember
-      type(joint_field_type) :: field
-      !> Errors of the jumps of joints that yield while their stress is held, amplitudes, shape (3, points, modes)
-      real(wp), allocatable :: error(:, :, :)
    end type turn_type
-
-   !> What joints would be without the errors of the mesh, less what they are
-   type :: lag_type
-      !> Whether it was found
-      logical :: known = .false.
-      !> Slip that they remember, shape (3, points, planes)
-      real(wp), allocatable :: slip(:, :, :)
-      !> Excess stress, amplitudes, shape (3, points, modes), and multiples of the floating motions
-      real(wp), allocatable :: excess(:, :, :), offset(:)
-   end type lag_type
 
    !> The way that loads took
    type :: way_type
@@ -54,8 +42,8 @@ module axijoint_analysis_error_remembered
       type(solved_state_type), allocatable :: solved(:)
       !> Loads there, and at the end
       type(turn_type), allocatable :: turns(:)
-      !> What joints remember before the last increment, shape (points, planes)
-      type(memory_type), allocatable :: memory(:, :)
+      !> States there, and the last before the last increment; none if the way is not known, in any case allocated
+      type(station_type), allocatable :: stations(:)
    end type way_type
 
 contains
@@ -69,63 +57,27 @@ contains
       !> What the increments came to
       type(history_type), intent(in) :: history
       !> Takes the way
-      type(way_type), intent(out) :: way
+      type(way_type), intent(inout) :: way
 
-      type(memory_type), allocatable :: memory(:, :)
-      logical :: found
-
+      if (size(history%states) == 0) return
       if (any(history%scene%laws%opening == opening_bond .or. history%scene%laws%softens)) return
       way%places = turning_places(history)
       if (size(way%places) > most_turns .or. size(history%states) > most_increments) return
-      call load_turns(model, structure, history, way, found)
-      if (found) call follow(structure, history, way, memory, found)
-      way%known = found
-      if (found) call move_alloc(memory, way%memory)
+      call load_turns(model, structure, history, way)
+      if (way%known) call follow(structure, history, way)
+      if (.not. way%known) way%stations = [station_type ::]
    end subroutine look_back
 
-   !> What joints would be before the last increment without the errors of the mesh, less what they are: the way is gone again with
-   !> the errors where loads turned, and between in proportion to the loads
-   subroutine find_remembered(structure, history, errors, way, lag)
-      !> The structure
-      type(structure_type), intent(in) :: structure
-      !> What the increments came to
-      type(history_type), intent(in) :: history
-      !> Errors where loads turned and at the end, while the stress of the joints is held
-      type(mesh_error_type), intent(in) :: errors(:)
-      !> The way, known
-      type(way_type), intent(inout) :: way
-      !> The difference
-      type(lag_type), intent(out) :: lag
-
-      type(memory_type), allocatable :: better(:, :)
-      logical :: found
-      integer :: i
-
-      if (.not. all(errors%known)) return
-      do i = 1, size(errors)
-         way%turns(i)%error = errors(i)%jump(:, structure%yielding, :)
-      end do
-      call follow(structure, history, way, better, found, lag)
-      lag%known = found
-      if (.not. found) return
-      allocate (lag%slip(3, size(better, 1), size(better, 2)))
-      do i = 1, 3
-         lag%slip(i, :, :) = better%slip(i) - way%memory%slip(i)
-      end do
-   end subroutine find_remembered
-
    !> Find loads where they turn, and what they do
-   subroutine load_turns(model, structure, history, way, found)
+   subroutine load_turns(model, structure, history, way)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure
       type(structure_type), intent(inout) :: structure
       !> What the increments came to
       type(history_type), intent(in) :: history
-      !> The way; takes loads and displacements
+      !> The way; takes loads and displacements, and whether they were found
       type(way_type), intent(inout) :: way
-      !> Whether they were found
-      logical, intent(out) :: found
 
       type(error_type), allocatable :: error
       integer :: i, n
@@ -133,8 +85,8 @@ contains
       n = size(way%places)
       allocate (way%solved(n), way%turns(n + 1))
       call solve_increments(model, structure, history%states, way%places, way%solved, error)
-      found = .not. allocated(error)
-      if (.not. found) return
+      way%known = .not. allocated(error)
+      if (.not. way%known) return
       do i = 1, n
          way%turns(i)%case_factor = history%states(way%places(i))%case_factor
          way%turns(i)%loads = history%scene%loads
@@ -144,54 +96,100 @@ contains
       way%turns(n + 1)%loads = history%scene%loads
    end subroutine load_turns
 
-   !> Follow the increments but the last
-   subroutine follow(structure, history, way, memory, found, lag)
+   !> Follow the increments but the last, as they were
+   subroutine follow(structure, history, way)
       !> The structure
       type(structure_type), intent(in) :: structure
       !> What the increments came to
       type(history_type), intent(in) :: history
-      !> The way; takes the states where loads turn if no errors act
+      !> The way; takes the stations, and whether all states were found as they were kept
       type(way_type), intent(inout) :: way
-      !> What joints remember in the end, shape (points, planes)
-      type(memory_type), allocatable, intent(inout) :: memory(:, :)
-      !> Whether all states were found
-      logical, intent(out) :: found
-      !> Lets the errors of the mesh act, and takes by what the states differ from those that were kept then: where nothing but slip on
-      !> the way tells where parts stand, the next begins there
-      type(lag_type), intent(inout), optional :: lag
+
+      type(joint_field_type) :: field
+      type(scene_type) :: scene
+      type(station_type) :: station
+      type(memory_type), allocatable :: start(:, :)
+      real(wp) :: off
+      integer :: k
+
+      field = new_state(structure%condensed, history%scene)
+      scene = history%scene
+      station%next = 1
+      do k = 1, size(history%states)
+         call begin(structure, history, history%states(k), field)
+         call set_loads(way%turns, history%states(k)%case_factor, station, scene)
+         start = field%memory
+         call find_again(structure%condensed, scene, start, field, way%known, enough=few_digits)
+         off = maxval(abs(field%jump(:, :, history%scene%planes%place) - history%states(k)%jump))
+         way%known = way%known .and. off <= little_slip*maxval(abs(field%jump))
+         if (.not. way%known) return
+         if (any(way%places == k) .or. k == size(history%states)) then
+            station%loads = scene%loads
+            station%field = field
+            way%stations = [way%stations, station]
+            if (any(way%places == k)) station%next = station%next + 1
+         end if
+         call commit_field(scene%laws, field)
+      end do
+   end subroutine follow
+
+   !> Whether most of the loads of a mode was taken away: what is left of displacements, and of their errors, is the rest of larger ones
+   pure logical function leaves_rest(way)
+      !> The way, known
+      type(way_type), intent(in) :: way
+
+      !> Part of the loads up to which most of them is gone: in piles what harmonics left was told to a tenth with half of a load, and
+      !> to a half with nothing of it; and part of all loads from which those of a mode count
+      real(wp), parameter :: little = 0.25_wp, counts = 0.01_wp
+      real(wp) :: loads(size(way%turns), size(way%turns(1)%loads%free, 3))
+      integer :: i, k
+
+      do k = 1, size(loads, 2)
+         loads(:, k) = [(maxval(abs(way%turns(i)%loads%free(:, :, k))), i=1, size(loads, 1))]
+      end do
+      leaves_rest = any([(loads(size(loads, 1), k) < little*maxval(loads(:, k)) .and. maxval(loads(:, k)) > counts*maxval(loads), &
+         k=1, size(loads, 2))])
+   end function leaves_rest
+
+   !> What joints would be before the last increment without the errors of the mesh, less what they are. The way is gone again from
+   !> one turn to the next while the errors act: joints that slip on the way to a turn slip there, and where they have come to is told
+   !> by their jumps, so that increments between leave little of their own
+   subroutine find_remembered(structure, history, errors, way, lag)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> Errors where loads turned and at the end, while the stress of the joints is held
+      type(mesh_error_type), intent(in) :: errors(:)
+      !> The way, known
+      type(way_type), intent(in) :: way
+      !> The difference
+      type(lag_type), intent(out) :: lag
 
       type(joint_field_type) :: field
       type(scene_type) :: scene
       type(memory_type), allocatable :: start(:, :)
-      integer :: k, t
+      logical :: found
+      integer :: i
 
-      found = .true.
-      field = new_state(structure%condensed, history%scene)
+      if (.not. all(errors%known)) return
       scene = history%scene
-      t = 1
-      do k = 1, size(history%states)
-         call begin(structure, history, history%states(k), field)
-         if (present(lag)) call shift(structure, history%scene, lag, field)
-         call set_loads(way%turns, t, history%states(k)%case_factor, present(lag), scene)
-         start = field%memory
-         if (present(lag)) then
-            call find_again(structure%condensed, scene, start, field, found)
-         else
-            call find_again(structure%condensed, scene, start, field, found, enough=few_digits)
-         end if
-         if (.not. found) return
-         if (any(way%places == k)) then
-            if (.not. present(lag)) way%turns(t)%field = field
-            t = t + 1
-         end if
-         if (present(lag)) then
-            lag%excess = field%excess - history%states(k)%excess
-            lag%offset = field%offset - history%states(k)%offset
-         end if
-         call commit_field(scene%laws, field)
+      do i = 1, size(way%stations)
+         associate (station => way%stations(i), yielding => structure%yielding)
+            field = station%field
+            call shift(structure%condensed, scene, lag, field)
+            scene%loads = station%loads
+            scene%loads%free = scene%loads%free + station%part*errors(station%next)%jump(:, yielding, :)
+            if (station%next > 1) scene%loads%free = scene%loads%free &
+               + (1.0_wp - station%part)*errors(station%next - 1)%jump(:, yielding, :)
+            start = field%memory
+            call find_again(structure%condensed, scene, start, field, found, share=roughly)
+            if (found) call find_lag(remembered(scene%laws, station%field), station%field, scene%laws, field, lag)
+            lag%known = found
+            if (.not. found) return
+         end associate
       end do
-      memory = field%memory
-   end subroutine follow
+   end subroutine find_remembered
 
    !> Begin from a state as it was kept
    subroutine begin(structure, history, state, field)
@@ -217,66 +215,31 @@ contains
       field%moved = synthesize(history%scene%planes, motion_of(structure%condensed, history%scene, field%offset))
    end subroutine begin
 
-   !> Let a state begin where it would be
-   subroutine shift(structure, scene, lag, field)
-      !> The structure
-      type(structure_type), intent(in) :: structure
-      !> Planes
-      type(scene_type), intent(in) :: scene
-      !> By what it lags; nothing if not allocated
-      type(lag_type), intent(in) :: lag
-      !> The state
-      type(joint_field_type), intent(inout) :: field
-
-      if (allocated(lag%slip)) call add_slip(lag%slip, field%memory)
-      if (.not. allocated(lag%excess)) return
-      field%excess = field%excess + lag%excess
-      field%offset = field%offset + lag%offset
-      field%moved = synthesize(scene%planes, motion_of(structure%condensed, scene, field%offset))
-   end subroutine shift
-
-   !> Add slip to what points remember
-   pure subroutine add_slip(slip, memory)
-      !> The slip, shape (3, points, planes)
-      real(wp), intent(in) :: slip(:, :, :)
-      !> What they remember, shape (points, planes)
-      type(memory_type), intent(inout) :: memory(:, :)
-
-      integer :: i
-
-      do i = 1, 3
-         memory%slip(i) = memory%slip(i) + slip(i, :, :)
-      end do
-   end subroutine add_slip
-
-   !> Loads on the way to a turn
-   subroutine set_loads(turns, t, case_factor, with_errors, scene)
-      !> The turns, and the next
+   !> Loads on the way to a turn, in proportion
+   subroutine set_loads(turns, case_factor, station, scene)
+      !> The turns
       type(turn_type), intent(in) :: turns(:)
-      integer, intent(in) :: t
       !> Factors of the load cases
       real(wp), intent(in) :: case_factor(:)
-      !> Whether the errors of the mesh act, too
-      logical, intent(in) :: with_errors
+      !> The station, with the next turn; takes the part of the way
+      type(station_type), intent(inout) :: station
       !> Takes the loads
       type(scene_type), intent(inout) :: scene
 
-      real(wp) :: share, from(size(case_factor))
+      real(wp) :: from(size(case_factor))
 
       from = 0.0_wp
-      if (t > 1) from = turns(t - 1)%case_factor
-      associate (way => turns(t)%case_factor - from, to => turns(t))
-         share = 0.0_wp
-         if (norm2(way) > 0.0_wp) share = dot_product(case_factor - from, way)/dot_product(way, way)
-         scene%loads%free = share*to%loads%free
+      if (station%next > 1) from = turns(station%next - 1)%case_factor
+      associate (way => turns(station%next)%case_factor - from, to => turns(station%next), part => station%part)
+         part = 0.0_wp
+         if (norm2(way) > 0.0_wp) part = dot_product(case_factor - from, way)/dot_product(way, way)
+         scene%loads%free = part*to%loads%free
          scene%loads%largest = to%loads%largest
-         scene%loads%work = share*to%loads%work
-         if (with_errors) scene%loads%free = scene%loads%free + share*to%error
-         if (t == 1) return
-         associate (last => turns(t - 1))
-            scene%loads%free = scene%loads%free + (1.0_wp - share)*last%loads%free
-            scene%loads%work = scene%loads%work + (1.0_wp - share)*last%loads%work
-            if (with_errors) scene%loads%free = scene%loads%free + (1.0_wp - share)*last%error
+         scene%loads%work = part*to%loads%work
+         if (station%next == 1) return
+         associate (last => turns(station%next - 1))
+            scene%loads%free = scene%loads%free + (1.0_wp - part)*last%loads%free
+            scene%loads%work = scene%loads%work + (1.0_wp - part)*last%loads%work
          end associate
       end associate
    end subroutine set_loads

@@ -2,7 +2,7 @@
 !> harmonics and the mesh, each by a state found again without it
 module axijoint_analysis_error_yielding_errors
    use omp_lib, only : omp_get_max_threads, omp_get_wtime
-   use axijoint_analysis_core_path, only : keeps_slip
+   use axijoint_analysis_core_path, only : keeps_slip, slide_together
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest_vector
@@ -11,7 +11,7 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_analysis_error_iteration_left, only : iteration_left_type
    use axijoint_analysis_error_joint_shares, only : take_share, nothing_is_left, has_moved, unloaded, least_changes
    use axijoint_analysis_error_joints_mesh_error, only : find_held_errors, find_answer, add_answer
-   use axijoint_analysis_error_remembered, only : way_type, look_back
+   use axijoint_analysis_error_remembered, only : way_type, look_back, leaves_rest
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
    use axijoint_assembly_equations, only : equations_type
    use axijoint_base_kinds, only : wp
@@ -49,7 +49,7 @@ contains
       type(joint_changes_type) :: changes
       real(wp), allocatable :: displacement(:, :, :), others(:, :, :, :)
       real(wp) :: largest
-      logical :: judged
+      logical :: judged, rests
 
       judged = results%converged
       if (judged) judged = .not. nothing_is_left(structure, history, results)
@@ -68,8 +68,11 @@ contains
       displacement = results%displacement + left%effect(:, :, :, 1)
       results%keeps_slip = keeps_slip(structure, history, largest)
       call find_other_changes(model, structure, history, left%balanced, displacement, &
-         results%keeps_slip .or. unloaded(history), changes, others, mesh_error)
+         results%keeps_slip .or. unloaded(history), changes, others, mesh_error, rests)
       results%follows_slip = mesh_error%follows_slip
+      results%follows_all_slip = results%follows_slip .and. changes%follow_slip
+      if (results%follows_all_slip) results%keeps_slip = results%keeps_slip .and. &
+         (rests .or. slide_together(structure, history))
       associate (shares => results%joint_errors)
          call take_share(structure, history, results, largest, changes%iteration, left%effect(:, :, :, 1), shares(1), model%points)
          call take_share(structure, history, results, largest, changes%planes, others(:, :, :, 1), shares(2), model%points)
@@ -114,7 +117,7 @@ contains
 
    !> What planes, harmonics and the mesh leave. What joints answer to planes and harmonics and what they answer to the mesh are
    !> found at once where threads have little to do in each; and each factor is read once for what that does to the displacements
-   subroutine find_other_changes(model, structure, history, balanced, displacement, lasts, changes, effect, mesh_error)
+   subroutine find_other_changes(model, structure, history, balanced, displacement, lasts, changes, effect, mesh_error, rests)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure
@@ -133,19 +136,25 @@ contains
       real(wp), allocatable, intent(out) :: effect(:, :, :, :)
       !> Takes what the mesh leaves
       type(mesh_error_type), intent(out) :: mesh_error
+      !> Whether displacements and errors are rests of larger ones on the way, as far as that is known
+      logical, intent(out) :: rests
 
       type(joint_change_type) :: all(3)
       type(way_type) :: way
       type(mesh_error_type), allocatable :: errors(:)
       real(wp) :: seconds, looked_back, share
-      logical :: answered, apart
+      logical :: answered, apart, at_once
 
       seconds = omp_get_wtime()
+      allocate (way%stations(0))
       if (lasts) call look_back(model, structure, history, way)
+      rests = .false.
+      if (way%known) rests = leaves_rest(way)
       looked_back = omp_get_wtime() - seconds
       apart = is_small(structure%equations)
       if (.not. apart) call find_held_errors(structure, history, balanced, displacement, way, errors)
-      if (apart .or. are_for_one_thread(structure%condensed, size(balanced%jump))) then
+      at_once = are_for_one_thread(structure%condensed, size(balanced%jump))
+      if (apart .or. at_once) then
          !$omp parallel sections num_threads(2)
          !$omp section
          call see_mesh()
@@ -183,7 +192,11 @@ contains
 
       !> What planes and harmonics leave
       subroutine see_joints()
-         call find_joint_changes(structure%condensed, history%scene, balanced, history%start, &
+         integer :: n_turns
+
+         n_turns = size(way%stations)
+         if (n_turns > 0) n_turns = merge(size(way%places), n_turns, size(way%places) > 0)
+         call find_joint_changes(structure%condensed, history%scene, balanced, history%start, way%stations(:n_turns), &
                                  least_changes(structure, history), changes)
       end subroutine see_joints
 
@@ -214,8 +227,10 @@ contains
       !> Threads at most, and jumps
       integer, parameter :: few_threads = 4, few = 5000
 
-      are_for_one_thread = omp_get_max_threads() > 1 .and. .not. condensed%shared
-      if (n_numbers > few) are_for_one_thread = are_for_one_thread .and. omp_get_max_threads() <= few_threads
+      integer :: n_threads
+
+      n_threads = omp_get_max_threads()
+      are_for_one_thread = n_threads > 1 .and. (n_threads <= few_threads .or. n_numbers <= few) .and. .not. condensed%shared
    end function are_for_one_thread
 
 end module axijoint_analysis_error_yielding_errors
