@@ -33,7 +33,9 @@ module axijoint_analysis_core_footprint
    integer(i8), parameter :: around = 5
    !> Planes on which the estimates of errors find joints again, times so many
    integer(i8), parameter :: more_planes = 4
-
+   !> Numbers of a joint point on a plane that are kept of a state where loads turned: jumps, stresses, slip, states; with copies as
+   !> they are followed, as measured
+   integer(i8), parameter :: station_numbers = 40
    !> Vectors that the linear solutions of Newton's method touch; more are there for those that need
    !> them, but joints a thousand times as stiff as usual do with these
    integer(i8), parameter :: newton_vectors = 100
@@ -130,9 +132,11 @@ contains
             *jumps/3*(7*kept_planes + 6*n_modes)
          if (jumps > 0) footprint%joints = footprint%joints + real_bytes*acting_cases(model)*(jumps*n_modes + 3*nodes)
          footprint%stresses = 2*footprint%stresses + footprint%loads
-         ! loads twice, displacements and what half the elements change of them, where loads turned
+         ! loads twice, displacements and what half the elements change of them, where loads turned; joints there, and those that answer
+         ! the mesh while others do planes and harmonics
          if (jumps > 0 .and. estimated) footprint%joints = footprint%joints &
-            + 12*real_bytes*nodes*n_modes*min(most_turns, size(model%increments) - 1)
+            + 12*real_bytes*nodes*n_modes*min(most_turns, size(model%increments) - 1) &
+            + real_bytes*jumps/3*kept_planes*(plane_numbers + station_numbers*min(most_turns + 1, size(model%increments) - 1))
       end if
       if (bodies_yield(model)) call add_bodies(model, references, modes, footprint)
       footprint%joint_work = real_bytes*unknowns**2  ! the inverse

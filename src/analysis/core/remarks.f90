@@ -212,8 +212,8 @@ contains
       end if
       if (history%n_faded > 0) call add(remarks, fading_text(history))
       if (results%keeps_slip .and. results%follows_all_slip) then
-         call add(remarks, 'joints slipped in earlier increments, and most of a load was taken away since, or they slip all '// &
-            'together: errors are rests of larger ones, and a part that slides as a whole stands as wrong as it did then')
+         call add(remarks, 'joints slipped in earlier increments, and more than half of a load was taken away since, or they '// &
+            'slip all together: errors are rests of larger ones, and a part that slides as a whole stands as wrong as it did then')
       else if (results%keeps_slip .and. results%follows_slip) then
          call add(remarks, 'joints that slipped in earlier increments hold now, slipped back, or slip all together: what '// &
             'planes and harmonics had wrong then stays in the slip and is not counted in the errors, nor where a part '// &

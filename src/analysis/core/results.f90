@@ -247,7 +247,7 @@ module axijoint_analysis_core_results
       !> Whether joints hold, or slipped back, that slipped in earlier increments: what the estimates tell is of the last one alone
       logical :: keeps_slip = .false.
       !> Whether what the mesh left of their slip then is among the errors, and whether what planes and harmonics left is, too: then
-      !> the first is so only where parts slide as a whole or most of a load is gone
+      !> the first is so only where parts slide as a whole or more than half of a load is gone
       logical :: follows_slip = .false., follows_all_slip = .false.
       !> Whether slip turns aside within an increment: estimates know nothing of the way there
       logical :: turns_slip = .false.

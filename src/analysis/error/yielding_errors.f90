@@ -155,7 +155,7 @@ contains
       if (.not. apart) call find_held_errors(structure, history, balanced, displacement, way, errors)
       at_once = are_for_one_thread(structure%condensed, size(balanced%jump))
       if (apart .or. at_once) then
-         !$omp parallel sections num_threads(2)
+         !$omp parallel sections  ! of all threads: a smaller team would end the others
          !$omp section
          call see_mesh()
          !$omp section
@@ -192,11 +192,7 @@ contains
 
       !> What planes and harmonics leave
       subroutine see_joints()
-         integer :: n_turns
-
-         n_turns = size(way%stations)
-         if (n_turns > 0) n_turns = merge(size(way%places), n_turns, size(way%places) > 0)
-         call find_joint_changes(structure%condensed, history%scene, balanced, history%start, way%stations(:n_turns), &
+         call find_joint_changes(structure%condensed, history%scene, balanced, history%start, way%stations, &
                                  least_changes(structure, history), changes)
       end subroutine see_joints
 
