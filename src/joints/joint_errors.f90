@@ -83,9 +83,7 @@ contains
       change%offset = offset_between(condensed, scene, before, scene, after, rounding)
    end function settled_change
 
-   !> Largest change of a stress between two states, the second perhaps on so many times more
-   !> planes. A point that is nearer to its opening than a few times the change of its normal stress
-   !> may open or close: then its cohesion counts, too
+   !> Largest change of a stress between two states, the second perhaps on so many times more planes
    pure real(wp) function largest_change(scene, before, after, step, rounding) result(largest)
       !> Laws, planes and loads
       type(scene_type), intent(in) :: scene
@@ -95,6 +93,23 @@ contains
       integer, intent(in) :: step
       !> Changes of stress up to this are none, shape (points)
       real(wp), intent(in) :: rounding(:)
+
+      largest = maxval([0.0_wp, changes_of_points(scene, before, after, step, rounding)])
+   end function largest_change
+
+   !> The same of each point. A point that is nearer to its opening than a few times the change of its normal stress
+   !> may open or close: then its cohesion counts, too
+   pure function changes_of_points(scene, before, after, step, rounding) result(largest)
+      !> Laws, planes and loads
+      type(scene_type), intent(in) :: scene
+      !> The states
+      type(joint_field_type), intent(in) :: before, after
+      !> Intervals of the second between planes of the first
+      integer, intent(in) :: step
+      !> Changes of stress up to this are none, shape (points)
+      real(wp), intent(in) :: rounding(:)
+      !> Shape (points)
+      real(wp) :: largest(size(rounding))
 
       !> So many times, and the part of the largest stress up to which a normal stress does not change
       real(wp), parameter :: reach = 2.0_wp, slight = 1.0e-12_wp
@@ -108,7 +123,7 @@ contains
          l = 1 + step*(j - 1)
          do k = 1, size(rounding)
             change = maxval(abs(after%stress(:, k, l) - before%stress(:, k, j)))
-            if (change > rounding(k)) largest = max(largest, change)
+            if (change > rounding(k)) largest(k) = max(largest(k), change)
             earlier = trial_of(scene%laws(k), k, l, before%jump(:, k, j), after)
             trial = trial_of(scene%laws(k), k, l, after%jump(:, k, l), after)
             ! dilation presses a point that slips
@@ -117,10 +132,10 @@ contains
             change = abs(trial(eta) - earlier(eta))
             if (change <= least .or. abs(trial(eta)) > reach*change) cycle
             change = lost_at_opening(scene%laws(k), after%memory(k, l), trial)
-            if (change > rounding(k)) largest = max(largest, change)
+            if (change > rounding(k)) largest(k) = max(largest(k), change)
          end do
       end do
-   end function largest_change
+   end function changes_of_points
 
    !> Whether joints carry nothing but rounding in two states: then which of them touch, and what they would lose if they
    !> opened, is of no meaning, and nothing holds the parts
@@ -219,8 +234,8 @@ contains
             call shift(condensed, extended, of_harmonics, with_more)
             call find_again(condensed, extended, memory, with_more, changes%harmonics%known)
             associate (m => size(scene%modes))
-               changes%harmonics%stress = beyond_twice(extended, with_more, m, condensed%points%proportion <= stiffest_base)* &
-                  largest_change(scene, on_more, with_more, 1, rounding)
+               changes%harmonics%stress = maxval([0.0_wp, changes_of_points(scene, on_more, with_more, 1, rounding)* &
+                  beyond_twice(extended, with_more, m, condensed%points%proportion <= stiffest_base)])
                changes%harmonics%excess = with_more%excess(:, :, :m) - on_more%excess
                changes%harmonics%offset = offset_between(condensed, finer_scene, on_more, extended, with_more, rounding)
                with_more%excess(:, :, :m) = 0.0_wp
@@ -280,8 +295,8 @@ contains
       of_harmonics%known = .false.
    end subroutine follow
 
-   !> What all harmonics change of joint stress over what those up to 2 M do: 1 where they fall as fast as usual. Where slip turns
-   !> round from one plane to the next, pressure has a peak there to which each doubling of M adds as much again, and no number of
+   !> What all harmonics change of the stress of points over what those up to 2 M do: 1 where they fall as fast as usual. Where slip
+   !> turns round from one plane to the next, pressure has a peak there to which each doubling of M adds as much again, and no number of
    !> them is enough: then so much more as a geometric series would add, four times at most
    function beyond_twice(scene, field, m, slides) result(factor)
       !> Planes and modes up to 2 M
@@ -292,13 +307,13 @@ contains
       integer, intent(in) :: m
       !> Whether points are soft enough to slide, shape (points)
       logical, intent(in) :: slides(:)
-      !> The factor
-      real(wp) :: factor
+      !> The factors, shape (points)
+      real(wp) :: factor(size(slides))
 
       !> Least M of which two octaves are known; part of the octave before that one has, at most, where nothing is added; most
       integer, parameter :: least = 4
       real(wp), parameter :: usual = 0.5_wp, most = 4.0_wp
-      real(wp) :: upper, middle, share
+      real(wp) :: above, middle
       real(wp), allocatable :: stress(:, :, :)
       integer :: k, highest
 
@@ -306,19 +321,14 @@ contains
       highest = maxval(scene%modes(:m)%harmonic)
       if (highest < least) return
       stress = analyse(scene%planes, field%stress)
-      share = 0.0_wp
-      upper = 0.0_wp
       do k = 1, size(stress, 2)
-         associate (above => sum(abs(stress(eta, k, m + 1:))))
-            if (.not. slides(k) .or. .not. above > upper .or. .not. &
-                      turns_round(all(scene%modes%family == family_symmetric), field%state(k, :), field%stress(:, k, :))) cycle
-            upper = above
-            middle = sum(abs(stress(eta, k, :m)), mask=2*scene%modes(:m)%harmonic > highest)
-            share = 1.0_wp
-            if (middle > 0.0_wp) share = min(1.0_wp, upper/middle)
-         end associate
+         above = sum(abs(stress(eta, k, m + 1:)))
+         middle = sum(abs(stress(eta, k, :m)), mask=2*scene%modes(:m)%harmonic > highest)
+         if (.not. slides(k) .or. .not. above > usual*middle .or. .not. &
+             turns_round(all(scene%modes%family == family_symmetric), field%state(k, :), field%stress(:, k, :))) cycle
+         factor(k) = most
+         if (above < middle) factor(k) = min(most, (1.0_wp - usual)/(1.0_wp - above/middle))
       end do
-      factor = min(most, max(1.0_wp, (1.0_wp - usual)/max(1.0_wp - share, tiny(1.0_wp))))
    end function beyond_twice
 
    !> Whether slip round the bodies turns round from one plane to the next
