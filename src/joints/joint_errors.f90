@@ -6,12 +6,13 @@ module axijoint_joints_joint_errors
    use axijoint_element_joint_law, only : memory_type, lost_at_opening, xi, eta, theta, state_slip
    use axijoint_fe_mode, only : mode_type, family_symmetric, family_antisymmetric
    use axijoint_joints_condensed, only : condensed_type
-   use axijoint_joints_field, only : joint_field_type, trial_of
+   use axijoint_joints_field, only : joint_field_type, trial_of, commit_field
+   use axijoint_joints_history, only : history_type, new_state
    use axijoint_joints_mechanism, only : mechanism_type, find_mechanism, hold_nothing, settle
    use axijoint_joints_planes, only : new_planes, synthesize, analyse
    use axijoint_joints_scene, only : scene_type, jumps, jumps_of_mode
    use axijoint_joints_settle, only : find_again, roughly
-   use axijoint_joints_way, only : station_type, lag_type, remembered, find_lag, shift, add_slip
+   use axijoint_joints_way, only : station_type, way_type, lag_type, take_up, remembered, find_lag, shift, add_slip
    use axijoint_model_joint_points, only : stiffest_base
    implicit none
    private
@@ -156,17 +157,15 @@ contains
 
    !> Changes by more planes and harmonics, but for motions that nothing resists and no load acts on; and by what these change of the
    !> slip of earlier increments, if these are known and states are found
-   subroutine find_joint_changes(condensed, scene, balanced, start, stations, rounding, changes)
+   subroutine find_joint_changes(condensed, balanced, history, way, rounding, changes)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
-      !> Laws, planes and loads
-      type(scene_type), intent(in) :: scene
-      !> Their state, balanced, with the memory of the beginning of its increment
+      !> The state of the joints, balanced, with the memory of the beginning of its increment
       type(joint_field_type), intent(in) :: balanced
-      !> What its points remembered at the beginning of its increment, shape (points, planes)
-      type(memory_type), intent(in) :: start(:, :)
-      !> States on the way there; none if that is not known, or nothing of it lasts
-      type(station_type), intent(in) :: stations(:)
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> The way there; not known if nothing of it lasts
+      type(way_type), intent(in) :: way
       !> Changes of stress up to this are none, shape (points)
       real(wp), intent(in) :: rounding(:)
       !> Takes the changes
@@ -177,28 +176,34 @@ contains
       real(wp) :: clock
       integer :: n, step
 
-      if (scene%planes%folds == 0) then  ! harmonic 0 alone: all planes are alike
-         changes%planes = no_change(balanced)
-         changes%harmonics = no_change(balanced)
-         changes%follow_slip = .true.
-         return
-      end if
-      clock = omp_get_wtime()
-      n = scene%planes%n - 1
-      ! for products of harmonics up to 2 M
-      step = max(finer, (4*maxval(scene%modes%harmonic) + n - 1)/n)
-      finer_scene = scene
-      finer_scene%planes = new_planes(step*n + 1, scene%modes, whole=scene%planes%folds == 1)
-      if (size(stations) > 0) call follow(condensed, scene, finer_scene, step, stations, of_planes, of_harmonics)
-      clock = omp_get_wtime() - clock
-      call find_changes(of_planes, of_harmonics)
-      changes%follow_slip = of_planes%known .and. of_harmonics%known
-      if (changes%follow_slip .and. .not. (changes%planes%known .and. changes%harmonics%known)) then
-         changes%follow_slip = .false.
-         call find_changes(lag_type(), lag_type())
-      end if
-      changes%planes%seconds = changes%planes%seconds + 0.5_wp*clock
-      changes%harmonics%seconds = changes%harmonics%seconds + 0.5_wp*clock
+      associate (scene => history%scene)
+         if (scene%planes%folds == 0) then  ! harmonic 0 alone: all planes are alike
+            changes%planes = no_change(balanced)
+            changes%harmonics = no_change(balanced)
+            changes%follow_slip = .true.
+            return
+         end if
+         clock = omp_get_wtime()
+         n = scene%planes%n - 1
+         ! for products of harmonics up to 2 M
+         step = max(finer, (4*maxval(scene%modes%harmonic) + n - 1)/n)
+         finer_scene = scene
+         finer_scene%planes = new_planes(step*n + 1, scene%modes, whole=scene%planes%folds == 1)
+         if (way%known) then
+            call follow_planes(condensed, scene, finer_scene, step, way%stations, of_planes)
+            call follow_harmonics(condensed, history, way, of_harmonics)
+         end if
+         if (of_harmonics%known) of_harmonics%slip = slip_on_planes(of_harmonics%slip, step, size(finer_scene%planes%angle))
+         clock = omp_get_wtime() - clock
+         call find_changes(of_planes, of_harmonics)
+         changes%follow_slip = of_planes%known .and. of_harmonics%known
+         if ((of_planes%known .or. of_harmonics%known) .and. .not. (changes%planes%known .and. changes%harmonics%known)) then
+            changes%follow_slip = .false.
+            call find_changes(lag_type(), lag_type())
+         end if
+         changes%planes%seconds = changes%planes%seconds + 0.5_wp*clock
+         changes%harmonics%seconds = changes%harmonics%seconds + 0.5_wp*clock
+      end associate
 
    contains
 
@@ -215,14 +220,14 @@ contains
          clock = omp_get_wtime()
          associate (count => size(finer_scene%planes%angle))
             allocate (on_more, source=on_planes(balanced, step, count))
-            memory = on_planes_memory(start, step, count)
+            memory = on_planes_memory(history%start, step, count)
          end associate
          call add_slip(of_planes, memory)
          call shift(condensed, finer_scene, of_planes, on_more)
          call find_again(condensed, finer_scene, memory, on_more, changes%planes%known)
-         changes%planes%stress = largest_change(scene, balanced, on_more, step, rounding)
+         changes%planes%stress = largest_change(history%scene, balanced, on_more, step, rounding)
          changes%planes%excess = on_more%excess - balanced%excess
-         changes%planes%offset = offset_between(condensed, scene, balanced, finer_scene, on_more, rounding)
+         changes%planes%offset = offset_between(condensed, history%scene, balanced, finer_scene, on_more, rounding)
          changes%planes%seconds = omp_get_wtime() - clock
          changes%harmonics = no_change(on_more)
          changes%harmonics%known = changes%planes%known
@@ -233,8 +238,8 @@ contains
             call add_slip(of_harmonics, memory)
             call shift(condensed, extended, of_harmonics, with_more)
             call find_again(condensed, extended, memory, with_more, changes%harmonics%known)
-            associate (m => size(scene%modes))
-               changes%harmonics%stress = maxval([0.0_wp, changes_of_points(scene, on_more, with_more, 1, rounding)* &
+            associate (m => size(history%scene%modes))
+               changes%harmonics%stress = maxval([0.0_wp, changes_of_points(history%scene, on_more, with_more, 1, rounding)* &
                   beyond_twice(extended, with_more, m, condensed%points%proportion <= stiffest_base)])
                changes%harmonics%excess = with_more%excess(:, :, :m) - on_more%excess
                changes%harmonics%offset = offset_between(condensed, finer_scene, on_more, extended, with_more, rounding)
@@ -249,9 +254,8 @@ contains
 
    end subroutine find_joint_changes
 
-   !> By what joints lag before the last increment for few planes and for few harmonics: the way is gone again from station to station
-   !> without these approximations
-   subroutine follow(condensed, scene, finer_scene, step, stations, of_planes, of_harmonics)
+   !> By what joints lag before the last increment for few planes: the way is gone again from station to station on more
+   subroutine follow_planes(condensed, scene, finer_scene, step, stations, lag)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> Laws and planes, and the same with so many times more planes
@@ -259,11 +263,11 @@ contains
       integer, intent(in) :: step
       !> The stations
       type(station_type), intent(in) :: stations(:)
-      !> What planes and harmonics leave; both not known if a state was not found
-      type(lag_type), intent(out) :: of_planes, of_harmonics
+      !> What planes leave; not known if a state was not found
+      type(lag_type), intent(out) :: lag
 
-      type(scene_type) :: there, extended
-      type(joint_field_type), allocatable :: field, with_more
+      type(scene_type) :: there
+      type(joint_field_type) :: field
       type(memory_type), allocatable :: start(:, :)
       logical :: found
       integer :: i
@@ -271,29 +275,58 @@ contains
       there = finer_scene
       do i = 1, size(stations)
          there%loads = stations(i)%loads
-         if (allocated(field)) deallocate (field)
-         allocate (field, source=on_planes(stations(i)%field, step, size(there%planes%angle)))
-         call shift(condensed, there, of_planes, field)
-         start = field%memory
-         call find_again(condensed, there, start, field, found, share=roughly)
-         if (.not. found) exit
-         call find_lag(on_planes_memory(remembered(scene%laws, stations(i)%field), step, size(there%planes%angle)), &
-            stations(i)%field, there%laws, field, of_planes)
-         call add_harmonics(condensed, there, field, extended, with_more)
-         if (.not. allocated(with_more)) then
-            of_harmonics = lag_type(.true., 0.0_wp*of_planes%slip, 0.0_wp*field%excess, 0.0_wp*field%offset)
-            cycle
-         end if
-         call shift(condensed, extended, of_harmonics, with_more)
-         start = with_more%memory
-         call find_again(condensed, extended, start, with_more, found, share=roughly)
-         if (.not. found) exit
-         call find_lag(remembered(there%laws, field), field, extended%laws, with_more, of_harmonics)
+         associate (count => size(there%planes%angle))
+            field = on_planes(stations(i)%field, step, count)
+            call shift(condensed, there, lag, field)
+            start = field%memory
+            call find_again(condensed, there, start, field, found, share=roughly)
+            if (found) call find_lag(on_planes_memory(remembered(scene%laws, stations(i)%field), step, count), &
+               stations(i)%field, there%laws, field, lag)
+         end associate
+         lag%known = found
+         if (.not. found) return
       end do
-      if (found) return
-      of_planes%known = .false.
-      of_harmonics%known = .false.
-   end subroutine follow
+   end subroutine follow_planes
+
+   !> By what they lag for few harmonics: the way is gone again with harmonics up to 2 M, through all increments, as where points slip
+   !> and where they hold hangs on these from the first
+   subroutine follow_harmonics(condensed, history, way, lag)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> The way, known
+      type(way_type), intent(in) :: way
+      !> What harmonics leave, on the planes of the job; not known if these are too few for more harmonics, or a state was not found
+      type(lag_type), intent(out) :: lag
+
+      type(scene_type) :: scene, extended
+      type(station_type) :: station
+      type(joint_field_type) :: field
+      type(joint_field_type), allocatable :: with_more
+      type(memory_type), allocatable :: start(:, :)
+      logical :: found
+      integer :: k
+
+      scene = history%scene
+      if (scene%planes%n - 1 < 4*maxval(scene%modes%harmonic)) return
+      field = new_state(condensed, scene)
+      do k = 1, size(history%states)
+         call take_up(condensed, history, way%turns, k, station, scene, field, found)
+         if (found) then
+            call add_harmonics(condensed, scene, field, extended, with_more)
+            if (.not. allocated(with_more)) return  ! harmonic 0 alone
+            call shift(condensed, extended, lag, with_more)
+            start = with_more%memory
+            call find_again(condensed, extended, start, with_more, found, share=roughly)
+            if (found) call find_lag(remembered(scene%laws, field), field, extended%laws, with_more, lag)
+         end if
+         lag%known = found
+         if (.not. found) return
+         if (any(way%places == k)) station%next = station%next + 1
+         call commit_field(scene%laws, field)
+      end do
+   end subroutine follow_harmonics
 
    !> What all harmonics change of the stress of points over what those up to 2 M do: 1 where they fall as fast as usual. Where slip
    !> turns round from one plane to the next, pressure has a peak there to which each doubling of M adds as much again, and no number of
@@ -426,20 +459,38 @@ contains
       !> Memory on the planes
       type(memory_type) :: finer(size(memory, 1), count)
 
+      real(wp) :: slip(3, size(memory, 1), size(memory, 2)), more_slip(3, size(memory, 1), count)
+      integer :: i, j
+
+      do i = 1, 3
+         slip(i, :, :) = memory%slip(i)
+      end do
+      more_slip = slip_on_planes(slip, step, count)
+      finer = memory(:, [((j - 1)/step + 1, j=1, count)])
+      do i = 1, 3
+         finer%slip(i) = more_slip(i, :, :)
+      end do
+   end function on_planes_memory
+
+   !> Slip on so many times more planes: what lies between the neighbours of a new plane
+   pure function slip_on_planes(slip, step, count) result(finer)
+      !> Slip, shape (3, points, planes)
+      real(wp), intent(in) :: slip(:, :, :)
+      !> How many times, and the number of planes then
+      integer, intent(in) :: step, count
+      !> Slip on the planes
+      real(wp) :: finer(3, size(slip, 2), count)
+
       real(wp) :: fraction
-      integer :: j, k, place, next
+      integer :: j, place, next
 
       do j = 1, count
          place = (j - 1)/step + 1
-         next = 1 + mod(place, size(memory, 2))
+         next = 1 + mod(place, size(slip, 3))
          fraction = real(mod(j - 1, step), wp)/step
-         finer(:, j) = memory(:, place)
-         do k = 1, size(memory, 1)
-            finer(k, j)%slip = (1.0_wp - fraction)*memory(k, place)%slip + &
-               fraction*memory(k, next)%slip
-         end do
+         finer(:, :, j) = (1.0_wp - fraction)*slip(:, :, place) + fraction*slip(:, :, next)
       end do
-   end function on_planes_memory
+   end function slip_on_planes
 
    !> The scene with harmonics up to 2 M
    subroutine add_harmonics(condensed, scene, field, extended, with_more)

@@ -4,12 +4,26 @@ module axijoint_joints_way
    use axijoint_element_joint_law, only : joint_law_type, memory_type
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, commit_field
+   use axijoint_joints_history, only : history_type
    use axijoint_joints_loads, only : joint_loads_type
    use axijoint_joints_planes, only : synthesize
    use axijoint_joints_scene, only : scene_type, motion_of
+   use axijoint_joints_settle, only : find_again
+   use axijoint_joints_states, only : increment_state_type
    implicit none
    private
-   public :: station_type, lag_type, remembered, find_lag, shift, add_slip
+   public :: turn_type, station_type, way_type, lag_type, take_up, remembered, find_lag, shift, add_slip
+
+   !> Stress that may be missing, over the stress, where the way is followed as it was; and what of jumps the iteration may have left
+   !> then, over these: of that no more is told
+   real(wp), parameter :: few_digits = 1.0e-6_wp, little = 1.0e-3_wp
+
+   !> Where loads turn
+   type :: turn_type
+      !> Factors of the load cases, and the loads as joints see them
+      real(wp), allocatable :: case_factor(:)
+      type(joint_loads_type) :: loads
+   end type turn_type
 
    !> A state on the way: where loads turned, or the last before the last increment
    type :: station_type
@@ -22,6 +36,18 @@ module axijoint_joints_way
       real(wp) :: part = 1.0_wp
    end type station_type
 
+   !> The way that loads took
+   type :: way_type
+      !> Whether it is known, and slip that came about on it lasts
+      logical :: known = .false.
+      !> Places of the states after which loads turned
+      integer, allocatable :: places(:)
+      !> Loads there, and at the end
+      type(turn_type), allocatable :: turns(:)
+      !> States there, and the last before the last increment; none if the way is not known, in any case allocated
+      type(station_type), allocatable :: stations(:)
+   end type way_type
+
    !> What joints would be without an approximation, less what they are
    type :: lag_type
       !> Whether it was found
@@ -33,6 +59,88 @@ module axijoint_joints_way
    end type lag_type
 
 contains
+
+   !> Take up a state as it was kept, after the increments before it
+   subroutine take_up(condensed, history, turns, k, station, scene, field, found)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> Where loads turn, and the end
+      type(turn_type), intent(in) :: turns(:)
+      !> Which state
+      integer, intent(in) :: k
+      !> The station on the way to the next turn; takes the part of the way
+      type(station_type), intent(inout) :: station
+      !> Takes the loads
+      type(scene_type), intent(inout) :: scene
+      !> What joints remember from before; takes the state
+      type(joint_field_type), intent(inout) :: field
+      !> Whether it was found as it was kept
+      logical, intent(out) :: found
+
+      type(memory_type), allocatable :: start(:, :)
+
+      call begin(condensed, history, history%states(k), field)
+      call set_loads(turns, history%states(k)%case_factor, station, scene)
+      start = field%memory
+      call find_again(condensed, scene, start, field, found, enough=few_digits)
+      if (found) found = maxval(abs(field%jump(:, :, history%scene%planes%place) - history%states(k)%jump)) &
+         <= little*maxval(abs(field%jump))
+   end subroutine take_up
+
+   !> Begin from a state as it was kept
+   subroutine begin(condensed, history, state, field)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> What the increments came to, for the planes
+      type(history_type), intent(in) :: history
+      !> The state
+      type(increment_state_type), intent(in) :: state
+      !> Takes it, but for what it remembers
+      type(joint_field_type), intent(inout) :: field
+
+      field%initial = state%initial
+      associate (place => history%scene%planes%place)
+         field%jump(:, :, place) = state%jump
+         field%stress(:, :, place) = state%stress
+         field%state(:, place) = state%state
+      end associate
+      field%carried = field%stress
+      field%excess = state%excess
+      field%pending = state%pending
+      field%offset = state%offset
+      field%moved = synthesize(history%scene%planes, motion_of(condensed, history%scene, field%offset))
+   end subroutine begin
+
+   !> Loads on the way to a turn, in proportion
+   subroutine set_loads(turns, case_factor, station, scene)
+      !> The turns
+      type(turn_type), intent(in) :: turns(:)
+      !> Factors of the load cases
+      real(wp), intent(in) :: case_factor(:)
+      !> The station, with the next turn; takes the part of the way
+      type(station_type), intent(inout) :: station
+      !> Takes the loads
+      type(scene_type), intent(inout) :: scene
+
+      real(wp) :: from(size(case_factor))
+
+      from = 0.0_wp
+      if (station%next > 1) from = turns(station%next - 1)%case_factor
+      associate (way => turns(station%next)%case_factor - from, to => turns(station%next), part => station%part)
+         part = 0.0_wp
+         if (norm2(way) > 0.0_wp) part = dot_product(case_factor - from, way)/dot_product(way, way)
+         scene%loads%free = part*to%loads%free
+         scene%loads%largest = to%loads%largest
+         scene%loads%work = part*to%loads%work
+         if (station%next == 1) return
+         associate (last => turns(station%next - 1))
+            scene%loads%free = scene%loads%free + (1.0_wp - part)*last%loads%free
+            scene%loads%work = scene%loads%work + (1.0_wp - part)*last%loads%work
+         end associate
+      end associate
+   end subroutine set_loads
 
    !> What joints remember after a state
    pure function remembered(laws, field) result(memory)

@@ -4,7 +4,7 @@ module axijoint_analysis_error_joints_mesh_error
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_error_held_error, only : judged_state_type, errors_by_law
    use axijoint_analysis_error_joint_shares, only : least_changes
-   use axijoint_analysis_error_remembered, only : way_type, find_remembered
+   use axijoint_analysis_error_remembered, only : solved_way_type, find_remembered
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
    use axijoint_assembly_force, only : joint_jump
    use axijoint_base_kinds, only : wp
@@ -34,7 +34,7 @@ contains
       !> Displacement amplitudes, shape (3, nodes, modes)
       real(wp), intent(in), target :: displacement(:, :, :)
       !> The way that loads took, if it is known, and slip that came about on it lasts
-      type(way_type), intent(in), target :: way
+      type(solved_way_type), intent(in), target :: way
       !> The errors, those in the end last
       type(mesh_error_type), allocatable, intent(out) :: errors(:)
 
@@ -66,7 +66,7 @@ contains
       !> The errors while the stress of the joints is held
       type(mesh_error_type), intent(in) :: errors(:)
       !> The way that loads took
-      type(way_type), intent(in) :: way
+      type(solved_way_type), intent(in) :: way
       !> The errors of the mesh in the end
       type(mesh_error_type), intent(out) :: error
       !> The change of the joints by these; not known if no state was found

@@ -9,42 +9,21 @@ module axijoint_analysis_error_remembered
    use axijoint_element_joint_law, only : memory_type, opening_bond
    use axijoint_joints_field, only : joint_field_type, commit_field
    use axijoint_joints_history, only : history_type, new_state, turning_places, most_turns
-   use axijoint_joints_loads, only : joint_loads_type, put_loads
-   use axijoint_joints_planes, only : synthesize
-   use axijoint_joints_scene, only : scene_type, motion_of
+   use axijoint_joints_loads, only : put_loads
+   use axijoint_joints_scene, only : scene_type
    use axijoint_joints_settle, only : find_again, roughly
-   use axijoint_joints_states, only : increment_state_type
-   use axijoint_joints_way, only : station_type, lag_type, remembered, find_lag, shift
+   use axijoint_joints_way, only : station_type, way_type, lag_type, take_up, remembered, find_lag, shift
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: way_type, look_back, leaves_rest, find_remembered
+   public :: solved_way_type, look_back, leaves_rest, find_remembered
 
    !> Increments that the way is followed through at most
    integer, parameter :: most_increments = 100
-   !> Stress that may be missing, over the stress, where the way is followed as it was; and what of jumps the iteration may have left
-   !> then, over these: of that no more is told
-   real(wp), parameter :: few_digits = 1.0e-6_wp, little_slip = 1.0e-3_wp
-
-   !> Where loads turn
-   type :: turn_type
-      !> Factors of the load cases, and the loads as joints see them
-      real(wp), allocatable :: case_factor(:)
-      type(joint_loads_type) :: loads
-   end type turn_type
-
-   !> The way that loads took
-   type :: way_type
-      !> Whether it is known
-      logical :: known = .false.
-      !> Places of the states after which loads turned, and their displacements
-      integer, allocatable :: places(:)
+   !> The way that loads took, with displacements where they turned
+   type, extends(way_type) :: solved_way_type
       type(solved_state_type), allocatable :: solved(:)
-      !> Loads there, and at the end
-      type(turn_type), allocatable :: turns(:)
-      !> States there, and the last before the last increment; none if the way is not known, in any case allocated
-      type(station_type), allocatable :: stations(:)
-   end type way_type
+   end type solved_way_type
 
 contains
 
@@ -57,7 +36,7 @@ contains
       !> What the increments came to
       type(history_type), intent(in) :: history
       !> Takes the way
-      type(way_type), intent(inout) :: way
+      type(solved_way_type), intent(inout) :: way
 
       if (size(history%states) == 0) return
       if (any(history%scene%laws%opening == opening_bond .or. history%scene%laws%softens)) return
@@ -77,7 +56,7 @@ contains
       !> What the increments came to
       type(history_type), intent(in) :: history
       !> The way; takes loads and displacements, and whether they were found
-      type(way_type), intent(inout) :: way
+      type(solved_way_type), intent(inout) :: way
 
       type(error_type), allocatable :: error
       integer :: i, n
@@ -103,32 +82,24 @@ contains
       !> What the increments came to
       type(history_type), intent(in) :: history
       !> The way; takes the stations, and whether all states were found as they were kept
-      type(way_type), intent(inout) :: way
+      type(solved_way_type), intent(inout) :: way
 
       type(joint_field_type) :: field
       type(scene_type) :: scene
       type(station_type) :: station
-      type(memory_type), allocatable :: start(:, :)
-      real(wp) :: off
       integer :: k
 
       field = new_state(structure%condensed, history%scene)
       scene = history%scene
-      station%next = 1
       do k = 1, size(history%states)
-         call begin(structure, history, history%states(k), field)
-         call set_loads(way%turns, history%states(k)%case_factor, station, scene)
-         start = field%memory
-         call find_again(structure%condensed, scene, start, field, way%known, enough=few_digits)
-         off = maxval(abs(field%jump(:, :, history%scene%planes%place) - history%states(k)%jump))
-         way%known = way%known .and. off <= little_slip*maxval(abs(field%jump))
+         call take_up(structure%condensed, history, way%turns, k, station, scene, field, way%known)
          if (.not. way%known) return
          if (any(way%places == k) .or. k == size(history%states)) then
             station%loads = scene%loads
             station%field = field
             way%stations = [way%stations, station]
-            if (any(way%places == k)) station%next = station%next + 1
          end if
+         if (any(way%places == k)) station%next = station%next + 1
          call commit_field(scene%laws, field)
       end do
    end subroutine follow
@@ -137,10 +108,10 @@ contains
    !> errors, is the rest of larger ones, and known less well
    pure logical function leaves_rest(way)
       !> The way, known
-      type(way_type), intent(in) :: way
+      type(solved_way_type), intent(in) :: way
 
-      !> Part up to which most of the loads is gone: in piles that were let go half, what harmonics left was told as 0.5 to 1.9 times
-      !> what it was, with 0.3 of the load as 0.3 to 1.4 times; and part of all loads from which those of a mode count
+      !> Part up to which most of the loads is gone: in piles that were let go to 0.4 of the load, half was told of what harmonics left
+      !> of joint stress; and part of all loads from which those of a mode count
       real(wp), parameter :: little = 0.49_wp, counts = 0.01_wp
       real(wp) :: loads(size(way%turns), size(way%turns(1)%loads%free, 3)), &
          factors(size(way%turns), size(way%turns(1)%case_factor))
@@ -166,7 +137,7 @@ contains
       !> Errors where loads turned and at the end, while the stress of the joints is held
       type(mesh_error_type), intent(in) :: errors(:)
       !> The way, known
-      type(way_type), intent(in) :: way
+      type(solved_way_type), intent(in) :: way
       !> The difference
       type(lag_type), intent(out) :: lag
 
@@ -194,58 +165,5 @@ contains
          end associate
       end do
    end subroutine find_remembered
-
-   !> Begin from a state as it was kept
-   subroutine begin(structure, history, state, field)
-      !> The structure
-      type(structure_type), intent(in) :: structure
-      !> What the increments came to, for the planes
-      type(history_type), intent(in) :: history
-      !> The state
-      type(increment_state_type), intent(in) :: state
-      !> Takes it, but for what it remembers
-      type(joint_field_type), intent(inout) :: field
-
-      field%initial = state%initial
-      associate (place => history%scene%planes%place)
-         field%jump(:, :, place) = state%jump
-         field%stress(:, :, place) = state%stress
-         field%state(:, place) = state%state
-      end associate
-      field%carried = field%stress
-      field%excess = state%excess
-      field%pending = state%pending
-      field%offset = state%offset
-      field%moved = synthesize(history%scene%planes, motion_of(structure%condensed, history%scene, field%offset))
-   end subroutine begin
-
-   !> Loads on the way to a turn, in proportion
-   subroutine set_loads(turns, case_factor, station, scene)
-      !> The turns
-      type(turn_type), intent(in) :: turns(:)
-      !> Factors of the load cases
-      real(wp), intent(in) :: case_factor(:)
-      !> The station, with the next turn; takes the part of the way
-      type(station_type), intent(inout) :: station
-      !> Takes the loads
-      type(scene_type), intent(inout) :: scene
-
-      real(wp) :: from(size(case_factor))
-
-      from = 0.0_wp
-      if (station%next > 1) from = turns(station%next - 1)%case_factor
-      associate (way => turns(station%next)%case_factor - from, to => turns(station%next), part => station%part)
-         part = 0.0_wp
-         if (norm2(way) > 0.0_wp) part = dot_product(case_factor - from, way)/dot_product(way, way)
-         scene%loads%free = part*to%loads%free
-         scene%loads%largest = to%loads%largest
-         scene%loads%work = part*to%loads%work
-         if (station%next == 1) return
-         associate (last => turns(station%next - 1))
-            scene%loads%free = scene%loads%free + (1.0_wp - part)*last%loads%free
-            scene%loads%work = scene%loads%work + (1.0_wp - part)*last%loads%work
-         end associate
-      end associate
-   end subroutine set_loads
 
 end module axijoint_analysis_error_remembered

@@ -11,7 +11,7 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_analysis_error_iteration_left, only : iteration_left_type
    use axijoint_analysis_error_joint_shares, only : take_share, nothing_is_left, has_moved, unloaded, least_changes
    use axijoint_analysis_error_joints_mesh_error, only : find_held_errors, find_answer, add_answer
-   use axijoint_analysis_error_remembered, only : way_type, look_back, leaves_rest
+   use axijoint_analysis_error_remembered, only : solved_way_type, look_back, leaves_rest
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
    use axijoint_assembly_equations, only : equations_type
    use axijoint_base_kinds, only : wp
@@ -140,7 +140,7 @@ contains
       logical, intent(out) :: rests
 
       type(joint_change_type) :: all(3)
-      type(way_type) :: way
+      type(solved_way_type) :: way
       type(mesh_error_type), allocatable :: errors(:)
       real(wp) :: seconds, looked_back, share
       logical :: answered, apart, at_once
@@ -192,7 +192,7 @@ contains
 
       !> What planes and harmonics leave
       subroutine see_joints()
-         call find_joint_changes(structure%condensed, history%scene, balanced, history%start, way%stations, &
+         call find_joint_changes(structure%condensed, balanced, history, way%way_type, &
                                  least_changes(structure, history), changes)
       end subroutine see_joints
 
