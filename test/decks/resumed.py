@@ -73,9 +73,12 @@ class Runs:
 
     def start(self, output, *options, **environment):
         """Begin a run that keeps every step"""
-        # tests that are run in the background ignore SIGINT, and hand that on
+        # tests that are run in the background ignore SIGINT, those by nohup SIGHUP, and hand that on
+        def heed():
+            for number in (signal.SIGINT, signal.SIGHUP):
+                signal.signal(number, signal.SIG_DFL)
         return subprocess.Popen(self.words(output, *options), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+                                preexec_fn=heed,
                                 text=True, env=dict(self.program.environment, OMP_NUM_THREADS='1', **environment))
 
     def run(self, output, *options, **environment):
