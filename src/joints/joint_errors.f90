@@ -11,8 +11,8 @@ module axijoint_joints_joint_errors
    use axijoint_joints_mechanism, only : mechanism_type, find_mechanism, hold_nothing, settle
    use axijoint_joints_planes, only : new_planes, synthesize, analyse
    use axijoint_joints_scene, only : scene_type, jumps, jumps_of_mode
-   use axijoint_joints_settle, only : find_again, roughly
-   use axijoint_joints_way, only : station_type, way_type, lag_type, take_up, remembered, find_lag, shift, add_slip
+   use axijoint_joints_settle, only : find_again
+   use axijoint_joints_way, only : station_type, way_type, lag_type, take_up, go_again, remembered, shift, add_slip
    use axijoint_model_joint_points, only : stiffest_base
    implicit none
    private
@@ -268,8 +268,6 @@ contains
 
       type(scene_type) :: there
       type(joint_field_type) :: field
-      type(memory_type), allocatable :: start(:, :)
-      logical :: found
       integer :: i
 
       there = finer_scene
@@ -277,14 +275,10 @@ contains
          there%loads = stations(i)%loads
          associate (count => size(there%planes%angle))
             field = on_planes(stations(i)%field, step, count)
-            call shift(condensed, there, lag, field)
-            start = field%memory
-            call find_again(condensed, there, start, field, found, share=roughly)
-            if (found) call find_lag(on_planes_memory(remembered(scene%laws, stations(i)%field), step, count), &
-               stations(i)%field, there%laws, field, lag)
+            call go_again(condensed, there, on_planes_memory(remembered(scene%laws, stations(i)%field), step, count), &
+               stations(i)%field, field, lag)
          end associate
-         lag%known = found
-         if (.not. found) return
+         if (.not. lag%known) return
       end do
    end subroutine follow_planes
 
@@ -304,7 +298,6 @@ contains
       type(station_type) :: station
       type(joint_field_type) :: field
       type(joint_field_type), allocatable :: with_more
-      type(memory_type), allocatable :: start(:, :)
       logical :: found
       integer :: k
 
@@ -313,16 +306,12 @@ contains
       field = new_state(condensed, scene)
       do k = 1, size(history%states)
          call take_up(condensed, history, way%turns, k, station, scene, field, found)
-         if (found) then
-            call add_harmonics(condensed, scene, field, extended, with_more)
-            if (.not. allocated(with_more)) return  ! harmonic 0 alone
-            call shift(condensed, extended, lag, with_more)
-            start = with_more%memory
-            call find_again(condensed, extended, start, with_more, found, share=roughly)
-            if (found) call find_lag(remembered(scene%laws, field), field, extended%laws, with_more, lag)
-         end if
-         lag%known = found
+         lag%known = lag%known .and. found
          if (.not. found) return
+         call add_harmonics(condensed, scene, field, extended, with_more)
+         if (.not. allocated(with_more)) return  ! harmonic 0 alone
+         call go_again(condensed, extended, remembered(scene%laws, field), field, with_more, lag)
+         if (.not. lag%known) return
          if (any(way%places == k)) station%next = station%next + 1
          call commit_field(scene%laws, field)
       end do

@@ -13,9 +13,9 @@ module axijoint_joints_settle
    use axijoint_joints_scene, only : scene_type, evaluate
    implicit none
    private
-   public :: settle, settle_wholly, find_again, roughly
+   public :: settle_wholly, find_again, roughly
 
-   !> Stress that may be missing, over what is missing at first: of an error one digit is enough;
+   !> Stress that may be missing, over what is missing at first: of an error one digit is enough, of states on the way to it less;
    !> over the stress, where nothing is to be left; and over the excess stress, of which points that
    !> stand open have rounding alone: a step would follow that
    real(wp), parameter :: one_digit = 0.003_wp, roughly = 0.03_wp, strict = 1.0e-10_wp, noise = 1.0e-13_wp
@@ -98,20 +98,6 @@ contains
       call take_idle_away(condensed, scene, mechanism, rest)
       is_near = maxval(abs(total_jumps(condensed, scene, rest))) <= farthest
    end function is_near
-
-   !> Go so far that what is missing is a small part of what is missing at first
-   subroutine settle(condensed, scene, field, found)
-      !> The condensed structure
-      type(condensed_type), intent(in) :: condensed
-      !> Laws, planes and loads
-      type(scene_type), intent(in) :: scene
-      !> State of the joints
-      type(joint_field_type), intent(inout) :: field
-      !> Whether a state was found
-      logical, intent(out) :: found
-
-      call go_on(condensed, scene, one_digit, strict, linear_tolerance, field, found)
-   end subroutine settle
 
    !> Go as far as numbers do
    subroutine settle_wholly(condensed, scene, field)

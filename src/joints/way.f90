@@ -8,14 +8,14 @@ module axijoint_joints_way
    use axijoint_joints_loads, only : joint_loads_type
    use axijoint_joints_planes, only : synthesize
    use axijoint_joints_scene, only : scene_type, motion_of
-   use axijoint_joints_settle, only : find_again
+   use axijoint_joints_settle, only : find_again, roughly
    use axijoint_joints_states, only : increment_state_type
    implicit none
    private
-   public :: turn_type, station_type, way_type, lag_type, take_up, remembered, find_lag, shift, add_slip
+   public :: turn_type, station_type, way_type, lag_type, take_up, go_again, remembered, shift, add_slip
 
-   !> Stress that may be missing, over the stress, where the way is followed as it was; and what of jumps the iteration may have left
-   !> then, over these: of that no more is told
+   !> Stress that may be missing, over the stress, where the way is followed as it was; and how far jumps may be from those that were
+   !> kept, over these
    real(wp), parameter :: few_digits = 1.0e-6_wp, little = 1.0e-3_wp
 
    !> Where loads turn
@@ -76,7 +76,8 @@ contains
       type(scene_type), intent(inout) :: scene
       !> What joints remember from before; takes the state
       type(joint_field_type), intent(inout) :: field
-      !> Whether it was found as it was kept
+      !> Whether it was found, and is the one that was kept: from the beginning of an increment that was halved another may be found,
+      !> and what is told of that is of no meaning
       logical, intent(out) :: found
 
       type(memory_type), allocatable :: start(:, :)
@@ -157,6 +158,31 @@ contains
       call commit_field(laws, after)
       call move_alloc(after%memory, memory)
    end function remembered
+
+   !> Find a state again without an approximation: it begins where it would be by what it lagged before
+   subroutine go_again(condensed, scene, memory, before, field, lag)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes, modes and loads without the approximation
+      type(scene_type), intent(in) :: scene
+      !> What joints remember after the state as it was, on these planes, shape (points, planes)
+      type(memory_type), intent(in) :: memory(:, :)
+      !> That state
+      type(joint_field_type), intent(in) :: before
+      !> The same in this scene; takes the one that is found
+      type(joint_field_type), intent(inout) :: field
+      !> By what it lagged before, if that is known; takes by what it lags now, not known if no state was found
+      type(lag_type), intent(inout) :: lag
+
+      type(memory_type), allocatable :: start(:, :)
+      logical :: found
+
+      call shift(condensed, scene, lag, field)
+      start = field%memory
+      call find_again(condensed, scene, start, field, found, share=roughly)
+      if (found) call find_lag(memory, before, scene%laws, field, lag)
+      lag%known = found
+   end subroutine go_again
 
    !> The difference between a state and one that was found without an approximation, perhaps with more modes
    pure subroutine find_lag(memory, before, laws, after, lag)

@@ -216,7 +216,7 @@ contains
             'slip all together: errors are rests of larger ones, and a part that slides as a whole stands as wrong as it did then')
       else if (results%keeps_slip .and. results%follows_slip) then
          call add(remarks, 'joints that slipped in earlier increments hold now, slipped back, or slip all together: what '// &
-            'planes and harmonics had wrong then stays in the slip and is not counted in the errors, nor where a part '// &
+            'planes and harmonics had wrong then stays in the slip and is not all counted in the errors, nor where a part '// &
             'stands that slides as a whole; what the mesh had wrong is')
       else if (results%keeps_slip) then
          call add(remarks, 'joints that slipped in earlier increments hold now, slipped back, or slip all together: what '// &

@@ -6,13 +6,12 @@ module axijoint_analysis_error_remembered
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
-   use axijoint_element_joint_law, only : memory_type, opening_bond
+   use axijoint_element_joint_law, only : opening_bond
    use axijoint_joints_field, only : joint_field_type, commit_field
    use axijoint_joints_history, only : history_type, new_state, turning_places, most_turns
    use axijoint_joints_loads, only : put_loads
    use axijoint_joints_scene, only : scene_type
-   use axijoint_joints_settle, only : find_again, roughly
-   use axijoint_joints_way, only : station_type, way_type, lag_type, take_up, remembered, find_lag, shift
+   use axijoint_joints_way, only : station_type, way_type, lag_type, take_up, go_again, remembered
    use axijoint_model_model, only : model_type
    implicit none
    private
@@ -20,8 +19,10 @@ module axijoint_analysis_error_remembered
 
    !> Increments that the way is followed through at most
    integer, parameter :: most_increments = 100
-   !> The way that loads took, with displacements where they turned
+
+   !> The way that loads took
    type, extends(way_type) :: solved_way_type
+      !> Loads and displacements where these turned
       type(solved_state_type), allocatable :: solved(:)
    end type solved_way_type
 
@@ -110,8 +111,8 @@ contains
       !> The way, known
       type(solved_way_type), intent(in) :: way
 
-      !> Part up to which most of the loads is gone: in piles that were let go to 0.4 of the load, half was told of what harmonics left
-      !> of joint stress; and part of all loads from which those of a mode count
+      !> Part up to which most of the loads is gone, a little less than half, as who lets go half means that; and part of all loads
+      !> from which those of a mode count
       real(wp), parameter :: little = 0.49_wp, counts = 0.01_wp
       real(wp) :: loads(size(way%turns), size(way%turns(1)%loads%free, 3)), &
          factors(size(way%turns), size(way%turns(1)%case_factor))
@@ -143,8 +144,6 @@ contains
 
       type(joint_field_type) :: field
       type(scene_type) :: scene
-      type(memory_type), allocatable :: start(:, :)
-      logical :: found
       integer :: i
 
       if (.not. all(errors%known)) return
@@ -152,17 +151,13 @@ contains
       do i = 1, size(way%stations)
          associate (station => way%stations(i), yielding => structure%yielding)
             field = station%field
-            call shift(structure%condensed, scene, lag, field)
             scene%loads = station%loads
             scene%loads%free = scene%loads%free + station%part*errors(station%next)%jump(:, yielding, :)
             if (station%next > 1) scene%loads%free = scene%loads%free &
                + (1.0_wp - station%part)*errors(station%next - 1)%jump(:, yielding, :)
-            start = field%memory
-            call find_again(structure%condensed, scene, start, field, found, share=roughly)
-            if (found) call find_lag(remembered(scene%laws, station%field), station%field, scene%laws, field, lag)
-            lag%known = found
-            if (.not. found) return
+            call go_again(structure%condensed, scene, remembered(scene%laws, station%field), station%field, field, lag)
          end associate
+         if (.not. lag%known) return
       end do
    end subroutine find_remembered
 
