@@ -1,6 +1,7 @@
 !> Static analysis of a structure under its loads, told in order
 module axijoint_analysis_static
    use axijoint_analysis_core_in_situ_balance, only : in_situ_balance
+   use axijoint_analysis_core_displaced_ends, only : run_and_displace
    use axijoint_analysis_core_increment_fields, only : field_of_state, recover_fields, &
       move_bodies
    use axijoint_analysis_core_left_out, only : what_was_left_out
@@ -33,7 +34,7 @@ module axijoint_analysis_static
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_history, only : history_type, state_of
-   use axijoint_joints_increments, only : run_increments, compare_loops
+   use axijoint_joints_increments, only : compare_loops
    use axijoint_joints_keeper, only : keeper_type
    use axijoint_joints_load_steps, only : final_factors, loads_of_increments
    use axijoint_joints_residual, only : balance_each_other
@@ -94,7 +95,7 @@ contains
       !> Whether errors are estimated; true if absent. Remarks that need no estimates are made in any case
       logical, intent(in), optional :: estimated
       !> Who keeps what the increments come to
-      class(keeper_type), intent(inout), optional :: keeper
+      class(keeper_type), intent(inout), optional, target :: keeper
 
       type(joint_field_type) :: field
       type(history_type) :: history
@@ -214,14 +215,12 @@ contains
       !> Singular stiffness, or out of memory
       type(error_type), allocatable, intent(out) :: error
       !> Who keeps what the increments come to
-      class(keeper_type), intent(inout), optional :: keeper
+      class(keeper_type), intent(inout), optional, target :: keeper
 
       type(joint_field_type), allocatable :: other
       type(iteration_left_type) :: left
 
-      call run_increments(model, structure%equations, structure%condensed, structure%joint_points, &
-                          structure%support_points, combination, history, progress, keeper, &
-                          structure%answer)
+      call run_and_displace(model, structure, combination, history, results, progress, keeper)
       if (allocated(history%failure)) then
          error = history%failure
          return

@@ -28,7 +28,7 @@ module axijoint_assembly_equations
    integer, parameter :: least_equations = 1500
    !> All that a system takes grows like this power of its equations. Factorization and solutions with all that
    !> follows them take about the same
-   real(wp), parameter :: growth = 1.25_wp
+   real(wp), parameter, public :: growth = 1.25_wp
 
    !> K_m of one harmonic: both families of it share the matrix unless restraints tell them apart;
    !> m = 0 has one for the symmetric family and one for torsion

@@ -2,7 +2,7 @@
 module axijoint_assembly_factors
    use omp_lib, only : omp_get_max_threads, omp_get_thread_num
    use axijoint_assembly_dofs, only : component_name
-   use axijoint_assembly_equations, only : equations_type, system_type, worth_threads
+   use axijoint_assembly_equations, only : equations_type, system_type, worth_threads, growth
    use axijoint_assembly_harmonic, only : harmonic_values
    use axijoint_assembly_stiffness, only : n_parts, has_sparsity
    use axijoint_base_error, only : error_type, fatal_error, exit_singular
@@ -19,7 +19,7 @@ module axijoint_assembly_factors
    implicit none
    private
    public :: workspace_type, new_workspaces, own, plan_factors, factorize_equations
-   public :: hold_factor, release_factor, report_failure
+   public :: factor_together, hold_factor, release_factor, report_failure
    public :: standing_bytes, parts_bytes, kept_bytes, passing_bytes
 
    !> Bytes of a value
@@ -195,8 +195,10 @@ contains
 
       type(workspace_type), allocatable :: spaces(:)
       integer :: s
+      logical :: made
 
       call new_workspaces(equations, spaces)
+      call factor_together(equations, equations%first + equations%n_kept - 1, spaces(1), size(spaces), made)
       !$omp parallel do schedule(dynamic) num_threads(size(spaces))
       do s = equations%first, equations%first + equations%n_kept - 1
          if (stop_wished()) cycle
@@ -206,6 +208,40 @@ contains
       call report_failure(equations, model, error)
       call check_stop(error)
    end subroutine factorize_equations
+
+   !> Factor the last of the systems up to one by all threads together, where they would else wait for the one that has it alone
+   subroutine factor_together(equations, last, space, n_threads, made)
+      !> The equations
+      type(equations_type), intent(inout) :: equations
+      !> Place of the last of those that threads take one after the other
+      integer, intent(in) :: last
+      !> Memory of this thread
+      type(workspace_type), intent(inout) :: space
+      !> Threads
+      integer, intent(in) :: n_threads
+      !> Whether it was
+      logical, intent(out) :: made
+
+      !> Part of the time that threads wait, from which on it is worth the while, and the least equations
+      real(wp), parameter :: much = 0.04_wp
+      integer, parameter :: least_equations = 6000
+      real(wp) :: busy(n_threads)
+      integer :: s, place
+
+      made = .false.
+      if (n_threads == 1 .or. last < equations%first) return
+      if (allocated(equations%systems(last)%factor)) return
+      associate (n_equations => [(equations%classes(equations%systems(s)%class)%dofs%n_equations, s=equations%first, last)])
+         if (n_equations(size(n_equations)) < least_equations) return
+         busy = 0.0_wp
+         do s = 1, size(n_equations)
+            place = minloc(busy, 1)
+            busy(place) = busy(place) + real(n_equations(s), wp)**growth
+         end do
+      end associate
+      made = sum(maxval(busy) - busy) > much*maxval(busy)*n_threads
+      if (made) call hold_factor(equations, last, space)
+   end subroutine factor_together
 
    !> Make sure that the factor of a system is there. If it cannot be, the system has failed;
    !> `report_failure` puts that into words

@@ -5,7 +5,7 @@
 !> of K_m = c_m (A + m S + m^2 C), then C of those that A couples.
 module axijoint_assembly_node_blocks
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
-   use omp_lib, only : omp_get_max_threads, omp_in_parallel
+   use omp_lib, only : omp_get_max_threads, omp_get_num_threads, omp_in_parallel
    use axijoint_assembly_support, only : support_point_type, support_stiffness
    use axijoint_assembly_element_stiffness, only : integrands_type, new_integrands, max_unknowns, max_blocks
    use axijoint_assembly_repeated_elements, only : shapes_type, find_shapes, integrated_type, new_integrated, find_blocks
@@ -160,7 +160,7 @@ contains
       type(support_point_type), intent(in) :: support_points(:)
 
       type(shapes_type) :: shapes
-      integer :: k, n, n_ranges
+      integer :: n, n_ranges
       logical :: within
 
       within = omp_in_parallel()
@@ -169,13 +169,32 @@ contains
       call find_shapes(model%mesh, shapes)
       n = size(blocks%place)
       n_ranges = 1
-      if (n_elements(model%mesh) > least_elements .and. .not. within) n_ranges = omp_get_max_threads()
-      !$omp parallel do schedule(static, 1) if (n_ranges > 1)
-      do k = 1, n_ranges
-         call assemble_rows(blocks, model, shapes, joint_points, support_points, 1 + range_end(n, k - 1, n_ranges), &
-            range_end(n, k, n_ranges))
-      end do
-      !$omp end parallel do
+      if (n_elements(model%mesh) > least_elements) n_ranges = merge(omp_get_num_threads(), omp_get_max_threads(), within)
+      if (within) then  ! others of the team may have nothing else to do
+         call share_rows()
+         return
+      end if
+      !$omp parallel if (n_ranges > 1)
+      !$omp single
+      call share_rows()
+      !$omp end single
+      !$omp end parallel
+
+   contains
+
+      !> Add to all rows, in ranges
+      subroutine share_rows()
+         integer :: k
+
+         do k = 1, n_ranges
+            !$omp task default(shared) firstprivate(k) if (n_ranges > 1)
+            call assemble_rows(blocks, model, shapes, joint_points, support_points, 1 + range_end(n, k - 1, n_ranges), &
+               range_end(n, k, n_ranges))
+            !$omp end task
+         end do
+         !$omp taskwait
+      end subroutine share_rows
+
    end subroutine assemble_blocks
 
    !> Let all ranks know the blocks that one has assembled

@@ -40,7 +40,7 @@ module axijoint_assembly_solid_force
 contains
 
    !> Nodal forces that balance the stresses of one mode, and the stresses
-   subroutine force_of_mode(model, initial, k, mode, displacement, force, stress, body)
+   subroutine force_of_mode(model, initial, k, mode, displacement, force, stress, counts)
       !> The job
       type(model_type), intent(in) :: model
       !> Stress without strain
@@ -54,8 +54,8 @@ contains
       real(wp), intent(out) :: force(:, :)
       !> Stress amplitudes at the Gauss points, shape (6, points)
       real(wp), intent(out), optional :: stress(:, :)
-      !> Body whose elements alone count, without their stresses; all if absent or 0
-      integer, intent(in), optional :: body
+      !> Elements that alone count, without their stresses; all if absent
+      logical, intent(in), optional :: counts(:)
 
       real(wp), allocatable :: forces(:, :, :), stresses(:, :, :)
 
@@ -63,18 +63,18 @@ contains
       if (present(stress)) then
          allocate (stresses(6, size(stress, 2), 1))
          call force_of_modes(model, initial, k, [mode], reshape(displacement, shape(forces)), &
-            forces, stresses, body)
+            forces, stresses, counts)
          stress = stresses(:, :, 1)
       else
          call force_of_modes(model, initial, k, [mode], reshape(displacement, shape(forces)), &
-            forces, body=body)
+            forces, counts=counts)
       end if
       force = forces(:, :, 1)
    end subroutine force_of_mode
 
    !> The same of several modes, one after the other in the order of all: what elements need of
    !> shapes is found once for them
-   subroutine force_of_modes(model, initial, place, modes, displacement, force, stress, body)
+   subroutine force_of_modes(model, initial, place, modes, displacement, force, stress, counts, shares)
       !> The job
       type(model_type), intent(in) :: model
       !> Stress without strain
@@ -88,8 +88,10 @@ contains
       real(wp), intent(out) :: force(:, :, :)
       !> Stress amplitudes at the Gauss points, shape (6, points, modes)
       real(wp), intent(out), optional :: stress(:, :, :)
-      !> Body whose elements alone count, without their stresses; all if absent or 0
-      integer, intent(in), optional :: body
+      !> Elements that alone count, without their stresses; all if absent
+      logical, intent(in), optional :: counts(:)
+      !> Share of each of these in the forces, shape (3, max_element_nodes, elements, modes)
+      real(wp), intent(inout), optional :: shares(:, :, :, :)
 
       type(reference_type), allocatable :: references(:)
       type(solid_strip_type) :: strip
@@ -97,8 +99,8 @@ contains
       type(dilatation_type) :: dilatations(most_elements)
       real(wp), dimension(most_elements, 6, max_element_points) :: now, in_situ
       real(wp), dimension(most_elements, 3, max_element_nodes) :: local, balance
-      real(wp) :: d(6, 6)
-      integer :: before, e, first, i, k, last, node
+      real(wp) :: d(6, 6), share(3)
+      integer :: before, behind, e, first, i, k, last, node
       logical :: averaged, stressed
 
       references = element_references(model%mesh)
@@ -106,13 +108,15 @@ contains
       if (allocated(initial%in_situ)) stressed = size(initial%in_situ) > 0
       force = 0.0_wp
       local = 0.0_wp
-      before = 0
+      behind = 0
       last = 0
       do while (last < n_elements(model%mesh))
          first = last + 1
-         last = end_of_strip(model%mesh, first)
-         if (present(body)) then
-            if (all(body /= [0, model%mesh%element_body(first)])) cycle
+         last = end_of_strip(model%mesh, first, counts)
+         before = behind
+         behind = before + (last - first + 1)*references(model%mesh%element_kind(first))%n_points
+         if (present(counts)) then
+            if (.not. counts(first)) cycle
          end if
          call fill_strip(model%mesh, references(model%mesh%element_kind(first)), first, last, strip, &
             points, dilatations)
@@ -141,8 +145,9 @@ contains
             do e = 1, last - first + 1
                do i = 1, strip%n
                   node = model%mesh%element_nodes(i, first + e - 1)
-                  force(:, node, k) = force(:, node, k) &
-                     + circle_integral(modes(k)%harmonic)*balance(e, :, i)
+                  share = circle_integral(modes(k)%harmonic)*balance(e, :, i)
+                  force(:, node, k) = force(:, node, k) + share
+                  if (present(shares)) shares(:, i, first + e - 1, k) = share
                end do
                if (.not. present(stress)) cycle
                do i = 1, strip%n_points
@@ -150,22 +155,26 @@ contains
                end do
             end do
          end do
-         before = before + (last - first + 1)*strip%n_points
       end do
    end subroutine force_of_modes
 
    !> Last of the elements from one on that are like it, and not too many
-   pure integer function end_of_strip(mesh, first) result(last)
+   pure integer function end_of_strip(mesh, first, counts) result(last)
       !> The mesh
       type(mesh_type), intent(in) :: mesh
       !> The first
       integer, intent(in) :: first
+      !> Elements that count; all if absent
+      logical, intent(in), optional :: counts(:)
 
       last = first
       do while (last < min(first + most_elements - 1, n_elements(mesh)))
          if (mesh%element_kind(last + 1) /= mesh%element_kind(first)) exit
          if (mesh%element_material(last + 1) /= mesh%element_material(first)) exit
          if (mesh%element_body(last + 1) /= mesh%element_body(first)) exit
+         if (present(counts)) then
+            if (counts(last + 1) .neqv. counts(first)) exit
+         end if
          last = last + 1
       end do
    end function end_of_strip

@@ -2,6 +2,7 @@
 module axijoint_command_line
    use axijoint_base_error, only : error_type, fatal_error, exit_deck
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_base_system, only : path_kind, path_file
    use axijoint_base_text, only : upper, lower
    use axijoint_base_version, only : program_name, program_version
    use axijoint_command_card_help, only : card_help, names_of_cards
@@ -83,6 +84,7 @@ contains
 
       type(word_type), allocatable :: words(:)
       type(topic_type), allocatable :: topics(:)
+      character(len=12), allocatable :: known(:)
       integer :: k
 
       topics = all_topics(solvers)
@@ -108,8 +110,12 @@ contains
       case ('--version')
          command%text = program_name//' '//program_version
       case default
-         call unknown('command', words(1)%text, &
-                      [character(len=12) :: names_of_topics(topics), '--version'], error)
+         known = [character(len=12) :: names_of_topics(topics), '--version']
+         if (path_kind(words(1)%text) == path_file) then
+            call unknown('command', words(1)%text, known, error, mend='axijoint run '//words(1)%text//' runs this file')
+         else
+            call unknown('command', words(1)%text, known, error)
+         end if
       end select
    end subroutine read_command
 

@@ -9,7 +9,7 @@ module axijoint_command_unknown_word
 contains
 
    !> Error for a word that is not known: the likeliest one, and all that are
-   subroutine unknown(what, word, known, error)
+   subroutine unknown(what, word, known, error, mend)
       !> Kind of word
       character(len=*), intent(in) :: what
       !> The word
@@ -18,6 +18,8 @@ contains
       character(len=*), intent(in) :: known(:)
       !> The error
       type(error_type), allocatable, intent(out) :: error
+      !> How to mend it, if more is known than that
+      character(len=*), intent(in), optional :: mend
 
       character(len=:), allocatable :: message, question
       integer :: k
@@ -29,6 +31,7 @@ contains
       do k = 1, size(known)
          message = message//' '//trim(known(k))
       end do
+      if (present(mend)) message = message//new_line('a')//'mend: '//mend
       call fatal_error(error, exit_deck, message)
    end subroutine unknown
 

@@ -16,8 +16,8 @@ module axijoint_joints_joint_errors
    use axijoint_model_joint_points, only : stiffest_base
    implicit none
    private
-   public :: joint_change_type, joint_changes_type, find_joint_changes, change_between, settled_change, &
-      offset_between, largest_change
+   public :: joint_change_type, joint_changes_type, search_type, new_search, follow_harmonics, find_planes, find_harmonics, &
+      change_between, settled_change, offset_between, largest_change
 
    !> Intervals between planes are divided by this
    integer, parameter :: finer = 4
@@ -47,6 +47,19 @@ module axijoint_joints_joint_errors
       !> Whether what planes and harmonics had wrong before the last increment is among theirs
       logical :: follow_slip = .false.
    end type joint_changes_type
+
+   !> The search for what planes change, and from the state on these, what harmonics do
+   type :: search_type
+      private
+      !> Laws, loads and planes, so many times more of them
+      type(scene_type) :: finer
+      integer :: step = 1
+      !> By what joints lag for few planes before the last increment
+      type(lag_type) :: lag
+      !> The state on these planes, and what joints remember
+      type(joint_field_type), allocatable :: on_more
+      type(memory_type), allocatable :: memory(:, :)
+   end type search_type
 
 contains
 
@@ -155,9 +168,65 @@ contains
       end do
    end function carry_nothing
 
-   !> Changes by more planes and harmonics, but for motions that nothing resists and no load acts on; and by what these change of the
-   !> slip of earlier increments, if these are known and states are found
-   subroutine find_joint_changes(condensed, balanced, history, way, rounding, changes)
+   !> Begin the search
+   function new_search(scene) result(search)
+      !> The scene
+      type(scene_type), intent(in) :: scene
+      !> The search
+      type(search_type) :: search
+
+      integer :: n
+
+      search%finer = scene
+      if (scene%planes%folds == 0) return  ! harmonic 0 alone: all planes are alike
+      n = scene%planes%n - 1
+      ! for products of harmonics up to 2 M
+      search%step = max(finer, (4*maxval(scene%modes%harmonic) + n - 1)/n)
+      search%finer%planes = new_planes(search%step*n + 1, scene%modes, whole=scene%planes%folds == 1)
+   end function new_search
+
+   !> By what joints lag before the last increment for few harmonics: the way is gone again with harmonics up to 2 M, through all
+   !> increments, as where points slip and where they hold hangs on these from the first. On the planes of the job; not known if
+   !> these are too few for more harmonics, or a state was not found
+   subroutine follow_harmonics(condensed, history, way, lag)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> The way there; not known if nothing of it lasts
+      type(way_type), intent(in) :: way
+      !> What harmonics leave
+      type(lag_type), intent(out) :: lag
+
+      type(scene_type) :: scene, extended
+      type(station_type) :: station
+      type(joint_field_type) :: field
+      type(joint_field_type), allocatable :: with_more
+      real(wp) :: clock
+      logical :: found
+      integer :: k
+
+      scene = history%scene
+      if (.not. way%known .or. scene%planes%folds == 0) return  ! where harmonic 0 is alone there are no more
+      if (scene%planes%n - 1 < 4*maxval(scene%modes%harmonic)) return
+      clock = omp_get_wtime()
+      field = new_state(condensed, scene)
+      do k = 1, size(history%states)
+         call take_up(condensed, history, way%turns, k, station, scene, field, found)
+         lag%known = lag%known .and. found
+         if (.not. found) exit
+         call add_harmonics(condensed, scene, field, extended, with_more)
+         call go_again(condensed, extended, remembered(scene%laws, field), field, with_more, lag)
+         if (.not. lag%known) exit
+         if (any(way%places == k)) station%next = station%next + 1
+         call commit_field(scene%laws, field)
+      end do
+      lag%seconds = omp_get_wtime() - clock
+   end subroutine follow_harmonics
+
+   !> The change by more planes, but for motions that nothing resists and no load acts on; and by what these change of the slip of
+   !> earlier increments, if the way is known and states are found
+   subroutine find_planes(condensed, balanced, history, way, rounding, search, change)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
       !> The state of the joints, balanced, with the memory of the beginning of its increment
@@ -168,91 +237,124 @@ contains
       type(way_type), intent(in) :: way
       !> Changes of stress up to this are none, shape (points)
       real(wp), intent(in) :: rounding(:)
-      !> Takes the changes
+      !> The search
+      type(search_type), intent(inout) :: search
+      !> Takes the change
+      type(joint_change_type), intent(out) :: change
+
+      real(wp) :: clock
+
+      change = no_change(balanced)
+      if (history%scene%planes%folds == 0) return
+      clock = omp_get_wtime()
+      if (way%known) call follow_planes(condensed, history%scene, search%finer, search%step, way%stations, search%lag)
+      call change_by_planes(condensed, balanced, history, rounding, search, change)
+      change%seconds = omp_get_wtime() - clock
+   end subroutine find_planes
+
+   !> The change by more harmonics, on more planes. Where states are not found with what slip has kept, both changes are found
+   !> without it
+   subroutine find_harmonics(condensed, balanced, history, followed, rounding, search, changes)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> The state of the joints, balanced, with the memory of the beginning of its increment
+      type(joint_field_type), intent(in) :: balanced
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> By what joints lag for few harmonics, on the planes of the job
+      type(lag_type), intent(in) :: followed
+      !> Changes of stress up to this are none, shape (points)
+      real(wp), intent(in) :: rounding(:)
+      !> The search
+      type(search_type), intent(inout) :: search
+      !> Takes the changes; those by planes are there
       type(joint_changes_type), intent(inout) :: changes
 
-      type(scene_type) :: finer_scene
-      type(lag_type) :: of_planes, of_harmonics
+      type(lag_type) :: lag
       real(wp) :: clock
-      integer :: n, step
 
-      associate (scene => history%scene)
-         if (scene%planes%folds == 0) then  ! harmonic 0 alone: all planes are alike
-            changes%planes = no_change(balanced)
-            changes%harmonics = no_change(balanced)
-            changes%follow_slip = .true.
-            return
-         end if
-         clock = omp_get_wtime()
-         n = scene%planes%n - 1
-         ! for products of harmonics up to 2 M
-         step = max(finer, (4*maxval(scene%modes%harmonic) + n - 1)/n)
-         finer_scene = scene
-         finer_scene%planes = new_planes(step*n + 1, scene%modes, whole=scene%planes%folds == 1)
-         if (way%known) then
-            call follow_planes(condensed, scene, finer_scene, step, way%stations, of_planes)
-            call follow_harmonics(condensed, history, way, of_harmonics)
-         end if
-         if (of_harmonics%known) of_harmonics%slip = slip_on_planes(of_harmonics%slip, step, size(finer_scene%planes%angle))
-         clock = omp_get_wtime() - clock
-         call find_changes(of_planes, of_harmonics)
-         changes%follow_slip = of_planes%known .and. of_harmonics%known
-         if ((of_planes%known .or. of_harmonics%known) .and. .not. (changes%planes%known .and. changes%harmonics%known)) then
-            changes%follow_slip = .false.
-            call find_changes(lag_type(), lag_type())
-         end if
-         changes%planes%seconds = changes%planes%seconds + 0.5_wp*clock
-         changes%harmonics%seconds = changes%harmonics%seconds + 0.5_wp*clock
+      changes%follow_slip = history%scene%planes%folds == 0
+      changes%harmonics = no_change(balanced)
+      if (changes%follow_slip) return
+      clock = omp_get_wtime()
+      lag = followed
+      if (lag%known) lag%slip = slip_on_planes(lag%slip, search%step, size(search%finer%planes%angle))
+      call change_by_harmonics(condensed, history%scene, lag, rounding, changes%planes%known, search, changes%harmonics)
+      changes%follow_slip = search%lag%known .and. lag%known
+      if ((search%lag%known .or. lag%known) .and. .not. (changes%planes%known .and. changes%harmonics%known)) then
+         changes%follow_slip = .false.
+         search%lag = lag_type()
+         call change_by_planes(condensed, balanced, history, rounding, search, changes%planes)
+         call change_by_harmonics(condensed, history%scene, lag_type(), rounding, changes%planes%known, search, changes%harmonics)
+      end if
+      changes%harmonics%seconds = omp_get_wtime() - clock + followed%seconds
+   end subroutine find_harmonics
+
+   !> The change by more planes, where joints remember so much more slip as they lag by
+   subroutine change_by_planes(condensed, balanced, history, rounding, search, change)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> The state of the joints, balanced, with the memory of the beginning of its increment
+      type(joint_field_type), intent(in) :: balanced
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> Changes of stress up to this are none, shape (points)
+      real(wp), intent(in) :: rounding(:)
+      !> The search; takes the state
+      type(search_type), intent(inout) :: search
+      !> Takes the change
+      type(joint_change_type), intent(inout) :: change
+
+      associate (scene => search%finer, count => size(search%finer%planes%angle))
+         search%on_more = on_planes(balanced, search%step, count)
+         search%memory = on_planes_memory(history%start, search%step, count)
+         call add_slip(search%lag, search%memory)
+         call shift(condensed, scene, search%lag, search%on_more)
+         call find_again(condensed, scene, search%memory, search%on_more, change%known)
+         change%stress = largest_change(history%scene, balanced, search%on_more, search%step, rounding)
+         change%excess = search%on_more%excess - balanced%excess
+         change%offset = offset_between(condensed, history%scene, balanced, scene, search%on_more, rounding)
       end associate
+   end subroutine change_by_planes
 
-   contains
+   !> The same by more harmonics
+   subroutine change_by_harmonics(condensed, scene, lag, rounding, begins, search, change)
+      !> The condensed structure
+      type(condensed_type), intent(in) :: condensed
+      !> Laws, planes of the job, and loads
+      type(scene_type), intent(in) :: scene
+      !> By what joints lag for few harmonics, on more planes
+      type(lag_type), intent(in) :: lag
+      !> Changes of stress up to this are none, shape (points)
+      real(wp), intent(in) :: rounding(:)
+      !> Whether there is a state on more planes to begin from
+      logical, intent(in) :: begins
+      !> The search
+      type(search_type), intent(inout) :: search
+      !> Takes the change; none where there are no more harmonics
+      type(joint_change_type), intent(inout) :: change
 
-      !> The changes, where joints remember so much more slip
-      subroutine find_changes(of_planes, of_harmonics)
-         !> By what they lag for few planes, and for few harmonics; nothing if not known
-         type(lag_type), intent(in) :: of_planes, of_harmonics
+      type(scene_type) :: extended
+      type(joint_field_type), allocatable :: with_more
 
-         type(scene_type) :: extended
-         type(joint_field_type), allocatable :: on_more, with_more
-         type(memory_type), allocatable :: memory(:, :)
-         real(wp) :: clock
-
-         clock = omp_get_wtime()
-         associate (count => size(finer_scene%planes%angle))
-            allocate (on_more, source=on_planes(balanced, step, count))
-            memory = on_planes_memory(history%start, step, count)
+      change%known = begins
+      if (.not. begins) return
+      associate (on_more => search%on_more, m => size(scene%modes))
+         call add_harmonics(condensed, search%finer, on_more, extended, with_more)
+         if (.not. allocated(with_more)) return
+         call add_slip(lag, search%memory)
+         call shift(condensed, extended, lag, with_more)
+         call find_again(condensed, extended, search%memory, with_more, change%known)
+         change%stress = maxval([0.0_wp, changes_of_points(scene, on_more, with_more, 1, rounding)* &
+            beyond_twice(extended, with_more, m, condensed%points%proportion <= stiffest_base)])
+         change%excess = with_more%excess(:, :, :m) - on_more%excess
+         change%offset = offset_between(condensed, search%finer, on_more, extended, with_more, rounding)
+         with_more%excess(:, :, :m) = 0.0_wp
+         associate (jump => jumps(condensed, extended, with_more%excess, free=.false.))
+            change%beyond = sqrt(maxval(sum(synthesize(extended%planes, jump)**2, 1)))
          end associate
-         call add_slip(of_planes, memory)
-         call shift(condensed, finer_scene, of_planes, on_more)
-         call find_again(condensed, finer_scene, memory, on_more, changes%planes%known)
-         changes%planes%stress = largest_change(history%scene, balanced, on_more, step, rounding)
-         changes%planes%excess = on_more%excess - balanced%excess
-         changes%planes%offset = offset_between(condensed, history%scene, balanced, finer_scene, on_more, rounding)
-         changes%planes%seconds = omp_get_wtime() - clock
-         changes%harmonics = no_change(on_more)
-         changes%harmonics%known = changes%planes%known
-         if (.not. changes%planes%known) return  ! more harmonics would begin from a state that is none
-         clock = omp_get_wtime()
-         call add_harmonics(condensed, finer_scene, on_more, extended, with_more)
-         if (allocated(with_more)) then
-            call add_slip(of_harmonics, memory)
-            call shift(condensed, extended, of_harmonics, with_more)
-            call find_again(condensed, extended, memory, with_more, changes%harmonics%known)
-            associate (m => size(history%scene%modes))
-               changes%harmonics%stress = maxval([0.0_wp, changes_of_points(history%scene, on_more, with_more, 1, rounding)* &
-                  beyond_twice(extended, with_more, m, condensed%points%proportion <= stiffest_base)])
-               changes%harmonics%excess = with_more%excess(:, :, :m) - on_more%excess
-               changes%harmonics%offset = offset_between(condensed, finer_scene, on_more, extended, with_more, rounding)
-               with_more%excess(:, :, :m) = 0.0_wp
-            end associate
-            associate (jump => jumps(condensed, extended, with_more%excess, free=.false.))
-               changes%harmonics%beyond = sqrt(maxval(sum(synthesize(extended%planes, jump)**2, 1)))
-            end associate
-         end if
-         changes%harmonics%seconds = omp_get_wtime() - clock
-      end subroutine find_changes
-
-   end subroutine find_joint_changes
+      end associate
+   end subroutine change_by_harmonics
 
    !> By what joints lag before the last increment for few planes: the way is gone again from station to station on more
    subroutine follow_planes(condensed, scene, finer_scene, step, stations, lag)
@@ -281,41 +383,6 @@ contains
          if (.not. lag%known) return
       end do
    end subroutine follow_planes
-
-   !> By what they lag for few harmonics: the way is gone again with harmonics up to 2 M, through all increments, as where points slip
-   !> and where they hold hangs on these from the first
-   subroutine follow_harmonics(condensed, history, way, lag)
-      !> The condensed structure
-      type(condensed_type), intent(in) :: condensed
-      !> What the increments came to
-      type(history_type), intent(in) :: history
-      !> The way, known
-      type(way_type), intent(in) :: way
-      !> What harmonics leave, on the planes of the job; not known if these are too few for more harmonics, or a state was not found
-      type(lag_type), intent(out) :: lag
-
-      type(scene_type) :: scene, extended
-      type(station_type) :: station
-      type(joint_field_type) :: field
-      type(joint_field_type), allocatable :: with_more
-      logical :: found
-      integer :: k
-
-      scene = history%scene
-      if (scene%planes%n - 1 < 4*maxval(scene%modes%harmonic)) return
-      field = new_state(condensed, scene)
-      do k = 1, size(history%states)
-         call take_up(condensed, history, way%turns, k, station, scene, field, found)
-         lag%known = lag%known .and. found
-         if (.not. found) return
-         call add_harmonics(condensed, scene, field, extended, with_more)
-         if (.not. allocated(with_more)) return  ! harmonic 0 alone
-         call go_again(condensed, extended, remembered(scene%laws, field), field, with_more, lag)
-         if (.not. lag%known) return
-         if (any(way%places == k)) station%next = station%next + 1
-         call commit_field(scene%laws, field)
-      end do
-   end subroutine follow_harmonics
 
    !> What all harmonics change of the stress of points over what those up to 2 M do: 1 where they fall as fast as usual. Where slip
    !> turns round from one plane to the next, pressure has a peak there to which each doubling of M adds as much again, and no number of

@@ -56,6 +56,8 @@ module axijoint_joints_way
       real(wp), allocatable :: slip(:, :, :)
       !> Excess stress, amplitudes, shape (3, points, modes), and multiples of the floating motions
       real(wp), allocatable :: excess(:, :, :), offset(:)
+      !> Time that it took to find [second]
+      real(wp) :: seconds = 0.0_wp
    end type lag_type
 
 contains

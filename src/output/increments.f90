@@ -1,6 +1,7 @@
 !> Results of all increments, one after the other, for every file that shows them
 module axijoint_output_increments
    use omp_lib, only : omp_get_max_threads
+   use axijoint_analysis_core_displaced_ends, only : is_shown
    use axijoint_analysis_core_increment_fields, only : solve_increment, solve_increments, recover_state
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_series, only : series_type, new_series, append_increment
@@ -14,7 +15,7 @@ module axijoint_output_increments
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_mesh, only : n_nodes
    use axijoint_model_model, only : model_type
-   use axijoint_model_request, only : is_kept, keep_series
+   use axijoint_model_request, only : is_kept, keep_series, keep_stress
    use axijoint_output_file_hdf5, only : hdf5_file_type
    use axijoint_output_hdf5_history, only : history_fields_type, begin_history, put_history, &
       end_history, write_series
@@ -67,12 +68,13 @@ contains
             count([(is_kept(model%keep(keep_series), states(i)%increment, &
                             states(last)%increment), i=1, last)]))
          call job%timer%push(phase_recover)
-         shown = pack([(i, i=1, last - 1)], [(is_shown(model, states(i), states(last)), i=1, last - 1)])
+         shown = pack([(i, i=1, last - 1)], [(is_shown(model, states(i)%increment, states(last)%increment), i=1, last - 1)])
          allocate (solved(merge(at_once(), 1, by_threads())))
          do first = 1, size(shown), size(solved)
             n = min(size(solved), size(shown) - first + 1)
             call show_progress(job%progress, 'fields of increment '//to_text(shown(first))//' of '//to_text(last))
-            call solve_increments(model, structure, states, shown(first:first + n - 1), solved(:n), error)
+            call solve_increments(model, structure, states, shown(first:first + n - 1), solved(:n), error, &
+               results%displaced)
             if (allocated(error)) exit
             !$omp parallel do ordered schedule(dynamic) if (n > 1)
             do k = 1, n
@@ -109,7 +111,8 @@ contains
 
          type(results_type) :: earlier
 
-         call recover_state(job%model, job%structure, results%states(i), results, solved, earlier)
+         call recover_state(job%model, job%structure, results%states(i), results, solved, earlier, &
+            smoothed=shows_stress(job%model, results%states(i), results%states(last)))
          !$omp ordered
          call put(i, earlier)
          !$omp end ordered
@@ -151,21 +154,21 @@ contains
 
       last = size(results%states)
       do i = 1, last - 1
-         if (.not. is_shown(job%model, results%states(i), results%states(last))) cycle
+         if (.not. is_shown(job%model, results%states(i)%increment, results%states(last)%increment)) cycle
          call solve_increment(job%model, job%structure, i, results, earlier, error)
          if (allocated(error)) return
       end do
    end subroutine help_with_increments
 
-   !> Whether a file shows fields of an increment before the last
-   pure logical function is_shown(model, state, last)
+   !> Whether a file shows stresses of an increment at nodes, or between these in sections
+   pure logical function shows_stress(model, state, last) result(shows)
       !> The job
       type(model_type), intent(in) :: model
       !> The end of the increment, and of the last
       type(increment_state_type), intent(in) :: state, last
 
-      is_shown = any(is_kept(model%keep, state%increment, last%increment)) .or. model%sweep%wanted &
-         .or. model%old_listing
-   end function is_shown
+      shows = is_kept(model%keep(keep_stress), state%increment, last%increment) .or. model%sweep%wanted .or. model%old_listing
+      if (size(model%lines) > 0) shows = shows .or. is_kept(model%keep(keep_series), state%increment, last%increment)
+   end function shows_stress
 
 end module axijoint_output_increments

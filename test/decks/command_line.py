@@ -56,6 +56,7 @@ CASES = (
     (('help', 'rum'), 2, '', "unknown command 'rum'; did you mean run?"),
     (('chek', FIRST), 2, '', "unknown command 'chek'; did you mean check?"),
     (('solve', FIRST), 2, '', "unknown command 'solve'"),
+    ((FIRST,), 2, '', f'mend: axijoint run {FIRST} runs this file\n'),
     (('run',), 2, '', 'no deck given'),
     (('check',), 2, '', 'no deck given'),
     (('run', FIRST, '-o'), 2, '', 'option -o needs DIR'),

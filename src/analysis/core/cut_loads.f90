@@ -29,6 +29,8 @@ module axijoint_analysis_core_cut_loads
       real(wp), allocatable :: position(:, :)
       !> Whether each node is above the cut, and whether it belongs to what is cut
       logical, allocatable :: above(:), cut(:)
+      !> Elements of what is cut that the cut passes through
+      integer, allocatable :: crossed(:)
    end type plane_type
 
 contains

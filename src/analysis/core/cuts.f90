@@ -9,8 +9,9 @@ module axijoint_analysis_core_cuts
    use axijoint_assembly_loading, only : loading_type
    use axijoint_assembly_solid_force, only : solid_force
    use axijoint_base_kinds, only : wp
+   use axijoint_fe_mode, only : mode_type
    use axijoint_joints_field, only : joint_field_type, stress_amplitude
-   use axijoint_model_mesh, only : n_elements, n_nodes
+   use axijoint_model_mesh, only : mesh_type, max_element_nodes, n_elements, n_nodes
    use axijoint_model_model, only : model_type
    use axijoint_model_request, only : cut_type
    implicit none
@@ -24,10 +25,11 @@ contains
 
    !> Fill the resultants on all cuts: the work of the stresses on a motion that is
    !> rigid above the cut and zero below, with the elements' own functions between,
-   !> that is, the resultant of the stresses' nodal forces above the cut. It balances
-   !> the nodal loads above. Where a load is spread over an element that the cut passes
-   !> through, what nodal forces count too much or too little of it is taken off.
-   !> So the cut balances the loads above it, wherever it is.
+   !> that is, the resultant of the stresses' nodal forces above the cut, of the elements
+   !> that it passes through: others move without strain. It balances the nodal loads above.
+   !> Where a load is spread over an element that the cut passes through, what nodal forces
+   !> count too much or too little of it is taken off. So the cut balances the loads above it,
+   !> wherever it is.
    subroutine cut_resultants(model, structure, loading, field, results)
       !> The job
       type(model_type), intent(in) :: model
@@ -41,27 +43,30 @@ contains
       type(results_type), intent(inout) :: results
 
       type(plane_type), allocatable :: planes(:)
-      real(wp), allocatable :: force(:, :), stress(:, :)
+      real(wp), allocatable :: force(:, :, :), shares(:, :, :, :), stress(:, :)
+      logical, allocatable :: crossed(:)
       integer :: k, c
 
       allocate (results%cut_resultants(n_resultants, size(model%cuts)), source=0.0_wp)
       if (size(model%cuts) == 0) return
-      allocate (force(3, n_nodes(model%mesh)))
+      allocate (force(3, n_nodes(model%mesh), 1))
+      allocate (shares(3, max_element_nodes, n_elements(model%mesh), 1))
+      allocate (crossed(n_elements(model%mesh)), source=.false.)
       allocate (planes(size(model%cuts)))
       do c = 1, size(planes)
          planes(c) = new_plane(model, model%cuts(c))
+         crossed(planes(c)%crossed) = .true.
       end do
       do k = 1, size(results%modes)
          if (results%modes(k)%harmonic > 1) cycle  ! no resultants
          associate (mode => results%modes(k), displacement => results%displacement(:, :, k), &
                     case_factor => loading%case_factor)
             stress = stress_amplitude(structure%joint_points, mode, displacement, field, k)
+            call solid_force(model, loading%initial, k, [mode], results%displacement(:, :, k:k), force, &
+               counts=crossed, shares=shares)
             do c = 1, size(planes)
-               if (has_new_body(model%cuts, c)) call solid_force(model, loading%initial, k, mode, &
-                  displacement, force, body=model%cuts(c)%body)
                associate (plane => planes(c), total => results%cut_resultants(:, c))
-                  total = total + rigid_resultants(plane%position, mode, &
-                     merge(force, 0.0_wp, spread(plane%above .and. plane%cut, 1, 3))) &
+                  total = total + resultants_above(model%mesh, plane, mode, shares(:, :, :, 1)) &
                      - edge_load_excess(model, plane, mode, case_factor) &
                      - spring_excess(model, plane, mode, displacement) &
                      - joint_excess(model, plane, mode, stress) &
@@ -72,17 +77,30 @@ contains
       end do
    end subroutine cut_resultants
 
-   !> Whether a cut is the first, or of another body than the one before: bonded bodies share
-   !> nodes, whose forces are then of their own elements
-   pure logical function has_new_body(cuts, c)
-      !> The cuts
-      type(cut_type), intent(in) :: cuts(:)
-      !> Which
-      integer, intent(in) :: c
+   !> Resultants of the forces of elements that a cut passes through on nodes above it
+   pure function resultants_above(mesh, plane, mode, shares) result(total)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> The cut
+      type(plane_type), intent(in) :: plane
+      !> The mode
+      type(mode_type), intent(in) :: mode
+      !> Share of each element in the nodal forces, shape (3, max_element_nodes, elements)
+      real(wp), intent(in) :: shares(:, :, :)
+      !> The resultants
+      real(wp) :: total(n_resultants)
 
-      has_new_body = c == 1
-      if (.not. has_new_body) has_new_body = cuts(c)%body /= cuts(c - 1)%body
-   end function has_new_body
+      integer :: e, n
+
+      total = 0.0_wp
+      do e = 1, size(plane%crossed)
+         n = mesh%element_size(plane%crossed(e))
+         associate (nodes => mesh%element_nodes(:n, plane%crossed(e)), share => shares(:, :n, plane%crossed(e)))
+            total = total + rigid_resultants(plane%position(:, nodes), mode, &
+               merge(share, 0.0_wp, spread(plane%above(nodes), 1, 3)))
+         end associate
+      end do
+   end function resultants_above
 
    !> Nodes above and below a cut. A node on the cut is below it: loads there act
    !> below; but at the top of what is cut they act above
@@ -94,6 +112,7 @@ contains
       !> The nodes
       type(plane_type) :: plane
 
+      logical, allocatable :: crossed(:)
       real(wp) :: tolerance
       integer :: element
 
@@ -109,6 +128,14 @@ contains
       end associate
       plane%above = plane%position(2, :) > tolerance
       if (.not. any(plane%above .and. plane%cut)) plane%above = plane%position(2, :) >= -tolerance
+      allocate (crossed(n_elements(model%mesh)), source=.false.)
+      do element = 1, size(crossed)
+         if (cut%body > 0 .and. model%mesh%element_body(element) /= cut%body) cycle
+         associate (above => plane%above(model%mesh%element_nodes(:model%mesh%element_size(element), element)))
+            crossed(element) = any(above) .and. .not. all(above)
+         end associate
+      end do
+      plane%crossed = pack([(element, element=1, size(crossed))], crossed)
    end function new_plane
 
 end module axijoint_analysis_core_cuts

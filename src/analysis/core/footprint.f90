@@ -18,7 +18,7 @@ module axijoint_analysis_core_footprint
    use axijoint_plastic_field, only : body_planes
    implicit none
    private
-   public :: footprint_type, data_footprint, fine_nodes, blocks_of, program_bytes
+   public :: footprint_type, data_footprint, fine_nodes, blocks_of, program_bytes, displaced_numbers
 
    !> What program and libraries without any data take beyond their start once they are used, with what the last of
    !> the heap's large pages is too large [byte]; measured
@@ -52,6 +52,9 @@ module axijoint_analysis_core_footprint
    !> estimated where there is a potential
    integer(i8), parameter :: amplitude_arrays = 7, held_vectors = 10, mixed_vectors = 36, &
       learned_vectors = 67
+
+   !> Displacements of earlier increments that are held until they are shown, at most
+   integer(i8), parameter :: most_displaced = 4000000
 
    !> Bytes
    type :: footprint_type
@@ -132,6 +135,8 @@ contains
             *jumps/3*(7*kept_planes + 6*n_modes)
          if (jumps > 0) footprint%joints = footprint%joints + real_bytes*acting_cases(model)*(jumps*n_modes + 3*nodes)
          footprint%stresses = 2*footprint%stresses + footprint%loads
+         if (jumps > 0) footprint%joints = footprint%joints &
+            + real_bytes*displaced_numbers(model, n_modes, size(model%increments) - 1)
          ! loads twice, displacements and what half the elements change of them, where loads turned; joints there, and those that answer
          ! the mesh while others do planes and harmonics
          if (jumps > 0 .and. estimated) footprint%joints = footprint%joints &
@@ -142,6 +147,17 @@ contains
       footprint%joint_work = real_bytes*unknowns**2  ! the inverse
       if (jumps == 0) footprint%joint_work = 0
    end function data_footprint
+
+   !> Displacements of so many earlier increments, if they are held until these are shown: none if they are too many
+   pure integer(i8) function displaced_numbers(model, n_modes, n) result(numbers)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Modes, and increments
+      integer, intent(in) :: n_modes, n
+
+      numbers = 3*int(n_nodes(model%mesh), i8)*n_modes*n
+      if (numbers > most_displaced) numbers = 0
+   end function displaced_numbers
 
    !> Matrices between modes and planes: those of the job, and where it has more than harmonic 0, those of the estimates of
    !> errors with more planes, and with as many modes again; in single precision the largest of those that Newton's method

@@ -9,7 +9,7 @@ module axijoint_analysis_core_increment_fields
    use axijoint_analysis_core_nodal_stress, only : smooth_stress
    use axijoint_analysis_core_plastic_fields, only : plastic_fields
    use axijoint_analysis_core_recovery, only : recover
-   use axijoint_analysis_core_results, only : results_type, n_resultants
+   use axijoint_analysis_core_results, only : results_type, displaced_type, n_resultants
    use axijoint_analysis_core_solution, only : solve_states, solved_state_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_assembly_force, only : joint_jump, elastic_joint_stress
@@ -180,8 +180,8 @@ contains
       if (.not. allocated(error)) call recover_state(model, structure, final%states(place), final, solved(1), results)
    end subroutine solve_increment
 
-   !> Find the displacements of increments again: one solution a mode and increment
-   subroutine solve_increments(model, structure, states, places, solved, error)
+   !> Find the displacements of increments again: one solution a mode and increment, unless they were found already
+   subroutine solve_increments(model, structure, states, places, solved, error, displaced)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure; its factors are made again where they are not kept
@@ -194,23 +194,42 @@ contains
       type(solved_state_type), intent(out) :: solved(:)
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
+      !> Those that were found already
+      type(displaced_type), intent(in), optional :: displaced(:)
 
-      integer :: i
+      logical :: is_found(size(places))
+      integer :: first, i, k, last
 
-      if (size(places) == 0) return
+      is_found = .false.
       do i = 1, size(places)
          associate (state => states(places(i)))
-            allocate (solved(i)%displacement(3, n_nodes(model%mesh), size(structure%modes)))
             call load_plastic_strain(model, structure, state, solved(i)%loading)
+            if (present(displaced)) then
+               k = findloc(displaced%increment, state%increment, 1)
+               is_found(i) = k > 0
+               if (k > 0) solved(i)%displacement = displaced(k)%displacement
+            end if
+            if (is_found(i)) cycle
+            allocate (solved(i)%displacement(3, n_nodes(model%mesh), size(structure%modes)))
             ! where no joint yields there is no excess stress
             if (allocated(state%excess)) solved(i)%excess = state%excess
          end associate
       end do
-      call solve_states(structure, model, solved, error)
+      last = 0
+      do while (last < size(places))
+         first = last + 1
+         last = first
+         do while (last < size(places))
+            if (is_found(last + 1) .neqv. is_found(first)) exit
+            last = last + 1
+         end do
+         if (.not. is_found(first)) call solve_states(structure, model, solved(first:last), error)
+         if (allocated(error)) return
+      end do
    end subroutine solve_increments
 
    !> Find the fields of an increment from its displacements
-   subroutine recover_state(model, structure, state, final, solved, results)
+   subroutine recover_state(model, structure, state, final, solved, results, smoothed)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure
@@ -223,6 +242,8 @@ contains
       type(solved_state_type), intent(inout) :: solved
       !> The fields of the increment; nothing that is about the run
       type(results_type), intent(out) :: results
+      !> Whether stresses are smoothed to the nodes; true if absent
+      logical, intent(in), optional :: smoothed
 
       type(loading_type) :: loads
       type(joint_field_type) :: field
@@ -239,9 +260,9 @@ contains
          call new_loading(model, structure%joint_points, structure%support_points, structure%modes, &
                           structure%equations%unit_loads, &
                           combination_type(0, state%peak_factor), loads)
-         call recover_fields(model, structure, solved%loading, loads, field, results)
+         call recover_fields(model, structure, solved%loading, loads, field, results, smoothed)
       else
-         call recover_fields(model, structure, solved%loading, solved%loading, field, results)
+         call recover_fields(model, structure, solved%loading, solved%loading, field, results, smoothed)
       end if
       results%plastic = plastic_fields(model, results%modes, results%stress, state%bodies)
       call move_bodies(model, structure, state, results)

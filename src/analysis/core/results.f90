@@ -13,7 +13,7 @@ module axijoint_analysis_core_results
    use axijoint_solver_entry, only : solver_entry_type
    implicit none
    private
-   public :: results_type, peak_type, mode_solve_type, ordering_type, remark_type, nodal_stress_type, &
+   public :: results_type, displaced_type, peak_type, mode_solve_type, ordering_type, remark_type, nodal_stress_type, &
              error_share_type, round_type, stiffer_type
    public :: source_discretization, source_harmonics, source_planes, source_iteration, &
       source_solver, source_sum, &
@@ -157,6 +157,14 @@ module axijoint_analysis_core_results
       real(wp), allocatable :: amplitude(:, :, :)
    end type nodal_stress_type
 
+   !> Displacements at the end of an increment
+   type :: displaced_type
+      !> Increment
+      integer :: increment = 0
+      !> Amplitudes without rigid motions of floating parts, shape (3, nodes, modes)
+      real(wp), allocatable :: displacement(:, :, :)
+   end type displaced_type
+
    !> Results of a run. Amplitudes belong to a mode: u, v ~ cos(m theta),
    !> w ~ sin(m theta) in the symmetric family, ~ sin and -cos in the other.
    type :: results_type
@@ -231,6 +239,8 @@ module axijoint_analysis_core_results
       type(peak_type) :: pressure, shear
       !> States at the ends of the increments, the last one being that of these results
       type(increment_state_type), allocatable :: states(:)
+      !> Displacements of those before the last that were found beside the iterations
+      type(displaced_type), allocatable :: displaced(:)
       !> Convergence path; empty for a linear job
       type(iteration_type), allocatable :: path(:)
       !> Motions that nothing resists and no load acts on, in words

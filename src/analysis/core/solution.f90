@@ -8,7 +8,7 @@ module axijoint_analysis_core_solution
    use axijoint_analysis_fine_level, only : fine_load_type, new_fine_load, share_stiffness
    use axijoint_assembly_equations, only : equations_type, own_modes, solve_system, correct_system, &
                                            expand_mode, find_unbalanced, worth_threads
-   use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
+   use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, factor_together, hold_factor, &
                                          release_factor, report_failure
    use axijoint_assembly_force, only : joint_force
    use axijoint_assembly_loading, only : loading_type
@@ -129,14 +129,16 @@ contains
       type(fine_load_type) :: load
       type(workspace_type), allocatable :: spaces(:)
       type(room_type), allocatable :: rooms(:)
-      real(wp) :: times(4, size(structure%equations%systems))
-      integer :: s, t, n_threads
+      real(wp) :: times(4, size(structure%equations%systems)), began, together
+      integer :: i, s, t, n_threads
+      logical :: made
 
       allocate (solves(size(structure%modes)))
       if (present(difference)) load = new_fine_load(structure%fine, structure%modes, tasks(1)%loading)
       call new_workspaces(structure%equations, spaces)
       allocate (rooms(size(spaces)))
       times = 0.0_wp
+      together = 0.0_wp
       associate (equations => structure%equations)
          if (present(difference) .and. (size(spaces) > 1 .or. equations%last < equations%first)) &
             call share_stiffness(structure%fine, equations%team, error)
@@ -152,16 +154,23 @@ contains
             !$omp end master
             !$omp end parallel
          else
-            !$omp parallel do schedule(dynamic) num_threads(size(spaces))
-            do s = equations%first, equations%last
+            began = omp_get_wtime()
+            call factor_together(structure%equations, equations%last, spaces(1), size(spaces), made)
+            if (made) together = omp_get_wtime() - began
+            !$omp parallel do schedule(dynamic) num_threads(size(spaces)) private(s)
+            do i = equations%first, equations%last
+               s = i
+               ! first that which has its factor: each thread holds one
+               if (made) s = merge(equations%last, i - 1, i == equations%first)
                call solve_one(s)
             end do
             !$omp end parallel do
          end if
          if (present(difference)) then
             difference%seconds = sum(times(3, :))/size(spaces)
-            difference%factor_share = sum(times(2, :) - times(1, :))/max(tiny(1.0_wp), &
-               sum(times(4, :) - times(1, :)))
+            difference%factor_share = sum(times(2, :) - times(1, :))/max(tiny(1.0_wp), sum(times(4, :) - times(1, :)))
+            if (together > 0.0_wp) difference%factor_share = difference%factor_share &
+               + (1.0_wp - difference%factor_share)*together/(omp_get_wtime() - began)
          end if
          if (.not. allocated(error)) call report_failure(equations, model, error)
          if (allocated(error)) return

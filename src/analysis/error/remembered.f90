@@ -1,6 +1,7 @@
 !> What the mesh left wrong under loads that acted before: in what joints that slipped then, and hold now, remember
 module axijoint_analysis_error_remembered
    use axijoint_analysis_core_increment_fields, only : solve_increments
+   use axijoint_analysis_core_results, only : displaced_type
    use axijoint_analysis_core_solution, only : solved_state_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
@@ -29,13 +30,15 @@ module axijoint_analysis_error_remembered
 contains
 
    !> Look back on the way that loads took: where they turned
-   subroutine look_back(model, structure, history, way)
+   subroutine look_back(model, structure, history, displaced, way)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure
       type(structure_type), intent(inout) :: structure
       !> What the increments came to
       type(history_type), intent(in) :: history
+      !> Displacements at their ends that are known
+      type(displaced_type), intent(in), optional :: displaced(:)
       !> Takes the way
       type(solved_way_type), intent(inout) :: way
 
@@ -43,19 +46,21 @@ contains
       if (any(history%scene%laws%opening == opening_bond .or. history%scene%laws%softens)) return
       way%places = turning_places(history)
       if (size(way%places) > most_turns .or. size(history%states) > most_increments) return
-      call load_turns(model, structure, history, way)
+      call load_turns(model, structure, history, displaced, way)
       if (way%known) call follow(structure, history, way)
       if (.not. way%known) way%stations = [station_type ::]
    end subroutine look_back
 
    !> Find loads where they turn, and what they do
-   subroutine load_turns(model, structure, history, way)
+   subroutine load_turns(model, structure, history, displaced, way)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure
       type(structure_type), intent(inout) :: structure
       !> What the increments came to
       type(history_type), intent(in) :: history
+      !> Displacements at their ends that are known
+      type(displaced_type), intent(in), optional :: displaced(:)
       !> The way; takes loads and displacements, and whether they were found
       type(solved_way_type), intent(inout) :: way
 
@@ -64,7 +69,7 @@ contains
 
       n = size(way%places)
       allocate (way%solved(n), way%turns(n + 1))
-      call solve_increments(model, structure, history%states, way%places, way%solved, error)
+      call solve_increments(model, structure, history%states, way%places, way%solved, error, displaced)
       way%known = .not. allocated(error)
       if (.not. way%known) return
       do i = 1, n

@@ -3,7 +3,7 @@
 module axijoint_analysis_error_yielding_errors
    use omp_lib, only : omp_get_max_threads, omp_get_wtime
    use axijoint_analysis_core_path, only : keeps_slip, slide_together
-   use axijoint_analysis_core_results, only : results_type
+   use axijoint_analysis_core_results, only : results_type, displaced_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest_vector
    use axijoint_analysis_error_excess_effect, only : find_effects
@@ -19,8 +19,10 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_history, only : history_type
-   use axijoint_joints_joint_errors, only : joint_change_type, joint_changes_type, find_joint_changes, settled_change
+   use axijoint_joints_joint_errors, only : joint_change_type, joint_changes_type, search_type, new_search, follow_harmonics, &
+      find_planes, find_harmonics, settled_change
    use axijoint_joints_settle, only : settle_wholly
+   use axijoint_joints_way, only : lag_type
    use axijoint_model_model, only : model_type
    implicit none
    private
@@ -67,7 +69,7 @@ contains
       largest = largest_vector(results%modes, displacement)
       displacement = results%displacement + left%effect(:, :, :, 1)
       results%keeps_slip = keeps_slip(structure, history, largest)
-      call find_other_changes(model, structure, history, left%balanced, displacement, &
+      call find_other_changes(model, structure, history, results%displaced, left%balanced, displacement, &
          results%keeps_slip .or. unloaded(history), changes, others, mesh_error, rests)
       results%follows_slip = mesh_error%follows_slip
       results%follows_all_slip = results%follows_slip .and. changes%follow_slip
@@ -115,15 +117,18 @@ contains
       end associate
    end subroutine balance
 
-   !> What planes, harmonics and the mesh leave. What joints answer to planes and harmonics and what they answer to the mesh are
+   !> What planes, harmonics and the mesh leave. What joints answer to these, and what their slip has kept of harmonics, are
    !> found at once where threads have little to do in each; and each factor is read once for what that does to the displacements
-   subroutine find_other_changes(model, structure, history, balanced, displacement, lasts, changes, effect, mesh_error, rests)
+   subroutine find_other_changes(model, structure, history, displaced, balanced, displacement, lasts, changes, effect, mesh_error, &
+      rests)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure
       type(structure_type), intent(inout) :: structure
       !> What the increments came to
       type(history_type), intent(in) :: history
+      !> Displacements at the ends of earlier increments that are known
+      type(displaced_type), intent(in), optional :: displaced(:)
       !> State of the joints, balanced
       type(joint_field_type), intent(in) :: balanced
       !> Displacement amplitudes of that state, shape (3, nodes, modes)
@@ -141,29 +146,44 @@ contains
 
       type(joint_change_type) :: all(3)
       type(solved_way_type) :: way
+      type(search_type) :: search
+      type(lag_type) :: lag
       type(mesh_error_type), allocatable :: errors(:)
+      real(wp), allocatable :: rounding(:)
       real(wp) :: seconds, looked_back, share
       logical :: answered, apart, at_once
 
       seconds = omp_get_wtime()
       allocate (way%stations(0))
-      if (lasts) call look_back(model, structure, history, way)
+      if (lasts) call look_back(model, structure, history, displaced, way)
       rests = .false.
       if (way%known) rests = leaves_rest(way)
       looked_back = omp_get_wtime() - seconds
       apart = is_small(structure%equations)
       if (.not. apart) call find_held_errors(structure, history, balanced, displacement, way, errors)
+      search = new_search(history%scene)
+      rounding = least_changes(structure, history)
       at_once = are_for_one_thread(structure%condensed, size(balanced%jump))
       if (apart .or. at_once) then
-         !$omp parallel sections  ! of all threads: a smaller team would end the others
-         !$omp section
+         !$omp parallel  ! of all threads: a smaller team would end the others
+         !$omp single
+         !$omp task default(shared) depend(out: lag)
+         call follow_harmonics(structure%condensed, history, way%way_type, lag)
+         !$omp end task
+         !$omp task default(shared)
          call see_mesh()
-         !$omp section
-         call see_joints()
-         !$omp end parallel sections
+         !$omp end task
+         call find_planes(structure%condensed, balanced, history, way%way_type, rounding, search, changes%planes)
+         !$omp task default(shared) depend(in: lag)
+         call find_harmonics(structure%condensed, balanced, history, lag, rounding, search, changes)
+         !$omp end task
+         !$omp end single
+         !$omp end parallel
       else  ! not in a region of one thread, in which other regions would begin with new threads
          call see_mesh()
-         call see_joints()
+         call follow_harmonics(structure%condensed, history, way%way_type, lag)
+         call find_planes(structure%condensed, balanced, history, way%way_type, rounding, search, changes%planes)
+         call find_harmonics(structure%condensed, balanced, history, lag, rounding, search, changes)
       end if
       all(1) = changes%planes
       all(2) = changes%harmonics
@@ -189,12 +209,6 @@ contains
          if (.not. allocated(errors)) call find_held_errors(structure, history, balanced, displacement, way, errors)
          call find_answer(structure, history, balanced, errors, way, mesh_error, all(3))
       end subroutine see_mesh
-
-      !> What planes and harmonics leave
-      subroutine see_joints()
-         call find_joint_changes(structure%condensed, balanced, history, way%way_type, &
-                                 least_changes(structure, history), changes)
-      end subroutine see_joints
 
    end subroutine find_other_changes
 

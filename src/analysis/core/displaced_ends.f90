@@ -1,0 +1,229 @@
+!> Displacements at the ends of increments, found by a thread beside the iterations: these share too little for more than one
+module axijoint_analysis_core_displaced_ends
+   use omp_lib, only : omp_get_max_threads, omp_set_num_threads
+   use axijoint_analysis_core_footprint, only : displaced_numbers
+   use axijoint_analysis_core_increment_fields, only : solve_increments
+   use axijoint_analysis_core_results, only : displaced_type, results_type
+   use axijoint_analysis_core_solution, only : solved_state_type
+   use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_base_error, only : error_type
+   use axijoint_base_progress, only : progress_type
+   use axijoint_joints_history, only : history_type
+   use axijoint_joints_increments, only : run_increments
+   use axijoint_joints_keeper, only : keeper_type
+   use axijoint_joints_states, only : increment_state_type
+   use axijoint_model_load, only : combination_type
+   use axijoint_model_model, only : model_type
+   use axijoint_model_request, only : is_kept
+   implicit none
+   private
+   public :: is_shown, run_and_displace
+
+   !> Threads up to which iterations gain less by sharing products
+   integer, parameter :: few_threads = 4
+
+   !> The ends of a history's increments
+   type :: ends_type
+      !> The job, and the structure, whose factors are kept
+      type(model_type), pointer :: model => null()
+      type(structure_type), pointer :: structure => null()
+      !> What is known of the increments whose displacements are wanted, as far as these are not found: loads and excess stress
+      type(increment_state_type), allocatable :: asked(:)
+      !> The displacements, none yet where they are not allocated
+      type(displaced_type), allocatable :: found(:)
+      !> Whether a thread is at it
+      logical :: busy = .false.
+   end type ends_type
+
+   !> Who asks for them, and tells another keeper of every step
+   type, extends(keeper_type) :: asking_type
+      class(keeper_type), pointer :: other => null()
+      type(ends_type), pointer :: ends => null()
+   contains
+      procedure :: restore
+      procedure :: keep
+   end type asking_type
+
+contains
+
+   !> Whether a file shows fields of an increment before the last
+   elemental logical function is_shown(model, increment, last)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Number of the increment, and of the last
+      integer, intent(in) :: increment, last
+
+      is_shown = any(is_kept(model%keep, increment, last)) .or. model%sweep%wanted .or. model%old_listing
+   end function is_shown
+
+   !> Run the increments; if threads can, find the displacements at their ends beside that. No bit of either depends on it
+   subroutine run_and_displace(model, structure, combination, history, results, progress, keeper)
+      !> The job
+      type(model_type), intent(in), target :: model
+      !> The structure, factored and condensed
+      type(structure_type), intent(inout), target :: structure
+      !> Factors of the load cases
+      type(combination_type), intent(in) :: combination
+      !> What the increments came to
+      type(history_type), intent(out) :: history
+      !> Takes the displacements, of as many increments as they were found of
+      type(results_type), intent(inout) :: results
+      !> Where to show progress
+      type(progress_type), intent(inout) :: progress
+      !> Who keeps what the increments come to
+      class(keeper_type), intent(inout), optional, target :: keeper
+
+      type(ends_type), target :: ends
+      type(asking_type) :: asking
+      integer :: k, n, n_threads
+
+      if (.not. beside(model, structure, present(keeper))) then
+         call run(keeper)
+         return
+      end if
+      ends%model => model
+      ends%structure => structure
+      allocate (ends%asked(size(model%increments)), ends%found(size(model%increments)))
+      asking%other => keeper
+      asking%ends => ends
+      n_threads = omp_get_max_threads()
+      !$omp parallel  ! of all threads: a smaller team would end the others
+      !$omp master
+      call omp_set_num_threads(1)
+      call run(asking)
+      call omp_set_num_threads(n_threads)
+      !$omp end master
+      !$omp end parallel
+      allocate (results%displaced(count(ends%found%increment > 0)))
+      n = 0
+      do k = 1, size(ends%found)
+         if (ends%found(k)%increment == 0) cycle
+         n = n + 1
+         results%displaced(n)%increment = k
+         call move_alloc(ends%found(k)%displacement, results%displaced(n)%displacement)
+      end do
+
+   contains
+
+      !> Run the increments
+      subroutine run(keeper)
+         !> Who is told of every step
+         class(keeper_type), intent(inout), optional :: keeper
+
+         call run_increments(model, structure%equations, structure%condensed, structure%joint_points, &
+                             structure%support_points, combination, history, progress, keeper, structure%answer)
+      end subroutine run
+
+   end subroutine run_and_displace
+
+   !> Whether displacements are found beside the iterations: where fields of more increments than the last will be shown, threads are
+   !> few, this process keeps all factors, and not too many displacements are held until they are shown
+   logical function beside(model, structure, shown)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> Whether fields will be shown
+      logical, intent(in) :: shown
+
+      integer :: k, last, n_threads
+
+      n_threads = omp_get_max_threads()
+      last = size(model%increments)
+      beside = shown .and. .not. model%error_goal%wanted .and. n_threads > 1 .and. n_threads <= few_threads
+      associate (equations => structure%equations)
+         beside = beside .and. equations%team%size == 1 .and. equations%solver%concurrent &
+            .and. equations%n_kept == size(equations%systems)
+      end associate
+      if (.not. beside) return
+      beside = displaced_numbers(model, size(structure%modes), count([(is_shown(model, k, last), k=1, last - 1)])) > 0
+   end function beside
+
+   !> Bring a history to where it was kept
+   subroutine restore(self, history, restored, error)
+      !> Who asks
+      class(asking_type), intent(inout) :: self
+      !> The history, new
+      type(history_type), intent(inout) :: history
+      !> Whether there was something to restore
+      logical, intent(out) :: restored
+      !> What was kept is of another structure
+      type(error_type), allocatable, intent(out) :: error
+
+      call self%other%restore(history, restored, error)
+   end subroutine restore
+
+   !> A step came to equilibrium. At the end of an increment its displacements are asked for
+   subroutine keep(self, history)
+      !> Who asks
+      class(asking_type), intent(inout) :: self
+      !> The history
+      type(history_type), intent(in) :: history
+
+      type(ends_type), pointer :: ends
+      integer :: k
+
+      call self%other%keep(history)
+      ends => self%ends
+      k = history%increment
+      if (size(history%ahead) > 0 .or. k == size(ends%found)) return
+      if (.not. is_shown(ends%model, k, size(ends%found))) return
+      associate (state => history%states(size(history%states)))
+         !$omp critical (axijoint_displaced_ends)
+         ends%asked(k)%case_factor = state%case_factor
+         ends%asked(k)%excess = state%excess
+         ends%asked(k)%increment = k
+         !$omp end critical (axijoint_displaced_ends)
+      end associate
+      !$omp task default(shared) firstprivate(ends)
+      call find(ends)
+      !$omp end task
+   end subroutine keep
+
+   !> Find the displacements that are asked for, unless another thread is at it, which will then take these, too
+   subroutine find(ends)
+      !> The ends
+      type(ends_type), intent(inout) :: ends
+
+      type(increment_state_type), allocatable :: states(:)
+      integer, allocatable :: places(:)
+      integer :: k
+
+      do
+         !$omp critical (axijoint_displaced_ends)
+         places = pack([(k, k=1, size(ends%asked))], ends%asked%increment > 0 .and. .not. ends%busy)
+         ends%busy = ends%busy .or. size(places) > 0
+         states = ends%asked(places)
+         ends%asked(places)%increment = 0
+         !$omp end critical (axijoint_displaced_ends)
+         if (size(places) == 0) return
+         call find_states(ends, states)
+         !$omp critical (axijoint_displaced_ends)
+         ends%busy = .false.
+         !$omp end critical (axijoint_displaced_ends)
+      end do
+   end subroutine find
+
+   !> Find the displacements of states
+   subroutine find_states(ends, states)
+      !> The ends
+      type(ends_type), intent(inout) :: ends
+      !> The states
+      type(increment_state_type), intent(in) :: states(:)
+
+      type(solved_state_type), allocatable :: solved(:)
+      type(error_type), allocatable :: error
+      integer :: i
+
+      allocate (solved(size(states)))
+      call solve_increments(ends%model, ends%structure, states, [(i, i=1, size(states))], solved, error)
+      if (allocated(error)) return  ! who shows them will know
+      do i = 1, size(states)
+         associate (found => ends%found(states(i)%increment))
+            found%increment = states(i)%increment
+            call move_alloc(solved(i)%displacement, found%displacement)
+         end associate
+      end do
+   end subroutine find_states
+
+end module axijoint_analysis_core_displaced_ends
