@@ -203,9 +203,11 @@ contains
       !> The names
       character(len=:), allocatable :: names
 
+      !> Letters that there is room for at first, so that a folder is read once as a rule
+      integer, parameter :: usual = 4096
       integer(i8) :: used
 
-      names = ''
+      allocate (character(len=usual) :: names)
       do  ! some may have come meanwhile
          used = c_names_in(folder//c_null_char, first//c_null_char, last//c_null_char, names, &
             len(names, i8))

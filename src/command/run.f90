@@ -129,9 +129,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(job_type), target :: job
-      character(len=:), allocatable :: notes
+      character(len=:), allocatable :: beside, notes
 
       exit_code = exit_ok
+      beside = ''
       call begin(deck, command, job, error)
       if (.not. allocated(error)) call check_results(job, command%decks, error)
       call check_stop(error)
@@ -139,6 +140,7 @@ contains
          call check_output(job, error)
          if (.not. allocated(error)) then
             call claim_output(job, claim, notes, error)
+            if (.not. allocated(error)) beside = claim%beside
             call tell(notes)
          end if
       end if
@@ -159,7 +161,7 @@ contains
          call begin_state(job, command%interval, command%resume, notes, error)
          call tell(notes)
       end if
-      if (.not. allocated(error)) call solve_and_write(job, command%quiet, exit_code, error)
+      if (.not. allocated(error)) call solve_and_write(job, beside, command%quiet, exit_code, error)
       call clear_progress(job%progress)
       if (.not. speaks(command)) return
       if (.not. allocated(error)) then
@@ -171,9 +173,11 @@ contains
    end subroutine run_deck
 
    !> Solve a job and write its results, those of each combination before the next is begun
-   subroutine solve_and_write(job, quiet, exit_code, error)
+   subroutine solve_and_write(job, beside, quiet, exit_code, error)
       !> The job
       type(job_type), intent(inout), target :: job
+      !> Files that were in the folder before, each followed by a line feed
+      character(len=*), intent(in) :: beside
       !> Whether the screen is to stay empty
       logical, intent(in) :: quiet
       !> Largest of the combinations
@@ -191,7 +195,7 @@ contains
             if (allocated(error)) exit
             call write_combination(job, results(k), quiet, exit_code, error)
          end do
-         if (.not. allocated(error)) call tell(other_results_text(job))
+         if (.not. allocated(error)) call tell(other_results_text(job, beside))
          return
       end if
       allocate (results(1))
@@ -208,7 +212,7 @@ contains
          if (allocated(error)) exit
          call note_written(job, k, exit_code_of(results(1)))
       end do
-      if (.not. allocated(error)) call tell(other_results_text(job))
+      if (.not. allocated(error)) call tell(other_results_text(job, beside))
    end subroutine solve_and_write
 
    !> Warn that the rounds of refinement did not meet the target of the error: all combinations have

@@ -3,7 +3,7 @@ module axijoint_output_claim
    use axijoint_base_error, only : error_type, fatal_error, exit_io
    use axijoint_base_lock, only : lock_type, take_lock, release_lock
    use axijoint_base_process, only : host_name, runs_here
-   use axijoint_base_system, only : process_id, same_file, unlink_path
+   use axijoint_base_system, only : process_id, path_kind, path_link, same_file, unlink_path
    use axijoint_base_text, only : to_text, count_of
    use axijoint_base_whole_file, only : names_in
    use axijoint_deck_text_source, only : source_type
@@ -25,6 +25,8 @@ module axijoint_output_claim
       private
       !> The name of the job, and those of its combinations if they are others
       type(lock_type), allocatable :: locks(:)
+      !> Files of the folder whose names begin with that of the job and a point, as they were then, each followed by a line feed
+      character(len=:), allocatable, public :: beside
    contains
       !> Whether they are held
       procedure :: held
@@ -63,7 +65,7 @@ contains
       !> Another process has one of them, or something cannot be written
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name, temporary
       integer :: k, removed
       logical :: finished
 
@@ -80,8 +82,21 @@ contains
          if (allocated(error)) exit
          if (finished) call add('the files of an earlier run that died while it gave them '// &
             'their names have them now: '//join_path(directory, name)//'.*')
-         call remove_leftovers(directory, name, removed)
       end do
+      if (.not. allocated(error)) then
+         ! folders of many results take long to read, and those of other machines longer: once is enough for names that go on from the
+         ! first, as those of combinations do
+         claim%beside = names_in(join_path(directory, '.'), trim(names(1))//'.', '')
+         temporary = temporary_among(claim%beside, trim(names(1)))
+         do k = 1, size(names)
+            name = trim(names(k))
+            if (index(name//'.', trim(names(1))//'.') == 1) then
+               call remove_leftovers(directory, name, temporary, removed)
+            else
+               call remove_leftovers(directory, name, names_in(join_path(directory, '.'), name//'.', temporary_ending), removed)
+            end if
+         end do
+      end if
       if (removed > 0) call add(count_of(removed, 'file')//' that earlier runs did not '// &
          'complete '//trim(merge('was ', 'were', removed == 1))//' removed')
       if (allocated(error)) call release_output(claim)
@@ -159,21 +174,27 @@ contains
       !> The file in danger
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: names
+      character(len=:), allocatable :: names, path
       logical :: lost
       integer :: k, ending, first, last
 
-      names = names_in(join_path(directory, '.'), name//'.', temporary_ending)
       do k = 1, source%n_files
+         path = source%files(k)%path
          lost = .false.
          do ending = 1, size(written)
-            if (same_file(join_path(directory, name//trim(written(ending))), source%files(k)%path)) lost = .true.
+            if (same_file(join_path(directory, name//trim(written(ending))), path)) lost = .true.
          end do
+         if (path_kind(path) == path_link) then  ! to any of them
+            names = names_in(join_path(directory, '.'), name//'.', temporary_ending)
+         else
+            names = path(index(path, '/', back=.true.) + 1:)//new_line('a')
+         end if
          first = 1
          do while (first <= len(names))
             last = first + index(names(first:), new_line('a')) - 2
-            if (is_leftover(names(first + len(name):last))) then
-               if (same_file(join_path(directory, names(first:last)), source%files(k)%path)) lost = .true.
+            if (may_be_leftover(names(first:last), name)) then
+               if (is_leftover(names(first + len(name):last)) .and. same_file(join_path(directory, names(first:last)), path)) &
+                  lost = .true.
             end if
             first = last + 2
          end do
@@ -184,30 +205,63 @@ contains
       end do
    end subroutine spare_sources
 
+   !> Those of some files, each followed by a line feed, that may be temporary ones of a job
+   function temporary_among(names, name) result(temporary)
+      !> The files
+      character(len=*), intent(in) :: names
+      !> Name of the job
+      character(len=*), intent(in) :: name
+      !> Those, each followed by a line feed
+      character(len=:), allocatable :: temporary
+
+      integer :: first, last
+
+      temporary = ''
+      first = 1
+      do while (first <= len(names))
+         last = first + index(names(first:), new_line('a')) - 2
+         if (may_be_leftover(names(first:last), name)) temporary = temporary//names(first:last + 1)
+         first = last + 2
+      end do
+   end function temporary_among
+
    !> Remove the temporary files of a name, which nobody else may write now. Those of a
    !> process that runs are left alone all the same: somebody may have removed its lock
-   subroutine remove_leftovers(directory, name, removed)
+   subroutine remove_leftovers(directory, name, names, removed)
       !> Directory of the files
       character(len=*), intent(in) :: directory
       !> The name
       character(len=*), intent(in) :: name
+      !> Files there, each followed by a line feed
+      character(len=*), intent(in) :: names
       !> Counts them
       integer, intent(inout) :: removed
 
-      character(len=:), allocatable :: names
       integer :: first, last, errno
 
-      names = names_in(join_path(directory, '.'), name//'.', temporary_ending)
       first = 1
       do while (first <= len(names))
          last = first + index(names(first:), new_line('a')) - 2
-         if (is_leftover(names(first + len(name):last))) then
-            call unlink_path(join_path(directory, names(first:last)), errno)
-            if (errno == 0) removed = removed + 1
+         if (may_be_leftover(names(first:last), name)) then
+            if (is_leftover(names(first + len(name):last))) then
+               call unlink_path(join_path(directory, names(first:last)), errno)
+               if (errno == 0) removed = removed + 1
+            end if
          end if
          first = last + 2
       end do
    end subroutine remove_leftovers
+
+   !> Whether a file has such a name as those of a job that are not complete
+   pure logical function may_be_leftover(file, name)
+      !> The file, without its folder
+      character(len=*), intent(in) :: file
+      !> Name of the job
+      character(len=*), intent(in) :: name
+
+      may_be_leftover = index(file, name//'.') == 1 .and. len(file) >= len(name//'.'//temporary_ending)
+      if (may_be_leftover) may_be_leftover = file(len(file) - len(temporary_ending) + 1:) == temporary_ending
+   end function may_be_leftover
 
    !> Whether a temporary file is of a process that has ended
    logical function is_leftover(rest)

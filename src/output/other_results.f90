@@ -2,11 +2,9 @@
 module axijoint_output_other_results
    use axijoint_base_system, only : path_kind, path_file
    use axijoint_base_text, only : to_text
-   use axijoint_base_whole_file, only : names_in
    use axijoint_job_combination, only : combination_label
    use axijoint_job_job, only : job_type, job_name, deck_name, result_name
    use axijoint_output_file_names, only : endings, file_arrays
-   use axijoint_output_file_pending, only : join_path
    implicit none
    private
    public :: other_results_text
@@ -14,26 +12,29 @@ module axijoint_output_other_results
 contains
 
    !> What to say of results of combinations that the deck does not have, from an earlier run of it; nothing if there are none
-   function other_results_text(job) result(text)
+   function other_results_text(job, beside) result(text)
       !> The job, its results written
       type(job_type), intent(in) :: job
+      !> Files that were in the folder before, each followed by a line feed
+      character(len=*), intent(in) :: beside
       !> A sentence
       character(len=:), allocatable :: text
 
-      character(len=:), allocatable :: name, ending, names, first
+      character(len=:), allocatable :: name, ending, first
       integer :: from, to, n
       logical :: other
 
       text = ''
       name = job_name(job%deck)
       ending = trim(endings(file_arrays))
-      names = names_in(join_path(job%options%directory, '.'), name//'.', ending(2:))
       n = 0
       from = 1
-      do while (from <= len(names))
-         to = from + index(names(from:), new_line('a')) - 2
-         associate (found => names(from:to), own => names(from:to - len(ending)))
-            other = is_of_combination(own(len(name) + 1:)) .and. .not. is_own(job, own)
+      do while (from <= len(beside))
+         to = from + index(beside(from:), new_line('a')) - 2
+         associate (found => beside(from:to), own => beside(from:to - len(ending)))
+            other = index(found, name//'.') == 1 .and. len(found) >= len(name) + len(ending)
+            if (other) other = found(len(found) - len(ending) + 1:) == ending
+            if (other) other = is_of_combination(own(len(name) + 1:)) .and. .not. is_own(job, own)
             if (other) other = .not. has_deck(job, own)
             if (other) then
                n = n + 1

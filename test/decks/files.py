@@ -4,7 +4,7 @@ import re
 import resource
 import subprocess
 
-from support import EarlierResults, INPUTS, Test, expected, read_bytes, read_text, write
+from support import EarlierResults, INPUTS, Test, expected, preload, read_bytes, read_text, write
 
 FIRST = os.path.realpath(os.path.join(INPUTS, 'first.dat'))
 MANUAL = os.path.join(INPUTS, '..', 'doc', 'user.md')
@@ -270,6 +270,20 @@ def lost_output(program, folder):
     return faults + expected('exit code when nobody reads', '0', left.stderr.strip())
 
 
+def read_once(program, folder):
+    """A run reads the folder of its results once, of one combination or of two: folders of large batches take long to read"""
+    library = preload('counted_folders')
+    faults = []
+    for name, text in (('one', COMBINED.replace('20, 1, 1.0, 2, 1.0\n', '')), ('two', COMBINED)):
+        deck, told = write(folder, f'{name}.dat', text), os.path.join(folder, 'times')
+        results = os.path.join(folder, 'results')
+        environment = dict(program.environment, LD_PRELOAD=library, FOLDER=results, TIMES_IN=told)
+        for run in ('the first', 'the next'):
+            subprocess.run([program.path, 'run', deck, '-o', results, '--quiet'], env=environment, check=True, timeout=60)
+            faults += expected(f'{name}: {run} run reads it', 1, int(read_text(told)))
+    return faults
+
+
 def tests(program):
     """One test a way to fail"""
     functions = {
@@ -280,6 +294,7 @@ def tests(program):
         'a deck named like what is removed': deck_named_like_what_is_removed,
         'full disk': full_disk, 'memory limit': memory, 'memory limit of small jobs': little_memory, 'stack limit': stack,
         'a comment that is not UTF-8': not_utf8, 'output that is lost': lost_output, 'a deck that was mended': mended,
+        'a folder is read once': read_once,
         'directory for a file': lambda program, folder: occupied(program, folder, os.mkdir),
         'pipe for a file': lambda program, folder: occupied(program, folder, os.mkfifo),
     }

@@ -19,8 +19,8 @@ module axijoint_analysis_core_displaced_ends
    private
    public :: is_shown, run_and_displace
 
-   !> Threads up to which iterations gain less by sharing products
-   integer, parameter :: few_threads = 4
+   !> Threads, and joint points, up to which iterations gain less by sharing products
+   integer, parameter :: few_threads = 4, few_points = 300
 
    !> The ends of a history's increments
    type :: ends_type
@@ -116,8 +116,8 @@ contains
 
    end subroutine run_and_displace
 
-   !> Whether displacements are found beside the iterations: where fields of more increments than the last will be shown, threads are
-   !> few, this process keeps all factors, and not too many displacements are held until they are shown
+   !> Whether displacements are found beside the iterations: where fields of more increments than the last will be shown, threads and
+   !> joint points are few, this process keeps all factors, and not too many displacements are held until they are shown
    logical function beside(model, structure, shown)
       !> The job
       type(model_type), intent(in) :: model
@@ -130,7 +130,8 @@ contains
 
       n_threads = omp_get_max_threads()
       last = size(model%increments)
-      beside = shown .and. .not. model%error_goal%wanted .and. n_threads > 1 .and. n_threads <= few_threads
+      beside = shown .and. .not. model%error_goal%wanted .and. n_threads > 1 .and. n_threads <= few_threads &
+         .and. size(structure%condensed%points) <= few_points
       associate (equations => structure%equations)
          beside = beside .and. equations%team%size == 1 .and. equations%solver%concurrent &
             .and. equations%n_kept == size(equations%systems)

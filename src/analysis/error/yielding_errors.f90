@@ -174,11 +174,15 @@ contains
          call see_mesh()
          !$omp end task
          call find_planes(structure%condensed, balanced, history, way%way_type, rounding, search, changes%planes)
-         !$omp task default(shared) depend(in: lag)
-         call find_harmonics(structure%condensed, balanced, history, lag, rounding, search, changes)
-         !$omp end task
+         if (way%known) then
+            !$omp task default(shared) depend(in: lag)
+            call find_harmonics(structure%condensed, balanced, history, lag, rounding, search, changes)
+            !$omp end task
+         end if
          !$omp end single
          !$omp end parallel
+         ! nothing else is left to do
+         if (.not. way%known) call find_harmonics(structure%condensed, balanced, history, lag, rounding, search, changes)
       else  ! not in a region of one thread, in which other regions would begin with new threads
          call see_mesh()
          call follow_harmonics(structure%condensed, history, way%way_type, lag)
