@@ -193,8 +193,9 @@ contains
          do while (first <= len(names))
             last = first + index(names(first:), new_line('a')) - 2
             if (may_be_leftover(names(first:last), name)) then
-               if (is_leftover(names(first + len(name):last)) .and. same_file(join_path(directory, names(first:last)), path)) &
-                  lost = .true.
+               if (is_leftover(names(first + len(name):last))) then
+                  if (same_file(join_path(directory, names(first:last)), path)) lost = .true.
+               end if
             end if
             first = last + 2
          end do
