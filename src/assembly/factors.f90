@@ -198,7 +198,7 @@ contains
       logical :: made
 
       call new_workspaces(equations, spaces)
-      call factor_together(equations, equations%first + equations%n_kept - 1, spaces(1), size(spaces), made)
+      call factor_together(equations, equations%first + equations%n_kept - 1, 1.0_wp, spaces(1), size(spaces), made)
       !$omp parallel do schedule(dynamic) num_threads(size(spaces))
       do s = equations%first, equations%first + equations%n_kept - 1
          if (stop_wished()) cycle
@@ -209,12 +209,15 @@ contains
       call check_stop(error)
    end subroutine factorize_equations
 
-   !> Factor the last of the systems up to one by all threads together, where they would else wait for the one that has it alone
-   subroutine factor_together(equations, last, space, n_threads, made)
+   !> Factor the last of the systems up to one by all threads together, if that is sooner done than where threads wait for the one
+   !> that has it alone
+   subroutine factor_together(equations, last, part, space, n_threads, made)
       !> The equations
       type(equations_type), intent(inout) :: equations
       !> Place of the last of those that threads take one after the other
       integer, intent(in) :: last
+      !> Part that factorization has of what is done to each
+      real(wp), intent(in) :: part
       !> Memory of this thread
       type(workspace_type), intent(inout) :: space
       !> Threads
@@ -222,26 +225,41 @@ contains
       !> Whether it was
       logical, intent(out) :: made
 
-      !> Part of the time that threads wait, from which on it is worth the while, and the least equations
-      real(wp), parameter :: much = 0.04_wp
+      !> What threads gain together over what they do apart; time that is worth the while, over all; and the least equations
+      real(wp), parameter :: together = 0.85_wp, worth = 0.97_wp
       integer, parameter :: least_equations = 6000
-      real(wp) :: busy(n_threads)
-      integer :: s, place
+      real(wp) :: cost(equations%first:last)
+      integer :: s
 
       made = .false.
       if (n_threads == 1 .or. last < equations%first) return
       if (allocated(equations%systems(last)%factor)) return
-      associate (n_equations => [(equations%classes(equations%systems(s)%class)%dofs%n_equations, s=equations%first, last)])
-         if (n_equations(size(n_equations)) < least_equations) return
-         busy = 0.0_wp
-         do s = 1, size(n_equations)
-            place = minloc(busy, 1)
-            busy(place) = busy(place) + real(n_equations(s), wp)**growth
-         end do
+      cost = [(real(equations%classes(equations%systems(s)%class)%dofs%n_equations, wp), s=equations%first, last)]
+      if (cost(last) < least_equations) return
+      cost = cost**growth
+      associate (ahead => part*cost(last)/(together*n_threads), left => (1.0_wp - part)*cost(last))
+         made = ahead + duration([left, cost(:last - 1)], n_threads) < worth*duration(cost, n_threads)
       end associate
-      made = sum(maxval(busy) - busy) > much*maxval(busy)*n_threads
       if (made) call hold_factor(equations, last, space)
    end subroutine factor_together
+
+   !> How long threads take that take the next system whenever they have done one
+   pure real(wp) function duration(cost, n_threads)
+      !> Time that one thread takes for each
+      real(wp), intent(in) :: cost(:)
+      !> Threads
+      integer, intent(in) :: n_threads
+
+      real(wp) :: busy(n_threads)
+      integer :: s, thread
+
+      busy = 0.0_wp
+      do s = 1, size(cost)
+         thread = minloc(busy, 1)
+         busy(thread) = busy(thread) + cost(s)
+      end do
+      duration = maxval(busy)
+   end function duration
 
    !> Make sure that the factor of a system is there. If it cannot be, the system has failed;
    !> `report_failure` puts that into words

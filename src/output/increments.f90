@@ -1,7 +1,7 @@
 !> Results of all increments, one after the other, for every file that shows them
 module axijoint_output_increments
    use omp_lib, only : omp_get_max_threads
-   use axijoint_analysis_core_displaced_ends, only : is_shown
+   use axijoint_analysis_core_footprint, only : is_shown
    use axijoint_analysis_core_increment_fields, only : solve_increment, solve_increments, recover_state
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_series, only : series_type, new_series, append_increment

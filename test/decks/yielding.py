@@ -7,7 +7,7 @@ import os
 import re
 
 import listing
-from support import Test, expected, read_text, write
+from support import INPUTS, Test, expected, read_text, write
 
 # Thick cylinder in plane strain under pressure from inside, Tresca (Hill, The mathematical theory of plasticity, V.2)
 YIELD_STRESS, YOUNG, POISSON, INSIDE, OUTSIDE = 240.0, 2.1e5, 0.3, 1.0, 2.0
@@ -951,6 +951,21 @@ def pictures(folder, program):
     return ran.ended_with(0) + expected('picture', True, os.path.exists(os.path.join(folder, 'swept.vtkhdf')))
 
 
+def cut_bodies(folder, program):
+    """A cut through pile and clay that yields bears what the cuts of both bear, wherever the bodies stand among the elements"""
+    deck = read_text(os.path.join(INPUTS, 'pile_clay.dat'))
+    cuts = 'CUTS\n31, -0.9375, 1\n32, -0.9375, 2\n33, -0.9375\n'
+    run(program, folder, deck.replace('\nEND', '\n' + cuts + 'END'))
+    found = {row['cut']: row for row in listing.tables(read_text(os.path.join(folder, 'yielding.lis')))['cuts']}
+    faults = []
+    for what in ('axial', 'shear', 'moment'):
+        first, second, whole = (found[cut][what] for cut in (31, 32, 33))
+        # of eight digits each
+        if not abs(second) > 0.0 or abs(first + second - whole) > 2e-7*max(abs(first), abs(second), abs(whole)):
+            faults.append(f'{what}: {whole} of all, {first} and {second} of the bodies')
+    return faults
+
+
 def tests(program):
     """All tests"""
     def made(name, check):
@@ -969,4 +984,5 @@ def tests(program):
             made('pulled out', pulled_out), made('found loads beside joints', found_loads),
             made('Newton beside joints', newton_beside_joints),
             made('cohesion that is lost', cohesion_that_is_lost),
-            made('no envelope', no_envelope), made('estimated', estimated), made('study', study), made('pictures', pictures)]
+            made('no envelope', no_envelope), made('estimated', estimated), made('study', study), made('pictures', pictures),
+            made('cuts of bodies', cut_bodies)]

@@ -1,7 +1,7 @@
 !> Displacements at the ends of increments, found by a thread beside the iterations: these share too little for more than one
 module axijoint_analysis_core_displaced_ends
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
-   use axijoint_analysis_core_footprint, only : displaced_numbers
+   use axijoint_analysis_core_footprint, only : displaced_numbers, is_shown
    use axijoint_analysis_core_increment_fields, only : solve_increments
    use axijoint_analysis_core_results, only : displaced_type, results_type
    use axijoint_analysis_core_solution, only : solved_state_type
@@ -14,13 +14,12 @@ module axijoint_analysis_core_displaced_ends
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_load, only : combination_type
    use axijoint_model_model, only : model_type
-   use axijoint_model_request, only : is_kept
    implicit none
    private
-   public :: is_shown, run_and_displace
+   public :: run_and_displace
 
-   !> Threads, and joint points, up to which iterations gain less by sharing products
-   integer, parameter :: few_threads = 4, few_points = 300
+   !> States whose displacements are found at once, at most
+   integer, parameter :: at_once = 4
 
    !> The ends of a history's increments
    type :: ends_type
@@ -45,16 +44,6 @@ module axijoint_analysis_core_displaced_ends
    end type asking_type
 
 contains
-
-   !> Whether a file shows fields of an increment before the last
-   elemental logical function is_shown(model, increment, last)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Number of the increment, and of the last
-      integer, intent(in) :: increment, last
-
-      is_shown = any(is_kept(model%keep, increment, last)) .or. model%sweep%wanted .or. model%old_listing
-   end function is_shown
 
    !> Run the increments; if threads can, find the displacements at their ends beside that. No bit of either depends on it
    subroutine run_and_displace(model, structure, combination, history, results, progress, keeper)
@@ -117,7 +106,7 @@ contains
    end subroutine run_and_displace
 
    !> Whether displacements are found beside the iterations: where fields of more increments than the last will be shown, threads and
-   !> joint points are few, this process keeps all factors, and not too many displacements are held until they are shown
+   !> joint points are few, and this process keeps all factors
    logical function beside(model, structure, shown)
       !> The job
       type(model_type), intent(in) :: model
@@ -126,18 +115,13 @@ contains
       !> Whether fields will be shown
       logical, intent(in) :: shown
 
-      integer :: k, last, n_threads
-
-      n_threads = omp_get_max_threads()
-      last = size(model%increments)
-      beside = shown .and. .not. model%error_goal%wanted .and. n_threads > 1 .and. n_threads <= few_threads &
-         .and. size(structure%condensed%points) <= few_points
+      beside = .false.
+      if (.not. shown) return
+      beside = displaced_numbers(model, size(structure%modes), size(structure%condensed%points)) > 0
       associate (equations => structure%equations)
          beside = beside .and. equations%team%size == 1 .and. equations%solver%concurrent &
             .and. equations%n_kept == size(equations%systems)
       end associate
-      if (.not. beside) return
-      beside = displaced_numbers(model, size(structure%modes), count([(is_shown(model, k, last), k=1, last - 1)])) > 0
    end function beside
 
    !> Bring a history to where it was kept
@@ -176,6 +160,7 @@ contains
          ends%asked(k)%increment = k
          !$omp end critical (axijoint_displaced_ends)
       end associate
+      ! for a thread of the team that waits for the end of the increments: no iteration waits for tasks of this one
       !$omp task default(shared) firstprivate(ends)
       call find(ends)
       !$omp end task
@@ -193,6 +178,7 @@ contains
       do
          !$omp critical (axijoint_displaced_ends)
          places = pack([(k, k=1, size(ends%asked))], ends%asked%increment > 0 .and. .not. ends%busy)
+         places = places(:min(at_once, size(places)))
          ends%busy = ends%busy .or. size(places) > 0
          states = ends%asked(places)
          ends%asked(places)%increment = 0

@@ -1,5 +1,6 @@
 !> Memory that a job takes besides its equations
 module axijoint_analysis_core_footprint
+   use omp_lib, only : omp_get_max_threads
    use axijoint_analysis_fine_blocks, only : is_slender, may_be_wall
    use axijoint_assembly_node_blocks, only : block_size
    use axijoint_base_kinds, only : wp, i8
@@ -15,10 +16,11 @@ module axijoint_analysis_core_footprint
    use axijoint_model_model, only : model_type, bodies_yield, can_yield, can_yield_at, &
       yielding_nodes
    use axijoint_model_modes, only : used_modes
+   use axijoint_model_request, only : is_kept
    use axijoint_plastic_field, only : body_planes
    implicit none
    private
-   public :: footprint_type, data_footprint, fine_nodes, blocks_of, program_bytes, displaced_numbers
+   public :: footprint_type, data_footprint, fine_nodes, blocks_of, program_bytes, displaced_numbers, is_shown
 
    !> What program and libraries without any data take beyond their start once they are used, with what the last of
    !> the heap's large pages is too large [byte]; measured
@@ -53,8 +55,10 @@ module axijoint_analysis_core_footprint
    integer(i8), parameter :: amplitude_arrays = 7, held_vectors = 10, mixed_vectors = 36, &
       learned_vectors = 67
 
-   !> Displacements of earlier increments that are held until they are shown, at most
+   !> Displacements of earlier increments that are held until they are shown, at most; threads, and joint points, up to which
+   !> iterations gain less by sharing products than by leaving the other threads to find these
    integer(i8), parameter :: most_displaced = 4000000
+   integer, parameter :: few_threads = 4, few_points = 300
 
    !> Bytes
    type :: footprint_type
@@ -83,7 +87,7 @@ module axijoint_analysis_core_footprint
 contains
 
    !> Memory of loads, results and joints
-   pure function data_footprint(model, n_modes, n_systems, joint_points, estimated) result(footprint)
+   function data_footprint(model, n_modes, n_systems, joint_points, estimated) result(footprint)
       !> The job
       type(model_type), intent(in) :: model
       !> Modes, and matrices
@@ -135,8 +139,10 @@ contains
             *jumps/3*(7*kept_planes + 6*n_modes)
          if (jumps > 0) footprint%joints = footprint%joints + real_bytes*acting_cases(model)*(jumps*n_modes + 3*nodes)
          footprint%stresses = 2*footprint%stresses + footprint%loads
-         if (jumps > 0) footprint%joints = footprint%joints &
-            + real_bytes*displaced_numbers(model, n_modes, size(model%increments) - 1)
+         ! with loads and forces of those that are looked for
+         associate (numbers => displaced_numbers(model, n_modes, count(can_yield_at(model, joint_points%material))))
+            if (jumps > 0 .and. numbers > 0) footprint%joints = footprint%joints + real_bytes*(numbers + 24*nodes*n_modes)
+         end associate
          ! loads twice, displacements and what half the elements change of them, where loads turned; joints there, and those that answer
          ! the mesh while others do planes and harmonics
          if (jumps > 0 .and. estimated) footprint%joints = footprint%joints &
@@ -148,16 +154,33 @@ contains
       if (jumps == 0) footprint%joint_work = 0
    end function data_footprint
 
-   !> Displacements of so many earlier increments, if they are held until these are shown: none if they are too many
-   pure integer(i8) function displaced_numbers(model, n_modes, n) result(numbers)
+   !> Displacements of earlier increments that are held until they are shown, for they are found beside the iterations; none if these
+   !> share products with all threads, or if they are too many
+   integer(i8) function displaced_numbers(model, n_modes, n_points) result(numbers)
       !> The job
       type(model_type), intent(in) :: model
-      !> Modes, and increments
-      integer, intent(in) :: n_modes, n
+      !> Modes, and joint points that can yield
+      integer, intent(in) :: n_modes, n_points
 
-      numbers = 3*int(n_nodes(model%mesh), i8)*n_modes*n
+      integer :: k, last, n_threads
+
+      numbers = 0
+      last = size(model%increments)
+      n_threads = omp_get_max_threads()
+      if (model%error_goal%wanted .or. n_points > few_points .or. n_threads == 1 .or. n_threads > few_threads) return
+      numbers = 3*int(n_nodes(model%mesh), i8)*n_modes*count([(is_shown(model, k, last), k=1, last - 1)])
       if (numbers > most_displaced) numbers = 0
    end function displaced_numbers
+
+   !> Whether a file shows fields of an increment before the last
+   elemental logical function is_shown(model, increment, last)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Number of the increment, and of the last
+      integer, intent(in) :: increment, last
+
+      is_shown = any(is_kept(model%keep, increment, last)) .or. model%sweep%wanted .or. model%old_listing
+   end function is_shown
 
    !> Matrices between modes and planes: those of the job, and where it has more than harmonic 0, those of the estimates of
    !> errors with more planes, and with as many modes again; in single precision the largest of those that Newton's method

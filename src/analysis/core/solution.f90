@@ -19,6 +19,9 @@ module axijoint_analysis_core_solution
    private
    public :: solve_displacements, solve_states, solved_state_type
 
+   !> Part of the time of a system that its factorization takes where it is solved once
+   real(wp), parameter :: factoring = 0.5_wp
+
    !> A state whose displacements are looked for, with its joints known
    type :: solved_state_type
       !> Its loads
@@ -155,7 +158,7 @@ contains
             !$omp end parallel
          else
             began = omp_get_wtime()
-            call factor_together(structure%equations, equations%last, spaces(1), size(spaces), made)
+            call factor_together(structure%equations, equations%last, factoring, spaces(1), size(spaces), made)
             if (made) together = omp_get_wtime() - began
             !$omp parallel do schedule(dynamic) num_threads(size(spaces)) private(s)
             do i = equations%first, equations%last
