@@ -155,7 +155,8 @@ contains
       last = size(results%states)
       do i = 1, last - 1
          if (.not. is_shown(job%model, results%states(i)%increment, results%states(last)%increment)) cycle
-         call solve_increment(job%model, job%structure, i, results, earlier, error)
+         call solve_increment(job%model, job%structure, i, results, earlier, error, &
+            smoothed=shows_stress(job%model, results%states(i), results%states(last)))
          if (allocated(error)) return
       end do
    end subroutine help_with_increments

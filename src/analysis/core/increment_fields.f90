@@ -160,7 +160,7 @@ contains
    end subroutine move_bodies
 
    !> Find the fields of an increment again
-   subroutine solve_increment(model, structure, place, final, results, error)
+   subroutine solve_increment(model, structure, place, final, results, error, smoothed)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure; its factors are made again where they are not kept
@@ -173,11 +173,14 @@ contains
       type(results_type), intent(out) :: results
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
+      !> Whether stresses are smoothed to the nodes; true if absent
+      logical, intent(in), optional :: smoothed
 
       type(solved_state_type) :: solved(1)
 
       call solve_increments(model, structure, final%states, [place], solved, error)
-      if (.not. allocated(error)) call recover_state(model, structure, final%states(place), final, solved(1), results)
+      if (.not. allocated(error)) call recover_state(model, structure, final%states(place), final, solved(1), results, &
+         smoothed)
    end subroutine solve_increment
 
    !> Find the displacements of increments again: one solution a mode and increment, unless they were found already
