@@ -40,7 +40,7 @@ module axijoint_assembly_solid_force
 contains
 
    !> Nodal forces that balance the stresses of one mode, and the stresses
-   subroutine force_of_mode(model, initial, k, mode, displacement, force, stress, counts)
+   subroutine force_of_mode(model, initial, k, mode, displacement, force, stress)
       !> The job
       type(model_type), intent(in) :: model
       !> Stress without strain
@@ -54,8 +54,6 @@ contains
       real(wp), intent(out) :: force(:, :)
       !> Stress amplitudes at the Gauss points, shape (6, points)
       real(wp), intent(out), optional :: stress(:, :)
-      !> Elements that alone count, without their stresses; all if absent
-      logical, intent(in), optional :: counts(:)
 
       real(wp), allocatable :: forces(:, :, :), stresses(:, :, :)
 
@@ -63,11 +61,11 @@ contains
       if (present(stress)) then
          allocate (stresses(6, size(stress, 2), 1))
          call force_of_modes(model, initial, k, [mode], reshape(displacement, shape(forces)), &
-            forces, stresses, counts)
+            forces, stresses)
          stress = stresses(:, :, 1)
       else
          call force_of_modes(model, initial, k, [mode], reshape(displacement, shape(forces)), &
-            forces, counts=counts)
+            forces)
       end if
       force = forces(:, :, 1)
    end subroutine force_of_mode

@@ -11,11 +11,10 @@ module axijoint_estimate_work
       formed_entries
    use axijoint_fe_reference, only : reference_type
    use axijoint_model_mesh, only : n_nodes, element_references
-   use axijoint_model_model, only : model_type, bodies_yield, can_yield, yielding_nodes
-   use axijoint_model_request, only : is_kept
+   use axijoint_model_model, only : model_type, n_shown, bodies_yield, can_yield, yielding_nodes
    implicit none
    private
-   public :: structure_work, state_work, row_work, n_shown, n_points
+   public :: structure_work, state_work, row_work, n_points
 
    !> Solutions of a mode: displacements with one refinement, condition of the matrix; with joints
    !> that yield those of the corrections and of what estimates of errors change; or displacements
@@ -156,20 +155,6 @@ contains
          work(row_stresses) = n_points(model)*modes*row_angles*increments
       end associate
    end function row_work
-
-   !> Increments before the last whose fields are found again for the files
-   pure integer function n_shown(model) result(n)
-      !> The job
-      type(model_type), intent(in) :: model
-
-      integer :: i
-
-      n = 0
-      do i = 1, size(model%increments) - 1
-         if (model%sweep%wanted .or. model%old_listing .or. &
-             any(is_kept(model%keep, i, size(model%increments)))) n = n + 1
-      end do
-   end function n_shown
 
    !> Shape functions at the Gauss points of all elements
    pure real(wp) function shape_values(model)

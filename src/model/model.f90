@@ -14,13 +14,13 @@ module axijoint_model_model
    use axijoint_model_mesh, only : mesh_type
    use axijoint_model_request, only : line_type, point_type, keep_type, keep_names, cut_type, &
       print_type, supported_face_type, sweep_type, &
-      error_goal_type
+      error_goal_type, is_kept
    use axijoint_model_restraint, only : restraint_type, acts_in
    use axijoint_model_strips, only : grid_type
    use axijoint_solver_entry, only : solver_entry_type
    implicit none
    private
-   public :: model_type, held_components, held_at, can_yield, can_yield_at, yielding_nodes, &
+   public :: model_type, is_shown, n_shown, held_components, held_at, can_yield, can_yield_at, yielding_nodes, &
       bodies_yield, on_axis
    public :: method_newton, method_total, method_anderson, method_transfer, method_names
    public :: body_anderson, body_newton, body_lbfgs, body_transfer, body_method_names
@@ -223,5 +223,25 @@ contains
 
       on_axis = .not. mesh%coordinates(1, :) > 0.0_wp
    end function on_axis
+
+   !> Whether a file shows fields of an increment before the last
+   elemental logical function is_shown(model, increment, last)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Number of the increment, and of the last
+      integer, intent(in) :: increment, last
+
+      is_shown = any(is_kept(model%keep, increment, last)) .or. model%sweep%wanted .or. model%old_listing
+   end function is_shown
+
+   !> Increments before the last whose fields files show
+   pure integer function n_shown(model)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      integer :: i
+
+      n_shown = count([(is_shown(model, i, size(model%increments)), i=1, size(model%increments) - 1)])
+   end function n_shown
 
 end module axijoint_model_model

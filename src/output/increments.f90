@@ -1,7 +1,6 @@
 !> Results of all increments, one after the other, for every file that shows them
 module axijoint_output_increments
    use omp_lib, only : omp_get_max_threads
-   use axijoint_analysis_core_footprint, only : is_shown
    use axijoint_analysis_core_increment_fields, only : solve_increment, solve_increments, recover_state
    use axijoint_analysis_core_results, only : results_type
    use axijoint_analysis_core_series, only : series_type, new_series, append_increment
@@ -14,7 +13,7 @@ module axijoint_output_increments
    use axijoint_job_job, only : job_type
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_mesh, only : n_nodes
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, is_shown
    use axijoint_model_request, only : is_kept, keep_series, keep_stress
    use axijoint_output_file_hdf5, only : hdf5_file_type
    use axijoint_output_hdf5_history, only : history_fields_type, begin_history, put_history, &

@@ -14,6 +14,26 @@ from support import HERE, INPUTS, Test, preload, python_with, read_text, write
 from written_alike import PASSING
 
 RUNS = 30
+# So many equations that two threads factor the second harmonic together, and more than one range of the fine mesh
+TWO_HARMONICS = '''TITLE
+A body held below, pushed and pressed above
+CONTROL
+1
+MATERIALS
+1, 200.0, 0.3
+BLOCKS
+1, 1, 8, 25, 32
+0.0, 0.0, 3.0, 4.0
+FACES
+1, 1, 0.0, 0.0, 3.0, 0.0
+2, 1, 0.0, 4.0, 3.0, 4.0
+FIXEDFACES
+1, 111
+TRACTIONS
+2, 0, 0.0, -1.0
+2, 1, 0.5, 0.0, -0.5
+END
+'''
 
 
 class Run:
@@ -100,4 +120,6 @@ def tests(program):
         moved('moved memory, bonds', example(2, nodes=9, harmonic=4, planes=17)),
         moved('moved memory, Anderson', example(3, factor=10.0, method='ANDERSON', tolerance=1e-6)),
         moved('moved memory, joints out of proportion', example(3, factor=5e-3, harmonic=4, planes=17)),
-        moved('moved memory, combinations', 'chimney.dat')]
+        moved('moved memory, combinations', 'chimney.dat'),
+        moved('moved memory, a history', 'monopile.dat'),  # displacements are found beside the iterations
+        moved('moved memory, two harmonics', TWO_HARMONICS)]

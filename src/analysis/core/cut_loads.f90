@@ -21,7 +21,7 @@ module axijoint_analysis_core_cut_loads
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: plane_type, edge_load_excess, spring_excess, joint_excess, mass_excess
+   public :: plane_type, edge_load_excess, spring_excess, joint_excess, mass_excess, resultants_above
 
    !> A cut and the nodes on both sides of it
    type :: plane_type

@@ -1,10 +1,8 @@
 !> Resultants of the stresses on cuts z = const
 module axijoint_analysis_core_cuts
    use axijoint_analysis_core_cut_loads, only : plane_type, edge_load_excess, spring_excess, &
-      joint_excess, &
-                                           mass_excess
+      joint_excess, mass_excess, resultants_above
    use axijoint_analysis_core_results, only : results_type, n_resultants
-   use axijoint_analysis_core_rigid, only : rigid_resultants
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_assembly_loading, only : loading_type
    use axijoint_assembly_solid_force, only : solid_force
@@ -66,7 +64,7 @@ contains
                counts=crossed, shares=shares)
             do c = 1, size(planes)
                associate (plane => planes(c), total => results%cut_resultants(:, c))
-                  total = total + resultants_above(model%mesh, plane, mode, shares(:, :, :, 1)) &
+                  total = total + crossed_resultants(model%mesh, plane, mode, shares(:, :, :, 1)) &
                      - edge_load_excess(model, plane, mode, case_factor) &
                      - spring_excess(model, plane, mode, displacement) &
                      - joint_excess(model, plane, mode, stress) &
@@ -77,8 +75,8 @@ contains
       end do
    end subroutine cut_resultants
 
-   !> Resultants of the forces of elements that a cut passes through on nodes above it
-   pure function resultants_above(mesh, plane, mode, shares) result(total)
+   !> Resultants of the forces of the elements that a cut passes through, on their nodes above it
+   pure function crossed_resultants(mesh, plane, mode, shares) result(total)
       !> The mesh
       type(mesh_type), intent(in) :: mesh
       !> The cut
@@ -90,17 +88,17 @@ contains
       !> The resultants
       real(wp) :: total(n_resultants)
 
-      integer :: e, n
+      integer :: k
 
       total = 0.0_wp
-      do e = 1, size(plane%crossed)
-         n = mesh%element_size(plane%crossed(e))
-         associate (nodes => mesh%element_nodes(:n, plane%crossed(e)), share => shares(:, :n, plane%crossed(e)))
-            total = total + rigid_resultants(plane%position(:, nodes), mode, &
-               merge(share, 0.0_wp, spread(plane%above(nodes), 1, 3)))
+      do k = 1, size(plane%crossed)
+         associate (element => plane%crossed(k))
+            associate (n => mesh%element_size(element))
+               total = total + resultants_above(plane, mode, mesh%element_nodes(:n, element), shares(:, :n, element))
+            end associate
          end associate
       end do
-   end function resultants_above
+   end function crossed_resultants
 
    !> Nodes above and below a cut. A node on the cut is below it: loads there act
    !> below; but at the top of what is cut they act above

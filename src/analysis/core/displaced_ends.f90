@@ -1,7 +1,7 @@
 !> Displacements at the ends of increments, found by a thread beside the iterations: these share too little for more than one
 module axijoint_analysis_core_displaced_ends
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
-   use axijoint_analysis_core_footprint, only : displaced_numbers, is_shown
+   use axijoint_analysis_core_footprint, only : displaced_numbers
    use axijoint_analysis_core_increment_fields, only : solve_increments
    use axijoint_analysis_core_results, only : displaced_type, results_type
    use axijoint_analysis_core_solution, only : solved_state_type
@@ -13,7 +13,7 @@ module axijoint_analysis_core_displaced_ends
    use axijoint_joints_keeper, only : keeper_type
    use axijoint_joints_states, only : increment_state_type
    use axijoint_model_load, only : combination_type
-   use axijoint_model_model, only : model_type
+   use axijoint_model_model, only : model_type, is_shown
    implicit none
    private
    public :: run_and_displace

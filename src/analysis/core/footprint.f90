@@ -13,14 +13,13 @@ module axijoint_analysis_core_footprint
    use axijoint_joints_planes, only : planes_type, part_intervals
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, element_references
-   use axijoint_model_model, only : model_type, bodies_yield, can_yield, can_yield_at, &
+   use axijoint_model_model, only : model_type, n_shown, bodies_yield, can_yield, can_yield_at, &
       yielding_nodes
    use axijoint_model_modes, only : used_modes
-   use axijoint_model_request, only : is_kept
    use axijoint_plastic_field, only : body_planes
    implicit none
    private
-   public :: footprint_type, data_footprint, fine_nodes, blocks_of, program_bytes, displaced_numbers, is_shown
+   public :: footprint_type, data_footprint, fine_nodes, blocks_of, program_bytes, displaced_numbers
 
    !> What program and libraries without any data take beyond their start once they are used, with what the last of
    !> the heap's large pages is too large [byte]; measured
@@ -162,25 +161,14 @@ contains
       !> Modes, and joint points that can yield
       integer, intent(in) :: n_modes, n_points
 
-      integer :: k, last, n_threads
+      integer :: n_threads
 
       numbers = 0
-      last = size(model%increments)
       n_threads = omp_get_max_threads()
       if (model%error_goal%wanted .or. n_points > few_points .or. n_threads == 1 .or. n_threads > few_threads) return
-      numbers = 3*int(n_nodes(model%mesh), i8)*n_modes*count([(is_shown(model, k, last), k=1, last - 1)])
+      numbers = 3*int(n_nodes(model%mesh), i8)*n_modes*n_shown(model)
       if (numbers > most_displaced) numbers = 0
    end function displaced_numbers
-
-   !> Whether a file shows fields of an increment before the last
-   elemental logical function is_shown(model, increment, last)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Number of the increment, and of the last
-      integer, intent(in) :: increment, last
-
-      is_shown = any(is_kept(model%keep, increment, last)) .or. model%sweep%wanted .or. model%old_listing
-   end function is_shown
 
    !> Matrices between modes and planes: those of the job, and where it has more than harmonic 0, those of the estimates of
    !> errors with more planes, and with as many modes again; in single precision the largest of those that Newton's method

@@ -132,9 +132,8 @@ contains
       type(fine_load_type) :: load
       type(workspace_type), allocatable :: spaces(:)
       type(room_type), allocatable :: rooms(:)
-      real(wp) :: times(4, size(structure%equations%systems)), began, together
-      integer :: i, s, t, n_threads
-      logical :: made
+      real(wp) :: times(4, size(structure%equations%systems)), together  ! that of all threads
+      integer :: t
 
       allocate (solves(size(structure%modes)))
       if (present(difference)) load = new_fine_load(structure%fine, structure%modes, tasks(1)%loading)
@@ -147,33 +146,14 @@ contains
             call share_stiffness(structure%fine, equations%team, error)
          if (allocated(error)) return
          if (size(spaces) == 1) then
-            ! one system at a time: other threads take the tasks that it leaves
-            n_threads = merge(omp_get_max_threads(), 1, worth_threads(equations))
-            !$omp parallel num_threads(n_threads)
-            !$omp master
-            do s = equations%first, equations%last
-               if (.not. allocated(error)) call solve_one(s)
-            end do
-            !$omp end master
-            !$omp end parallel
+            call solve_in_order()
          else
-            began = omp_get_wtime()
-            call factor_together(structure%equations, equations%last, factoring, spaces(1), size(spaces), made)
-            if (made) together = omp_get_wtime() - began
-            !$omp parallel do schedule(dynamic) num_threads(size(spaces)) private(s)
-            do i = equations%first, equations%last
-               s = i
-               ! first that which has its factor: each thread holds one
-               if (made) s = merge(equations%last, i - 1, i == equations%first)
-               call solve_one(s)
-            end do
-            !$omp end parallel do
+            call solve_by_threads()
          end if
          if (present(difference)) then
             difference%seconds = sum(times(3, :))/size(spaces)
-            difference%factor_share = sum(times(2, :) - times(1, :))/max(tiny(1.0_wp), sum(times(4, :) - times(1, :)))
-            if (together > 0.0_wp) difference%factor_share = difference%factor_share &
-               + (1.0_wp - difference%factor_share)*together/(omp_get_wtime() - began)
+            difference%factor_share = (together + sum(times(2, :) - times(1, :)))/max(tiny(1.0_wp), &
+               together + sum(times(4, :) - times(1, :)))
          end if
          if (.not. allocated(error)) call report_failure(equations, model, error)
          if (allocated(error)) return
@@ -185,6 +165,39 @@ contains
       end associate
 
    contains
+
+      !> Solve one system after the other; other threads take the tasks that it leaves
+      subroutine solve_in_order()
+         integer :: n_threads, s
+
+         n_threads = merge(omp_get_max_threads(), 1, worth_threads(structure%equations))
+         !$omp parallel num_threads(n_threads)
+         !$omp master
+         do s = structure%equations%first, structure%equations%last
+            if (.not. allocated(error)) call solve_one(s)
+         end do
+         !$omp end master
+         !$omp end parallel
+      end subroutine solve_in_order
+
+      !> Solve as many at once as there are threads. One that all have factored together comes first, as each thread holds one factor
+      subroutine solve_by_threads()
+         integer :: i, s
+         logical :: made
+
+         associate (first => structure%equations%first, last => structure%equations%last)
+            together = omp_get_wtime()
+            call factor_together(structure%equations, last, factoring, spaces(1), size(spaces), made)
+            together = merge(size(spaces)*(omp_get_wtime() - together), 0.0_wp, made)
+            !$omp parallel do schedule(dynamic) num_threads(size(spaces)) private(s)
+            do i = first, last
+               s = i
+               if (made) s = merge(last, i - 1, i == first)
+               call solve_one(s)
+            end do
+            !$omp end parallel do
+         end associate
+      end subroutine solve_by_threads
 
       !> Solve one system
       subroutine solve_one(s)

@@ -168,26 +168,23 @@ contains
          !$omp parallel  ! of all threads: a smaller team would end the others
          !$omp single
          !$omp task default(shared) depend(out: lag)
-         call follow_harmonics(structure%condensed, history, way%way_type, lag)
+         call follow()
          !$omp end task
          !$omp task default(shared)
          call see_mesh()
          !$omp end task
-         call find_planes(structure%condensed, balanced, history, way%way_type, rounding, search, changes%planes)
-         if (way%known) then
-            !$omp task default(shared) depend(in: lag)
-            call find_harmonics(structure%condensed, balanced, history, lag, rounding, search, changes)
-            !$omp end task
-         end if
+         call see_planes()
+         !$omp task default(shared) depend(in: lag)
+         if (way%known) call see_harmonics()
+         !$omp end task
          !$omp end single
          !$omp end parallel
-         ! nothing else is left to do
-         if (.not. way%known) call find_harmonics(structure%condensed, balanced, history, lag, rounding, search, changes)
+         if (.not. way%known) call see_harmonics()  ! nothing else is left to do: by all threads
       else  ! not in a region of one thread, in which other regions would begin with new threads
          call see_mesh()
-         call follow_harmonics(structure%condensed, history, way%way_type, lag)
-         call find_planes(structure%condensed, balanced, history, way%way_type, rounding, search, changes%planes)
-         call find_harmonics(structure%condensed, balanced, history, lag, rounding, search, changes)
+         call follow()
+         call see_planes()
+         call see_harmonics()
       end if
       all(1) = changes%planes
       all(2) = changes%harmonics
@@ -213,6 +210,21 @@ contains
          if (.not. allocated(errors)) call find_held_errors(structure, history, balanced, displacement, way, errors)
          call find_answer(structure, history, balanced, errors, way, mesh_error, all(3))
       end subroutine see_mesh
+
+      !> What slip has kept of harmonics
+      subroutine follow()
+         call follow_harmonics(structure%condensed, history, way%way_type, lag)
+      end subroutine follow
+
+      !> What planes leave
+      subroutine see_planes()
+         call find_planes(structure%condensed, balanced, history, way%way_type, rounding, search, changes%planes)
+      end subroutine see_planes
+
+      !> What harmonics leave, after both
+      subroutine see_harmonics()
+         call find_harmonics(structure%condensed, balanced, history, lag, rounding, search, changes)
+      end subroutine see_harmonics
 
    end subroutine find_other_changes
 
