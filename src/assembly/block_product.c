@@ -1,21 +1,14 @@
 /* Product of a stiffness in blocks of two nodes and a vector: each block is read once, for what the node of its column gives to
  * that of its row and the other way round. */
+#include "block_parts.h"
 #include <stdint.h>
 #include <string.h>
 
 /* linalg/doubles_at_once.c */
 int32_t axijoint_doubles_at_once(void);
 
-/* Numbers of a block, and components of a node (node_blocks.f90) */
-enum { block_size = 14, components = 3 };
-
-typedef double four __attribute__((vector_size(32), aligned(8)));
-
-#define INLINE static inline __attribute__((always_inline))
-#define FOUR(place) (*(const four *)(place))
 /* The three components of a node */
 #define OF_NODE(x) ((four){(x)[0], (x)[1], (x)[2], 0.0})
-#define FOR_COMPONENTS _Pragma("GCC unroll 3") for (int r = 0; r < components; ++r)
 
 /* The stiffness: first block of each row in either part of it, columns, all from one on; numbers of the blocks */
 typedef struct {
@@ -23,21 +16,6 @@ typedef struct {
    const int32_t *column;
    const double *parts;
 } stiffness_type;
-
-/* Factors of the parts in K_m, by component of the column: of A or S where the row is that of u or v, or that of w, and of C in the
- * same. A fourth component is none, whatever is read there. */
-typedef struct {
-   four even, odd, square_even, square_odd;
-} factors_type;
-
-/* A block of K_m from its parts, row by row */
-INLINE void evaluate(const factors_type *factors, const double *parts, four block[components])
-{
-   const four squares = __builtin_shufflevector(FOUR(parts + 10), FOUR(parts + 10), 1, 2, 3, 3);
-   block[0] = factors->even * FOUR(parts) + factors->square_even * FOUR(parts + 9);
-   block[1] = factors->even * FOUR(parts + 3) + factors->square_even * squares;
-   block[2] = factors->odd * FOUR(parts + 6) + factors->square_odd * squares;
-}
 
 /* What the node of the row, each of whose components fills a vector, gives to that of the column */
 INLINE void give(const four block[components], const four x[components], double *y)
@@ -51,6 +29,7 @@ INLINE void find_rows(int from, int to, stiffness_type k, factors_type factors, 
 {
    memset(y + components * (from - 1), 0, components * (size_t)(to - from + 1) * sizeof *y);
    for (int i = from - 1; i < to; ++i) {
+      if (k.start[1][i] == k.start[1][i + 1]) continue; /* not even one with itself */
       double *const here = y + components * i;
       four own[components], total[components];
       FOR_COMPONENTS {
@@ -108,8 +87,7 @@ void axijoint_block_product(int most, int coupling, int from, int to, const int6
                             const int32_t *column, const double *parts, const double *factors, const double *x, double *y)
 {
    const stiffness_type k = {{outer, inner}, column, parts};
-   const double a = factors[0], s = factors[1], c = factors[2];
-   const factors_type of = {{a, a, s}, {s, s, a}, {c, c}, {0, 0, c}};
+   const factors_type of = factors_of(factors);
 #if defined(__x86_64__)
    if (most >= 4 && axijoint_doubles_at_once() >= 4) {
       find_by_four(coupling, from, to, k, of, x, y);

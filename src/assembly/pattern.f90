@@ -14,11 +14,9 @@ module axijoint_assembly_pattern
 contains
 
    !> Graph of the nodes: elements and joints are its cliques
-   function node_graph(mesh, neighbours_only) result(graph)
+   function node_graph(mesh) result(graph)
       !> The mesh
       type(mesh_type), intent(in) :: mesh
-      !> Whether nobody asks what nodes lie between; false if absent
-      logical, intent(in), optional :: neighbours_only
       !> The graph
       type(graph_type) :: graph
 
@@ -28,9 +26,6 @@ contains
       call list_nodes(mesh%joint_size, mesh%joint_nodes, joint_start, joint_member)
       call new_graph(graph, n_nodes(mesh), [start, joint_start(2:) + size(member)], &
                      [member, joint_member])
-      if (present(neighbours_only)) then
-         if (neighbours_only) return
-      end if
       graph%between = nodes_between(mesh)
    end function node_graph
 

@@ -2,12 +2,16 @@
 module axijoint_analysis_core_footprint
    use omp_lib, only : omp_get_max_threads
    use axijoint_analysis_fine_blocks, only : is_slender, may_be_wall
-   use axijoint_assembly_node_blocks, only : block_size
+   use axijoint_assembly_block_parts, only : block_size
+   use axijoint_assembly_repeated_elements, only : shapes_type, find_shapes
    use axijoint_base_kinds, only : wp, i8
+   use axijoint_element_blocks, only : n_blocks
    use axijoint_element_yield_law, only : yield_none
    use axijoint_fe_element_kind, only : is_reduced
    use axijoint_fe_mode, only : mode_type, family_antisymmetric
    use axijoint_fe_reference, only : reference_type
+   use axijoint_fe_shape, only : n_corners
+   use axijoint_fe_subdivision, only : n_children
    use axijoint_joints_circle_sums, only : are_worth_it
    use axijoint_joints_history, only : most_turns
    use axijoint_joints_planes, only : planes_type, part_intervals
@@ -45,7 +49,7 @@ module axijoint_analysis_core_footprint
    !> Bytes of a node in the mesh, its elements, graph, orders and equations, as measured
    integer(i8), parameter :: mesh_bytes = 520
    !> Bytes of a node of the fine mesh besides its stiffness, as measured
-   integer(i8), parameter :: fine_mesh_bytes = 250
+   integer(i8), parameter :: fine_mesh_bytes = 190
 
    !> Amplitudes at the points of bodies that yield: elastic stress, before, excess, carried,
    !> in-situ stress, and copies; vectors of unknowns that a step starts from, that the mix of ten
@@ -108,7 +112,7 @@ contains
       ! displacements, two kinds of loads twice, errors of nodes
       footprint%loads = 21*nodes*n_modes*real_bytes
       if (estimated) then
-         footprint%fine = sum(fine_bytes(model%mesh%element_size))
+         footprint%fine = fine_bytes(model%mesh)
          footprint%fine_work = fine_work_bytes(model%mesh)
       end if
       footprint%stresses = 9*nodes + 6*sum(int(references(model%mesh%element_kind)%n_points, i8)) &
@@ -258,17 +262,54 @@ contains
       footprint%body_work = real_bytes*(19*points*planes + 2*6*points*n_modes + vectors*vector)
    end subroutine add_bodies
 
-   !> Memory of the fine level for an element: the nodes that it has there, with the blocks of
-   !> stiffness that these have on and below the diagonal
-   elemental integer(i8) function fine_bytes(n_nodes) result(bytes)
-      !> Nodes of the element
-      integer, intent(in) :: n_nodes
+   !> Memory of the fine level: the nodes that it has, with the blocks of stiffness that these have on and below the
+   !> diagonal, or, where children of the elements are congruent, those of each of their shapes
+   pure integer(i8) function fine_bytes(mesh) result(bytes)
+      !> The coarse mesh
+      type(mesh_type), intent(in) :: mesh
 
-      !> Bytes of a block, and of a node in its mesh
-      integer(i8), parameter :: block_bytes = block_size*real_bytes + 4
+      !> Bytes of a block, and of an element that is congruent to others: its rows, twice, and where blocks of nodes list it
+      integer(i8), parameter :: block_bytes = block_size*real_bytes + 4, element_bytes = 160
+      type(shapes_type) :: shapes
+      integer :: elements(n_elements(mesh)), element
+      real(wp) :: numbers, blocks
 
-      bytes = nint(fine_nodes(n_nodes)*(blocks_of(n_nodes)*block_bytes + fine_mesh_bytes), i8)
+      call find_shapes(mesh, shapes)
+      elements = 0
+      do element = 1, n_elements(mesh)
+         associate (shape => shapes%number(element))
+            elements(shape) = elements(shape) + 1
+         end associate
+      end do
+      numbers = 0.0_wp
+      do element = 1, n_elements(mesh)
+         associate (n => mesh%element_size(element), alike => elements(shapes%number(element)))
+            blocks = fine_nodes(n)*blocks_of(n)*block_bytes
+            if (alike > 1 .or. has_congruent_children(mesh, element)) blocks = n_children*element_bytes &
+               + n_blocks(n)*block_bytes*merge(n_children/2, n_children, has_congruent_children(mesh, element))/real(alike, wp)
+            numbers = numbers + blocks + fine_nodes(n)*fine_mesh_bytes
+         end associate
+      end do
+      bytes = nint(numbers, i8)
    end function fine_bytes
+
+   !> Whether two children of an element lie above the two others and have their shapes: of a parallelogram along the axis
+   pure logical function has_congruent_children(mesh, element)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> Element
+      integer, intent(in) :: element
+
+      real(wp) :: rounding
+
+      has_congruent_children = n_corners(mesh%element_size(element)) == 4
+      if (.not. has_congruent_children) return
+      associate (x => mesh%coordinates(:, mesh%element_nodes(:4, element)))
+         rounding = sqrt(epsilon(1.0_wp))*maxval(abs(x))
+         has_congruent_children = all(abs(x(:, 1) - x(:, 2) + x(:, 3) - x(:, 4)) <= rounding) &
+            .and. min(abs(x(1, 1) - x(1, 2)), abs(x(1, 2) - x(1, 3))) <= rounding
+      end associate
+   end function has_congruent_children
 
    !> What a thread works with on the fine level: factors of blocks of nodes, and vectors of all nodes
    pure integer(i8) function fine_work_bytes(mesh) result(bytes)

@@ -5,11 +5,11 @@ module axijoint_analysis_fine_blocks
    use axijoint_fe_shape, only : n_corners
    use axijoint_fe_subdivision, only : n_children
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, n_joints
-   use axijoint_order_graph, only : graph_type
+   use axijoint_order_graph, only : graph_type, new_graph
    use axijoint_order_rcm, only : reverse_cuthill_mckee
    implicit none
    private
-   public :: new_blocks, order_by_blocks, is_slender, may_be_wall
+   public :: new_blocks, graph_of_blocks, order_by_blocks, is_slender, may_be_wall
 
    !> An element longer than this times its width is strongly coupled to its neighbours across its
    !> long sides
@@ -270,6 +270,56 @@ contains
       end associate
    end function may_be_wall
 
+   !> Graph of nodes that share an element, or a joint, and a block
+   function graph_of_blocks(mesh, block) result(graph)
+      !> The fine mesh
+      type(mesh_type), intent(in) :: mesh
+      !> Block of each node
+      integer, intent(in) :: block(:)
+      !> The graph
+      type(graph_type) :: graph
+
+      integer, allocatable :: start(:), member(:)
+      integer :: k, n
+
+      associate (n_members => sum(mesh%element_size) + sum(mesh%joint_size))
+         allocate (member(n_members), start(n_members/2 + 1))
+      end associate
+      start(1) = 1
+      n = 0
+      do k = 1, n_elements(mesh)
+         call add_cliques(mesh%element_nodes(:mesh%element_size(k), k))
+      end do
+      do k = 1, n_joints(mesh)
+         call add_cliques(mesh%joint_nodes(:mesh%joint_size(k), k))
+      end do
+      call new_graph(graph, size(block), start(:n + 1), member(:start(n + 1) - 1))
+
+   contains
+
+      !> Add those of some nodes that are of one block, block by block
+      subroutine add_cliques(nodes)
+         !> The nodes
+         integer, intent(in) :: nodes(:)
+
+         integer :: i, j, next
+
+         do i = 1, size(nodes)
+            if (any(block(nodes(:i - 1)) == block(nodes(i)))) cycle
+            next = start(n + 1)
+            do j = i, size(nodes)
+               if (block(nodes(j)) /= block(nodes(i))) cycle
+               member(next) = nodes(j)
+               next = next + 1
+            end do
+            if (next == start(n + 1) + 1) cycle  ! one alone
+            n = n + 1
+            start(n + 1) = next
+         end do
+      end subroutine add_cliques
+
+   end function graph_of_blocks
+
    !> Order of the fine nodes, block by block and neighbours close in each; blocks of one coarse
    !> element are close, too
    subroutine order_by_blocks(coarse, fine, graph, block, order)
@@ -277,30 +327,17 @@ contains
       type(mesh_type), intent(in) :: coarse
       !> The fine mesh
       type(fine_mesh_type), intent(in) :: fine
-      !> Graph of the fine nodes
+      !> Graph of the fine nodes of the blocks
       type(graph_type), intent(in) :: graph
       !> Block of each node
       integer, intent(in) :: block(:)
       !> order(k) is the k-th node
       integer, allocatable, intent(out) :: order(:)
 
-      type(graph_type) :: within
       integer, allocatable :: close(:), start(:)
-      integer :: node, k, n, element, i
+      integer :: k, n, element, i
 
-      within%n = graph%n
-      allocate (within%start(graph%n + 1), within%neighbour(size(graph%neighbour)))
-      n = 0
-      do node = 1, graph%n
-         within%start(node) = n + 1
-         do k = graph%start(node), graph%start(node + 1) - 1
-            if (block(graph%neighbour(k)) /= block(node)) cycle
-            n = n + 1
-            within%neighbour(n) = graph%neighbour(k)
-         end do
-      end do
-      within%start(graph%n + 1) = n + 1
-      call reverse_cuthill_mckee(within, close)
+      call reverse_cuthill_mckee(graph, close)
       allocate (start(maxval(block)), source=0)
       do k = graph%n, 1, -1
          start(block(close(k))) = k

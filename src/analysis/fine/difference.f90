@@ -10,7 +10,7 @@ module axijoint_analysis_fine_difference
    use axijoint_assembly_equations, only : equations_type, solve_mode
    use axijoint_assembly_force, only : joint_force, joint_jump
    use axijoint_assembly_loading, only : add_external, still_force
-   use axijoint_assembly_node_blocks, only : block_product
+   use axijoint_assembly_product_stiffness, only : stiffness_product
    use axijoint_base_kinds, only : wp, i8
    use axijoint_linalg_lapack, only : daxpy, ddot
    use axijoint_model_joint_points, only : model_joint_point_type
@@ -186,7 +186,7 @@ contains
                load%initial, k, equations%modes(k), u, load%case_factor)
          end if
          call prolong(level%parents, displacement, u)
-         call block_product(level%stiffness, equations%modes(k)%harmonic, u, force)
+         call stiffness_product(level%stiffness, equations%modes(k)%harmonic, u, force)
          do node = 1, size(external, 2)
             associate (f => force(:, level%stiffness%place(node)))
                f = external(:, node) - f
@@ -318,7 +318,7 @@ contains
       length = 0.0_wp
       associate (d => room%way(:, :, i), kd => room%pull(:, :, i))
          call keep_apart(room%way(:, :, :i - 1), room%pull(:, :, :i - 1), energy(:i - 1), d)
-         call block_product(level%stiffness, harmonic, d, kd)
+         call stiffness_product(level%stiffness, harmonic, d, kd)
          energy(i) = work(d, kd)
          if (energy(i) > 0.0_wp) length = work(d, room%force)/energy(i)
       end associate
@@ -471,7 +471,7 @@ contains
       real(wp), intent(out) :: of_blocks
 
       associate (conditions => level%conditions(equations%systems(equations%system(k))%class))
-         call block_product(level%stiffness, equations%modes(k)%harmonic, d, rest)
+         call stiffness_product(level%stiffness, equations%modes(k)%harmonic, d, rest)
          of_blocks = work(d, rest)
          if (of_blocks > 0.0_wp) of_blocks = work(d, force)/of_blocks
          rest = force - rest

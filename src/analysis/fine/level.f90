@@ -1,14 +1,14 @@
 !> The job on the fine mesh, as far as estimates of errors need it: stiffness and blocks, no factor
 module axijoint_analysis_fine_level
-   use axijoint_analysis_fine_blocks, only : new_blocks, order_by_blocks
+   use axijoint_analysis_fine_blocks, only : new_blocks, graph_of_blocks, order_by_blocks
    use axijoint_analysis_fine_conditions, only : conditions_type, new_conditions
    use axijoint_analysis_fine_mesh, only : fine_mesh_type, parents_type, new_fine_mesh, ordered
    use axijoint_analysis_fine_model, only : new_fine_model
    use axijoint_analysis_fine_smoother, only : smoother_type, new_smoother
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_loading, only : loading_type, new_initial_state
-   use axijoint_assembly_node_blocks, only : node_blocks_type, new_node_blocks, assemble_blocks, tell_blocks, block_size
-   use axijoint_assembly_pattern, only : node_graph
+   use axijoint_assembly_product_stiffness, only : product_stiffness_type, new_product_stiffness, is_formed, n_numbers, &
+      form_product_stiffness, tell_product_stiffness
    use axijoint_assembly_solid_force, only : initial_state_type
    use axijoint_assembly_support, only : support_point_type, new_support_points
    use axijoint_base_error, only : error_type
@@ -50,8 +50,8 @@ module axijoint_analysis_fine_level
       !> too stiff to move, shape (points); factors of it and those that follow, shape (most_fine, points)
       integer, allocatable :: first_fine(:)
       real(wp), allocatable :: of_fine(:, :)
-      !> Stiffness in blocks of two nodes; all that follows is in the order of its rows
-      type(node_blocks_type) :: stiffness
+      !> Stiffness; all that follows is in the order of its rows
+      type(product_stiffness_type) :: stiffness
       !> The rank that has formed it, if the others are still to be told
       integer, allocatable :: formed_by
       !> What the nodes follow
@@ -89,12 +89,12 @@ contains
       level%joint_points = new_joint_points(level%model)
       level%support_points = new_support_points(level%model)
       call place_joint_points(model, level)
-      graph = node_graph(level%model%mesh, neighbours_only=.true.)
       block = new_blocks(model%mesh, level%mesh)
+      graph = graph_of_blocks(level%model%mesh, block)
       call order_by_blocks(model%mesh, level%mesh, graph, block, order)
-      call new_node_blocks(level%stiffness, graph, order, block)
+      call new_product_stiffness(level%model%mesh, level%support_points, order, block, level%stiffness)
       level%parents = ordered(level%mesh%parents, order)
-      call new_smoother(level%smoother, level%stiffness, block, order)
+      call new_smoother(level%smoother, level%stiffness, graph, block, order)
    end subroutine lay_out_level
 
    !> Whether the fine level is laid out
@@ -102,7 +102,7 @@ contains
       !> The fine level
       type(fine_level_type), intent(in) :: level
 
-      is_laid_out = allocated(level%stiffness%column)
+      is_laid_out = allocated(level%stiffness%place)
    end function is_laid_out
 
    !> Bytes that its stiffness will take, once it is laid out; none if it is there
@@ -111,8 +111,7 @@ contains
       type(fine_level_type), intent(in) :: level
 
       bytes_to_come = 0
-      if (.not. allocated(level%stiffness%parts)) &
-         bytes_to_come = storage_size(1.0_wp)/8*block_size*size(level%stiffness%column, kind=i8)
+      if (.not. is_formed(level%stiffness)) bytes_to_come = storage_size(1.0_wp)/8*n_numbers(level%stiffness)
    end function bytes_to_come
 
    !> Integrate the stiffness
@@ -120,7 +119,7 @@ contains
       !> The fine level
       type(fine_level_type), intent(inout) :: level
 
-      call assemble_blocks(level%stiffness, level%model, level%joint_points, level%support_points)
+      call form_product_stiffness(level%model, level%joint_points, level%support_points, level%stiffness)
    end subroutine form_stiffness
 
    !> Let one rank integrate the stiffness, for `share_stiffness` to tell the others
@@ -159,7 +158,7 @@ contains
       if (.not. allocated(level%formed_by)) return
       call team%agree(error)
       if (allocated(error)) return
-      call tell_blocks(level%stiffness, team, level%formed_by)
+      call tell_product_stiffness(team, level%formed_by, level%stiffness)
       deallocate (level%formed_by)
    end subroutine share_stiffness
 

@@ -2,13 +2,15 @@
 !> coarse mesh finds the rest
 module axijoint_analysis_fine_smoother
    use axijoint_analysis_fine_conditions, only : conditions_type
-   use axijoint_assembly_node_blocks, only : node_blocks_type, harmonic_factors, evaluate
+   use axijoint_assembly_block_parts, only : harmonic_factors, evaluate
+   use axijoint_assembly_product_stiffness, only : product_stiffness_type
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_large_pages, only : use_large_pages
    use axijoint_base_ranges, only : range_end
    use axijoint_base_sort, only : refine_order
    use axijoint_linalg_band_cholesky, only : factor_band, solve_band, n_lanes, factor_bands, solve_bands
    use axijoint_linalg_lapack, only : dpbtrf
+   use axijoint_order_graph, only : graph_type
    implicit none
    private
    public :: smoother_type, new_smoother, factor_blocks, solve_blocks
@@ -28,22 +30,26 @@ module axijoint_analysis_fine_smoother
       integer, allocatable :: groups(:, :), left(:)
       !> Where the factors of each group begin, then those of each block that is left, and their end
       integer(i8), allocatable :: start(:)
+      !> Congruent elements that have nodes of a block, from first_element(block) on
+      integer, allocatable :: first_element(:), element(:)
    end type smoother_type
 
 contains
 
    !> Where blocks begin, and how wide they are
-   subroutine new_smoother(smoother, stiffness, block, order)
+   subroutine new_smoother(smoother, stiffness, graph, block, order)
       !> The blocks
       type(smoother_type), intent(out) :: smoother
-      !> Pattern of the stiffness
-      type(node_blocks_type), intent(in) :: stiffness
+      !> The stiffness, laid out
+      type(product_stiffness_type), intent(in) :: stiffness
+      !> Graph of the nodes of the blocks
+      type(graph_type), intent(in) :: graph
       !> Block of each node
       integer, intent(in) :: block(:)
       !> order(k) is the k-th node
       integer, intent(in) :: order(:)
 
-      integer :: k, b
+      integer :: k, l, b
 
       associate (begins => [.true., block(order(2:)) /= block(order(:size(order) - 1))])
          smoother%first = [pack([(k, k=1, size(order))], begins), size(order) + 1]
@@ -51,10 +57,13 @@ contains
       allocate (smoother%width(size(smoother%first) - 1), source=0)
       do b = 1, size(smoother%width)
          do k = smoother%first(b), smoother%first(b + 1) - 1
-            smoother%width(b) = max(smoother%width(b), k - stiffness%column(stiffness%start(k, 2)))
+            do l = graph%start(order(k)), graph%start(order(k) + 1) - 1
+               smoother%width(b) = max(smoother%width(b), k - stiffness%place(graph%neighbour(l)))
+            end do
          end do
       end do
       call group_blocks(smoother)
+      call list_elements(stiffness, smoother)
       associate (n => size(smoother%groups, 2), m => size(smoother%left))
          allocate (smoother%start(n + m + 1))
          smoother%start(1) = 1
@@ -66,6 +75,39 @@ contains
          end do
       end associate
    end subroutine new_smoother
+
+   !> List the congruent elements of each block
+   pure subroutine list_elements(stiffness, smoother)
+      !> The stiffness, laid out
+      type(product_stiffness_type), intent(in) :: stiffness
+      !> The blocks; takes the lists
+      type(smoother_type), intent(inout) :: smoother
+
+      integer :: block(size(stiffness%place)), next(size(smoother%width)), pass, b, i, k
+
+      do b = 1, size(smoother%width)
+         block(smoother%first(b):smoother%first(b + 1) - 1) = b
+      end do
+      next = 0
+      do pass = 1, 2  ! count the elements, then list them
+         do k = 1, size(stiffness%congruent%n_nodes)
+            associate (blocks => block(stiffness%congruent%row(:stiffness%congruent%n_nodes(k), k)))
+               do i = 1, size(blocks)
+                  if (any(blocks(:i - 1) == blocks(i))) cycle
+                  if (pass == 2) smoother%element(next(blocks(i))) = k
+                  next(blocks(i)) = next(blocks(i)) + 1
+               end do
+            end associate
+         end do
+         if (pass == 2) exit
+         allocate (smoother%first_element(size(next) + 1), smoother%element(sum(next)))
+         smoother%first_element(1) = 1
+         do b = 1, size(next)
+            smoother%first_element(b + 1) = smoother%first_element(b) + next(b)
+         end do
+         next = smoother%first_element(:size(next))
+      end do
+   end subroutine list_elements
 
    !> Numbers of the factor of a block
    pure integer(i8) function factor_size(smoother, b)
@@ -129,7 +171,7 @@ contains
       !> The blocks
       type(smoother_type), intent(in) :: smoother
       !> The stiffness
-      type(node_blocks_type), intent(in) :: stiffness
+      type(product_stiffness_type), intent(in) :: stiffness
       !> Harmonic m
       integer, intent(in) :: harmonic
       !> Components that are free
@@ -174,7 +216,7 @@ contains
       !> The blocks
       type(smoother_type), intent(in) :: smoother
       !> The stiffness
-      type(node_blocks_type), intent(in) :: stiffness
+      type(product_stiffness_type), intent(in) :: stiffness
       !> Factors of its parts in the harmonic
       real(wp), intent(in) :: factors(3)
       !> Components that are free, and whether nodes are free in all
@@ -195,8 +237,8 @@ contains
             associate (nodes => n_nodes_of(smoother, one), width => 3*smoother%width(one) + 2)
                factor(start:smoother%start(g + 1) - 1) = 0.0_wp
                do k = 1, n_lanes
-                  call fill_block(stiffness, factors, conditions, plain, smoother%first(smoother%groups(k, g)), nodes, &
-                     width, n_lanes, k, factor(start))
+                  call fill_block(smoother, stiffness, factors, conditions, plain, smoother%groups(k, g), nodes, width, &
+                     n_lanes, k, factor(start))
                end do
                call factor_bands(3*nodes, width, factor(start), singular)
             end associate
@@ -207,7 +249,7 @@ contains
          associate (start => smoother%start(size(smoother%groups, 2) + k), b => smoother%left(k))
             associate (nodes => n_nodes_of(smoother, b), width => 3*smoother%width(b) + 2)
                factor(start:start + factor_size(smoother, b) - 1) = 0.0_wp
-               call fill_block(stiffness, factors, conditions, plain, smoother%first(b), nodes, width, 1, 1, factor(start))
+               call fill_block(smoother, stiffness, factors, conditions, plain, b, nodes, width, 1, 1, factor(start))
                if (width >= wide) then
                   call dpbtrf('L', 3*nodes, width, factor(start), width + 1, info)
                else
@@ -219,51 +261,93 @@ contains
       end do
    end subroutine factor_share
 
-   !> Copy a block into a band matrix of zeros; what is held has an equation of its own
-   pure subroutine fill_block(stiffness, factors, conditions, plain, first, n, width, lanes, lane, a)
+   !> Add a block to a band matrix of zeros; what is held has an equation of its own
+   subroutine fill_block(smoother, stiffness, factors, conditions, plain, b, n, width, lanes, lane, a)
+      !> The blocks
+      type(smoother_type), intent(in) :: smoother
       !> The stiffness
-      type(node_blocks_type), intent(in) :: stiffness
+      type(product_stiffness_type), intent(in) :: stiffness
       !> Factors of its parts in the harmonic
       real(wp), intent(in) :: factors(3)
       !> Components that are free, and whether nodes are free in all
       type(conditions_type), intent(in) :: conditions
       logical, intent(in) :: plain(:)
-      !> First node, number of nodes, half-bandwidth
-      integer, intent(in) :: first, n, width
+      !> The block, its nodes, half-bandwidth
+      integer, intent(in) :: b, n, width
       !> Matrices that lie number beside number, and which of them is filled
       integer, intent(in) :: lanes, lane
       !> Lower triangles
       real(wp), intent(inout) :: a(lanes, 0:width, 3*n)
 
       real(wp) :: block(3, 3)
-      integer(i8) :: l
-      integer :: i, j, row, column
+      integer(i8) :: l, p
+      integer :: i, j, k, first, last
 
-      do i = first, first + n - 1
-         do l = stiffness%start(i, 2), stiffness%start(i + 1, 2) - 1
-            j = stiffness%column(l)
-            call evaluate(factors, stiffness%parts(:, l), block)
-            if (plain(i) .and. plain(j) .and. i /= j) then
-               do column = 1, 3
-                  do row = 1, 3
-                     a(lane, 3*(i - j) + row - column, 3*(j - first) + column) = block(column, row)
-                  end do
-               end do
-               cycle
-            end if
-            if (conditions%tied(j)) block(1, :) = block(1, :) - block(3, :)
-            if (conditions%tied(i)) block(:, 1) = block(:, 1) - block(:, 3)
-            do row = 1, 3
-               do column = 1, merge(row, 3, i == j)
-                  if (.not. (conditions%free(row, i) .and. conditions%free(column, j))) cycle
-                  a(lane, 3*(i - j) + row - column, 3*(j - first) + column) = block(column, row)
-               end do
+      first = smoother%first(b)
+      last = first + n - 1
+      associate (blocks => stiffness%blocks)
+         do i = first, last
+            do l = blocks%start(i, 2), blocks%start(i + 1, 2) - 1
+               call evaluate(factors, blocks%parts(:, l), block)
+               call add(i, blocks%column(l))
             end do
          end do
-         do row = 1, 3
-            if (.not. conditions%free(row, i)) a(lane, 0, 3*(i - first) + row) = 1.0_wp
+      end associate
+      associate (congruent => stiffness%congruent)
+         do k = smoother%first_element(b), smoother%first_element(b + 1) - 1
+            associate (rows => congruent%row(:congruent%n_nodes(smoother%element(k)), smoother%element(k)))
+               p = congruent%start(smoother%element(k)) - 1
+               do j = 1, size(rows)
+                  if (rows(j) >= first .and. rows(j) <= last) then
+                     do i = j, size(rows)
+                        if (rows(i) < first .or. rows(i) > last) cycle
+                        call evaluate(factors, congruent%parts(:, p + i - j + 1), block)
+                        if (rows(i) < rows(j)) block = transpose(block)
+                        call add(max(rows(i), rows(j)), min(rows(i), rows(j)))
+                     end do
+                  end if
+                  p = p + size(rows) - j + 1
+               end do
+            end associate
+         end do
+      end associate
+      do i = first, last
+         do k = 1, 3
+            if (.not. conditions%free(k, i)) a(lane, 0, 3*(i - first) + k) = 1.0_wp
          end do
       end do
+
+   contains
+
+      !> Add what two nodes have of each other
+      subroutine add(i, j)
+         !> Row and column
+         integer, intent(in) :: i, j
+
+         integer :: row, column
+
+         if (plain(i) .and. plain(j) .and. i /= j) then
+            do column = 1, 3
+               do row = 1, 3
+                  associate (entry => a(lane, 3*(i - j) + row - column, 3*(j - first) + column))
+                     entry = entry + block(column, row)
+                  end associate
+               end do
+            end do
+            return
+         end if
+         if (conditions%tied(j)) block(1, :) = block(1, :) - block(3, :)
+         if (conditions%tied(i)) block(:, 1) = block(:, 1) - block(:, 3)
+         do row = 1, 3
+            do column = 1, merge(row, 3, i == j)
+               if (.not. (conditions%free(row, i) .and. conditions%free(column, j))) cycle
+               associate (entry => a(lane, 3*(i - j) + row - column, 3*(j - first) + column))
+                  entry = entry + block(column, row)
+               end associate
+            end do
+         end do
+      end subroutine add
+
    end subroutine fill_block
 
    !> Solve for every block
