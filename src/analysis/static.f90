@@ -18,8 +18,8 @@ module axijoint_analysis_static
    use axijoint_analysis_error_budget, only : new_budget
    use axijoint_analysis_error_corrections, only : correct_rounding, keep_claim, solver_keeps_claim
    use axijoint_analysis_error_discretization, only : estimate_discretization
-   use axijoint_analysis_error_iteration_left, only : iteration_left_type
-   use axijoint_analysis_error_joint_shares, only : displacement_scale, yielding_scale
+   use axijoint_analysis_error_iteration_left, only : iteration_left_type, find_left
+   use axijoint_analysis_error_joint_shares, only : displacement_scale, yielding_scale, unloaded
    use axijoint_analysis_error_plastic_errors, only : estimate_plastic_errors
    use axijoint_analysis_error_stiffer_joints, only : compare_stiffer
    use axijoint_analysis_error_yielding_errors, only : estimate_yielding_errors
@@ -242,11 +242,12 @@ contains
          call add_motions(structure%condensed%floating, history%motion, results%displacement)
          results%mechanism = mechanism_text(model, history%reached, history%loading%case_factor, results)
       end if
-      call solve_displacements(structure, model, history%loading, results%displacement, &
-         results%solves, error, &
-                               history%field%excess)
+      if (estimates .and. results%converged .and. .not. (history%method%accumulates .or. unloaded(history))) &
+         call find_left(structure, history, left)
+      call solve_displacements(structure, model, history%loading, results%displacement, results%solves, error, &
+         history%field%excess, left=left%change(1)%excess, effect=left%effect)
       if (allocated(error)) return
-      call correct_rounding(model, structure, history, results, error)
+      call correct_rounding(model, structure, history, results, left, error)
       if (allocated(error)) return
       call keep_claim(model, structure, history, results, left, error)
       call check_stop(error)  ! iterations may have ended for it

@@ -34,7 +34,7 @@ module axijoint_analysis_core_solution
 
    !> Loads, and where their displacements go
    type :: task_type
-      !> Loads
+      !> Loads; none if not associated: then the displacements are a small change of others, and not refined
       type(loading_type), pointer :: loading => null()
       !> Excess stress of the joint points that yield, shape (3, points, modes)
       real(wp), allocatable :: acting(:, :, :)
@@ -45,8 +45,7 @@ module axijoint_analysis_core_solution
 contains
 
    !> Displacements under loads and excess joint stress, and what is asked besides
-   subroutine solve_displacements(structure, model, loading, displacement, solves, error, excess, &
-      difference)
+   subroutine solve_displacements(structure, model, loading, displacement, solves, error, excess, difference, left, effect)
       !> The structure, assembled
       type(structure_type), intent(inout) :: structure
       !> The job, for the words of an error
@@ -63,13 +62,22 @@ contains
       real(wp), intent(in), optional :: excess(:, :, :)
       !> Takes the difference to the solution on the fine level, and times: of linear jobs
       type(difference_type), intent(inout), optional :: difference
+      !> A small change of the excess stress, same shape; none if absent or not allocated. Its effect on displacements, amplitudes,
+      !> shape (3, nodes, modes, 1), for which no factor is read again
+      real(wp), intent(in), optional :: left(:, :, :)
+      real(wp), allocatable, intent(out), target, optional :: effect(:, :, :, :)
 
-      type(task_type) :: tasks(1)
+      type(task_type) :: tasks(2)
 
       tasks(1)%loading => loading
       tasks(1)%displacement => displacement
       tasks(1)%acting = acting_stress(structure, excess)
-      call solve_tasks(structure, model, tasks, solves, error, difference)
+      if (present(left)) then
+         allocate (effect(3, size(displacement, 2), size(displacement, 3), 1))
+         tasks(2)%displacement => effect(:, :, :, 1)
+         tasks(2)%acting = left
+      end if
+      call solve_tasks(structure, model, tasks(:merge(2, 1, present(left))), solves, error, difference)
    end subroutine solve_displacements
 
    !> Displacements of several states, for which each factor is read once. No bit of one depends on the others
@@ -111,7 +119,7 @@ contains
       end if
    end function acting_stress
 
-   !> Displacements of tasks, a step of refinement in them unless the structure takes what rounding
+   !> Displacements of tasks, those of loads first, a step of refinement in these unless the structure takes what rounding
    !> leaves without it. A factor that is not kept is made, used for all that needs it, and given up.
    !> Each rank solves its systems, and learns the rest. The stiffness of the fine level, which one rank forms for all,
    !> is told when all have solved their first system: none waits for it long.
@@ -207,6 +215,7 @@ contains
          real(wp), allocatable :: force(:, :, :), found(:, :, :)  ! threads have small stacks
          type(mode_solve_type), allocatable :: reports(:)
          real(wp) :: before_errors
+         integer :: n
 
          times(1, s) = omp_get_wtime()
          call hold_factor(structure%equations, s, spaces(own()))
@@ -215,10 +224,11 @@ contains
             if (.not. equations%systems(s)%failed) then
                allocate (force(3, size(tasks(1)%displacement, 2), size(equations%systems(s)%modes)*size(tasks)))
                allocate (found, mold=force)
-               allocate (reports(size(force, 3)))
+               n = size(equations%systems(s)%modes)*count([(associated(tasks(t)%loading), t=1, size(tasks))])
+               allocate (reports(n))
                call load_system(structure, tasks, s, force)
                call solve_system(equations, s, force, found)
-               call refine_solutions(equations, s, force, structure%negligible, found, reports)
+               call refine_solutions(equations, s, force(:, :, :n), structure%negligible, found(:, :, :n), reports)
                call take_solution(structure, tasks, s, found)
                solves(equations%systems(s)%modes) = reports(:size(equations%systems(s)%modes))
                deallocate (force, found)
@@ -259,8 +269,9 @@ contains
                do i = 1, size(modes)
                   j = j + 1
                   k = modes(i)
-                  force(:, :, j) = tasks(t)%loading%right(:, :, k) + joint_force(points, &
-                     structure%equations%modes(k)%harmonic, tasks(t)%acting(:, :, k), size(force, 2))
+                  force(:, :, j) = joint_force(points, structure%equations%modes(k)%harmonic, tasks(t)%acting(:, :, k), &
+                     size(force, 2))
+                  if (associated(tasks(t)%loading)) force(:, :, j) = tasks(t)%loading%right(:, :, k) + force(:, :, j)
                end do
             end associate
          end do
@@ -283,12 +294,14 @@ contains
       associate (modes => structure%equations%systems(s)%modes)
          j = 0
          do t = 1, size(tasks)
-            associate (loading => tasks(t)%loading, displacement => tasks(t)%displacement)
+            associate (displacement => tasks(t)%displacement)
                do i = 1, size(modes)
                   j = j + 1
                   k = modes(i)
                   displacement(:, :, k) = found(:, :, j)
-                  if (allocated(loading%held)) displacement(:, :, k) = displacement(:, :, k) + loading%held(:, :, k)
+                  if (.not. associated(tasks(t)%loading)) cycle
+                  if (allocated(tasks(t)%loading%held)) displacement(:, :, k) = displacement(:, :, k) &
+                     + tasks(t)%loading%held(:, :, k)
                end do
             end associate
          end do

@@ -47,7 +47,7 @@ contains
 
    !> See how far the relative displacements of the bodies are from those that the laws saw;
    !> where that matters, correct the response by the difference and balance the joints again
-   subroutine correct_rounding(model, structure, history, results, error)
+   subroutine correct_rounding(model, structure, history, results, left, error)
       !> The job
       type(model_type), intent(in) :: model
       !> The structure, condensed
@@ -56,6 +56,8 @@ contains
       type(history_type), intent(inout) :: history
       !> Results with displacements; take those of the corrected state, and the mismatch
       type(results_type), intent(inout) :: results
+      !> What is known of what the iteration left: nothing any more of a corrected state
+      type(iteration_left_type), intent(inout) :: left
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
@@ -90,6 +92,7 @@ contains
             displacement = results%displacement
             before = balanced_state(history)
             scene%loads%free = scene%loads%free + jump
+            left = iteration_left_type()
             call balance_again(condensed, history)
             results%converged = history%verdict%converged
             results%path = history%path
@@ -162,8 +165,8 @@ contains
       type(history_type), intent(inout) :: history
       !> Results with displacements; take those of the state
       type(results_type), intent(inout) :: results
-      !> What was found of what they leave
-      type(iteration_left_type), intent(out) :: left
+      !> What is known of what they leave; takes what was found of it
+      type(iteration_left_type), intent(inout) :: left
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
@@ -194,6 +197,7 @@ contains
             if (k == most_attempts) exit
             tolerance = max(ample*tolerance/excess, least_tolerance)
             before = balanced_state(history)
+            left = iteration_left_type()
             call balance_again(condensed, history, tolerance)
             results%path = history%path
             if (.not. history%verdict%converged) then

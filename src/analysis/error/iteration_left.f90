@@ -16,7 +16,7 @@ module axijoint_analysis_error_iteration_left
    use axijoint_joints_settle, only : settle_wholly
    implicit none
    private
-   public :: iteration_left_type, iteration_error
+   public :: iteration_left_type, find_left, iteration_error
 
    !> What was found on the way, which estimates need not find again
    type :: iteration_left_type
@@ -30,7 +30,23 @@ module axijoint_analysis_error_iteration_left
 
 contains
 
-   !> What the iteration left: a bound where that is within what is wanted
+   !> Find the state wholly balanced, and the change to it
+   subroutine find_left(structure, history, left)
+      !> The structure, condensed
+      type(structure_type), intent(in) :: structure
+      !> What the increments came to by a method on total jumps
+      type(history_type), intent(in) :: history
+      !> Takes state and change
+      type(iteration_left_type), intent(out) :: left
+
+      allocate (left%balanced, source=history%field)
+      left%balanced%memory = history%memory
+      call settle_wholly(structure%condensed, history%scene, left%balanced)
+      left%change(1) = settled_change(structure%condensed, history%scene, history%field, left%balanced, &
+         least_changes(structure, history))
+   end subroutine find_left
+
+   !> What the iteration left: a bound where that is within what is wanted, unless its effect is there
    subroutine iteration_error(structure, history, results, wanted, share, left)
       !> The structure, condensed
       type(structure_type), intent(inout) :: structure
@@ -42,22 +58,22 @@ contains
       type(error_share_type), intent(in) :: wanted
       !> The error
       type(error_share_type), intent(out) :: share
-      !> Takes what was found on the way
-      type(iteration_left_type), intent(out) :: left
+      !> What is known of it; takes what was found on the way
+      type(iteration_left_type), intent(inout) :: left
 
       real(wp), allocatable :: displacement(:, :, :), effect(:, :, :, :)
       real(wp) :: largest
 
-      associate (condensed => structure%condensed, scene => history%scene, field => history%field)
-         if (nothing_is_left(structure, history, results)) return
-         allocate (left%balanced, source=field)
-         left%balanced%memory = history%memory
-         call settle_wholly(condensed, scene, left%balanced)
-         associate (change => left%change(1))
-            change = settled_change(condensed, scene, field, left%balanced, least_changes(structure, history))
-            displacement = results%displacement
-            call add_motions(condensed%floating, field%offset, displacement)
-            largest = largest_vector(results%modes, displacement)
+      if (nothing_is_left(structure, history, results)) then
+         left = iteration_left_type()
+         return
+      end if
+      associate (condensed => structure%condensed, change => left%change(1))
+         if (.not. allocated(left%balanced)) call find_left(structure, history, left)
+         displacement = results%displacement
+         call add_motions(condensed%floating, history%field%offset, displacement)
+         largest = largest_vector(results%modes, displacement)
+         if (.not. allocated(left%effect)) then
             if (change%known .and. .not. condensed%shared) then
                call bound_share(structure, history, largest, change, share)
                ! each rank has a bound by the factors that it has
@@ -66,10 +82,10 @@ contains
             end if
             if (.not. change%known) return
             call find_effects(structure%equations, condensed%points, size(displacement, 2), left%change, effect)
-            change%seconds = 0.0_wp  ! the claim of the tolerance takes it, whether errors are estimated or not
-            call take_share(structure, history, results, largest, change, effect(:, :, :, 1), share)
             call move_alloc(effect, left%effect)
-         end associate
+         end if
+         change%seconds = 0.0_wp  ! the claim of the tolerance takes it, whether errors are estimated or not
+         call take_share(structure, history, results, largest, change, left%effect(:, :, :, 1), share)
       end associate
    end subroutine iteration_error
 
