@@ -5,7 +5,7 @@ module axijoint_linalg_band_cholesky
    use axijoint_base_kinds, only : wp
    implicit none
    private
-   public :: factor_band, solve_band, n_lanes, factor_bands, solve_bands
+   public :: factor_band, solve_band, n_lanes, factor_bands, solve_bands, solve_with_one
 
    !> Matrices that are worked on at once
    integer, parameter :: n_lanes = 8
@@ -120,5 +120,35 @@ contains
          b(:, j) = (b(:, j) - v)/a(:, 0, j)
       end do
    end subroutine solve_bands
+
+   !> Solve some systems with one factor: the same numbers as by `solve_band` one by one
+   pure subroutine solve_with_one(n, width, a, b)
+      !> Order, and half-bandwidth
+      integer, intent(in) :: n, width
+      !> The factor
+      real(wp), intent(in) :: a(0:width, n)
+      !> Right-hand sides, then solutions
+      real(wp), intent(inout) :: b(n_lanes, n)
+
+      real(wp) :: v(n_lanes)
+      integer :: i, j, last
+
+      do j = 1, n
+         last = min(width, n - j)
+         v = b(:, j)/a(0, j)
+         b(:, j) = v
+         do i = 1, last
+            b(:, j + i) = b(:, j + i) - v*a(i, j)
+         end do
+      end do
+      do j = n, 1, -1
+         last = min(width, n - j)
+         v = 0.0_wp
+         do i = 1, last
+            v = v + a(i, j)*b(:, j + i)
+         end do
+         b(:, j) = (b(:, j) - v)/a(0, j)
+      end do
+   end subroutine solve_with_one
 
 end module axijoint_linalg_band_cholesky

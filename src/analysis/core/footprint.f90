@@ -1,6 +1,7 @@
 !> Memory that a job takes besides its equations
 module axijoint_analysis_core_footprint
    use omp_lib, only : omp_get_max_threads
+   use axijoint_analysis_fine_block_groups, only : least_same
    use axijoint_analysis_fine_blocks, only : is_slender, may_be_wall
    use axijoint_assembly_block_parts, only : block_size
    use axijoint_assembly_repeated_elements, only : shapes_type, find_shapes
@@ -105,6 +106,7 @@ contains
       type(reference_type), allocatable :: references(:)
       type(mode_type), allocatable :: modes(:)
       integer(i8) :: nodes, jumps, unknowns, planes, kept_planes
+      integer, allocatable :: alike(:)
 
       references = element_references(model%mesh)
       nodes = n_nodes(model%mesh)
@@ -112,8 +114,9 @@ contains
       ! displacements, two kinds of loads twice, errors of nodes
       footprint%loads = 21*nodes*n_modes*real_bytes
       if (estimated) then
-         footprint%fine = fine_bytes(model%mesh)
-         footprint%fine_work = fine_work_bytes(model%mesh)
+         alike = number_alike(model%mesh)
+         footprint%fine = fine_bytes(model%mesh, alike)
+         footprint%fine_work = fine_work_bytes(model%mesh, alike)
       end if
       footprint%stresses = 9*nodes + 6*sum(int(references(model%mesh%element_kind)%n_points, i8)) &
          + 6*nodes &  ! smoothed to nodes
@@ -264,34 +267,50 @@ contains
 
    !> Memory of the fine level: the nodes that it has, with the blocks of stiffness that these have on and below the
    !> diagonal, or, where children of the elements are congruent, those of each of their shapes
-   pure integer(i8) function fine_bytes(mesh) result(bytes)
+   pure integer(i8) function fine_bytes(mesh, alike) result(bytes)
       !> The coarse mesh
       type(mesh_type), intent(in) :: mesh
+      !> Number of elements that are like each
+      integer, intent(in) :: alike(:)
 
       !> Bytes of a block, and of an element that is congruent to others: its rows, twice, and where blocks of nodes list it
       integer(i8), parameter :: block_bytes = block_size*real_bytes + 4, element_bytes = 160
-      type(shapes_type) :: shapes
-      integer :: elements(n_elements(mesh)), element
+      integer :: element
       real(wp) :: numbers, blocks
+      logical :: pairs
 
-      call find_shapes(mesh, shapes)
-      elements = 0
-      do element = 1, n_elements(mesh)
-         associate (shape => shapes%number(element))
-            elements(shape) = elements(shape) + 1
-         end associate
-      end do
       numbers = 0.0_wp
       do element = 1, n_elements(mesh)
-         associate (n => mesh%element_size(element), alike => elements(shapes%number(element)))
+         pairs = has_congruent_children(mesh, element)
+         associate (n => mesh%element_size(element))
             blocks = fine_nodes(n)*blocks_of(n)*block_bytes
-            if (alike > 1 .or. has_congruent_children(mesh, element)) blocks = n_children*element_bytes &
-               + n_blocks(n)*block_bytes*merge(n_children/2, n_children, has_congruent_children(mesh, element))/real(alike, wp)
+            if (alike(element) > 1 .or. pairs) blocks = n_children*element_bytes &
+               + n_blocks(n)*block_bytes*merge(n_children/2, n_children, pairs)/real(alike(element), wp)
             numbers = numbers + blocks + fine_nodes(n)*fine_mesh_bytes
          end associate
       end do
       bytes = nint(numbers, i8)
    end function fine_bytes
+
+   !> Number of elements of each one's shape, itself among them
+   pure function number_alike(mesh) result(alike)
+      !> The mesh
+      type(mesh_type), intent(in) :: mesh
+      !> Shape (elements)
+      integer :: alike(n_elements(mesh))
+
+      type(shapes_type) :: shapes
+      integer :: of_shape(n_elements(mesh)), element
+
+      call find_shapes(mesh, shapes)
+      of_shape = 0
+      do element = 1, n_elements(mesh)
+         associate (shape => shapes%number(element))
+            of_shape(shape) = of_shape(shape) + 1
+         end associate
+      end do
+      alike = of_shape(shapes%number)
+   end function number_alike
 
    !> Whether two children of an element lie above the two others and have their shapes: of a parallelogram along the axis
    pure logical function has_congruent_children(mesh, element)
@@ -312,9 +331,11 @@ contains
    end function has_congruent_children
 
    !> What a thread works with on the fine level: factors of blocks of nodes, and vectors of all nodes
-   pure integer(i8) function fine_work_bytes(mesh) result(bytes)
+   pure integer(i8) function fine_work_bytes(mesh, alike) result(bytes)
       !> The coarse mesh
       type(mesh_type), intent(in) :: mesh
+      !> Number of elements that are like each: their blocks have a factor together if they are some
+      integer, intent(in) :: alike(:)
 
       !> Numbers of the factors for a fine node, of elements of 3 to 9 nodes: where each side and each
       !> inside is a block, and where slender elements make lines; as counted in squares of them; and where they may be
@@ -332,6 +353,7 @@ contains
       do element = 1, n_elements(mesh)
          associate (n => mesh%element_size(element))
             of_blocks = merge(slender(n), compact(n), is_slender(mesh, element))
+            if (alike(element) >= least_same) of_blocks = of_blocks/alike(element)
             if (may_be_wall(mesh, element)) of_blocks = wall(n)
             numbers = numbers + fine_nodes(n)*(3.0_wp*vectors + of_blocks)
          end associate

@@ -16,6 +16,8 @@ module axijoint_analysis_fine_conditions
       logical, allocatable :: tied(:)
       !> Nodes that are not free in all components
       integer, allocatable :: held(:)
+      !> Nodes that are not free in a component that the modes have, or tied
+      integer, allocatable :: bound(:)
    end type conditions_type
 
 contains
@@ -73,6 +75,8 @@ contains
       end do
       conditions%held = pack([(k, k=1, size(place))], conditions%tied .or. .not. (conditions%free(1, :) &
          .and. conditions%free(2, :) .and. conditions%free(3, :)))
+      conditions%bound = pack([(k, k=1, size(place))], conditions%tied .or. (present(1) .neqv. conditions%free(1, :)) &
+         .or. (present(2) .neqv. conditions%free(2, :)) .or. (present(3) .neqv. conditions%free(3, :)))
    end subroutine new_conditions
 
    !> Put displacements where the conditions hold them

@@ -122,7 +122,7 @@ contains
       if (present(again)) formed = again
       failed = .false.
       associate (system => equations%systems(s))
-         if (.not. formed) call factor_blocks(level%smoother, level%stiffness, system%harmonic, &
+         if (.not. formed) call factor_blocks(level%blocks, level%stiffness, system%harmonic, &
             level%conditions(system%class), room%factor, failed)
          if (failed) then
             difference%known(system%modes) = .false.
@@ -224,7 +224,7 @@ contains
       associate (force => room%force, way => room%way, conditions => level%conditions(equations%systems(equations%system(k))%class))
          do step = 1, most_steps
             way(:, :, step) = force
-            call solve_blocks(level%smoother, room%factor, way(:, :, step))
+            call solve_blocks(level%blocks, room%factor, way(:, :, step))
             call hold(conditions, way(:, :, step))
             if (step > 1 .and. guided) then
                room%u = way(:, :, step)
@@ -284,7 +284,7 @@ contains
          do turn = 1, most_turns
             d(:, :, turn) = room%force
             if (mod(turn, 2) == 1) then
-               call solve_blocks(level%smoother, room%factor, d(:, :, turn))
+               call solve_blocks(level%blocks, room%factor, d(:, :, turn))
             else
                call follow_coarse_mesh(level, equations, k, d(:, :, turn))
             end if

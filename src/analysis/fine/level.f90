@@ -1,10 +1,10 @@
 !> The job on the fine mesh, as far as estimates of errors need it: stiffness and blocks, no factor
 module axijoint_analysis_fine_level
+   use axijoint_analysis_fine_block_groups, only : block_groups_type, new_blocks_in_order, group_blocks
    use axijoint_analysis_fine_blocks, only : new_blocks, graph_of_blocks, order_by_blocks
    use axijoint_analysis_fine_conditions, only : conditions_type, new_conditions
    use axijoint_analysis_fine_mesh, only : fine_mesh_type, parents_type, new_fine_mesh, ordered
    use axijoint_analysis_fine_model, only : new_fine_model
-   use axijoint_analysis_fine_smoother, only : smoother_type, new_smoother
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_loading, only : loading_type, new_initial_state
    use axijoint_assembly_product_stiffness, only : product_stiffness_type, new_product_stiffness, is_formed, n_numbers, &
@@ -59,7 +59,7 @@ module axijoint_analysis_fine_level
       !> Which components are free in each class of modes
       type(conditions_type), allocatable :: conditions(:)
       !> Blocks of nodes
-      type(smoother_type) :: smoother
+      type(block_groups_type) :: blocks
       !> Time that all this took, over the threads that worked at once [second]
       real(wp) :: seconds = 0.0_wp
    end type fine_level_type
@@ -94,7 +94,7 @@ contains
       call order_by_blocks(model%mesh, level%mesh, graph, block, order)
       call new_product_stiffness(level%model%mesh, level%support_points, order, block, level%stiffness)
       level%parents = ordered(level%mesh%parents, order)
-      call new_smoother(level%smoother, level%stiffness, graph, block, order)
+      call new_blocks_in_order(level%stiffness, graph, block, order, level%blocks)
    end subroutine lay_out_level
 
    !> Whether the fine level is laid out
@@ -162,7 +162,7 @@ contains
       deallocate (level%formed_by)
    end subroutine share_stiffness
 
-   !> Find what is free in each class of modes
+   !> Find what is free in each class of modes, and with that the blocks that have one factor together
    subroutine take_conditions(equations, level)
       !> The equations, for the classes of modes
       type(equations_type), intent(in) :: equations
@@ -179,6 +179,7 @@ contains
                                 level%conditions(k))
          end associate
       end do
+      call group_blocks(level%conditions, level%blocks)
    end subroutine take_conditions
 
    !> Take loads and laws of another job with the same mesh

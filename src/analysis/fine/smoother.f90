@@ -1,19 +1,18 @@
 !> Factors of blocks of nodes of the fine mesh: what a cheap part of the error can be found with, while the
 !> coarse mesh finds the rest
 module axijoint_analysis_fine_smoother
+   use axijoint_analysis_fine_block_groups, only : block_groups_type, n_nodes_of, factor_size
    use axijoint_analysis_fine_conditions, only : conditions_type
    use axijoint_assembly_block_parts, only : harmonic_factors, evaluate
    use axijoint_assembly_product_stiffness, only : product_stiffness_type
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_large_pages, only : use_large_pages
    use axijoint_base_ranges, only : range_end
-   use axijoint_base_sort, only : refine_order
-   use axijoint_linalg_band_cholesky, only : factor_band, solve_band, n_lanes, factor_bands, solve_bands
+   use axijoint_linalg_band_cholesky, only : factor_band, solve_band, n_lanes, factor_bands, solve_bands, solve_with_one
    use axijoint_linalg_lapack, only : dpbtrf
-   use axijoint_order_graph, only : graph_type
    implicit none
    private
-   public :: smoother_type, new_smoother, factor_blocks, solve_blocks
+   public :: factor_blocks, solve_blocks
 
    !> Half-bandwidth from which on a block is worth a call of LAPACK: of a thin wall
    integer, parameter :: wide = 40
@@ -21,155 +20,12 @@ module axijoint_analysis_fine_smoother
    !> Most shares that threads take, and groups of a share at least
    integer, parameter :: most_shares = 16, least_share = 64
 
-   !> Blocks of nodes that follow each other. Blocks of one shape are factored and solved some at once
-   type :: smoother_type
-      !> First node of each block, shape (blocks + 1), and how far apart neighbours in it are
-      integer, allocatable :: first(:), width(:)
-      !> Blocks of one shape, `n_lanes` of them a group, and the blocks that are left; groups and blocks in
-      !> the order of their first nodes. Shapes (n_lanes, groups) and (left)
-      integer, allocatable :: groups(:, :), left(:)
-      !> Where the factors of each group begin, then those of each block that is left, and their end
-      integer(i8), allocatable :: start(:)
-      !> Congruent elements that have nodes of a block, from first_element(block) on
-      integer, allocatable :: first_element(:), element(:)
-   end type smoother_type
-
 contains
 
-   !> Where blocks begin, and how wide they are
-   subroutine new_smoother(smoother, stiffness, graph, block, order)
-      !> The blocks
-      type(smoother_type), intent(out) :: smoother
-      !> The stiffness, laid out
-      type(product_stiffness_type), intent(in) :: stiffness
-      !> Graph of the nodes of the blocks
-      type(graph_type), intent(in) :: graph
-      !> Block of each node
-      integer, intent(in) :: block(:)
-      !> order(k) is the k-th node
-      integer, intent(in) :: order(:)
-
-      integer :: k, l, b
-
-      associate (begins => [.true., block(order(2:)) /= block(order(:size(order) - 1))])
-         smoother%first = [pack([(k, k=1, size(order))], begins), size(order) + 1]
-      end associate
-      allocate (smoother%width(size(smoother%first) - 1), source=0)
-      do b = 1, size(smoother%width)
-         do k = smoother%first(b), smoother%first(b + 1) - 1
-            do l = graph%start(order(k)), graph%start(order(k) + 1) - 1
-               smoother%width(b) = max(smoother%width(b), k - stiffness%place(graph%neighbour(l)))
-            end do
-         end do
-      end do
-      call group_blocks(smoother)
-      call list_elements(stiffness, smoother)
-      associate (n => size(smoother%groups, 2), m => size(smoother%left))
-         allocate (smoother%start(n + m + 1))
-         smoother%start(1) = 1
-         do k = 1, n
-            smoother%start(k + 1) = smoother%start(k) + n_lanes*factor_size(smoother, smoother%groups(1, k))
-         end do
-         do k = 1, m
-            smoother%start(n + k + 1) = smoother%start(n + k) + factor_size(smoother, smoother%left(k))
-         end do
-      end associate
-   end subroutine new_smoother
-
-   !> List the congruent elements of each block
-   pure subroutine list_elements(stiffness, smoother)
-      !> The stiffness, laid out
-      type(product_stiffness_type), intent(in) :: stiffness
-      !> The blocks; takes the lists
-      type(smoother_type), intent(inout) :: smoother
-
-      integer :: block(size(stiffness%place)), next(size(smoother%width)), pass, b, i, k
-
-      do b = 1, size(smoother%width)
-         block(smoother%first(b):smoother%first(b + 1) - 1) = b
-      end do
-      next = 0
-      do pass = 1, 2  ! count the elements, then list them
-         do k = 1, size(stiffness%congruent%n_nodes)
-            associate (blocks => block(stiffness%congruent%row(:stiffness%congruent%n_nodes(k), k)))
-               do i = 1, size(blocks)
-                  if (any(blocks(:i - 1) == blocks(i))) cycle
-                  if (pass == 2) smoother%element(next(blocks(i))) = k
-                  next(blocks(i)) = next(blocks(i)) + 1
-               end do
-            end associate
-         end do
-         if (pass == 2) exit
-         allocate (smoother%first_element(size(next) + 1), smoother%element(sum(next)))
-         smoother%first_element(1) = 1
-         do b = 1, size(next)
-            smoother%first_element(b + 1) = smoother%first_element(b) + next(b)
-         end do
-         next = smoother%first_element(:size(next))
-      end do
-   end subroutine list_elements
-
-   !> Numbers of the factor of a block
-   pure integer(i8) function factor_size(smoother, b)
-      !> The blocks
-      type(smoother_type), intent(in) :: smoother
-      !> The block
-      integer, intent(in) :: b
-
-      factor_size = 9_i8*(smoother%width(b) + 1)*n_nodes_of(smoother, b)
-   end function factor_size
-
-   !> Nodes of a block
-   pure integer function n_nodes_of(smoother, b)
-      !> The blocks
-      type(smoother_type), intent(in) :: smoother
-      !> The block
-      integer, intent(in) :: b
-
-      n_nodes_of = smoother%first(b + 1) - smoother%first(b)
-   end function n_nodes_of
-
-   !> Put blocks of one shape into groups
-   pure subroutine group_blocks(smoother)
-      !> The blocks; takes the groups
-      type(smoother_type), intent(inout) :: smoother
-
-      integer, allocatable :: by_shape(:), groups(:, :), order(:)
-      logical, allocatable :: grouped(:)
-      integer :: b, k, n
-
-      associate (width => smoother%width)
-         n = size(width)
-         by_shape = [(b, b=1, n)]
-         call refine_order(by_shape, smoother%first(2:) - smoother%first(:n))
-         call refine_order(by_shape, width)
-         allocate (groups(n_lanes, n/n_lanes), grouped(n))
-         grouped = .false.
-         n = 0
-         k = 1
-         do while (k + n_lanes - 1 <= size(width))
-            associate (a => by_shape(k), z => by_shape(k + n_lanes - 1))
-               if (width(a) == width(z) .and. n_nodes_of(smoother, a) == n_nodes_of(smoother, z)) then
-                  n = n + 1
-                  groups(:, n) = by_shape(k:k + n_lanes - 1)
-                  grouped(groups(:, n)) = .true.
-                  k = k + n_lanes
-               else
-                  k = k + 1
-               end if
-            end associate
-         end do
-         order = [(k, k=1, n)]
-         call refine_order(order, groups(1, :n))
-         smoother%groups = groups(:, order)
-         smoother%left = pack([(b, b=1, size(width))], .not. grouped)
-      end associate
-   end subroutine group_blocks
-
    !> Factor the blocks of a harmonic
-   subroutine factor_blocks(smoother, stiffness, harmonic, conditions, factor, failed)
+   subroutine factor_blocks(blocks, stiffness, harmonic, conditions, factor, failed)
       !> The blocks
-      type(smoother_type), intent(in) :: smoother
+      type(block_groups_type), intent(in) :: blocks
       !> The stiffness
       type(product_stiffness_type), intent(in) :: stiffness
       !> Harmonic m
@@ -185,18 +41,18 @@ contains
       logical :: singular(most_shares)
       integer :: k, n
 
-      associate (n => smoother%start(size(smoother%start)) - 1)
+      associate (n => blocks%start(size(blocks%start)) - 1)
          if (.not. allocated(factor)) then
             allocate (factor(n))
             call use_large_pages(factor)
          end if
       end associate
       plain = all(conditions%free, 1) .and. .not. conditions%tied
-      n = n_shares(smoother)
+      n = n_shares(blocks)
       singular = .false.
       do k = 1, n
          !$omp task default(shared) firstprivate(k) if (n > 1)
-         call factor_share(smoother, stiffness, harmonic_factors(harmonic), conditions, plain, k, n, factor, singular(k))
+         call factor_share(blocks, stiffness, harmonic_factors(harmonic), conditions, plain, k, n, factor, singular(k))
          !$omp end task
       end do
       !$omp taskwait
@@ -204,17 +60,17 @@ contains
    end subroutine factor_blocks
 
    !> Shares of the blocks that threads take which have nothing else to do
-   pure integer function n_shares(smoother)
+   pure integer function n_shares(blocks)
       !> The blocks
-      type(smoother_type), intent(in) :: smoother
+      type(block_groups_type), intent(in) :: blocks
 
-      n_shares = max(1, min(most_shares, (size(smoother%groups, 2) + size(smoother%left))/least_share))
+      n_shares = max(1, min(most_shares, (size(blocks%same, 2) + size(blocks%groups, 2) + size(blocks%left))/least_share))
    end function n_shares
 
-   !> Factor one share of groups and of blocks that are left
-   subroutine factor_share(smoother, stiffness, factors, conditions, plain, share, n, factor, failed)
+   !> Factor one share of kinds, of groups and of blocks that are left
+   subroutine factor_share(blocks, stiffness, factors, conditions, plain, share, n, factor, failed)
       !> The blocks
-      type(smoother_type), intent(in) :: smoother
+      type(block_groups_type), intent(in) :: blocks
       !> The stiffness
       type(product_stiffness_type), intent(in) :: stiffness
       !> Factors of its parts in the harmonic
@@ -230,41 +86,59 @@ contains
       logical, intent(inout) :: failed
 
       logical :: singular
-      integer :: g, k, info
+      integer :: k, l
 
-      do g = 1 + range_end(size(smoother%groups, 2), share - 1, n), range_end(size(smoother%groups, 2), share, n)
-         associate (start => smoother%start(g), one => smoother%groups(1, g))
-            associate (nodes => n_nodes_of(smoother, one), width => 3*smoother%width(one) + 2)
-               factor(start:smoother%start(g + 1) - 1) = 0.0_wp
-               do k = 1, n_lanes
-                  call fill_block(smoother, stiffness, factors, conditions, plain, smoother%groups(k, g), nodes, width, &
-                     n_lanes, k, factor(start))
-               end do
-               call factor_bands(3*nodes, width, factor(start), singular)
+      associate (n_kinds => size(blocks%first_same) - 1, n_groups => size(blocks%groups, 2), n_left => size(blocks%left))
+         do k = 1 + range_end(n_kinds, share - 1, n), range_end(n_kinds, share, n)
+            call factor_one(blocks%same(1, blocks%first_same(k)), factor(blocks%start(k)))
+         end do
+         do k = 1 + range_end(n_groups, share - 1, n), range_end(n_groups, share, n)
+            associate (start => blocks%start(n_kinds + k), group => blocks%groups(:, k))
+               associate (nodes => n_nodes_of(blocks, group(1)), width => 3*blocks%width(group(1)) + 2)
+                  factor(start:blocks%start(n_kinds + k + 1) - 1) = 0.0_wp
+                  do l = 1, n_lanes
+                     call fill_block(blocks, stiffness, factors, conditions, plain, group(l), nodes, width, n_lanes, l, &
+                        factor(start))
+                  end do
+                  call factor_bands(3*nodes, width, factor(start), singular)
+               end associate
             end associate
-         end associate
-         failed = failed .or. singular
-      end do
-      do k = 1 + range_end(size(smoother%left), share - 1, n), range_end(size(smoother%left), share, n)
-         associate (start => smoother%start(size(smoother%groups, 2) + k), b => smoother%left(k))
-            associate (nodes => n_nodes_of(smoother, b), width => 3*smoother%width(b) + 2)
-               factor(start:start + factor_size(smoother, b) - 1) = 0.0_wp
-               call fill_block(smoother, stiffness, factors, conditions, plain, b, nodes, width, 1, 1, factor(start))
-               if (width >= wide) then
-                  call dpbtrf('L', 3*nodes, width, factor(start), width + 1, info)
-               else
-                  call factor_band(3*nodes, width, factor(start), info)
-               end if
-            end associate
+            failed = failed .or. singular
+         end do
+         do k = 1 + range_end(n_left, share - 1, n), range_end(n_left, share, n)
+            call factor_one(blocks%left(k), factor(blocks%start(n_kinds + n_groups + k)))
+         end do
+      end associate
+
+   contains
+
+      !> Factor a block by itself
+      subroutine factor_one(b, factor)
+         !> The block
+         integer, intent(in) :: b
+         !> Its factor
+         real(wp), intent(inout) :: factor(*)
+
+         integer :: info
+
+         associate (nodes => n_nodes_of(blocks, b), width => 3*blocks%width(b) + 2)
+            factor(:factor_size(blocks, b)) = 0.0_wp
+            call fill_block(blocks, stiffness, factors, conditions, plain, b, nodes, width, 1, 1, factor)
+            if (width >= wide) then
+               call dpbtrf('L', 3*nodes, width, factor, width + 1, info)
+            else
+               call factor_band(3*nodes, width, factor, info)
+            end if
          end associate
          failed = failed .or. info > 0
-      end do
+      end subroutine factor_one
+
    end subroutine factor_share
 
    !> Add a block to a band matrix of zeros; what is held has an equation of its own
-   subroutine fill_block(smoother, stiffness, factors, conditions, plain, b, n, width, lanes, lane, a)
+   subroutine fill_block(blocks, stiffness, factors, conditions, plain, b, n, width, lanes, lane, a)
       !> The blocks
-      type(smoother_type), intent(in) :: smoother
+      type(block_groups_type), intent(in) :: blocks
       !> The stiffness
       type(product_stiffness_type), intent(in) :: stiffness
       !> Factors of its parts in the harmonic
@@ -283,20 +157,20 @@ contains
       integer(i8) :: l, p
       integer :: i, j, k, first, last
 
-      first = smoother%first(b)
+      first = blocks%first(b)
       last = first + n - 1
-      associate (blocks => stiffness%blocks)
+      associate (rest => stiffness%blocks)
          do i = first, last
-            do l = blocks%start(i, 2), blocks%start(i + 1, 2) - 1
-               call evaluate(factors, blocks%parts(:, l), block)
-               call add(i, blocks%column(l))
+            do l = rest%start(i, 2), rest%start(i + 1, 2) - 1
+               call evaluate(factors, rest%parts(:, l), block)
+               call add(i, rest%column(l))
             end do
          end do
       end associate
       associate (congruent => stiffness%congruent)
-         do k = smoother%first_element(b), smoother%first_element(b + 1) - 1
-            associate (rows => congruent%row(:congruent%n_nodes(smoother%element(k)), smoother%element(k)))
-               p = congruent%start(smoother%element(k)) - 1
+         do k = blocks%first_element(b), blocks%first_element(b + 1) - 1
+            associate (rows => congruent%row(:congruent%n_nodes(blocks%element(k)), blocks%element(k)))
+               p = congruent%start(blocks%element(k)) - 1
                do j = 1, size(rows)
                   if (rows(j) >= first .and. rows(j) <= last) then
                      do i = j, size(rows)
@@ -351,9 +225,9 @@ contains
    end subroutine fill_block
 
    !> Solve for every block
-   subroutine solve_blocks(smoother, factor, x)
+   subroutine solve_blocks(blocks, factor, x)
       !> The blocks
-      type(smoother_type), intent(in) :: smoother
+      type(block_groups_type), intent(in) :: blocks
       !> Their factors
       real(wp), intent(in) :: factor(*)
       !> Forces, then displacements, shape (3, nodes)
@@ -361,19 +235,19 @@ contains
 
       integer :: k, n
 
-      n = n_shares(smoother)
+      n = n_shares(blocks)
       do k = 1, n
          !$omp task default(shared) firstprivate(k) if (n > 1)
-         call solve_share(smoother, factor, k, n, x)
+         call solve_share(blocks, factor, k, n, x)
          !$omp end task
       end do
       !$omp taskwait
    end subroutine solve_blocks
 
-   !> Solve for one share of groups and of blocks that are left
-   subroutine solve_share(smoother, factor, share, n, x)
+   !> Solve for one share of kinds, of groups and of blocks that are left
+   subroutine solve_share(blocks, factor, share, n, x)
       !> The blocks
-      type(smoother_type), intent(in) :: smoother
+      type(block_groups_type), intent(in) :: blocks
       !> Their factors
       real(wp), intent(in) :: factor(*)
       !> The share, and how many there are
@@ -382,38 +256,67 @@ contains
       real(wp), intent(inout) :: x(3, *)
 
       real(wp), allocatable :: side(:, :)
-      integer :: g, k
+      integer :: g, k, l
 
-      allocate (side(n_lanes, 3*longest_group(smoother)))
-      do g = 1 + range_end(size(smoother%groups, 2), share - 1, n), range_end(size(smoother%groups, 2), share, n)
-         associate (blocks => smoother%groups(:, g))
-            associate (nodes => n_nodes_of(smoother, blocks(1)))
-               do k = 1, n_lanes
-                  call take_lane(nodes, x(1, smoother%first(blocks(k))), k, side)
-               end do
-               call solve_bands(3*nodes, 3*smoother%width(blocks(1)) + 2, factor(smoother%start(g)), side)
-               do k = 1, n_lanes
-                  call give_lane(nodes, side, k, x(1, smoother%first(blocks(k))))
-               end do
+      allocate (side(n_lanes, 3*longest_group(blocks)))
+      associate (n_kinds => size(blocks%first_same) - 1, n_groups => size(blocks%groups, 2), n_left => size(blocks%left))
+         do k = 1 + range_end(n_kinds, share - 1, n), range_end(n_kinds, share, n)
+            do g = blocks%first_same(k), blocks%first_same(k + 1) - 1
+               call take_lanes(blocks%same(:, g))
+               associate (one => blocks%same(1, g))
+                  call solve_with_one(3*n_nodes_of(blocks, one), 3*blocks%width(one) + 2, factor(blocks%start(k)), side)
+               end associate
+               call give_lanes(blocks%same(:, g))
+            end do
+         end do
+         do g = 1 + range_end(n_groups, share - 1, n), range_end(n_groups, share, n)
+            call take_lanes(blocks%groups(:, g))
+            associate (one => blocks%groups(1, g))
+               call solve_bands(3*n_nodes_of(blocks, one), 3*blocks%width(one) + 2, factor(blocks%start(n_kinds + g)), side)
             end associate
-         end associate
-      end do
-      do k = 1 + range_end(size(smoother%left), share - 1, n), range_end(size(smoother%left), share, n)
-         associate (b => smoother%left(k))
-            call solve_band(3*n_nodes_of(smoother, b), 3*smoother%width(b) + 2, &
-               factor(smoother%start(size(smoother%groups, 2) + k)), x(1, smoother%first(b)))
-         end associate
-      end do
+            call give_lanes(blocks%groups(:, g))
+         end do
+         do k = 1 + range_end(n_left, share - 1, n), range_end(n_left, share, n)
+            associate (b => blocks%left(k))
+               call solve_band(3*n_nodes_of(blocks, b), 3*blocks%width(b) + 2, factor(blocks%start(n_kinds + n_groups + k)), &
+                  x(1, blocks%first(b)))
+            end associate
+         end do
+      end associate
+
+   contains
+
+      !> Put forces of some blocks beside each other
+      subroutine take_lanes(group)
+         !> The blocks
+         integer, intent(in) :: group(n_lanes)
+
+         do l = 1, n_lanes
+            call take_lane(n_nodes_of(blocks, group(1)), x(1, blocks%first(group(l))), l, side)
+         end do
+      end subroutine take_lanes
+
+      !> Take displacements of some blocks
+      subroutine give_lanes(group)
+         !> The blocks
+         integer, intent(in) :: group(n_lanes)
+
+         do l = 1, n_lanes
+            call give_lane(n_nodes_of(blocks, group(1)), side, l, x(1, blocks%first(group(l))))
+         end do
+      end subroutine give_lanes
+
    end subroutine solve_share
 
    !> Nodes of the longest blocks that are in a group
-   pure integer function longest_group(smoother)
+   pure integer function longest_group(blocks)
       !> The blocks
-      type(smoother_type), intent(in) :: smoother
+      type(block_groups_type), intent(in) :: blocks
 
       integer :: g
 
-      longest_group = maxval([0, (n_nodes_of(smoother, smoother%groups(1, g)), g=1, size(smoother%groups, 2))])
+      longest_group = maxval([0, (n_nodes_of(blocks, blocks%groups(1, g)), g=1, size(blocks%groups, 2)), &
+         (n_nodes_of(blocks, blocks%same(1, g)), g=1, size(blocks%same, 2))])
    end function longest_group
 
    !> Put forces of one block beside those of others
