@@ -66,6 +66,7 @@ contains
       if (planes%folds == 0) return
       call iterate(on_planes, rough, more_planes*intervals, size(structure%modes))
       call iterate(on_planes, rough, more_planes*intervals, 2*size(structure%modes))
+      if (takes_back(model)) call iterate(iterations, rough, intervals, 2*size(structure%modes))
 
    contains
 
@@ -85,6 +86,14 @@ contains
       end subroutine iterate
 
    end function joint_work
+
+   !> Whether loads are taken back on the way: then what slip keeps of harmonics is followed through all increments
+   pure logical function takes_back(model)
+      !> The job
+      type(model_type), intent(in) :: model
+
+      takes_back = any(model%increments%factor < 0.0_wp) .and. any(model%increments%factor > 0.0_wp)
+   end function takes_back
 
    !> Modes that take as long by products as sums do
    pure real(wp) function modes_of_sums(n_planes, n_modes, intervals) result(n)
