@@ -14,7 +14,7 @@ module axijoint_assembly_congruent_elements
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: congruent_type, new_congruent, are_congruent, reserve_parts, integrate_shapes, add_products
+   public :: congruent_type, new_congruent, reserve_parts, integrate_shapes, add_products
 
    !> Most ranges of elements that products are shared by, elements of a range at least, and elements that are ordered by
    !> shape at once: what they read and write of the vectors stays in a processor's second cache
@@ -57,28 +57,14 @@ module axijoint_assembly_congruent_elements
 
 contains
 
-   !> Which elements have others of their shape
-   pure function are_congruent(shapes) result(congruent)
-      !> Shapes of the elements
-      type(shapes_type), intent(in) :: shapes
-      !> Whether they have, shape (elements)
-      logical, allocatable :: congruent(:)
-
-      integer :: elements(size(shapes%first)), k
-
-      elements = 0
-      do k = 1, size(shapes%number)
-         elements(shapes%number(k)) = elements(shapes%number(k)) + 1
-      end do
-      congruent = elements(shapes%number) > 1
-   end function are_congruent
-
    !> Order the elements, and see who adds to which row
-   subroutine new_congruent(mesh, shapes, place, elements)
+   subroutine new_congruent(mesh, shapes, congruent, place, elements)
       !> The mesh
       type(mesh_type), intent(in) :: mesh
       !> Shapes of its elements
       type(shapes_type), intent(in) :: shapes
+      !> Which elements have others of their shape
+      logical, intent(in) :: congruent(:)
       !> Row of each node
       integer, intent(in) :: place(:)
       !> Those that are congruent to others, without their stiffness
@@ -88,7 +74,7 @@ contains
       integer(i8) :: before(size(shapes%first))
       integer :: k, n, shape
 
-      order = pack([(k, k=1, size(shapes%number))], are_congruent(shapes))
+      order = pack([(k, k=1, size(congruent))], congruent)
       n = max(1, min(most_ranges, size(order)/least_elements))
       elements%before = [(range_end(size(order), k, n), k=0, n)]
       call order_by_shape(shapes, elements%before, order)

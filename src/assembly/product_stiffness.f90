@@ -3,10 +3,9 @@
 module axijoint_assembly_product_stiffness
    use omp_lib, only : omp_get_max_threads, omp_get_num_threads, omp_in_parallel
    use axijoint_assembly_block_parts, only : block_size
-   use axijoint_assembly_congruent_elements, only : congruent_type, new_congruent, are_congruent, reserve_parts, integrate_shapes, &
-      add_products
+   use axijoint_assembly_congruent_elements, only : congruent_type, new_congruent, reserve_parts, integrate_shapes, add_products
    use axijoint_assembly_node_blocks, only : node_blocks_type, new_node_blocks, clear_blocks, assemble_rows, block_product
-   use axijoint_assembly_repeated_elements, only : shapes_type, find_shapes
+   use axijoint_assembly_repeated_elements, only : shapes_type, find_shapes, number_alike
    use axijoint_assembly_stiffness, only : least_elements
    use axijoint_assembly_support, only : support_point_type
    use axijoint_base_kinds, only : wp, i8
@@ -48,13 +47,15 @@ contains
       type(product_stiffness_type), intent(out) :: stiffness
 
       type(shapes_type) :: shapes
+      logical :: congruent(n_elements(mesh))
       integer :: k
 
       allocate (stiffness%place(size(order)))
       stiffness%place(order) = [(k, k=1, size(order))]
       call find_shapes(mesh, shapes)
-      call new_congruent(mesh, shapes, stiffness%place, stiffness%congruent)
-      stiffness%single = pack([(k, k=1, n_elements(mesh))], .not. are_congruent(shapes))
+      congruent = number_alike(shapes) > 1
+      call new_congruent(mesh, shapes, congruent, stiffness%place, stiffness%congruent)
+      stiffness%single = pack([(k, k=1, size(congruent))], .not. congruent)
       call new_node_blocks(stiffness%blocks, graph_of_singles(mesh, stiffness%single, support_points), order, &
          stiffness%place, cluster)
    end subroutine new_product_stiffness

@@ -6,7 +6,7 @@ module axijoint_assembly_repeated_elements
    use axijoint_model_mesh, only : mesh_type, max_element_nodes, n_elements
    implicit none
    private
-   public :: shapes_type, find_shapes
+   public :: shapes_type, find_shapes, number_alike
 
    !> Difference of coordinates that are alike, over the largest of the mesh: what rounding leaves of them
    real(wp), parameter :: rounding = 8.0_wp*epsilon(1.0_wp)
@@ -57,6 +57,22 @@ contains
       end do
       shapes%first = shapes%first(:n)
    end subroutine find_shapes
+
+   !> Number of elements that have each one's shape, itself among them
+   pure function number_alike(shapes) result(alike)
+      !> Shapes of the elements
+      type(shapes_type), intent(in) :: shapes
+      !> Shape (elements)
+      integer :: alike(size(shapes%number))
+
+      integer :: of_shape(size(shapes%first)), k
+
+      of_shape = 0
+      do k = 1, size(alike)
+         of_shape(shapes%number(k)) = of_shape(shapes%number(k)) + 1
+      end do
+      alike = of_shape(shapes%number)
+   end function number_alike
 
    !> Place in the table of elements that lie so; that of others is another as a rule
    pure integer function table_place(n, x, extent, kind, material)

@@ -4,7 +4,7 @@ module axijoint_analysis_core_footprint
    use axijoint_analysis_fine_block_groups, only : least_same
    use axijoint_analysis_fine_blocks, only : is_slender, may_be_wall
    use axijoint_assembly_block_parts, only : block_size
-   use axijoint_assembly_repeated_elements, only : shapes_type, find_shapes
+   use axijoint_assembly_repeated_elements, only : shapes_type, find_shapes, number_alike
    use axijoint_base_kinds, only : wp, i8
    use axijoint_element_blocks, only : n_blocks
    use axijoint_element_yield_law, only : yield_none
@@ -106,6 +106,7 @@ contains
       type(reference_type), allocatable :: references(:)
       type(mode_type), allocatable :: modes(:)
       integer(i8) :: nodes, jumps, unknowns, planes, kept_planes
+      type(shapes_type) :: shapes
       integer, allocatable :: alike(:)
 
       references = element_references(model%mesh)
@@ -114,7 +115,8 @@ contains
       ! displacements, two kinds of loads twice, errors of nodes
       footprint%loads = 21*nodes*n_modes*real_bytes
       if (estimated) then
-         alike = number_alike(model%mesh)
+         call find_shapes(model%mesh, shapes)
+         alike = number_alike(shapes)
          footprint%fine = fine_bytes(model%mesh, alike)
          footprint%fine_work = fine_work_bytes(model%mesh, alike)
       end if
@@ -291,26 +293,6 @@ contains
       end do
       bytes = nint(numbers, i8)
    end function fine_bytes
-
-   !> Number of elements of each one's shape, itself among them
-   pure function number_alike(mesh) result(alike)
-      !> The mesh
-      type(mesh_type), intent(in) :: mesh
-      !> Shape (elements)
-      integer :: alike(n_elements(mesh))
-
-      type(shapes_type) :: shapes
-      integer :: of_shape(n_elements(mesh)), element
-
-      call find_shapes(mesh, shapes)
-      of_shape = 0
-      do element = 1, n_elements(mesh)
-         associate (shape => shapes%number(element))
-            of_shape(shape) = of_shape(shape) + 1
-         end associate
-      end do
-      alike = of_shape(shapes%number)
-   end function number_alike
 
    !> Whether two children of an element lie above the two others and have their shapes: of a parallelogram along the axis
    pure logical function has_congruent_children(mesh, element)

@@ -36,7 +36,7 @@ module axijoint_analysis_core_solution
    type :: task_type
       !> Loads; none if not associated: then the displacements are a small change of others, and not refined
       type(loading_type), pointer :: loading => null()
-      !> Excess stress of the joint points that yield, shape (3, points, modes)
+      !> Excess stress of the joint points that yield, shape (3, points, modes), of no points if there is none
       real(wp), allocatable :: acting(:, :, :)
       !> Displacement amplitudes, shape (3, nodes, modes)
       real(wp), pointer :: displacement(:, :, :) => null()
@@ -71,7 +71,8 @@ contains
 
       tasks(1)%loading => loading
       tasks(1)%displacement => displacement
-      tasks(1)%acting = acting_stress(structure, excess)
+      allocate (tasks(1)%acting(3, 0, size(structure%modes)))
+      if (present(excess)) tasks(1)%acting = excess
       if (present(left)) then
          allocate (effect(3, size(displacement, 2), size(displacement, 3), 1))
          tasks(2)%displacement => effect(:, :, :, 1)
@@ -98,26 +99,11 @@ contains
       do t = 1, size(states)
          tasks(t)%loading => states(t)%loading
          tasks(t)%displacement => states(t)%displacement
-         tasks(t)%acting = acting_stress(structure, states(t)%excess)
+         allocate (tasks(t)%acting(3, 0, size(structure%modes)))
+         if (allocated(states(t)%excess)) tasks(t)%acting = states(t)%excess
       end do
       call solve_tasks(structure, model, tasks, solves, error)
    end subroutine solve_states
-
-   !> Excess stress that acts
-   function acting_stress(structure, excess) result(acting)
-      !> The structure
-      type(structure_type), intent(in) :: structure
-      !> Excess stress of the joint points that yield, shape (3, points, modes); none if left out
-      real(wp), intent(in), optional :: excess(:, :, :)
-      !> The same, of no points if there is none
-      real(wp), allocatable :: acting(:, :, :)
-
-      if (present(excess)) then
-         acting = excess
-      else
-         allocate (acting(3, 0, size(structure%modes)))
-      end if
-   end function acting_stress
 
    !> Displacements of tasks, those of loads first, a step of refinement in these unless the structure takes what rounding
    !> leaves without it. A factor that is not kept is made, used for all that needs it, and given up.
