@@ -1,5 +1,5 @@
 /* The environment of the numerical libraries: threads that wait leave their processor to others, but not for the
-   few microseconds between the products of an iteration, since waking them takes longer than that; threads are for
+   fraction of a millisecond between the products of an iteration, since waking them takes longer than that; threads are for
    harmonics and not for the matrices inside one, and OpenBLAS 0.3.21 takes newer AMD processors for Haswell, whose
    kernels leave their AVX-512 units idle, and newer Intel ones for Prescott, whose kernels take five times as long. The libraries ask for these variables when they are loaded, before any code of
    the program; but what stands in the program itself goes before the same names in the system's library, for all
@@ -39,7 +39,7 @@ static char *kernels(void)
 /* In place of the system's function: what is set, if empty, stays */
 char *getenv(const char *name)
 {
-   static char passive[] = "PASSIVE", turns[] = "1000", one[] = "1";
+   static char passive[] = "PASSIVE", turns[] = "5000", one[] = "1";
    char *value = value_set(name);
    if (value) return value;
    if (strcmp(name, "OMP_WAIT_POLICY") == 0) return passive;

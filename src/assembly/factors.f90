@@ -1,6 +1,6 @@
 !> Factors of the harmonics: as many at once as memory allows, each for as long as it is needed
 module axijoint_assembly_factors
-   use omp_lib, only : omp_get_max_threads, omp_get_thread_num
+   use omp_lib, only : omp_get_max_threads, omp_get_num_threads, omp_get_thread_num, omp_in_parallel
    use axijoint_assembly_dofs, only : component_name
    use axijoint_assembly_equations, only : equations_type, system_type, worth_threads, growth
    use axijoint_assembly_harmonic, only : harmonic_values
@@ -172,11 +172,11 @@ contains
    subroutine new_workspaces(equations, spaces)
       !> The equations, planned
       type(equations_type), intent(in) :: equations
-      !> One a thread
+      !> One a thread; within a region of threads one for each of these
       type(workspace_type), allocatable, intent(out) :: spaces(:)
 
       call use_one_blas_thread()
-      allocate (spaces(equations%n_workers))
+      allocate (spaces(merge(omp_get_num_threads(), equations%n_workers, omp_in_parallel())))
    end subroutine new_workspaces
 
    !> Place of this thread's workspace

@@ -43,7 +43,7 @@ contains
       text = text//nl//'.SH ENVIRONMENT'//nl// &
          '.TP'//nl//'.B OMP_NUM_THREADS'//nl//'Harmonics at once.'//nl// &
          '.TP'//nl//'.B OMP_WAIT_POLICY, GOMP_SPINCOUNT, OPENBLAS_NUM_THREADS, OPENBLAS_CORETYPE'//nl// &
-         'Set by the program where they are not set: PASSIVE, 1000 (with PASSIVE alone), 1, and the kernel for '// &
+         'Set by the program where they are not set: PASSIVE, 5000 (with PASSIVE alone), 1, and the kernel for '// &
          'processors with AVX\-512.'//nl// &
          '.SH EXAMPLES'//nl//'.nf'//nl// &
          program_name//' run first.dat \-o out'//nl// &

@@ -7,17 +7,17 @@ module axijoint_joints_joint_errors
    use axijoint_fe_mode, only : mode_type, family_symmetric, family_antisymmetric
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_field, only : joint_field_type, trial_of, commit_field
-   use axijoint_joints_history, only : history_type, new_state
+   use axijoint_joints_history, only : history_type
    use axijoint_joints_mechanism, only : mechanism_type, find_mechanism, hold_nothing, settle
    use axijoint_joints_planes, only : new_planes, synthesize, analyse
    use axijoint_joints_scene, only : scene_type, jumps, jumps_of_mode
    use axijoint_joints_settle, only : find_again
-   use axijoint_joints_way, only : station_type, way_type, lag_type, take_up, go_again, remembered, shift, add_slip
+   use axijoint_joints_way, only : station_type, way_type, lag_type, go_again, remembered, shift, add_slip
    use axijoint_model_joint_points, only : stiffest_base
    implicit none
    private
-   public :: joint_change_type, joint_changes_type, search_type, new_search, follow_harmonics, find_planes, find_harmonics, &
-      change_between, settled_change, offset_between, largest_change
+   public :: joint_change_type, joint_changes_type, search_type, new_search, can_follow_harmonics, &
+      follow_harmonics, find_planes, find_harmonics, change_between, settled_change, offset_between, largest_change
 
    !> Intervals between planes are divided by this
    integer, parameter :: finer = 4
@@ -185,43 +185,34 @@ contains
       search%finer%planes = new_planes(search%step*n + 1, scene%modes, whole=scene%planes%folds == 1)
    end function new_search
 
-   !> By what joints lag before the last increment for few harmonics: the way is gone again with harmonics up to 2 M, through all
-   !> increments, as where points slip and where they hold hangs on these from the first. On the planes of the job; not known if
-   !> these are too few for more harmonics, or a state was not found
-   subroutine follow_harmonics(condensed, history, way, lag)
+   !> Whether slip may have kept something of harmonics up to 2 M that can be found on the planes of the job
+   pure logical function can_follow_harmonics(scene) result(can)
+      !> The scene
+      type(scene_type), intent(in) :: scene
+
+      ! where harmonic 0 is alone there are no more
+      can = scene%planes%folds > 0 .and. scene%planes%n - 1 >= 4*maxval(scene%modes%harmonic)
+   end function can_follow_harmonics
+
+   !> By what joints lag after a state on the way for few harmonics: it is found again with harmonics up to 2 M, from what they lagged
+   !> by before it
+   subroutine follow_harmonics(condensed, scene, station, lag)
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
-      !> What the increments came to
-      type(history_type), intent(in) :: history
-      !> The way there; not known if nothing of it lasts
-      type(way_type), intent(in) :: way
+      !> Laws and planes
+      type(scene_type), intent(in) :: scene
+      !> The state
+      type(station_type), intent(in) :: station
       !> What harmonics leave
-      type(lag_type), intent(out) :: lag
+      type(lag_type), intent(inout) :: lag
 
-      type(scene_type) :: scene, extended
-      type(station_type) :: station
-      type(joint_field_type) :: field
+      type(scene_type) :: there, extended
       type(joint_field_type), allocatable :: with_more
-      real(wp) :: clock
-      logical :: found
-      integer :: k
 
-      scene = history%scene
-      if (.not. way%known .or. scene%planes%folds == 0) return  ! where harmonic 0 is alone there are no more
-      if (scene%planes%n - 1 < 4*maxval(scene%modes%harmonic)) return
-      clock = omp_get_wtime()
-      field = new_state(condensed, scene)
-      do k = 1, size(history%states)
-         call take_up(condensed, history, way%turns, k, station, scene, field, found)
-         lag%known = lag%known .and. found
-         if (.not. found) exit
-         call add_harmonics(condensed, scene, field, extended, with_more)
-         call go_again(condensed, extended, remembered(scene%laws, field), field, with_more, lag)
-         if (.not. lag%known) exit
-         if (any(way%places == k)) station%next = station%next + 1
-         call commit_field(scene%laws, field)
-      end do
-      lag%seconds = omp_get_wtime() - clock
+      there = scene
+      there%loads = station%loads
+      call add_harmonics(condensed, there, station%field, extended, with_more)
+      call go_again(condensed, extended, remembered(scene%laws, station%field), station%field, with_more, lag)
    end subroutine follow_harmonics
 
    !> The change by more planes, but for motions that nothing resists and no load acts on; and by what these change of the slip of

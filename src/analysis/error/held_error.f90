@@ -1,6 +1,6 @@
 !> What the mesh leaves of the error of a job whose joints yield while the stress of these is held
 module axijoint_analysis_error_held_error
-   use omp_lib, only : omp_get_wtime
+   use omp_lib, only : omp_get_wtime, omp_in_parallel
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_fine_difference, only : difference_type, room_type, most_steps, new_difference, find_difference, &
       share_difference
@@ -144,7 +144,7 @@ contains
    end subroutine leave_out_idle
 
    !> Differences of all modes while the stress of the joints is held. Factors are read, and those of blocks formed, once for all
-   !> states
+   !> states. Within a region of threads each system is a task of its own, for whoever has nothing else to do
    subroutine find_differences(structure, points, states, held)
       !> The structure
       type(structure_type), intent(inout) :: structure
@@ -158,7 +158,6 @@ contains
       type(workspace_type), allocatable :: spaces(:)
       type(room_type), allocatable :: rooms(:)
       integer :: i, s
-      logical :: again
 
       do i = 1, size(states)
          associate (one => held(i), n => size(structure%modes))
@@ -170,25 +169,51 @@ contains
       associate (equations => structure%equations)
          call new_workspaces(equations, spaces)
          allocate (rooms(size(spaces)))
-         !$omp parallel do schedule(dynamic) num_threads(size(spaces)) private(i, again)
-         do s = equations%first, equations%last
-            if (.not. any([(any(held(i)%steps(equations%systems(s)%modes) > 0), i=1, size(held))])) cycle
-            call hold_factor(equations, s, spaces(own()))
-            again = .false.
-            do i = 1, size(held)
-               if (equations%systems(s)%failed) exit
-               if (all(held(i)%steps(equations%systems(s)%modes) == 0)) cycle
-               call find_difference(structure%fine, equations, s, held(i)%load, states(i)%displacement, points, held(i)%excess, &
-                  rooms(own()), held(i)%difference, held(i)%steps, again)
-               again = all(held(i)%difference%known(equations%systems(s)%modes))
+         if (omp_in_parallel()) then
+            !$omp taskgroup  ! who waits here takes parts of systems that others are at
+            do s = equations%first, equations%last
+               !$omp task default(shared) firstprivate(s)
+               call find_of_system(s)
+               !$omp end task
             end do
-            call release_factor(equations, s, spaces(own()))
-         end do
-         !$omp end parallel do
+            !$omp end taskgroup
+         else
+            !$omp parallel do schedule(dynamic) num_threads(size(spaces))
+            do s = equations%first, equations%last
+               call find_of_system(s)
+            end do
+            !$omp end parallel do
+         end if
          do i = 1, size(held)
             call share_difference(equations, held(i)%difference)
          end do
       end associate
+
+   contains
+
+      !> Differences of the modes of a system
+      subroutine find_of_system(s)
+         !> The system
+         integer, intent(in) :: s
+
+         integer :: i
+         logical :: again
+
+         associate (equations => structure%equations, modes => structure%equations%systems(s)%modes)
+            if (.not. any([(any(held(i)%steps(modes) > 0), i=1, size(held))])) return
+            call hold_factor(equations, s, spaces(own()))
+            again = .false.
+            do i = 1, size(held)
+               if (equations%systems(s)%failed) exit
+               if (all(held(i)%steps(modes) == 0)) cycle
+               call find_difference(structure%fine, equations, s, held(i)%load, states(i)%displacement, points, held(i)%excess, &
+                  rooms(own()), held(i)%difference, held(i)%steps, again)
+               again = all(held(i)%difference%known(modes))
+            end do
+            call release_factor(equations, s, spaces(own()))
+         end associate
+      end subroutine find_of_system
+
    end subroutine find_differences
 
    !> Steps to go in each mode: few where nothing acts in it but little excess stress, for its part in the error is as small.

@@ -4,6 +4,7 @@ module axijoint_analysis_error_remembered
    use axijoint_analysis_core_results, only : displaced_type
    use axijoint_analysis_core_solution, only : solved_state_type
    use axijoint_analysis_core_structure, only : structure_type
+   use axijoint_analysis_error_follower, only : follower_type, pass_state, end_way
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
@@ -16,7 +17,7 @@ module axijoint_analysis_error_remembered
    use axijoint_model_model, only : model_type
    implicit none
    private
-   public :: solved_way_type, look_back, leaves_rest, find_remembered
+   public :: solved_way_type, look_back, follow_way, leaves_rest, find_remembered
 
    !> Increments that the way is followed through at most
    integer, parameter :: most_increments = 100
@@ -29,7 +30,7 @@ module axijoint_analysis_error_remembered
 
 contains
 
-   !> Look back on the way that loads took: where they turned
+   !> Look back on the way that loads took: where they turned, and displacements there
    subroutine look_back(model, structure, history, displaced, way)
       !> The job
       type(model_type), intent(in) :: model
@@ -47,8 +48,6 @@ contains
       way%places = turning_places(history)
       if (size(way%places) > most_turns .or. size(history%states) > most_increments) return
       call load_turns(model, structure, history, displaced, way)
-      if (way%known) call follow(structure, history, way)
-      if (.not. way%known) way%stations = [station_type ::]
    end subroutine look_back
 
    !> Find loads where they turn, and what they do
@@ -81,14 +80,32 @@ contains
       way%turns(n + 1)%loads = history%scene%loads
    end subroutine load_turns
 
+   !> Follow the way, if it is known, to its stations
+   subroutine follow_way(structure, history, way, follower)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> What the increments came to
+      type(history_type), intent(in) :: history
+      !> The way; takes the stations. Not known any more if a state was not found as it was kept
+      type(solved_way_type), intent(inout) :: way
+      !> Follows behind with more harmonics; what it finds is of no meaning if the way is not known
+      type(follower_type), intent(inout) :: follower
+
+      if (way%known) call follow(structure, history, way, follower)
+      if (.not. way%known) way%stations = [station_type ::]
+      call end_way(follower)
+   end subroutine follow_way
+
    !> Follow the increments but the last, as they were
-   subroutine follow(structure, history, way)
+   subroutine follow(structure, history, way, follower)
       !> The structure
       type(structure_type), intent(in) :: structure
       !> What the increments came to
       type(history_type), intent(in) :: history
       !> The way; takes the stations, and whether all states were found as they were kept
       type(solved_way_type), intent(inout) :: way
+      !> Follows behind
+      type(follower_type), intent(inout) :: follower
 
       type(joint_field_type) :: field
       type(scene_type) :: scene
@@ -100,11 +117,10 @@ contains
       do k = 1, size(history%states)
          call take_up(structure%condensed, history, way%turns, k, station, scene, field, way%known)
          if (.not. way%known) return
-         if (any(way%places == k) .or. k == size(history%states)) then
-            station%loads = scene%loads
-            station%field = field
-            way%stations = [way%stations, station]
-         end if
+         station%loads = scene%loads
+         station%field = field
+         if (any(way%places == k) .or. k == size(history%states)) way%stations = [way%stations, station]
+         call pass_state(structure%condensed, history%scene, station, follower)
          if (any(way%places == k)) station%next = station%next + 1
          call commit_field(scene%laws, field)
       end do

@@ -1,17 +1,18 @@
 !> What the approximations leave of the error of a job whose joints yield: the iteration, planes,
 !> harmonics and the mesh, each by a state found again without it
 module axijoint_analysis_error_yielding_errors
-   use omp_lib, only : omp_get_max_threads, omp_get_wtime
+   use omp_lib, only : omp_get_max_threads, omp_get_num_threads, omp_get_wtime
    use axijoint_analysis_core_path, only : keeps_slip, slide_together
    use axijoint_analysis_core_results, only : results_type, displaced_type
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_core_totals, only : largest_vector
    use axijoint_analysis_error_excess_effect, only : find_effects
+   use axijoint_analysis_error_follower, only : follower_type, new_follower, follow_behind
    use axijoint_analysis_error_held_error, only : judged_state_type, error_of_held
    use axijoint_analysis_error_iteration_left, only : iteration_left_type
    use axijoint_analysis_error_joint_shares, only : take_share, nothing_is_left, has_moved, unloaded, least_changes
    use axijoint_analysis_error_joints_mesh_error, only : find_held_errors, find_answer, add_answer
-   use axijoint_analysis_error_remembered, only : solved_way_type, look_back, leaves_rest
+   use axijoint_analysis_error_remembered, only : solved_way_type, look_back, follow_way, leaves_rest
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
    use axijoint_assembly_equations, only : equations_type
    use axijoint_base_kinds, only : wp
@@ -19,7 +20,7 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_joints_field, only : joint_field_type
    use axijoint_joints_floating, only : add_motions
    use axijoint_joints_history, only : history_type
-   use axijoint_joints_joint_errors, only : joint_change_type, joint_changes_type, search_type, new_search, follow_harmonics, &
+   use axijoint_joints_joint_errors, only : joint_change_type, joint_changes_type, search_type, new_search, &
       find_planes, find_harmonics, settled_change
    use axijoint_joints_settle, only : settle_wholly
    use axijoint_joints_way, only : lag_type
@@ -117,8 +118,8 @@ contains
       end associate
    end subroutine balance
 
-   !> What planes, harmonics and the mesh leave. What joints answer to these, and what their slip has kept of harmonics, are
-   !> found at once where threads have little to do in each; and each factor is read once for what that does to the displacements
+   !> What planes, harmonics and the mesh leave. What joints answer to these is found at once where threads have little to do in each,
+   !> beside the errors of the mesh if all factors are at hand; and each factor is read once for what that does to the displacements
    subroutine find_other_changes(model, structure, history, displaced, balanced, displacement, lasts, changes, effect, mesh_error, &
       rests)
       !> The job
@@ -147,44 +148,32 @@ contains
       type(joint_change_type) :: all(3)
       type(solved_way_type) :: way
       type(search_type) :: search
-      type(lag_type) :: lag
+      type(follower_type) :: follower
       type(mesh_error_type), allocatable :: errors(:)
       real(wp), allocatable :: rounding(:)
       real(wp) :: seconds, looked_back, share
-      logical :: answered, apart, at_once
+      logical :: answered, at_once, apart
 
       seconds = omp_get_wtime()
       allocate (way%stations(0))
       if (lasts) call look_back(model, structure, history, displaced, way)
-      rests = .false.
-      if (way%known) rests = leaves_rest(way)
-      looked_back = omp_get_wtime() - seconds
-      apart = is_small(structure%equations)
-      if (.not. apart) call find_held_errors(structure, history, balanced, displacement, way, errors)
       search = new_search(history%scene)
       rounding = least_changes(structure, history)
-      at_once = are_for_one_thread(structure%condensed, size(balanced%jump))
-      if (apart .or. at_once) then
+      at_once = are_for_one_thread(structure%condensed, size(balanced%jump)) .and. are_at_hand(structure%equations)
+      apart = .false.
+      if (at_once) then
          !$omp parallel  ! of all threads: a smaller team would end the others
          !$omp single
-         !$omp task default(shared) depend(out: lag)
-         call follow()
-         !$omp end task
-         !$omp task default(shared)
-         call see_mesh()
-         !$omp end task
-         call see_planes()
-         !$omp task default(shared) depend(in: lag)
-         if (way%known) call see_harmonics()
-         !$omp end task
+         apart = omp_get_num_threads() > 1
+         if (apart) then
+            call see_all_at_once()
+         else
+            call see_in_order()
+         end if
          !$omp end single
          !$omp end parallel
-         if (.not. way%known) call see_harmonics()  ! nothing else is left to do: by all threads
       else  ! not in a region of one thread, in which other regions would begin with new threads
-         call see_mesh()
-         call follow()
-         call see_planes()
-         call see_harmonics()
+         call see_in_order()
       end if
       all(1) = changes%planes
       all(2) = changes%harmonics
@@ -205,16 +194,53 @@ contains
 
    contains
 
-      !> What the mesh leaves, unless it is known, and what joints answer to it
-      subroutine see_mesh()
-         if (.not. allocated(errors)) call find_held_errors(structure, history, balanced, displacement, way, errors)
-         call find_answer(structure, history, balanced, errors, way, mesh_error, all(3))
-      end subroutine see_mesh
+      !> One after the other, each by all threads
+      subroutine see_in_order()
+         call new_follower(history%scene, size(balanced%jump), size(history%states), .false., follower)
+         call see_way()
+         call see_held()
+         call see_answer()
+         call see_planes()
+         call see_harmonics()
+      end subroutine see_in_order
 
-      !> What slip has kept of harmonics
-      subroutine follow()
-         call follow_harmonics(structure%condensed, history, way%way_type, lag)
-      end subroutine follow
+      !> Each by a thread, but for the errors of the mesh, whose systems are for whoever has nothing else to do
+      subroutine see_all_at_once()
+         call new_follower(history%scene, size(balanced%jump), merge(size(history%states), 0, way%known), .true., follower)
+         !$omp task default(shared) depend(out: search)
+         call follow_behind(structure%condensed, history%scene, follower)
+         call see_planes()
+         !$omp end task
+         call see_way()
+         !$omp task default(shared) depend(out: mesh_error)
+         call see_held()
+         !$omp end task
+         !$omp task default(shared) depend(in: mesh_error)
+         call see_answer()
+         !$omp end task
+         !$omp task default(shared) depend(in: mesh_error, search)
+         call see_harmonics()
+         !$omp end task
+      end subroutine see_all_at_once
+
+      !> The way that loads took, if it is known
+      subroutine see_way()
+         call follow_way(structure, history, way, follower)
+         rests = .false.
+         if (way%known) rests = leaves_rest(way)
+         looked_back = omp_get_wtime() - seconds
+         if (.not. apart) looked_back = looked_back - follower%lag%seconds
+      end subroutine see_way
+
+      !> What the mesh leaves while the stress of the joints is held
+      subroutine see_held()
+         call find_held_errors(structure, history, balanced, displacement, way, errors)
+      end subroutine see_held
+
+      !> What joints answer to that
+      subroutine see_answer()
+         call find_answer(structure, history, balanced, errors, way, mesh_error, all(3))
+      end subroutine see_answer
 
       !> What planes leave
       subroutine see_planes()
@@ -223,24 +249,19 @@ contains
 
       !> What harmonics leave, after both
       subroutine see_harmonics()
-         call find_harmonics(structure%condensed, balanced, history, lag, rounding, search, changes)
+         if (.not. way%known) follower%lag = lag_type()
+         call find_harmonics(structure%condensed, balanced, history, follower%lag, rounding, search, changes)
       end subroutine see_harmonics
 
    end subroutine find_other_changes
 
-   !> Whether threads have so little to do in a loop over the systems, all factors being kept by this process alone, that
-   !> they had better see to different things
-   logical function is_small(equations)
+   !> Whether threads can see to a system each, all factors being kept by this process alone
+   pure logical function are_at_hand(equations)
       !> The equations
       type(equations_type), intent(in) :: equations
 
-      !> Equations of all systems at most
-      integer, parameter :: few = 10000
-
-      is_small = omp_get_max_threads() > 1 .and. equations%solver%concurrent .and. equations%team%size == 1 &
-         .and. equations%n_kept == size(equations%systems)
-      if (is_small) is_small = sum(equations%classes(equations%systems%class)%dofs%n_equations) <= few
-   end function is_small
+      are_at_hand = equations%solver%concurrent .and. equations%team%size == 1 .and. equations%n_kept == size(equations%systems)
+   end function are_at_hand
 
    !> Whether threads gain less where they share the products and sums of one state of the joints than where each finds a state: as
    !> long as there are few of them, or little to share
