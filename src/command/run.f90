@@ -20,11 +20,12 @@ module axijoint_command_run
    use axijoint_output_claim, only : claim_type, claim_output, release_output
    use axijoint_output_done, only : earlier_exit_code
    use axijoint_output_file_echo, only : deck_text
+   use axijoint_output_file_hdf5, only : start_library
    use axijoint_output_file_run, only : exit_code_of
    use axijoint_output_other_results, only : other_results_text
    use axijoint_output_output, only : check_output, write_output, write_error_summary, remove_error_summary
    use axijoint_output_state, only : begin_state, end_state, stopped_text, note_written, is_written
-   use omp_lib, only : omp_set_num_threads
+   use omp_lib, only : omp_get_max_threads, omp_get_thread_num, omp_set_num_threads
    implicit none
    private
    public :: run_decks, print_error, speaks
@@ -269,7 +270,7 @@ contains
       if (allocated(command%options%team)) speaks = command%options%team%rank == 0
    end function speaks
 
-   !> Read the deck, and tell what is wrong with it
+   !> Read the deck, and tell what is wrong with it. Another thread starts the library that writes results meanwhile
    subroutine begin(deck, command, job, error)
       !> The deck
       character(len=*), intent(in) :: deck
@@ -281,6 +282,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(diagnostics_type) :: diagnostics
+      logical :: started  ! if not, who creates the file will say so
 
       job%options = command%options
       job%progress%logged = command%verbose
@@ -288,7 +290,12 @@ contains
                              .not. (command%quiet .or. command%verbose)
       call job%timer%start()
       call show_progress(job%progress, 'reading '//deck_name(deck))
+      !$omp parallel num_threads(min(2, omp_get_max_threads()))
+      if (omp_get_thread_num() == 1 .and. speaks(command)) call start_library(started)
+      !$omp master
       call read_job(deck, job, diagnostics)
+      !$omp end master
+      !$omp end parallel
       call clear_progress(job%progress)
       if (allocated(job%conversion)) call tell_below(job%conversion)
       if (diagnostics%n_errors > 0) then

@@ -19,7 +19,7 @@ module axijoint_output_file_hdf5
       h5t_ieee_f64le, h5t_std_i32le, h5t_std_i64le, h5t_std_u8le, h5kind_to_type, h5_integer_kind
    implicit none
    private
-   public :: hdf5_file_type, kind_real, kind_long, kind_byte
+   public :: hdf5_file_type, start_library, kind_real, kind_long, kind_byte
 
    !> Kinds of the values of a dataset that is written piece by piece
    integer, parameter :: kind_real = 1, kind_long = 2, kind_byte = 3
@@ -105,11 +105,7 @@ contains
       self%path = path
       self%failure = hdf5_failure_type()
       call discard(path)
-      ! The library's clean-up at the end of the program crashes when a file
-      ! could not be closed on a full disk; this module closes all by itself.
-      status = int(c_dont_atexit())
-      call h5open_f(status)
-      self%started = status >= 0
+      call start_library(self%started)
       if (.not. self%started) then
          call fatal_error(error, exit_io, "cannot write "//path// &
             ": the HDF5 library does not start"//new_line("a")//"mend: check its installation")
@@ -128,6 +124,20 @@ contains
       call discard(path)  ! a file without its first bytes may be there
       call io_error(error, "open", path, self%failure%errno)
    end subroutine create
+
+   !> Start the library, unless it has been: that takes as long as reading a small deck, beside which a thread can do it
+   subroutine start_library(started)
+      !> Whether it works
+      logical, intent(out) :: started
+
+      integer :: status
+
+      ! The library's clean-up at the end of the program crashes when a file
+      ! could not be closed on a full disk; this module closes all by itself.
+      status = int(c_dont_atexit())
+      call h5open_f(status)
+      started = status >= 0
+   end subroutine start_library
 
    !> The library prints nothing of failures in this thread, which are told in other words; each thread has a say of its own
    subroutine mute()
