@@ -17,10 +17,6 @@
 #define WORTH_ASKING ((size_t)1 << 20)
 #define WORTH_A_LOOK ((size_t)1 << 10)
 #define PAGE ((uintptr_t)4096)
-#define LARGE_PAGE ((size_t)2 << 20)
-/* Makes one of small pages at once (MADV_COLLAPSE, from Linux 6.1 on; an error before): the library has touched the
-   first of a thread's heap before anybody could ask */
-#define COLLAPSE 25
 /* Where heaps of other threads than the first lie: each has so many bytes of addresses, from a multiple of them on (glibc) */
 #define THREAD_HEAP ((uintptr_t)64 << 20)
 
@@ -59,12 +55,7 @@ void axijoint_ask_large_pages(const void *block, size_t bytes)
    if (pthread_equal(pthread_self(), first)) return;
    static _Thread_local uintptr_t own;
    const uintptr_t base = from / THREAD_HEAP * THREAD_HEAP;
-   if (base != own) {
-      ask(base, base + THREAD_HEAP);
-      const int cause = errno;
-      madvise((void *)base, LARGE_PAGE, COLLAPSE);
-      errno = cause;
-   }
+   if (base != own) ask(base, base + THREAD_HEAP);
    own = base;
 }
 
