@@ -141,6 +141,8 @@ class Disc:
     # With 32 elements the true error, some 1E-6, is rounding: between 257 and 1025 planes it jumps from 6E-7 to 5E-6,
     # for the bodies are 1E8 times as stiff as the joint. Softer ones would not be rigid
     sizes: tuple = (4, 8, 16)
+    # Nor are smaller errors judged: the kernels of another processor (OPENBLAS_CORETYPE) change 7.2E-7 to 2.0E-6
+    rounding: float = 2e-6
     nodes: tuple = (4, 8, 9)
     planes: int = 257  # so that their share of the error is small
 
@@ -153,8 +155,9 @@ class Disc:
                 words = f"e = {ratio} R, {nodes}-node"
                 rows.append([f"{ratio}", f"{nodes}-node", ", ".join(map(str, self.sizes)),
                              report.errors(true for true, _ in found),
-                             ", ".join(f"{estimate:.2f}" for _, estimate in found)])
-                misses += judged(f"{self.name}, {words}", [estimate for _, estimate in found], JOINT_BAND)
+                             ", ".join("–" if true < self.rounding else f"{estimate:.2f}" for true, estimate in found)])
+                misses += judged(f"{self.name}, {words}",
+                                 [estimate for true, estimate in found if true >= self.rounding], JOINT_BAND)
         headings = ["e/R", "element", "elements along R", "joint stress: true", "estimated / true"]
         return [report.table(headings, rows)], misses
 
