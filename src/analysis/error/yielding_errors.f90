@@ -211,8 +211,10 @@ contains
          call follow_behind(structure%condensed, history%scene, follower)
          call see_planes()
          !$omp end task
+         !$omp task default(shared) depend(out: way)  ! not by this task: where one waits for its own, it may begin with the first
          call see_way()
-         !$omp task default(shared) depend(out: mesh_error)
+         !$omp end task
+         !$omp task default(shared) depend(in: way) depend(out: mesh_error)
          call see_held()
          !$omp end task
          !$omp task default(shared) depend(in: mesh_error)
