@@ -448,7 +448,7 @@ def done_already(program, folder):
     code, solved, left, err = run(turned)
     faults += expected('a mechanism again', (4, 0, 1), (code, solved, left)) + expected('its code', True, 'with exit code 4' in err)
     little = write(folder, 'little.dat', input_deck('first.dat').replace('\nEND', '\nERROR\n0.3\nEND'))
-    faults += expected('too little memory', (0, 1, 0), run(little, '--memory', '40')[:3])
+    faults += expected('too little memory', (0, 1, 0), run(little, '--memory', '56')[:3])
     return faults + expected('more memory', (0, 1, 0), run(little)[:3])
 
 
