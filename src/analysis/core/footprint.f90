@@ -24,7 +24,7 @@ module axijoint_analysis_core_footprint
    use axijoint_plastic_field, only : body_planes
    implicit none
    private
-   public :: footprint_type, data_footprint, fine_nodes, blocks_of, program_bytes, displaced_numbers
+   public :: footprint_type, data_footprint, fine_nodes, blocks_of, program_bytes, displaced_numbers, waiting_numbers
 
    !> What program and libraries without any data take beyond their start once they are used, with what the last of
    !> the heap's large pages is too large [byte]; measured
@@ -63,6 +63,8 @@ module axijoint_analysis_core_footprint
    !> iterations gain less by sharing products than by leaving the other threads to find these
    integer(i8), parameter :: most_displaced = 4000000
    integer, parameter :: few_threads = 4, few_points = 300
+   !> Numbers of states that one thread has found and another goes to with more harmonics, at most, and those of a state for each jump
+   integer(i8), parameter :: most_waiting = 4000000, of_jump = 7
 
    !> Bytes
    type :: footprint_type
@@ -155,7 +157,8 @@ contains
          ! the mesh while others do planes and harmonics
          if (jumps > 0 .and. estimated) footprint%joints = footprint%joints &
             + 12*real_bytes*nodes*n_modes*min(most_turns, size(model%increments) - 1) &
-            + real_bytes*jumps/3*kept_planes*(plane_numbers + station_numbers*min(most_turns + 1, size(model%increments) - 1))
+            + real_bytes*jumps/3*kept_planes*(plane_numbers + station_numbers*min(most_turns + 1, size(model%increments) - 1)) &
+            + merge(real_bytes, 0_i8, omp_get_max_threads() > 1)*waiting_numbers(jumps*kept_planes, size(model%increments) - 1)
       end if
       if (bodies_yield(model)) call add_bodies(model, references, modes, footprint)
       footprint%joint_work = real_bytes*unknowns**2  ! the inverse
@@ -178,6 +181,18 @@ contains
       numbers = 3*int(n_nodes(model%mesh), i8)*n_modes*n_shown(model)
       if (numbers > most_displaced) numbers = 0
    end function displaced_numbers
+
+   !> Numbers of the states on the way of the loads that wait for a thread that goes behind with more harmonics, if all do; none if
+   !> they are too many: then none waits
+   pure integer(i8) function waiting_numbers(n_jumps, n_states) result(numbers)
+      !> Jumps on all planes
+      integer(i8), intent(in) :: n_jumps
+      !> States on the way
+      integer, intent(in) :: n_states
+
+      numbers = of_jump*n_jumps*n_states
+      if (numbers > most_waiting) numbers = 0
+   end function waiting_numbers
 
    !> Matrices between modes and planes: those of the job, and where it has more than harmonic 0, those of the estimates of
    !> errors with more planes, and with as many modes again; in single precision the largest of those that Newton's method

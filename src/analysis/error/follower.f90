@@ -1,7 +1,8 @@
 !> The way that loads took before the last increment, with more harmonics: gone behind who follows it as it was
 module axijoint_analysis_error_follower
    use omp_lib, only : omp_get_wtime, omp_init_lock, omp_set_lock, omp_unset_lock, omp_destroy_lock, omp_lock_kind
-   use axijoint_base_kinds, only : wp
+   use axijoint_analysis_core_footprint, only : waiting_numbers
+   use axijoint_base_kinds, only : wp, i8
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_joint_errors, only : can_follow_harmonics, follow_harmonics
    use axijoint_joints_scene, only : scene_type
@@ -9,9 +10,6 @@ module axijoint_analysis_error_follower
    implicit none
    private
    public :: follower_type, new_follower, pass_state, end_way, follow_behind
-
-   !> Numbers at most of all states that wait, and those of a state for each jump: if there are more, no state waits
-   real(wp), parameter :: most_numbers = 1.0e7_wp, of_jump = 7.0_wp
 
    !> Who goes behind
    type :: follower_type
@@ -45,7 +43,7 @@ contains
       integer :: k, n
 
       n = 0
-      if (apart .and. can_follow_harmonics(scene) .and. of_jump*n_jumps*n_states <= most_numbers) n = n_states
+      if (apart .and. can_follow_harmonics(scene) .and. waiting_numbers(int(n_jumps, i8), n_states) > 0) n = n_states
       allocate (follower%waiting(n), follower%gates(merge(n + 1, 0, apart)))
       do k = 1, size(follower%gates)
          call omp_init_lock(follower%gates(k))

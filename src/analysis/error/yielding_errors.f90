@@ -118,8 +118,8 @@ contains
       end associate
    end subroutine balance
 
-   !> What planes, harmonics and the mesh leave. What joints answer to these is found at once where threads have little to do in each,
-   !> beside the errors of the mesh if all factors are at hand; and each factor is read once for what that does to the displacements
+   !> What planes, harmonics and the mesh leave. What joints answer to these is found at once where threads have little to share in
+   !> each and all factors are at hand; and each factor is read once for what that does to the displacements
    subroutine find_other_changes(model, structure, history, displaced, balanced, displacement, lasts, changes, effect, mesh_error, &
       rests)
       !> The job
@@ -145,14 +145,14 @@ contains
       !> Whether displacements and errors are rests of larger ones on the way, as far as that is known
       logical, intent(out) :: rests
 
-      type(joint_change_type) :: all(3)
+      type(joint_change_type) :: answer
       type(solved_way_type) :: way
       type(search_type) :: search
       type(follower_type) :: follower
       type(mesh_error_type), allocatable :: errors(:)
       real(wp), allocatable :: rounding(:)
-      real(wp) :: seconds, looked_back, share
-      logical :: answered, at_once, apart
+      real(wp) :: seconds, looked_back
+      logical :: at_once, apart
 
       seconds = omp_get_wtime()
       allocate (way%stations(0))
@@ -175,22 +175,9 @@ contains
       else  ! not in a region of one thread, in which other regions would begin with new threads
          call see_in_order()
       end if
-      all(1) = changes%planes
-      all(2) = changes%harmonics
-      answered = all(3)%known
-      call find_effects(structure%equations, structure%condensed%points, size(displacement, 2), all, effect)
-      changes%planes = all(1)
-      changes%harmonics = all(2)
-      if (answered) then
-         mesh_error%known = mesh_error%known .and. all(3)%known
-         call add_answer(structure, all(3), effect(:, :, :, 3), mesh_error)
-      end if
-      mesh_error%seconds = mesh_error%seconds + all(3)%seconds + looked_back
-      seconds = omp_get_wtime() - seconds
-      share = seconds/max(tiny(1.0_wp), mesh_error%seconds + changes%planes%seconds + changes%harmonics%seconds)
-      mesh_error%seconds = share*mesh_error%seconds
-      changes%planes%seconds = share*changes%planes%seconds
-      changes%harmonics%seconds = share*changes%harmonics%seconds
+      call find_their_effects(structure, size(displacement, 2), answer, changes, mesh_error, effect)
+      mesh_error%seconds = mesh_error%seconds + answer%seconds + looked_back
+      call share_time(omp_get_wtime() - seconds, mesh_error%seconds, changes%planes%seconds, changes%harmonics%seconds)
 
    contains
 
@@ -241,7 +228,7 @@ contains
 
       !> What joints answer to that
       subroutine see_answer()
-         call find_answer(structure, history, balanced, errors, way, mesh_error, all(3))
+         call find_answer(structure, history, balanced, errors, way, mesh_error, answer)
       end subroutine see_answer
 
       !> What planes leave
@@ -256,6 +243,52 @@ contains
       end subroutine see_harmonics
 
    end subroutine find_other_changes
+
+   !> What planes, harmonics and the answer of the joints to the mesh do to the displacements, each factor read once for all three
+   subroutine find_their_effects(structure, n_nodes, answer, changes, mesh_error, effect)
+      !> The structure
+      type(structure_type), intent(inout) :: structure
+      !> Nodes
+      integer, intent(in) :: n_nodes
+      !> Change of the joints that answers the errors of the mesh
+      type(joint_change_type), intent(inout) :: answer
+      !> The changes by planes and harmonics
+      type(joint_changes_type), intent(inout) :: changes
+      !> What the mesh leaves; takes what the answer adds
+      type(mesh_error_type), intent(inout) :: mesh_error
+      !> The effects, shape (3, nodes, modes, 3)
+      real(wp), allocatable, intent(out) :: effect(:, :, :, :)
+
+      type(joint_change_type) :: all(3)
+      logical :: answered
+
+      answered = answer%known
+      all(1) = changes%planes
+      all(2) = changes%harmonics
+      all(3) = answer
+      call find_effects(structure%equations, structure%condensed%points, n_nodes, all, effect)
+      changes%planes = all(1)
+      changes%harmonics = all(2)
+      answer = all(3)
+      if (.not. answered) return
+      mesh_error%known = mesh_error%known .and. answer%known
+      call add_answer(structure, answer, effect(:, :, :, 3), mesh_error)
+   end subroutine find_their_effects
+
+   !> Times of what threads did beside each other, made parts of the time that all took
+   pure subroutine share_time(whole, mesh, planes, harmonics)
+      !> The time that all took
+      real(wp), intent(in) :: whole
+      !> The times
+      real(wp), intent(inout) :: mesh, planes, harmonics
+
+      real(wp) :: share
+
+      share = whole/max(tiny(1.0_wp), mesh + planes + harmonics)
+      mesh = share*mesh
+      planes = share*planes
+      harmonics = share*harmonics
+   end subroutine share_time
 
    !> Whether threads can see to a system each, all factors being kept by this process alone
    pure logical function are_at_hand(equations)
