@@ -129,8 +129,9 @@ contains
       !> tau_xi, sigma, tau_theta
       real(wp) :: trial(3)
 
-      trial = law%stiffness*(jump - memory%slip + [0.0_wp, law%gap, 0.0_wp])
-      trial(eta) = trial(eta) + law%initial_stress
+      trial(xi) = law%stiffness(xi)*(jump(xi) - memory%slip(xi))
+      trial(eta) = law%stiffness(eta)*(jump(eta) - memory%slip(eta) + law%gap) + law%initial_stress
+      trial(theta) = law%stiffness(theta)*(jump(theta) - memory%slip(theta))
    end function trial_stress
 
    !> Stress admitted for a trial stress, and its derivatives. Tension releases all

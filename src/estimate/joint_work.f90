@@ -4,6 +4,7 @@ module axijoint_estimate_joint_work
    use axijoint_base_kinds, only : wp
    use axijoint_estimate_terms, only : n_terms, laws, sums, flexibility
    use axijoint_joints_circle_sums, only : are_worth_it
+   use axijoint_joints_pairs, only : pairs_type, new_pairs
    use axijoint_joints_planes, only : planes_type, new_planes
    use axijoint_model_joint_proportion, only : proportion_type, joint_proportions, side_of, &
       side_sensible
@@ -44,6 +45,7 @@ contains
       real(wp) :: work(n_terms)
 
       type(planes_type) :: planes
+      type(pairs_type) :: pairs
       type(proportion_type), allocatable :: proportions(:)
       real(wp) :: again, jumps
       integer :: intervals, k
@@ -51,6 +53,7 @@ contains
 
       work = 0.0_wp
       jumps = 3.0_wp*n_yielding(model, structure)
+      pairs = new_pairs(pack(structure%joint_points, can_yield_at(model, structure%joint_points%material)))
       planes = new_planes(model%n_planes, structure%modes)
       half = size(planes%place) <= planes%n
       intervals = merge(size(planes%angle) - 1, size(planes%angle)/2, half)
@@ -82,7 +85,7 @@ contains
          n_planes = merge(intervals + 1, 2*intervals, half)
          work(laws) = work(laws) + n*jumps*n_planes
          work(sums) = work(sums) + share*n*jumps*n_planes*modes_of_sums(n_planes, n_modes, intervals)
-         work(flexibility) = work(flexibility) + share*n*jumps**2*n_modes
+         work(flexibility) = work(flexibility) + share*n*(3.0_wp*size(pairs%nodes, 2))**2*n_modes
       end subroutine iterate
 
    end function joint_work

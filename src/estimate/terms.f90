@@ -70,7 +70,7 @@ module axijoint_estimate_terms
       term_type('sums', phase_joints, common, .false., &
                 'sums of harmonics on planes', 6.4e-09_wp), &
       term_type('flexibility', phase_joints, common, .false., &
-                'products with flexibilities', 4.5e-09_wp), &
+                'products with flexibilities', 7.0e-09_wp), &
       term_type('fine_blocks', phase_errors, common, .true., &
                 'stiffness of the mesh half as large', 6.4e-08_wp), &
       term_type('stress_modes', phase_recover, common, .false., &

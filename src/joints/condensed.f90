@@ -3,6 +3,7 @@
 !> are measured. Built once; nothing changes it afterwards, so that many states, and many processes,
 !> can share it
 module axijoint_joints_condensed
+   use axijoint_assembly_dofs, only : dofs_type
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
       release_factor, &
@@ -15,8 +16,8 @@ module axijoint_joints_condensed
    use axijoint_fe_fourier, only : circle_integral
    use axijoint_fe_mode, only : mode_type
    use axijoint_joints_floating, only : floating_motion_type, new_floating_motions
+   use axijoint_joints_pairs, only : pairs_type, new_pairs, flexibility_of_point
    use axijoint_joints_residual, only : measure_type, new_measure
-   use axijoint_joints_rows, only : jump_rows
    use axijoint_linalg_lapack, only : complete
    use axijoint_model_joint_points, only : model_joint_point_type, stiffness_ratio
    use axijoint_model_model, only : model_type, can_yield_at
@@ -30,8 +31,9 @@ module axijoint_joints_condensed
 
    !> Flexibility of one harmonic
    type :: flexibility_type
-      !> Jumps that unit amplitudes of stress give, over the weights w of their points: N K_m^-1 N^T c_m, symmetric, for
-      !> all points of component 1, 2, 3, shape (points components, points components)
+      !> Displacements of side 4-3 of the joints against side 1-2 by unit amplitudes of forces between them, symmetric, for all
+      !> pairs of nodes along r, z, theta, shape (pairs components, pairs components). With the shape functions N of the points it
+      !> is their F_m = N K_m^-1 N^T w c_m
       real(wp), allocatable :: matrix(:, :)
    end type flexibility_type
 
@@ -39,6 +41,8 @@ module axijoint_joints_condensed
    type :: condensed_type
       !> Points that can yield
       type(model_joint_point_type), allocatable :: points(:)
+      !> Pairs of nodes that the jumps of these are interpolated between
+      type(pairs_type) :: pairs
       !> Modes of the job, and the system of equations of each
       type(mode_type), allocatable :: modes(:)
       integer, allocatable :: system(:)
@@ -80,6 +84,7 @@ contains
 
       yields = can_yield_at(model, joint_points%material)
       condensed%points = pack(joint_points, yields)
+      condensed%pairs = new_pairs(condensed%points)
       condensed%modes = equations%modes
       condensed%system = equations%system
       allocate (condensed%team, source=equations%team)
@@ -90,7 +95,7 @@ contains
          condensed%modes, condensed%points, &
                                 condensed%floating)
       call new_measure(model%mesh, equations, condensed%points, condensed%measure)
-      call condense_all(equations, condensed%points, condensed%flexibilities, error)
+      call condense_all(equations, condensed%pairs, condensed%flexibilities, error)
       call condensed%team%agree(error)
       if (.not. allocated(error)) call report_failure(equations, model, error)
       if (.not. allocated(error)) call share_flexibilities(condensed)
@@ -102,9 +107,9 @@ contains
       !> The condensed structure
       type(condensed_type), intent(inout) :: condensed
 
-      integer :: s, i, k, n
+      integer :: s, k, n
 
-      n = 3*size(condensed%points)
+      n = 3*size(condensed%pairs%nodes, 2)
       condensed%shared = condensed%team%size > 1 &
          .and. real(n, wp)**2*size(condensed%flexibilities) > worth_sharing
       do s = 1, size(condensed%flexibilities)
@@ -118,9 +123,8 @@ contains
       do s = 1, size(condensed%flexibilities)
          if (.not. allocated(condensed%flexibilities(s)%matrix)) cycle
          do k = 1, size(condensed%points)
-            associate (rows => k + [(i*size(condensed%points), i=0, 2)])
-               condensed%own(:, :, k, s) = condensed%points(k)%weight*condensed%flexibilities(s)%matrix(rows, rows)
-            end associate
+            condensed%own(:, :, k, s) = condensed%points(k)%weight &
+               *flexibility_of_point(condensed%pairs, condensed%flexibilities(s)%matrix, k)
          end do
       end do
       call condensed%team%gather(condensed%own, size(condensed%own, kind=i8), &
@@ -137,12 +141,12 @@ contains
       rank_of = count(condensed%last_system < system) - 1
    end function rank_of
 
-   !> Condense every harmonic of this rank to the joint points
-   subroutine condense_all(equations, points, flexibilities, error)
+   !> Condense every harmonic of this rank to the pairs of nodes of the joints
+   subroutine condense_all(equations, pairs, flexibilities, error)
       !> Equations of all modes, assembled; systems that cannot be factored are marked there
       type(equations_type), intent(inout) :: equations
-      !> Joint points
-      type(model_joint_point_type), intent(in) :: points(:)
+      !> The pairs
+      type(pairs_type), intent(in) :: pairs
       !> Their flexibilities
       type(flexibility_type), allocatable, intent(out) :: flexibilities(:)
       !> Out of memory
@@ -159,7 +163,7 @@ contains
          if (stop_wished()) cycle
          call hold_factor(equations, s, spaces(own()))
          if (equations%systems(s)%failed) cycle
-         call condense(equations, s, points, flexibilities(s)%matrix, failure)
+         call condense(equations, s, pairs, flexibilities(s)%matrix, failure)
          call release_factor(equations, s, spaces(own()))
          !$omp critical
          if (allocated(failure)) error = failure
@@ -170,73 +174,82 @@ contains
    end subroutine condense_all
 
    !> Flexibility of one harmonic
-   subroutine condense(equations, s, points, matrix, error)
+   subroutine condense(equations, s, pairs, matrix, error)
       !> Equations of all modes, factored
       type(equations_type), intent(in) :: equations
       !> Place of the system
       integer, intent(in) :: s
-      !> Joint points
-      type(model_joint_point_type), intent(in) :: points(:)
-      !> N K^-1 N^T c_m
+      !> Pairs of nodes
+      type(pairs_type), intent(in) :: pairs
+      !> Displacements of the pairs by unit forces between them
       real(wp), allocatable, intent(out) :: matrix(:, :)
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      integer, allocatable :: unknowns(:), place(:, :, :), first(:), from(:)
-      real(wp), allocatable :: coefficient(:, :, :), inverse(:, :), factor(:), half(:)
-      integer :: column, row, l
+      integer, allocatable :: unknowns(:), place(:, :)
+      real(wp), allocatable :: factor(:, :), inverse(:, :), half(:)
+      integer :: column, row
 
       associate (dofs => equations%classes(equations%systems(s)%class)%dofs)
-         call jump_rows(dofs, points, unknowns, place, coefficient)
+         call pair_rows(dofs, pairs, unknowns, place, factor)
       end associate
       call equations%systems(s)%factor%inverse_block(unknowns, inverse, error)
       if (allocated(error)) return
-      call by_component(place, coefficient, first, from, factor)
-      allocate (half(size(unknowns)), matrix(3*size(points), 3*size(points)))
+      factor = sqrt(circle_integral(equations%systems(s)%harmonic))*factor
+      allocate (matrix(size(place, 2), size(place, 2)))
       do column = 1, size(matrix, 2)
-         half = 0.0_wp
-         do l = first(column), first(column + 1) - 1
-            half = half + factor(l)*inverse(:, from(l))
-         end do
-         half = circle_integral(equations%systems(s)%harmonic)*half
+         half = factor(1, column)*inverse(:, place(1, column)) + factor(2, column)*inverse(:, place(2, column))
          do row = column, size(matrix, 1)
-            matrix(row, column) = 0.0_wp
-            do l = first(row), first(row + 1) - 1
-               matrix(row, column) = matrix(row, column) + factor(l)*half(from(l))
-            end do
+            matrix(row, column) = factor(1, row)*half(place(1, row)) + factor(2, row)*half(place(2, row))
          end do
       end do
       call complete(matrix)
+   end subroutine condense
 
-   contains
+   !> What displacements of the pairs are made of
+   pure subroutine pair_rows(dofs, pairs, unknowns, place, factor)
+      !> Unknowns of the harmonic
+      type(dofs_type), intent(in) :: dofs
+      !> The pairs
+      type(pairs_type), intent(in) :: pairs
+      !> Equations of their nodes, ascending
+      integer, allocatable, intent(out) :: unknowns(:)
+      !> Places in `unknowns` and factors of both nodes, for all pairs along r, z, theta, shape (2, pairs components). Where there
+      !> is no equation, the factor is zero
+      integer, allocatable, intent(out) :: place(:, :)
+      real(wp), allocatable, intent(out) :: factor(:, :)
 
-      !> What jumps are made of, without zeros, for all points of component 1, 2, 3
-      pure subroutine by_component(place, coefficient, first, from, factor)
-         !> For each jump: places among the unknowns, zero for none, and factors, shape (18, 3, points)
-         integer, intent(in) :: place(:, :, :)
-         real(wp), intent(in) :: coefficient(:, :, :)
-         !> First entry of each jump, shape (3 points + 1); place and factor of each entry
-         integer, allocatable, intent(out) :: first(:), from(:)
-         real(wp), allocatable, intent(out) :: factor(:)
+      !> Signs of side 1-2 and of side 4-3
+      real(wp), parameter :: sign(2) = [-1.0_wp, 1.0_wp]
+      integer :: number(dofs%n_equations)
+      integer :: i, k, side, row
 
-         integer :: i, k, l, n
-
-         allocate (first(3*size(place, 3) + 1), from(size(place)), factor(size(place)))
-         n = 0
-         do i = 1, 3
-            do k = 1, size(place, 3)
-               first((i - 1)*size(place, 3) + k) = n + 1
-               do l = 1, size(place, 1)
-                  if (place(l, i, k) == 0 .or. .not. abs(coefficient(l, i, k)) > 0.0_wp) cycle
-                  n = n + 1
-                  from(n) = place(l, i, k)
-                  factor(n) = coefficient(l, i, k)
-               end do
+      number = 0
+      do k = 1, size(pairs%nodes, 2)
+         do side = 1, 2
+            do i = 1, 3
+               associate (equation => dofs%equation(i, pairs%nodes(side, k)))
+                  if (equation > 0) number(equation) = 1
+               end associate
             end do
          end do
-         first(size(first)) = n + 1
-      end subroutine by_component
-
-   end subroutine condense
+      end do
+      unknowns = pack([(i, i=1, size(number))], number > 0)
+      number(unknowns) = [(i, i=1, size(unknowns))]
+      allocate (place(2, 3*size(pairs%nodes, 2)), source=1)
+      allocate (factor(2, 3*size(pairs%nodes, 2)), source=0.0_wp)
+      do i = 1, 3
+         do k = 1, size(pairs%nodes, 2)
+            row = (i - 1)*size(pairs%nodes, 2) + k
+            do side = 1, 2
+               associate (equation => dofs%equation(i, pairs%nodes(side, k)))
+                  if (equation == 0) cycle
+                  place(side, row) = number(equation)
+                  factor(side, row) = sign(side)*dofs%factor(i, pairs%nodes(side, k))
+               end associate
+            end do
+         end do
+      end do
+   end subroutine pair_rows
 
 end module axijoint_joints_condensed

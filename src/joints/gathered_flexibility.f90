@@ -1,10 +1,11 @@
-!> Flexibilities of the points whose laws change with their jumps, as Newton's linear system reads them: products with these are most
-!> of what it does, and few digits are enough for most of them. Where they are more than the processor keeps at hand they are
-!> gathered in single precision, half of each, as they are symmetric over the weights of the points. From one solution to the next
-!> much the same points move: what was gathered is kept while it serves
+!> Flexibilities of the pairs of nodes of points whose laws change with their jumps, as Newton's linear system reads them: products
+!> with these are most of what it does, and few digits are enough for most of them. Where they are more than the processor keeps at
+!> hand they are gathered in single precision, half of each, as they are symmetric. From one solution to the next much the same
+!> points move: what was gathered is kept while it serves
 module axijoint_joints_gathered_flexibility
    use axijoint_base_kinds, only : wp, sp
    use axijoint_joints_condensed, only : condensed_type
+   use axijoint_joints_pairs, only : pairs_type, choose
    use axijoint_joints_plane_product, only : plane_product_type
    use axijoint_linalg_symmetric_single, only : symmetric_single_type, make_room, put_column
    implicit none
@@ -18,9 +19,9 @@ module axijoint_joints_gathered_flexibility
    !> What is gathered serves fewer points if it is of so many times as many at most
    real(wp), parameter :: still_serves = 1.25_wp
 
-   !> Flexibility of the points that move
+   !> Flexibility of the pairs of nodes of the points that move
    type :: gathered_type
-      !> As that of all points, or in single precision; neither on ranks that do not have it
+      !> As that of all pairs, or in single precision; neither on ranks that do not have it
       real(wp), allocatable :: double(:, :)
       type(symmetric_single_type), allocatable :: single
       !> What single precision counts in
@@ -31,11 +32,13 @@ module axijoint_joints_gathered_flexibility
    type :: gathering_type
       !> The points; not allocated if nothing is gathered yet
       integer, allocatable :: points(:)
+      !> Their pairs of nodes
+      type(pairs_type) :: pairs
       !> Whether all digits are, and whether they are to be from now on
       logical :: double = .false., all_digits = .false.
       !> One a system
       type(gathered_type), allocatable :: flexibilities(:)
-      !> Weights over the largest, of all points of component 1, 2, 3, and that
+      !> Weights of the points over the largest, and that
       real(wp), allocatable :: weight(:)
       real(wp) :: largest = 0.0_wp
       !> What slopes make of jumps, and its memory, where not all digits are
@@ -56,11 +59,14 @@ contains
       !> What is gathered
       type(gathering_type), intent(inout) :: gathering
 
+      type(pairs_type) :: pairs
+      integer, allocatable :: place(:)
       logical :: double
       integer :: k, s
 
       if (.not. any(moves)) return
-      double = gathering%all_digits .or. any(stiff .and. moves) .or. n_numbers(condensed, count(moves)) <= at_hand
+      call choose(condensed%pairs, pack([(k, k=1, size(moves))], moves), pairs, place)
+      double = gathering%all_digits .or. any(stiff .and. moves) .or. n_numbers(size(condensed%flexibilities), pairs) <= at_hand
       if (serves(gathering, moves, double)) then
          moves = .false.
          moves(gathering%points) = .true.
@@ -68,23 +74,22 @@ contains
       end if
       gathering%double = double
       gathering%points = pack([(k, k=1, size(moves))], moves)
-      associate (points => gathering%points, weight => condensed%points%weight)
-         gathering%largest = max(tiny(1.0_wp), maxval(weight(points)))
-         gathering%weight = [weight(points), weight(points), weight(points)]/gathering%largest
-      end associate
+      gathering%pairs = pairs
+      gathering%weight = condensed%points(gathering%points)%weight
+      gathering%largest = max(tiny(1.0_wp), maxval(gathering%weight))
+      gathering%weight = gathering%weight/gathering%largest
       if (.not. allocated(gathering%flexibilities)) allocate (gathering%flexibilities(size(condensed%flexibilities)))
-      !$omp parallel do schedule(static, 1) if (is_worth_threads(condensed, count(moves)))
+      !$omp parallel do schedule(static, 1) if (is_worth_threads(gathering))
       do s = 1, size(condensed%flexibilities)
          if (.not. allocated(condensed%flexibilities(s)%matrix)) cycle
-         associate (whole => condensed%flexibilities(s)%matrix, points => gathering%points, &
-                    n => size(condensed%points))
+         associate (whole => condensed%flexibilities(s)%matrix, n => size(condensed%pairs%nodes, 2))
             if (double) then
                if (allocated(gathering%flexibilities(s)%single)) deallocate (gathering%flexibilities(s)%single)
-               gathering%flexibilities(s)%double = whole([points, n + points, 2*n + points], &
-                  [points, n + points, 2*n + points])
+               gathering%flexibilities(s)%double = whole([place, n + place, 2*n + place], &
+                  [place, n + place, 2*n + place])
             else
                if (allocated(gathering%flexibilities(s)%double)) deallocate (gathering%flexibilities(s)%double)
-               call gather_single(whole, [points, n + points, 2*n + points], gathering%flexibilities(s))
+               call gather_single(whole, [place, n + place, 2*n + place], gathering%flexibilities(s))
             end if
          end associate
       end do
@@ -107,29 +112,27 @@ contains
          size(gathering%points) <= still_serves*count(moves)
    end function serves
 
-   !> Whether threads are worth their start for what is done with the flexibilities of some points
-   pure logical function is_worth_threads(condensed, n)
-      !> The condensed structure
-      type(condensed_type), intent(in) :: condensed
-      !> How many points
-      integer, intent(in) :: n
+   !> Whether threads are worth their start for products with what is gathered
+   pure logical function is_worth_threads(gathering)
+      !> What is gathered
+      type(gathering_type), intent(in) :: gathering
 
-      is_worth_threads = n_numbers(condensed, n) > worth_threads
+      is_worth_threads = n_numbers(size(gathering%flexibilities), gathering%pairs) > worth_threads
    end function is_worth_threads
 
-   !> Numbers of the flexibilities of some points
-   pure real(wp) function n_numbers(condensed, n)
-      !> The condensed structure
-      type(condensed_type), intent(in) :: condensed
-      !> How many points
+   !> Numbers of flexibilities
+   pure real(wp) function n_numbers(n, pairs)
+      !> How many of them
       integer, intent(in) :: n
+      !> The pairs of nodes that they are of
+      type(pairs_type), intent(in) :: pairs
 
-      n_numbers = 9.0_wp*real(n, wp)**2*size(condensed%flexibilities)
+      n_numbers = 9.0_wp*n*real(size(pairs%nodes, 2), wp)**2
    end function n_numbers
 
-   !> Gather the flexibility of some points in single precision
+   !> Gather the flexibility of some pairs in single precision
    subroutine gather_single(whole, place, gathered)
-      !> Flexibility of all points
+      !> Flexibility of all pairs
       real(wp), intent(in), contiguous :: whole(:, :)
       !> Places of these in it, ascending
       integer, intent(in) :: place(:)

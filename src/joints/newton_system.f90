@@ -12,6 +12,7 @@ module axijoint_joints_newton_system
    use axijoint_base_kinds, only : wp, sp
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_gathered_flexibility, only : gathered_type, gathering_type, gather_moving, is_worth_threads
+   use axijoint_joints_pairs, only : forces_on_pairs, jumps_at_points
    use axijoint_joints_plane_product, only : put_slopes, multiply_group, n_groups, points_together
    use axijoint_joints_planes, only : sum_modes, find_modes
    use axijoint_joints_point_blocks, only : point_blocks_type, new_point_blocks, precondition
@@ -51,11 +52,13 @@ module axijoint_joints_newton_system
 
    !> Memory that products take
    type :: room_type
-      !> Jumps, shape (points, 3, modes), and the two parts of flexibilities that they are sums of, shape
-      !> (3 points, parts, modes)
-      real(wp), allocatable :: jump(:, :, :), parts(:, :, :)
-      !> The same parts in single precision
-      real(sp), allocatable :: few_digits(:, :, :)
+      !> Jumps, shape (points, 3, modes)
+      real(wp), allocatable :: jump(:, :, :)
+      !> Forces on the pairs of nodes, shape (pairs, 3, modes), and the two parts of products with flexibilities that displacements
+      !> of these are sums of, shape (3 pairs, parts, modes)
+      real(wp), allocatable :: force(:, :, :), parts(:, :, :)
+      !> The same in single precision
+      real(sp), allocatable :: force_by_few_digits(:, :, :), parts_by_few_digits(:, :, :)
    end type room_type
 
    !> I - A E' S F of the points that move
@@ -123,7 +126,7 @@ contains
       if (any(abs(change) > 0.0_wp)) jump = jumps(condensed, scene, change, free=.false.)
       if (size(points) == 0) return
       call new_derivative(condensed, scene, linear, points, derivative)
-      call make_room(gathering%double, size(points), size(scene%system), room)
+      call make_room(gathering%double, size(points), size(gathering%pairs%nodes, 2), size(scene%system), room)
       derivative%room => room
       right = by_component(linear%residual, points)
       if (allocated(derivative%blocks)) call precondition(derivative%blocks, right)
@@ -146,19 +149,21 @@ contains
    end subroutine solve
 
    !> Memory for products
-   subroutine make_room(double, n, n_modes, room)
+   subroutine make_room(double, n, n_pairs, n_modes, room)
       !> Whether these are in double precision
       logical, intent(in) :: double
-      !> Points that move, and modes
-      integer, intent(in) :: n, n_modes
+      !> Points that move, their pairs of nodes, and modes
+      integer, intent(in) :: n, n_pairs, n_modes
       !> The memory
       type(room_type), intent(out) :: room
 
       allocate (room%jump(n, 3, n_modes))
       if (double) then
-         allocate (room%parts(3*n, 2, n_modes), source=0.0_wp)  ! those of other ranks stay
+         allocate (room%force(n_pairs, 3, n_modes))
+         allocate (room%parts(3*n_pairs, 2, n_modes), source=0.0_wp)  ! those of other ranks stay
       else
-         allocate (room%few_digits(3*n, 2, n_modes), source=0.0_sp)
+         allocate (room%force_by_few_digits(n_pairs, 3, n_modes))
+         allocate (room%parts_by_few_digits(3*n_pairs, 2, n_modes), source=0.0_sp)
       end if
    end subroutine make_room
 
@@ -291,7 +296,7 @@ contains
 
       integer :: k
 
-      !$omp parallel do schedule(static) if (omp_get_level() == 0 .and. is_worth_threads(self%condensed, n))
+      !$omp parallel do schedule(static) if (omp_get_level() == 0 .and. is_worth_threads(self%gathering))
       do k = 1, n_parts(n)
          call find_part(self, k, n, jump, excess)
       end do
@@ -380,7 +385,7 @@ contains
       real(wp), intent(in) :: x(n, 3, n_modes)
       real(wp), intent(inout) :: y(n, 3, n_modes)
 
-      if (is_worth_threads(self%condensed, n)) then
+      if (is_worth_threads(self%gathering)) then
          !$omp parallel
          call act_in_part(self, omp_get_thread_num(), omp_get_num_threads(), n, n_modes, x, y)
          !$omp end parallel
@@ -404,15 +409,21 @@ contains
 
       integer :: first, half, k, last, part
 
-      associate (jump => self%room%jump, parts => self%room%parts, gathering => self%gathering, scene => self%scene)
+      associate (jump => self%room%jump, force => self%room%force, parts => self%room%parts, gathering => self%gathering, &
+                 scene => self%scene)
+         do k = 1 + thread, n_modes, n_threads
+            call forces_on_pairs(gathering%pairs, n, gathering%weight, x(:, :, k), force(:, :, k))
+         end do
+         call wait_for_all(n_threads)
          do half = 1 + thread, 2*n_modes, n_threads
             k = (half + 1)/2
             part = half - 2*(k - 1)
-            call flex(gathering%flexibilities(scene%system(k)), 3*n, gathering%weight, part, x(:, :, k), parts(:, part, k))
+            call flex(gathering%flexibilities(scene%system(k)), size(parts, 1), part, force(:, :, k), parts(:, part, k))
          end do
          call wait_for_all(n_threads)
          do k = 1 + thread, n_modes, n_threads
-            jump(:, :, k) = scene%scale(k)*gathering%largest*reshape(parts(:, 1, k) + parts(:, 2, k), [n, 3])
+            call jumps_at_points(gathering%pairs, scene%scale(k)*gathering%largest &
+               *reshape(parts(:, 1, k) + parts(:, 2, k), [size(force, 1), 3]), n, jump(:, :, k))
          end do
          call wait_for_all(n_threads)
          if (self%condensed%shared .or. allocated(self%given_jump)) then
@@ -438,7 +449,7 @@ contains
       real(wp), intent(in) :: x(n, 3, n_modes)
       real(wp), intent(inout) :: y(n, 3, n_modes)
 
-      if (is_worth_threads(self%condensed, n)) then
+      if (is_worth_threads(self%gathering)) then
          !$omp parallel
          call act_in_part_by_few_digits(self, omp_get_thread_num(), omp_get_num_threads(), n, n_modes, x, y)
          !$omp end parallel
@@ -459,21 +470,29 @@ contains
       real(wp), intent(in) :: x(n, 3, n_modes)
       real(wp), intent(inout) :: y(n, 3, n_modes)
 
+      real(wp) :: on_pairs(size(self%gathering%pairs%nodes, 2), 3), at_points(n, 3)
       integer :: first, half, k, last, part
 
-      associate (parts => self%room%few_digits, gathering => self%gathering, jump => self%gathering%product%jump, &
-                 excess => self%gathering%product%excess)
+      associate (force => self%room%force_by_few_digits, parts => self%room%parts_by_few_digits, gathering => self%gathering, &
+                 jump => self%gathering%product%jump, excess => self%gathering%product%excess)
+         do k = 1 + thread, n_modes, n_threads
+            call forces_on_pairs(gathering%pairs, n, gathering%weight, x(:, :, k), on_pairs)
+            force(:, :, k) = real(on_pairs, sp)
+         end do
+         call wait_for_all(n_threads)
          do half = 1 + thread, 2*n_modes, n_threads
             k = (half + 1)/2
             part = half - 2*(k - 1)
             associate (flexibility => gathering%flexibilities(self%scene%system(k)))
                if (allocated(flexibility%single)) call symmetric_product(flexibility%single, &
-                  real(gathering%weight*reshape(x(:, :, k), [3*n]), sp), parts(:, part, k), part=part)
+                  reshape(force(:, :, k), [size(parts, 1)]), parts(:, part, k), part=part)
             end associate
          end do
          call wait_for_all(n_threads)
          do k = 1 + thread, n_modes, n_threads
-            jump(:n, :, k) = real(self%scale(k), sp)*reshape(parts(:, 1, k) + parts(:, 2, k), [n, 3])
+            on_pairs = self%scale(k)*reshape(real(parts(:, 1, k), wp) + parts(:, 2, k), shape(on_pairs))
+            call jumps_at_points(gathering%pairs, on_pairs, n, at_points)
+            jump(:n, :, k) = real(at_points, sp)
          end do
          call wait_for_all(n_threads)
          if (self%condensed%shared .or. allocated(self%given_jump)) then
@@ -515,22 +534,20 @@ contains
    end subroutine complete_jumps
 
    !> One of two parts of the product of a flexibility, if it is there
-   subroutine flex(flexibility, n, weight, part, excess, jump)
+   subroutine flex(flexibility, n, part, force, moved)
       !> The flexibility
       type(gathered_type), intent(in) :: flexibility
       !> Its size
       integer, intent(in) :: n
-      !> Weights of the points
-      real(wp), intent(in) :: weight(n)
       !> Which part, 1 or 2
       integer, intent(in) :: part
-      !> Amplitudes of excess stress and jumps
-      real(wp), intent(in) :: excess(n)
-      real(wp), intent(inout) :: jump(n)
+      !> Amplitudes of forces on the pairs and of their displacements
+      real(wp), intent(in) :: force(n)
+      real(wp), intent(inout) :: moved(n)
 
       if (.not. allocated(flexibility%double)) return
       associate (first => 1 + (part - 1)*(n/2), last => merge(n/2, n, part == 1))
-         call matrix_vector(flexibility%double(:, first:last), weight(first:last)*excess(first:last), jump)
+         call matrix_vector(flexibility%double(:, first:last), force(first:last), moved)
       end associate
    end subroutine flex
 

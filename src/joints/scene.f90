@@ -8,6 +8,7 @@ module axijoint_joints_scene
    use axijoint_joints_condensed, only : condensed_type, flexibility_type, rank_of
    use axijoint_joints_field, only : joint_field_type, admit_jump
    use axijoint_joints_loads, only : joint_loads_type, new_joint_loads
+   use axijoint_joints_pairs, only : pairs_type, forces_on_pairs, jumps_at_points
    use axijoint_joints_planes, only : planes_type, new_planes, synthesize, analyse
    use axijoint_linalg_lapack, only : invert, matrix_sparse_vector, symmetric_vector
    use axijoint_model_joint_points, only : law_at
@@ -102,7 +103,7 @@ contains
       do k = 1, size(excess, 3)
          associate (flexibility => condensed%flexibilities(scene%system(k)))
             if (.not. allocated(flexibility%matrix)) cycle
-            jump(:, :, k) = scene%scale(k)*flexed(flexibility, weight, excess(:, :, k))
+            jump(:, :, k) = scene%scale(k)*flexed(flexibility, condensed%pairs, weight, excess(:, :, k))
          end associate
       end do
       !$omp end parallel do
@@ -141,9 +142,11 @@ contains
 
    !> Product of a flexibility and excess stress. Where most is zero only the columns of the rest are read, else half of
    !> the matrix
-   function flexed(flexibility, weight, excess) result(jump)
+   function flexed(flexibility, pairs, weight, excess) result(jump)
       !> The flexibility
       type(flexibility_type), intent(in) :: flexibility
+      !> Pairs of nodes
+      type(pairs_type), intent(in) :: pairs
       !> Weights of the points
       real(wp), intent(in) :: weight(:)
       !> Amplitudes, shape (components, points)
@@ -151,18 +154,18 @@ contains
       !> Amplitudes of the jumps, same shape
       real(wp) :: jump(size(excess, 1), size(excess, 2))
 
-      real(wp), dimension(size(excess, 2), size(excess, 1)) :: force, moved
-      integer :: i
+      real(wp), dimension(size(pairs%nodes, 2), size(excess, 1)) :: force, moved
+      real(wp) :: at_points(size(excess, 2), size(excess, 1))
 
-      do i = 1, size(excess, 1)
-         force(:, i) = weight*excess(i, :)
-      end do
+      at_points = transpose(excess)
+      call forces_on_pairs(pairs, size(excess, 2), weight, at_points, force)
       if (2*count(abs(force) > 0.0_wp) > size(force)) then
          call symmetric_vector(flexibility%matrix, force, moved)
       else
          call matrix_sparse_vector(flexibility%matrix, force, moved)
       end if
-      jump = transpose(moved)
+      call jumps_at_points(pairs, moved, size(excess, 2), at_points)
+      jump = transpose(at_points)
    end function flexed
 
    !> Jumps of one mode from excess stress
@@ -182,7 +185,7 @@ contains
 
       weight = condensed%points%weight
       associate (flexibility => condensed%flexibilities(scene%system(mode)))
-         if (allocated(flexibility%matrix)) jump = flexed(flexibility, weight, excess)
+         if (allocated(flexibility%matrix)) jump = flexed(flexibility, condensed%pairs, weight, excess)
       end associate
       if (condensed%shared) call condensed%team%broadcast(jump, size(jump, kind=i8), &
          rank_of(condensed, scene%system(mode)))

@@ -15,6 +15,7 @@ module axijoint_analysis_core_footprint
    use axijoint_fe_subdivision, only : n_children
    use axijoint_joints_circle_sums, only : are_worth_it
    use axijoint_joints_history, only : most_turns
+   use axijoint_joints_pairs, only : pairs_type, new_pairs
    use axijoint_joints_planes, only : planes_type, part_intervals
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, element_references
@@ -109,6 +110,7 @@ contains
       type(mode_type), allocatable :: modes(:)
       integer(i8) :: nodes, jumps, unknowns, planes, kept_planes
       type(shapes_type) :: shapes
+      type(pairs_type) :: pairs
       integer, allocatable :: alike(:)
 
       references = element_references(model%mesh)
@@ -139,7 +141,8 @@ contains
          kept_planes = 2*(kept_planes - 1)
       end if
       if (maxval(model%harmonics) > 0) planes = planes + more_planes*planes
-      footprint%joints = real_bytes*(n_systems*jumps**2 &
+      pairs = new_pairs(pack(joint_points, can_yield_at(model, joint_points%material)))
+      footprint%joints = real_bytes*(n_systems*(3*size(pairs%nodes, 2, i8))**2 &
                                      + plane_numbers*jumps/3*max(planes, int(n_modes, i8)) &
                                      + jumps*n_modes*min(newton_vectors, jumps*n_modes))
       if (jumps > 0) footprint%joints = footprint%joints + plane_matrix_bytes(model, modes)
