@@ -97,7 +97,7 @@ contains
       call stop_on(error)
       factorization = seconds() - start
       start = seconds()
-      call factor%inverse_block(set, inverse, error)
+      call factor%flexibility(spread(set, 1, 2), spread([1.0_wp, 0.0_wp], 2, size(set)), inverse, error)
       call stop_on(error)
       inversion = seconds() - start
       write (output_unit, '(a)') to_text(n_side)//','//to_text(matrix%n)//','//to_text(size(set))// &

@@ -81,7 +81,8 @@ contains
       !> What it is
       character(len=*), intent(in) :: name
 
-      integer, parameter :: set(4) = [290, 3, 111, 112]
+      integer, parameter :: pairs(2, 4) = reshape([290, 290, 3, 4, 111, 112, 112, 7], [2, 4])
+      real(wp), parameter :: factors(2, 4) = reshape([1.0_wp, 0.0_wp, -1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp, 2.0_wp, 1.0_wp], [2, 4])
       class(factor_type), allocatable :: one, other
       type(pivot_report_type) :: pivots(2)
       type(error_type), allocatable :: error
@@ -96,9 +97,9 @@ contains
       call one%solve(x)
       call other%solve(y)
       call expect(maxval(abs(x - y)) <= close*maxval(abs(x))/ground, name//': solutions')
-      call one%inverse_block(set, a, error)
-      call other%inverse_block(set, b, error)
-      call expect(maxval(abs(a - b)) <= close*maxval(abs(a))/ground, name//': inverses')
+      call one%flexibility(pairs, factors, a, error)
+      call other%flexibility(pairs, factors, b, error)
+      call expect(maxval(abs(a - b)) <= close*maxval(abs(a))/ground, name//': flexibilities')
       call expect(all(pivots%equation == 0), name//': no pivot fails')
       ! MUMPS orders the unknowns of a front itself, so the pivots are not the same numbers
       call expect(abs(log(pivots(1)%smallest/pivots(2)%smallest)) < log(2.0_wp), name//': smallest pivot')

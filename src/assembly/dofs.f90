@@ -4,7 +4,7 @@ module axijoint_assembly_dofs
    use axijoint_fe_mode, only : mode_type, is_torsion
    implicit none
    private
-   public :: dofs_type, new_dofs, first_equation, gather, expand, collect, kinematic_class
+   public :: dofs_type, new_dofs, first_equation, gather, expand, collect, forces_between, kinematic_class
    public :: component_name
 
    !> Names of the components u, v, w
@@ -154,5 +154,34 @@ contains
          end do
       end do
    end function collect
+
+   !> Unit forces between nodes, on the second and against the first: on which equations they act, and by how much
+   pure subroutine forces_between(dofs, pairs, equation, factor)
+      !> The unknowns
+      type(dofs_type), intent(in) :: dofs
+      !> Both nodes of each pair, shape (2, pairs)
+      integer, intent(in) :: pairs(:, :)
+      !> Their equations, for all pairs along r, z, theta, shape (2, 3 pairs). Where there is none, it is any, and its factor is zero
+      integer, allocatable, intent(out) :: equation(:, :)
+      !> The factors, same shape
+      real(wp), allocatable, intent(out) :: factor(:, :)
+
+      !> What acts on the first and on the second node
+      real(wp), parameter :: acting(2) = [-1.0_wp, 1.0_wp]
+      integer :: i, k, n
+
+      n = size(pairs, 2)
+      allocate (equation(2, 3*n))
+      allocate (factor(2, 3*n), source=0.0_wp)
+      do i = 1, 3
+         do k = 1, n
+            associate (e => equation(:, (i - 1)*n + k))
+               e = dofs%equation(i, pairs(:, k))
+               where (e > 0) factor(:, (i - 1)*n + k) = acting*dofs%factor(i, pairs(:, k))
+               where (e == 0) e = max(1, maxval(e))  ! with the other one, if that has an equation
+            end associate
+         end do
+      end do
+   end subroutine forces_between
 
 end module axijoint_assembly_dofs

@@ -1,6 +1,6 @@
 !> The equations of all harmonics: matrices, factors, solution
 module axijoint_assembly_equations
-   use axijoint_assembly_dofs, only : gather, expand, collect
+   use axijoint_assembly_dofs, only : gather, expand, collect, forces_between
    use axijoint_assembly_harmonic, only : harmonic_product
    use axijoint_assembly_mode_classes, only : mode_classes
    use axijoint_assembly_stiffness, only : stiffness_type, number_unknowns, find_sparsity, assemble_parts
@@ -161,23 +161,21 @@ contains
       end do
    end function factoring_operations
 
-   !> Operations that condensing all systems to some nodes takes. All of them are of this rank
-   real(wp) function condensing_operations(equations, condensed) result(n)
+   !> Operations that condensing all systems to some pairs of nodes takes. All of them are of this rank
+   real(wp) function condensing_operations(equations, pairs) result(n)
       !> The equations, planned
       type(equations_type), intent(in) :: equations
-      !> Nodes that are condensed to
-      logical, intent(in) :: condensed(:)
+      !> Both nodes of each pair, shape (2, pairs)
+      integer, intent(in) :: pairs(:, :)
 
       real(wp) :: operations(size(equations%plans))
+      integer, allocatable :: equation(:, :)
+      real(wp), allocatable :: factor(:, :)
       integer :: k
 
-      operations = 0.0_wp
       do k = 1, size(operations)
-         if (.not. any(condensed)) cycle
-         associate (equation => equations%classes(k)%dofs%equation)
-            operations(k) = equations%plans(k)%solver%inverse_operations( &
-               pack(equation, spread(condensed, 1, 3) .and. equation > 0))
-         end associate
+         call forces_between(equations%classes(k)%dofs, pairs, equation, factor)
+         operations(k) = equations%plans(k)%solver%flexibility_operations(equation, factor)
       end do
       n = sum(operations(equations%systems%class))
    end function condensing_operations

@@ -5,13 +5,14 @@ module axijoint_estimate_work
    use axijoint_assembly_equations, only : planned_seconds, condensing_operations
    use axijoint_base_kinds, only : wp, i8
    use axijoint_estimate_body_work, only : body_work
-   use axijoint_estimate_joint_work, only : joint_work, n_yielding
+   use axijoint_estimate_joint_work, only : joint_work
    use axijoint_estimate_terms, only : n_terms, shape_products, fine_nodes, factoring, inverse, &
       block_entries, solved_entries, node_modes, fine_blocks, stress_modes, row_stresses, &
       formed_entries
    use axijoint_fe_reference, only : reference_type
+   use axijoint_joints_pairs, only : pairs_type, new_pairs
    use axijoint_model_mesh, only : n_nodes, element_references
-   use axijoint_model_model, only : model_type, n_shown, bodies_yield, can_yield, yielding_nodes
+   use axijoint_model_model, only : model_type, n_shown, bodies_yield, can_yield, can_yield_at
    implicit none
    private
    public :: structure_work, state_work, row_work, n_points
@@ -47,8 +48,7 @@ contains
       real(wp) :: work(n_terms)
 
       type(reference_type), allocatable :: references(:)
-      logical, allocatable :: condensed(:)
-      real(wp) :: set, jumps
+      type(pairs_type) :: pairs
       integer :: s
 
       work = 0.0_wp
@@ -67,12 +67,10 @@ contains
                   *n_factorings(model, structure)
             end associate
          end do
-         condensed = yielding_nodes(model)
-         set = 3.0_wp*count(condensed)
-         jumps = 3.0_wp*n_yielding(model, structure)
-         if (.not. jumps > 0.0_wp) return
-         work(inverse) = condensing_operations(equations, condensed)
-         work(block_entries) = size(equations%systems)*(set**2 + 6.0_wp*set*jumps + jumps**2)
+         pairs = new_pairs(pack(structure%joint_points, can_yield_at(model, structure%joint_points%material)))
+         if (size(pairs%nodes, 2) == 0) return
+         work(inverse) = condensing_operations(equations, pairs%nodes)
+         work(block_entries) = size(equations%systems)*(3.0_wp*size(pairs%nodes, 2))**2
       end associate
    end function structure_work
 

@@ -3,7 +3,7 @@
 !> are measured. Built once; nothing changes it afterwards, so that many states, and many processes,
 !> can share it
 module axijoint_joints_condensed
-   use axijoint_assembly_dofs, only : dofs_type
+   use axijoint_assembly_dofs, only : forces_between
    use axijoint_assembly_equations, only : equations_type
    use axijoint_assembly_factors, only : workspace_type, new_workspaces, own, hold_factor, &
       release_factor, &
@@ -18,7 +18,6 @@ module axijoint_joints_condensed
    use axijoint_joints_floating, only : floating_motion_type, new_floating_motions
    use axijoint_joints_pairs, only : pairs_type, new_pairs, flexibility_of_point
    use axijoint_joints_residual, only : measure_type, new_measure
-   use axijoint_linalg_lapack, only : complete
    use axijoint_model_joint_points, only : model_joint_point_type, stiffness_ratio
    use axijoint_model_model, only : model_type, can_yield_at
    implicit none
@@ -186,70 +185,14 @@ contains
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      integer, allocatable :: unknowns(:), place(:, :)
-      real(wp), allocatable :: factor(:, :), inverse(:, :), half(:)
-      integer :: column, row
+      integer, allocatable :: equation(:, :)
+      real(wp), allocatable :: factor(:, :)
 
       associate (dofs => equations%classes(equations%systems(s)%class)%dofs)
-         call pair_rows(dofs, pairs, unknowns, place, factor)
+         call forces_between(dofs, pairs%nodes, equation, factor)
       end associate
-      call equations%systems(s)%factor%inverse_block(unknowns, inverse, error)
-      if (allocated(error)) return
-      factor = sqrt(circle_integral(equations%systems(s)%harmonic))*factor
-      allocate (matrix(size(place, 2), size(place, 2)))
-      do column = 1, size(matrix, 2)
-         half = factor(1, column)*inverse(:, place(1, column)) + factor(2, column)*inverse(:, place(2, column))
-         do row = column, size(matrix, 1)
-            matrix(row, column) = factor(1, row)*half(place(1, row)) + factor(2, row)*half(place(2, row))
-         end do
-      end do
-      call complete(matrix)
+      call equations%systems(s)%factor%flexibility(equation, factor, matrix, error)
+      if (.not. allocated(error)) matrix = circle_integral(equations%systems(s)%harmonic)*matrix
    end subroutine condense
-
-   !> What displacements of the pairs are made of
-   pure subroutine pair_rows(dofs, pairs, unknowns, place, factor)
-      !> Unknowns of the harmonic
-      type(dofs_type), intent(in) :: dofs
-      !> The pairs
-      type(pairs_type), intent(in) :: pairs
-      !> Equations of their nodes, ascending
-      integer, allocatable, intent(out) :: unknowns(:)
-      !> Places in `unknowns` and factors of both nodes, for all pairs along r, z, theta, shape (2, pairs components). Where there
-      !> is no equation, the factor is zero
-      integer, allocatable, intent(out) :: place(:, :)
-      real(wp), allocatable, intent(out) :: factor(:, :)
-
-      !> Signs of side 1-2 and of side 4-3
-      real(wp), parameter :: sign(2) = [-1.0_wp, 1.0_wp]
-      integer :: number(dofs%n_equations)
-      integer :: i, k, side, row
-
-      number = 0
-      do k = 1, size(pairs%nodes, 2)
-         do side = 1, 2
-            do i = 1, 3
-               associate (equation => dofs%equation(i, pairs%nodes(side, k)))
-                  if (equation > 0) number(equation) = 1
-               end associate
-            end do
-         end do
-      end do
-      unknowns = pack([(i, i=1, size(number))], number > 0)
-      number(unknowns) = [(i, i=1, size(unknowns))]
-      allocate (place(2, 3*size(pairs%nodes, 2)), source=1)
-      allocate (factor(2, 3*size(pairs%nodes, 2)), source=0.0_wp)
-      do i = 1, 3
-         do k = 1, size(pairs%nodes, 2)
-            row = (i - 1)*size(pairs%nodes, 2) + k
-            do side = 1, 2
-               associate (equation => dofs%equation(i, pairs%nodes(side, k)))
-                  if (equation == 0) cycle
-                  place(side, row) = number(equation)
-                  factor(side, row) = sign(side)*dofs%factor(i, pairs%nodes(side, k))
-               end associate
-            end do
-         end do
-      end do
-   end subroutine pair_rows
 
 end module axijoint_joints_condensed

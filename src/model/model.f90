@@ -20,7 +20,7 @@ module axijoint_model_model
    use axijoint_solver_entry, only : solver_entry_type
    implicit none
    private
-   public :: model_type, is_shown, n_shown, held_components, held_at, can_yield, can_yield_at, yielding_nodes, &
+   public :: model_type, is_shown, n_shown, held_components, held_at, can_yield, can_yield_at, &
       bodies_yield, on_axis
    public :: method_newton, method_total, method_anderson, method_transfer, method_names
    public :: body_anderson, body_newton, body_lbfgs, body_transfer, body_method_names
@@ -197,22 +197,6 @@ contains
       bodies_yield = any(model%materials(model%mesh%element_material)%yield%criterion &
                          /= yield_none)
    end function bodies_yield
-
-   !> Nodes of the joints that can yield: they are condensed to
-   pure function yielding_nodes(model) result(yields)
-      !> The job
-      type(model_type), intent(in) :: model
-      !> Whether a node is one of them, shape (nodes)
-      logical :: yields(size(model%mesh%node_label))
-
-      integer :: k
-
-      yields = .false.
-      do k = 1, size(model%mesh%joint_material)
-         if (.not. can_yield_at(model, model%mesh%joint_material(k))) cycle
-         yields(model%mesh%joint_nodes(:model%mesh%joint_size(k), k)) = .true.
-      end do
-   end function yielding_nodes
 
    !> Which nodes lie on the axis of revolution
    pure function on_axis(mesh)

@@ -171,9 +171,9 @@ void axijoint_supernodal_factorize(const structure_type *structure, const double
 /* supernodal_solve.f90 */
 void axijoint_supernodal_solve(const structure_type *structure, const double *l, int64_t n_sides, double *x,
                                double *work);
-void axijoint_supernodal_inverse(const structure_type *structure, const double *l, int64_t n_loads, const int64_t *place,
-                                 double *inverse, int32_t *code);
-void axijoint_supernodal_inverse_operations(const structure_type *structure, int64_t n_loads, const int64_t *place,
+void axijoint_supernodal_flexibility(const structure_type *structure, const double *l, int64_t n_loads, const int64_t *place,
+                                     const double *factor, double *flexibility, int32_t *code);
+void axijoint_supernodal_flexibility_operations(const structure_type *structure, int64_t n_loads, const int64_t *place,
                                             double *operations, int32_t *code);
 
 /* Structure of a factor; the pattern of the matrix is known to a plan alone */
@@ -259,53 +259,78 @@ void axijoint_cholmod_solve(void *pointer, int64_t n_rhs, double *b) {
    }
 }
 
-/* Equations of a set, counted from one, as the factor has them: their places in its order, ascending, and the place of each in
-   the set, counted from one. 0; 1 if there is no memory */
-static int sort_set(const handle_type *handle, int64_t count, const int32_t *set, int64_t *row, int32_t *place) {
+/* Loads on two equations, counted from one, as the factor has them: places of these in its order, the first ascending and none
+   beyond the second, what acts on them, and the place of each among the loads as they are given, counted from one. 0; 1 if
+   there is no memory */
+static int sort_loads(const handle_type *handle, int64_t count, const int32_t *equation, const double *factor, int64_t *sorted,
+                      double *acting, int32_t *place) {
    const int64_t *order = handle->tree->order, n = handle->tree->n;
-   int64_t k, found = 0;
+   int64_t k, j, found = 0;
    axijoint_let_fail(1);
-   int32_t *rank = calloc((size_t)n + 1, sizeof *rank);
+   int32_t *rank = malloc(sizeof *rank * ((size_t)n + 1));
+   int64_t *first = calloc((size_t)n + 1, sizeof *first); /* load on each place, counted from one */
+   int64_t *next = malloc(sizeof *next * ((size_t)count + 1));
    axijoint_let_fail(-1);
-   if (!rank) return 1;
-   for (k = 0; k < count; k++) rank[set[k] - 1] = (int32_t)(k + 1);
-   for (k = 0; k < n; k++)
-      if (rank[order[k]]) {
-         row[found] = k;
-         place[found++] = rank[order[k]];
+   const int code = !rank || !first || !next;
+   if (!code) {
+      for (k = 0; k < n; k++) rank[order[k]] = (int32_t)k;
+      for (j = count; j > 0; j--) {
+         const int32_t *pair = equation + 2 * (j - 1), one = rank[pair[0] - 1], other = rank[pair[1] - 1];
+         const int32_t lower = one < other ? one : other;
+         next[j] = first[lower];
+         first[lower] = j;
       }
+      for (k = 0; k < n; k++)
+         for (j = first[k]; j; j = next[j], found++) {
+            const int32_t *pair = equation + 2 * (j - 1);
+            const int turned = rank[pair[1] - 1] < rank[pair[0] - 1];
+            sorted[2 * found] = rank[pair[turned] - 1];
+            sorted[2 * found + 1] = rank[pair[!turned] - 1];
+            acting[2 * found] = factor[2 * (j - 1) + turned];
+            acting[2 * found + 1] = factor[2 * (j - 1) + !turned];
+            place[found] = (int32_t)j;
+         }
+   }
    free(rank);
-   return 0;
+   free(first);
+   free(next);
+   return code;
 }
 
-/* The lower triangle of the inverse at a set of equations, counted from one, whatever the order; `place` takes the place in
-   the set of each row of it. 0; 1 if there is no memory */
-int axijoint_cholmod_inverse(const void *pointer, int64_t count, const int32_t *set, double *inverse, int32_t *place) {
+/* The lower triangle of the flexibility under loads on two equations, counted from one, whatever the order; `place` takes the
+   place among the loads of each row of it. 0; 1 if there is no memory; 2 if the two do not lie one above the other in the
+   elimination tree */
+int axijoint_cholmod_flexibility(const void *pointer, int64_t count, const int32_t *equation, const double *factor,
+                                 double *flexibility, int32_t *place) {
    const handle_type *handle = pointer;
    const structure_type structure = structure_of(handle);
    int32_t code = 1;
    axijoint_let_fail(1);
-   int64_t *row = malloc(sizeof *row * (size_t)(count + 1));
+   int64_t *sorted = malloc(sizeof *sorted * 2 * (size_t)(count + 1));
+   double *acting = malloc(sizeof *acting * 2 * (size_t)(count + 1));
    axijoint_let_fail(-1);
-   if (row && !sort_set(handle, count, set, row, place))
-      axijoint_supernodal_inverse(&structure, handle->numbers, count, row, inverse, &code);
-   free(row);
+   if (sorted && acting && !sort_loads(handle, count, equation, factor, sorted, acting, place))
+      axijoint_supernodal_flexibility(&structure, handle->numbers, count, sorted, acting, flexibility, &code);
+   free(sorted);
+   free(acting);
    return code;
 }
 
 /* Operations that this will take, by the plan; below zero if there is no memory to find out */
-double axijoint_cholmod_inverse_operations(const void *pointer, int64_t count, const int32_t *set) {
+double axijoint_cholmod_flexibility_operations(const void *pointer, int64_t count, const int32_t *equation, const double *factor) {
    const handle_type *handle = pointer;
    const structure_type structure = structure_of(handle);
    int32_t code = 1;
    double operations = -1.0;
    axijoint_let_fail(1);
-   int64_t *row = malloc(sizeof *row * (size_t)(count + 1));
+   int64_t *sorted = malloc(sizeof *sorted * 2 * (size_t)(count + 1));
+   double *acting = malloc(sizeof *acting * 2 * (size_t)(count + 1));
    int32_t *place = malloc(sizeof *place * (size_t)(count + 1));
    axijoint_let_fail(-1);
-   if (row && place && !sort_set(handle, count, set, row, place))
-      axijoint_supernodal_inverse_operations(&structure, count, row, &operations, &code);
-   free(row);
+   if (sorted && acting && place && !sort_loads(handle, count, equation, factor, sorted, acting, place))
+      axijoint_supernodal_flexibility_operations(&structure, count, sorted, &operations, &code);
+   free(sorted);
+   free(acting);
    free(place);
    return code ? -1.0 : operations;
 }

@@ -9,7 +9,7 @@ module axijoint_solver_sparse
    use axijoint_order_orders, only : least_fill
    use axijoint_solver_entry, only : solver_entry_type, cost_type
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type, judge_pivots, &
-                                    new_block
+                                    new_block, flexibility_by_loads
    implicit none
    private
    public :: sparse_solver_type, sparse_entry
@@ -21,7 +21,7 @@ module axijoint_solver_sparse
    contains
       procedure :: analyse
       procedure :: factorize
-      procedure :: inverse_operations
+      procedure :: flexibility_operations
       final :: free_solver
    end type sparse_solver_type
 
@@ -31,7 +31,7 @@ module axijoint_solver_sparse
       type(c_ptr), private :: handle = c_null_ptr
    contains
       procedure :: solve
-      procedure :: inverse_block
+      procedure :: flexibility
       final :: free_factor
    end type sparse_factor_type
 
@@ -66,26 +66,28 @@ module axijoint_solver_sparse
          integer(c_int64_t), value :: n_rhs
          real(c_double), intent(inout) :: b(*)
       end subroutine cholmod_solve
-      !> Lower triangle of the inverse at a set of equations
-      function cholmod_inverse(handle, n_set, set, triangle, place) result(code) &
-         bind(c, name='axijoint_cholmod_inverse')
+      !> Lower triangle of the flexibility under loads on two equations
+      function cholmod_flexibility(handle, n_loads, equation, factor, triangle, place) result(code) &
+         bind(c, name='axijoint_cholmod_flexibility')
          import :: c_ptr, c_int, c_int32_t, c_int64_t, c_double
          type(c_ptr), value :: handle
-         integer(c_int64_t), value :: n_set
-         integer(c_int32_t), intent(in) :: set(*)
+         integer(c_int64_t), value :: n_loads
+         integer(c_int32_t), intent(in) :: equation(*)
+         real(c_double), intent(in) :: factor(*)
          real(c_double), intent(inout) :: triangle(*)
          integer(c_int32_t), intent(out) :: place(*)
          integer(c_int) :: code
-      end function cholmod_inverse
-      !> Operations that this takes, by the plan
-      function cholmod_inverse_operations(handle, n_set, set) result(operations) &
-         bind(c, name='axijoint_cholmod_inverse_operations')
+      end function cholmod_flexibility
+      !> Operations that this takes
+      function cholmod_flexibility_operations(handle, n_loads, equation, factor) result(operations) &
+         bind(c, name='axijoint_cholmod_flexibility_operations')
          import :: c_ptr, c_int32_t, c_int64_t, c_double
          type(c_ptr), value :: handle
-         integer(c_int64_t), value :: n_set
-         integer(c_int32_t), intent(in) :: set(*)
+         integer(c_int64_t), value :: n_loads
+         integer(c_int32_t), intent(in) :: equation(*)
+         real(c_double), intent(in) :: factor(*)
          real(c_double) :: operations
-      end function cholmod_inverse_operations
+      end function cholmod_flexibility_operations
       !> Free a plan or a factor
       subroutine cholmod_free(handle) bind(c, name='axijoint_cholmod_free')
          import :: c_ptr
@@ -201,39 +203,44 @@ contains
       call cholmod_solve(self%handle, size(b, 2, c_int64_t), b)
    end subroutine solve
 
-   !> Operations of finding the inverse at some equations
-   real(wp) function inverse_operations(self, set) result(operations)
+   !> Operations of finding the flexibility up the elimination tree
+   real(wp) function flexibility_operations(self, equation, factor) result(operations)
       !> The plan, analysed
       class(sparse_solver_type), intent(in) :: self
-      !> Equations, each once
-      integer, intent(in) :: set(:)
+      !> Both equations of each load, and what acts on them, shape (2, loads)
+      integer, intent(in) :: equation(:, :)
+      real(wp), intent(in) :: factor(:, :)
 
-      operations = cholmod_inverse_operations(self%handle, size(set, kind=c_int64_t), set)
+      operations = cholmod_flexibility_operations(self%handle, size(equation, 2, c_int64_t), equation, factor)
       if (operations < 0.0_wp) operations = huge(1.0_wp)  ! no memory for it
-   end function inverse_operations
+   end function flexibility_operations
 
-   !> The inverse restricted to a set, up the elimination tree
-   subroutine inverse_block(self, set, inverse, error)
+   !> E^T K^-1 E of loads E, up the elimination tree; by solutions if the matrix does not couple two equations of a load
+   subroutine flexibility(self, equation, factor, matrix, error)
       !> The factor
       class(sparse_factor_type), intent(in) :: self
-      !> Equations, each once, in any order
-      integer, intent(in) :: set(:)
-      !> inverse(i, j) is the inverse's entry at set(i), set(j)
-      real(wp), allocatable, intent(out) :: inverse(:, :)
+      !> The two equations that each load acts on, and what acts there, shape (2, loads)
+      integer, intent(in) :: equation(:, :)
+      real(wp), intent(in) :: factor(:, :)
+      !> Shape (loads, loads)
+      real(wp), allocatable, intent(out) :: matrix(:, :)
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: place(size(set))
+      integer :: place(size(equation, 2))
 
-      call new_block(inverse, size(set), size(set), error)
+      call new_block(matrix, size(place), size(place), error)
       if (allocated(error)) return
-      if (cholmod_inverse(self%handle, size(set, kind=c_int64_t), set, inverse, place) /= 0) then
-         call memory_error(error, 'the inverse at', size(set, kind=i8), 'equations')
-         return
-      end if
-      call complete(inverse)
-      call arrange(inverse, place)
-   end subroutine inverse_block
+      select case (cholmod_flexibility(self%handle, size(place, kind=c_int64_t), equation, factor, matrix, place))
+      case (0)
+         call complete(matrix)
+         call arrange(matrix, place)
+      case (1)
+         call memory_error(error, 'the flexibility under', size(place, kind=i8), 'loads')
+      case default
+         call flexibility_by_loads(self, equation, factor, matrix, error)
+      end select
+   end subroutine flexibility
 
    !> Bring rows and columns of a matrix to their places, without another as large
    subroutine arrange(matrix, place)

@@ -18,7 +18,7 @@ module axijoint_solver_trailing
       !> Solve from a row on
       procedure(solve_trailing_interface), deferred :: solve_trailing
       procedure :: solve
-      procedure :: inverse_block
+      procedure :: flexibility
    end type trailing_factor_type
 
    abstract interface
@@ -46,45 +46,55 @@ contains
       call self%solve_trailing(1, b)
    end subroutine solve
 
-   !> The inverse restricted to a set, by unit loads. By symmetry the entries from
-   !> the diagonal on are enough, and these take the factor from there on.
-   subroutine inverse_block(self, set, inverse, error)
+   !> E^T K^-1 E of loads E by solutions. By symmetry the entries from the diagonal on are enough, and these take the factor
+   !> from the first equation of the load on.
+   subroutine flexibility(self, equation, factor, matrix, error)
       !> The factor
       class(trailing_factor_type), intent(in) :: self
-      !> Equations, each once, in any order
-      integer, intent(in) :: set(:)
-      !> inverse(i, j) is the inverse's entry at set(i), set(j)
-      real(wp), allocatable, intent(out) :: inverse(:, :)
+      !> The two equations that each load acts on, and what acts there, shape (2, loads)
+      integer, intent(in) :: equation(:, :)
+      real(wp), intent(in) :: factor(:, :)
+      !> Shape (loads, loads)
+      real(wp), allocatable, intent(out) :: matrix(:, :)
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
       real(wp), allocatable :: b(:, :)
-      integer :: order(size(set)), i, j, k, l, last, first
+      integer, dimension(size(equation, 2)) :: order, lower
+      integer :: i, j, k, l, last, first, n
 
-      call new_block(inverse, size(set), size(set), error)
+      n = size(equation, 2)
+      call new_block(matrix, n, n, error)
       if (allocated(error)) return
-      order = [(i, i=1, size(set))]
-      call refine_order(order, set)
-      do k = 1, size(set), block_size
-         last = min(k + block_size - 1, size(set))
-         first = set(order(k))
+      lower = minval(equation, 1)
+      order = [(i, i=1, n)]
+      call refine_order(order, lower)
+      do k = 1, n, block_size
+         last = min(k + block_size - 1, n)
+         first = lower(order(k))
          call new_block(b, self%n - first + 1, last - k + 1, error)
          if (allocated(error)) return
          do j = k, last
-            b(set(order(j)) - first + 1, j - k + 1) = 1.0_wp
+            do i = 1, 2
+               associate (x => b(equation(i, order(j)) - first + 1, j - k + 1))
+                  x = x + factor(i, order(j))
+               end associate
+            end do
          end do
          call self%solve_trailing(first, b)
          do j = k, last
-            do l = j, size(set)
-               inverse(order(l), order(j)) = b(set(order(l)) - first + 1, j - k + 1)
+            do l = j, n
+               associate (rows => equation(:, order(l)) - first + 1)
+                  matrix(order(l), order(j)) = sum(factor(:, order(l))*b(rows, j - k + 1))
+               end associate
             end do
          end do
-         do l = k, size(set)  ! rows of some columns, which the cache holds
+         do l = k, n  ! rows of some columns, which the cache holds
             do j = k, min(l, last)
-               inverse(order(j), order(l)) = inverse(order(l), order(j))
+               matrix(order(j), order(l)) = matrix(order(l), order(j))
             end do
          end do
       end do
-   end subroutine inverse_block
+   end subroutine flexibility
 
 end module axijoint_solver_trailing

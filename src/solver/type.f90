@@ -7,7 +7,7 @@ module axijoint_solver_type
    implicit none
    private
    public :: solver_type, factor_type, pivot_report_type, judge_pivots
-   public :: new_block
+   public :: new_block, flexibility_by_loads
 
    !> A pivot below this share of the diagonal entry that it started from is
    !> rounding, so the matrix is singular to working precision. Cholesky
@@ -49,8 +49,8 @@ module axijoint_solver_type
       procedure(analyse_interface), deferred :: analyse
       !> Factor a matrix of that pattern
       procedure(factorize_interface), deferred :: factorize
-      !> Operations of finding the inverse at some equations
-      procedure :: inverse_operations => operations_by_loads
+      !> Operations of finding the flexibility under some loads
+      procedure :: flexibility_operations => operations_by_loads
    end type solver_type
 
    !> Factor of one matrix
@@ -62,8 +62,8 @@ module axijoint_solver_type
       procedure(solve_interface), deferred :: solve
       !> The same, but a few at once: no bit of one depends on the others
       procedure :: solve_apart
-      !> Rows and columns of the inverse at a set of equations: the flexibility of these unknowns
-      procedure :: inverse_block => inverse_by_loads
+      !> What loads on one or two equations do to each other
+      procedure :: flexibility => flexibility_by_loads
    end type factor_type
 
    abstract interface
@@ -126,48 +126,55 @@ contains
       end do
    end subroutine solve_apart
 
-   !> Operations of finding the inverse at some equations by unit loads
-   real(wp) function operations_by_loads(self, set) result(operations)
+   !> Operations of finding the flexibility by solutions
+   real(wp) function operations_by_loads(self, equation, factor) result(operations)
       !> The plan, analysed
       class(solver_type), intent(in) :: self
-      !> Equations, each once
-      integer, intent(in) :: set(:)
+      !> Both equations of each load, and what acts on them, as below
+      integer, intent(in) :: equation(:, :)
+      real(wp), intent(in) :: factor(:, :)
 
-      operations = for_unit_loads*2.0_wp*size(set)*real(self%factor_entries, wp)
+      associate (unused => factor)
+      end associate
+      operations = for_unit_loads*2.0_wp*size(equation, 2)*real(self%factor_entries, wp)
    end function operations_by_loads
 
-   !> The inverse restricted to a set by unit loads. Solvers that hold it in their factor do better
-   subroutine inverse_by_loads(self, set, inverse, error)
+   !> E^T K^-1 E of loads E by solutions. Solvers that know where loads are felt do better
+   subroutine flexibility_by_loads(self, equation, factor, matrix, error)
       !> The factor
       class(factor_type), intent(in) :: self
-      !> Equations, each once, in any order
-      integer, intent(in) :: set(:)
-      !> inverse(i, j) is the inverse's entry at set(i), set(j)
-      real(wp), allocatable, intent(out) :: inverse(:, :)
+      !> The two equations that each load acts on, and what acts there, shape (2, loads). A load on one equation has a factor of
+      !> zero on any other
+      integer, intent(in) :: equation(:, :)
+      real(wp), intent(in) :: factor(:, :)
+      !> Shape (loads, loads)
+      real(wp), allocatable, intent(out) :: matrix(:, :)
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
       real(wp), allocatable :: b(:, :)
-      integer :: j, k, last
+      integer :: i, j, k, last
 
-      call new_block(inverse, size(set), size(set), error)
+      call new_block(matrix, size(equation, 2), size(equation, 2), error)
       if (allocated(error)) return
-      do k = 1, size(set), block_size
-         last = min(k + block_size - 1, size(set))
+      do k = 1, size(equation, 2), block_size
+         last = min(k + block_size - 1, size(equation, 2))
          call new_block(b, self%n, last - k + 1, error)
          if (allocated(error)) return
          do j = k, last
-            b(set(j), j - k + 1) = 1.0_wp
+            do i = 1, 2
+               b(equation(i, j), j - k + 1) = b(equation(i, j), j - k + 1) + factor(i, j)
+            end do
          end do
          call self%solve(b)
          do j = k, last
-            inverse(:, j) = b(set, j - k + 1)
+            matrix(:, j) = factor(1, :)*b(equation(1, :), j - k + 1) + factor(2, :)*b(equation(2, :), j - k + 1)
          end do
       end do
-      do j = 2, size(set)  ! as symmetric as the matrix
-         inverse(:j - 1, j) = inverse(j, :j - 1)
+      do j = 2, size(equation, 2)  ! as symmetric as the matrix
+         matrix(:j - 1, j) = matrix(j, :j - 1)
       end do
-   end subroutine inverse_by_loads
+   end subroutine flexibility_by_loads
 
    !> A block of zeros, or words for an error
    subroutine new_block(block, rows, columns, error)

@@ -19,8 +19,7 @@ module axijoint_analysis_core_footprint
    use axijoint_joints_planes, only : planes_type, part_intervals
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, element_references
-   use axijoint_model_model, only : model_type, n_shown, bodies_yield, can_yield, can_yield_at, &
-      yielding_nodes
+   use axijoint_model_model, only : model_type, n_shown, bodies_yield, can_yield, can_yield_at
    use axijoint_model_modes, only : used_modes
    use axijoint_plastic_field, only : body_planes
    implicit none
@@ -108,7 +107,7 @@ contains
 
       type(reference_type), allocatable :: references(:)
       type(mode_type), allocatable :: modes(:)
-      integer(i8) :: nodes, jumps, unknowns, planes, kept_planes
+      integer(i8) :: nodes, jumps, planes, kept_planes
       type(shapes_type) :: shapes
       type(pairs_type) :: pairs
       integer, allocatable :: alike(:)
@@ -132,7 +131,6 @@ contains
       end if
       footprint%stresses = footprint%stresses*n_modes*real_bytes
       jumps = 3*count(can_yield_at(model, joint_points%material), kind=i8)
-      unknowns = 3*count(yielding_nodes(model), kind=i8)
       planes = model%n_planes
       modes = used_modes(model)
       kept_planes = planes
@@ -164,8 +162,7 @@ contains
             + merge(real_bytes, 0_i8, omp_get_max_threads() > 1)*waiting_numbers(jumps*kept_planes, size(model%increments) - 1)
       end if
       if (bodies_yield(model)) call add_bodies(model, references, modes, footprint)
-      footprint%joint_work = real_bytes*unknowns**2  ! the inverse
-      if (jumps == 0) footprint%joint_work = 0
+      footprint%joint_work = real_bytes*(3*size(pairs%nodes, 2, i8))**2  ! unit loads on the rows that a factor takes together
    end function data_footprint
 
    !> Displacements of earlier increments that are held until they are shown, for they are found beside the iterations; none if these

@@ -1,10 +1,11 @@
-!> The inverse of a matrix restricted to some equations, by its supernodal Cholesky factor, whatever the order
+!> The flexibility of a matrix under loads on one or two equations, by its supernodal Cholesky factor, whatever the order
 !>
-!> With unit loads E on the equations it is (L^-1 E)^T (L^-1 E). A load is felt only from its supernode to the root of
+!> With the loads E it is (L^-1 E)^T (L^-1 E). A load is felt only from the supernode of its first equation to the root of
 !> the elimination tree: going up the tree, each supernode takes what those below leave on its rows, for the loads of its
 !> subtree alone, which are neighbours in a postordered tree, eliminates its own unknowns, and adds the product of what it
-!> found. Nothing takes the cube of the equations' number unless separators grow as it does.
-module axijoint_solver_supernodal_inverse
+!> found. Two equations that the matrix couples lie one above the other in the tree, and the load acts on the second where
+!> that is met. Nothing takes the cube of the loads' number unless separators grow as it does.
+module axijoint_solver_supernodal_flexibility
    use, intrinsic :: iso_c_binding, only : c_f_pointer, c_double, c_int32_t, c_int64_t
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_last_words, only : let_fail
@@ -12,7 +13,7 @@ module axijoint_solver_supernodal_inverse
    use axijoint_solver_supernodal, only : supernodal_structure_type
    implicit none
    private
-   public :: supernodal_inverse, supernodal_inverse_operations
+   public :: supernodal_flexibility, supernodal_flexibility_operations
 
    !> Ends a list
    integer, parameter :: nobody = 0
@@ -24,6 +25,10 @@ module axijoint_solver_supernodal_inverse
       integer, allocatable :: parent(:)
       !> First and last load in the subtree of each supernode, and the first of its own
       integer, allocatable :: first(:), last(:), own(:)
+      !> Supernode of each equation, counted from zero
+      integer, allocatable :: supernode(:)
+      !> Loads whose second equation each supernode has: the first of them, and the one after each
+      integer, allocatable :: second(:), after(:)
    end type tree_type
 
    !> What the loads of a subtree leave on the rows of its root
@@ -33,18 +38,21 @@ module axijoint_solver_supernodal_inverse
 
 contains
 
-   !> The inverse at some equations
-   subroutine supernodal_inverse(structure, l, n_loads, place, inverse, code) bind(c, name='axijoint_supernodal_inverse')
+   !> The flexibility under some loads
+   subroutine supernodal_flexibility(structure, l, n_loads, place, factor, flexibility, code) &
+      bind(c, name='axijoint_supernodal_flexibility')
       !> Structure of the factor
       type(supernodal_structure_type), intent(in) :: structure
       !> The factor, panel by panel
       real(c_double), intent(in) :: l(0:*)
-      !> Equations, and their places in the order of the factor, ascending, counted from zero
+      !> Loads; places of their two equations in the order of the factor, counted from zero, the first ascending and none beyond
+      !> the second; what acts on them
       integer(c_int64_t), value :: n_loads
-      integer(c_int64_t), intent(in) :: place(n_loads)
-      !> Lower triangle of the inverse at these
-      real(c_double), intent(inout) :: inverse(n_loads, n_loads)
-      !> 0; 1 if there is no memory
+      integer(c_int64_t), intent(in) :: place(2, n_loads)
+      real(c_double), intent(in) :: factor(2, n_loads)
+      !> Lower triangle of the flexibility
+      real(c_double), intent(inout) :: flexibility(n_loads, n_loads)
+      !> 0; 1 if there is no memory; 2 if two equations of a load do not lie one above the other
       integer(c_int32_t), intent(out) :: code
 
       type(tree_type) :: tree
@@ -53,24 +61,26 @@ contains
       integer :: s, stat
 
       call let_fail(.true.)
-      call new_tree(structure, place, tree, stat)
+      call new_tree(structure, place(1, :), tree, stat)
+      if (stat == 0) call find_second(place(2, :), tree, stat)
       if (stat == 0) allocate (left(structure%n_supernodes), head(structure%n_supernodes), &
          next(structure%n_supernodes), position(0:structure%n - 1), stat=stat)
       call let_fail(.false.)
       code = merge(0_c_int32_t, 1_c_int32_t, stat == 0)
+      if (code == 0 .and. .not. are_above(tree, place)) code = 2
       if (code /= 0) return
-      inverse = 0.0_wp
+      flexibility = 0.0_wp
       head = nobody
       do s = 1, size(head)
          if (tree%last(s) < tree%first(s)) cycle  ! no loads below
-         call take_loads(tree, s, place, position, head, next, left, stat)
+         call take_loads(tree, s, place, factor, position, head, next, left, stat)
          if (stat /= 0) then
             code = 1
             return
          end if
          call eliminate(int(tree%first_row(s + 1) - tree%first_row(s)), int(tree%column(s + 1) - tree%column(s)), &
             tree%last(s) - tree%first(s) + 1, l(tree%first_number(s)), left(s)%x, int(n_loads), &
-            inverse(tree%first(s), tree%first(s)))
+            flexibility(tree%first(s), tree%first(s)))
          associate (parent => tree%parent(s))
             if (parent == nobody) then
                deallocate (left(s)%x)
@@ -80,16 +90,16 @@ contains
             end if
          end associate
       end do
-   end subroutine supernodal_inverse
+   end subroutine supernodal_flexibility
 
    !> Operations that this takes
-   subroutine supernodal_inverse_operations(structure, n_loads, place, operations, code) &
-      bind(c, name='axijoint_supernodal_inverse_operations')
+   subroutine supernodal_flexibility_operations(structure, n_loads, place, operations, code) &
+      bind(c, name='axijoint_supernodal_flexibility_operations')
       !> Structure of the factor
       type(supernodal_structure_type), intent(in) :: structure
-      !> Equations, and their places in the order of the factor, ascending, counted from zero
+      !> Loads, and places of their two equations as above
       integer(c_int64_t), value :: n_loads
-      integer(c_int64_t), intent(in) :: place(n_loads)
+      integer(c_int64_t), intent(in) :: place(2, n_loads)
       !> The operations
       real(c_double), intent(out) :: operations
       !> 0; 1 if there is no memory
@@ -101,7 +111,7 @@ contains
 
       operations = 0.0_wp
       call let_fail(.true.)
-      call new_tree(structure, place, tree, stat)
+      call new_tree(structure, place(1, :), tree, stat)
       call let_fail(.false.)
       code = merge(0_c_int32_t, 1_c_int32_t, stat == 0)
       if (code /= 0) return
@@ -111,20 +121,58 @@ contains
          width = tree%column(s + 1) - tree%column(s)
          operations = operations + width*loads*(2.0_wp*height - width + loads)
       end do
-   end subroutine supernodal_inverse_operations
+   end subroutine supernodal_flexibility_operations
+
+   !> Where loads act a second time
+   subroutine find_second(place, tree, stat)
+      !> Places of the second equations, counted from zero
+      integer(c_int64_t), intent(in) :: place(:)
+      !> The tree
+      type(tree_type), intent(inout) :: tree
+      !> Not 0 if there is no memory
+      integer, intent(out) :: stat
+
+      integer :: j
+
+      allocate (tree%second(size(tree%parent)), tree%after(size(place)), stat=stat)
+      if (stat /= 0) return
+      tree%second = nobody
+      do j = 1, size(place)
+         associate (second => tree%second(tree%supernode(place(j))))
+            tree%after(j) = second
+            second = j
+         end associate
+      end do
+   end subroutine find_second
+
+   !> Whether the second equation of each load lies on the way of the first to the root
+   pure logical function are_above(tree, place)
+      !> The tree
+      type(tree_type), intent(in) :: tree
+      !> Places of both equations, counted from zero
+      integer(c_int64_t), intent(in) :: place(:, :)
+
+      integer :: j
+
+      are_above = .true.
+      do j = 1, size(place, 2)
+         associate (s => tree%supernode(place(2, j)))
+            are_above = are_above .and. j >= tree%first(s) .and. j <= tree%last(s)
+         end associate
+      end do
+   end function are_above
 
    !> The tree, and the loads of its subtrees
    subroutine new_tree(structure, place, tree, stat)
       !> Structure of the factor
       type(supernodal_structure_type), intent(in) :: structure
-      !> Places of the loads, ascending, counted from zero
+      !> Places of the first equations of the loads, ascending, counted from zero
       integer(c_int64_t), intent(in) :: place(:)
       !> The tree
       type(tree_type), intent(out) :: tree
       !> Not 0 if there is no memory
       integer, intent(out) :: stat
 
-      integer, allocatable :: supernode(:)
       integer :: n, s
       integer(i8) :: below
 
@@ -133,11 +181,11 @@ contains
       call c_f_pointer(structure%first_row, tree%first_row, [n + 1])
       call c_f_pointer(structure%first_number, tree%first_number, [n + 1])
       call c_f_pointer(structure%row, tree%row, [tree%first_row(n + 1)])
-      allocate (tree%parent(n), tree%first(n), tree%last(n), tree%own(n), supernode(0:structure%n - 1), stat=stat)
+      allocate (tree%parent(n), tree%first(n), tree%last(n), tree%own(n), tree%supernode(0:structure%n - 1), stat=stat)
       if (stat /= 0) return
       tree%last = 0
       do s = 1, n
-         supernode(tree%column(s):tree%column(s + 1) - 1) = s
+         tree%supernode(tree%column(s):tree%column(s + 1) - 1) = s
          if (s > 1) tree%last(s) = tree%last(s - 1)
          do while (tree%last(s) < size(place))
             if (place(tree%last(s) + 1) >= tree%column(s + 1)) exit
@@ -151,19 +199,20 @@ contains
          below = tree%first_row(s) + tree%column(s + 1) - tree%column(s)
          tree%parent(s) = nobody
          if (below == tree%first_row(s + 1)) cycle
-         tree%parent(s) = supernode(tree%row(below + 1))
+         tree%parent(s) = tree%supernode(tree%row(below + 1))
          tree%first(tree%parent(s)) = min(tree%first(tree%parent(s)), tree%first(s))
       end do
    end subroutine new_tree
 
-   !> Loads of a subtree on the rows of its root: unit loads on its own unknowns, and what its children leave
-   subroutine take_loads(tree, s, place, position, head, next, left, stat)
+   !> Loads of a subtree on the rows of its root: those on its own unknowns, and what its children leave
+   subroutine take_loads(tree, s, place, factor, position, head, next, left, stat)
       !> The tree
       type(tree_type), intent(in) :: tree
       !> The root
       integer, intent(in) :: s
-      !> Places of the loads, ascending, counted from zero
-      integer(c_int64_t), intent(in) :: place(:)
+      !> Places of both equations of the loads, counted from zero, and what acts on them
+      integer(c_int64_t), intent(in) :: place(:, :)
+      real(c_double), intent(in) :: factor(:, :)
       !> Place of each row among those of the root
       integer, intent(inout) :: position(0:)
       !> First child of each supernode that has loads, and the child after each
@@ -186,7 +235,14 @@ contains
       end do
       left(s)%x = 0.0_wp
       do j = tree%own(s), tree%last(s)
-         left(s)%x(place(j) - tree%column(s) + 1, j) = 1.0_wp
+         left(s)%x(place(1, j) - tree%column(s) + 1, j) = factor(1, j)
+      end do
+      j = tree%second(s)
+      do while (j /= nobody)
+         associate (x => left(s)%x(place(2, j) - tree%column(s) + 1, j))
+            x = x + factor(2, j)
+         end associate
+         j = tree%after(j)
       end do
       child = head(s)
       do while (child /= nobody)
@@ -206,22 +262,22 @@ contains
    end subroutine take_loads
 
    !> Eliminate the unknowns of a supernode from the loads of its subtree, and add the product of what they are
-   subroutine eliminate(height, width, n_loads, panel, x, stride, inverse)
+   subroutine eliminate(height, width, n_loads, panel, x, stride, flexibility)
       !> Rows, columns, loads
       integer, intent(in) :: height, width, n_loads
       !> The panel, its first rows a lower triangle
       real(wp), intent(in) :: panel(height, width)
       !> The loads; then, in the rows below the triangle, what they leave there
       real(wp), intent(inout) :: x(height, n_loads)
-      !> Distance of columns of the inverse
+      !> Distance of columns of the flexibility
       integer, intent(in) :: stride
-      !> Lower triangle of the inverse from the first of the loads on
-      real(wp), intent(inout) :: inverse(stride, *)
+      !> Its lower triangle from the first of the loads on
+      real(wp), intent(inout) :: flexibility(stride, *)
 
       call dtrsm('L', 'L', 'N', 'N', width, n_loads, 1.0_wp, panel, height, x, height)
       if (height > width) call dgemm('N', 'N', height - width, n_loads, width, -1.0_wp, panel(width + 1, 1), height, x, height, &
          1.0_wp, x(width + 1, 1), height)
-      call dsyrk('L', 'T', n_loads, width, 1.0_wp, x, height, 1.0_wp, inverse, stride)
+      call dsyrk('L', 'T', n_loads, width, 1.0_wp, x, height, 1.0_wp, flexibility, stride)
    end subroutine eliminate
 
-end module axijoint_solver_supernodal_inverse
+end module axijoint_solver_supernodal_flexibility
