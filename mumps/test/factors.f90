@@ -1,4 +1,4 @@
-!> Factors by MUMPS against those by the band solver: solutions, inverses, pivots
+!> Factors by MUMPS against those by the band solver: solutions, flexibilities, pivots
 program factors
    use, intrinsic :: iso_fortran_env, only : output_unit
    use axijoint_base_error, only : error_type

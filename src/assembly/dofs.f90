@@ -161,7 +161,8 @@ contains
       type(dofs_type), intent(in) :: dofs
       !> Both nodes of each pair, shape (2, pairs)
       integer, intent(in) :: pairs(:, :)
-      !> Their equations, for all pairs along r, z, theta, shape (2, 3 pairs). Where there is none, it is any, and its factor is zero
+      !> Their equations, of which the mode has some, for all pairs along r, z, theta, shape (2, 3 pairs). Where there is none, it is
+      !> any, and its factor is zero
       integer, allocatable, intent(out) :: equation(:, :)
       !> The factors, same shape
       real(wp), allocatable, intent(out) :: factor(:, :)

@@ -173,7 +173,9 @@ contains
       real(wp), allocatable :: factor(:, :)
       integer :: k
 
+      operations = 0.0_wp
       do k = 1, size(operations)
+         if (equations%classes(k)%dofs%n_equations == 0) cycle
          call forces_between(equations%classes(k)%dofs, pairs, equation, factor)
          operations(k) = equations%plans(k)%solver%flexibility_operations(equation, factor)
       end do

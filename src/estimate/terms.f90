@@ -58,7 +58,7 @@ module axijoint_estimate_terms
       term_type('factoring', phase_factor, measured, .true., &
                 'factors, by operations and entries', 1.0e+00_wp), &
       term_type('inverse', phase_condense, products, .true., &
-                'operations on the block of the joints', 2.4e-11_wp), &
+                'operations on the flexibilities of joints', 2.4e-11_wp), &
       term_type('block_entries', phase_condense, common, .true., &
                 'entries of flexibilities', 1.4e-09_wp), &
       term_type('solved_entries', phase_joints, common, .true., &

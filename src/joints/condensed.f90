@@ -189,6 +189,10 @@ contains
       real(wp), allocatable :: factor(:, :)
 
       associate (dofs => equations%classes(equations%systems(s)%class)%dofs)
+         if (dofs%n_equations == 0) then  ! all that the mode could do is held
+            allocate (matrix(3*size(pairs%nodes, 2), 3*size(pairs%nodes, 2)), source=0.0_wp)
+            return
+         end if
          call forces_between(dofs, pairs%nodes, equation, factor)
       end associate
       call equations%systems(s)%factor%flexibility(equation, factor, matrix, error)

@@ -22,7 +22,7 @@ module axijoint_joints_newton_system
    use axijoint_linalg_symmetric_single, only : symmetric_product
    implicit none
    private
-   public :: linear_type, gathering_type, solve
+   public :: linear_type, gathering_type, solve, most_products
 
    !> Most products of a solution, and the loosest tolerance
    integer, parameter :: most_products = 400

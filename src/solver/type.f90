@@ -15,7 +15,7 @@ module axijoint_solver_type
    !> below the 1e-14 that a condition number of 1e14 may leave
    real(wp), parameter :: pivot_limit = 8.0_wp*epsilon(1.0_wp)
 
-   !> Right-hand sides solved at once for an inverse
+   !> Right-hand sides solved at once for a flexibility
    integer, parameter :: block_size = 64
    !> Right-hand sides of which each has the same bits as if it were alone, whatever the solver
    integer, parameter :: few = 4

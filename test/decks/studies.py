@@ -261,14 +261,14 @@ def processes(program, folder):
 
 def shared(program, folder):
     """Many rows go to as many processes as there are threads, with the digits of one"""
-    deck, table = os.path.join(INPUTS, 'case3_balanced.dat'), CASE3.format(lines='0:38/60, 0;0.2, 0.2;0.4')
+    deck, table = os.path.join(INPUTS, 'case3_balanced.dat'), CASE3.format(lines='0:38/120, 0;0.2, 0.2;0.4')
     whole, faults = study(program, folder, table, deck, '--processes', '1', name='whole')
     for threads, means in (('1', '1 structure'), ('2', '2 processes')):
         name = f'by{threads}'
         ran = program.run('study', write(folder, f'{name}.csv', table), deck, '-o', folder, '--threads', threads, folder=folder,
                           time_limit=300)
         faults += ran.ended_with(0) + same_rows(whole, rows_of(os.path.join(folder, f'{name}.study.csv')))
-        if f'240 solved now with {means}' not in ran.out:
+        if f'480 solved now with {means}' not in ran.out:
             faults.append(f'with {threads} threads not solved with {means}: {ran.out}')
         told = program.run('estimate', deck, '--study', os.path.join(folder, f'{name}.csv'), '--threads', threads, folder=folder)
         if ('rows by 2 processes' in told.out) != (threads == '2'):

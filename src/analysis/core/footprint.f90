@@ -15,9 +15,10 @@ module axijoint_analysis_core_footprint
    use axijoint_fe_subdivision, only : n_children
    use axijoint_joints_circle_sums, only : are_worth_it
    use axijoint_joints_history, only : most_turns
+   use axijoint_joints_newton_system, only : most_products
    use axijoint_joints_pairs, only : pairs_type, new_pairs
    use axijoint_joints_planes, only : planes_type, part_intervals
-   use axijoint_model_joint_points, only : model_joint_point_type
+   use axijoint_model_joint_points, only : model_joint_point_type, stiffest_base
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, element_references
    use axijoint_model_model, only : model_type, n_shown, bodies_yield, can_yield, can_yield_at
    use axijoint_model_modes, only : used_modes
@@ -42,8 +43,8 @@ module axijoint_analysis_core_footprint
    !> Numbers of a joint point on a plane that are kept of a state where loads turned: jumps, stresses, slip, states; with copies as
    !> they are followed, as measured
    integer(i8), parameter :: station_numbers = 40
-   !> Vectors that the linear solutions of Newton's method touch; more are there for those that need
-   !> them, but joints a thousand times as stiff as usual do with these
+   !> Vectors that the linear solutions of Newton's method touch: with usual joints, and with those whose laws are stiffer than the
+   !> structure has them, which may need all that there are
    integer(i8), parameter :: newton_vectors = 100
    !> Copies of what is kept of earlier increments: itself, as bytes, and two of these while they are written
    integer(i8), parameter :: kept_states = 4
@@ -108,8 +109,10 @@ contains
       type(reference_type), allocatable :: references(:)
       type(mode_type), allocatable :: modes(:)
       integer(i8) :: nodes, jumps, planes, kept_planes
+      logical :: stiff
       type(shapes_type) :: shapes
       type(pairs_type) :: pairs
+      type(model_joint_point_type), allocatable :: points(:)
       integer, allocatable :: alike(:)
 
       references = element_references(model%mesh)
@@ -139,10 +142,13 @@ contains
          kept_planes = 2*(kept_planes - 1)
       end if
       if (maxval(model%harmonics) > 0) planes = planes + more_planes*planes
-      pairs = new_pairs(pack(joint_points, can_yield_at(model, joint_points%material)))
-      footprint%joints = real_bytes*(n_systems*(3*size(pairs%nodes, 2, i8))**2 &
+      points = pack(joint_points, can_yield_at(model, joint_points%material))
+      pairs = new_pairs(points)
+      stiff = any(points%proportion > stiffest_base)
+      ! flexibilities, and half of them as Newton's linear system reads them, in single precision; with stiff joints all of both
+      footprint%joints = real_bytes*(n_systems*(3*size(pairs%nodes, 2, i8))**2*merge(8, 5, stiff)/4 &
                                      + plane_numbers*jumps/3*max(planes, int(n_modes, i8)) &
-                                     + jumps*n_modes*min(newton_vectors, jumps*n_modes))
+                                     + jumps*n_modes*min(merge(int(most_products, i8), newton_vectors, stiff), jumps*n_modes))
       if (jumps > 0) footprint%joints = footprint%joints + plane_matrix_bytes(model, modes)
       if (size(model%increments) > 1) then
          ! jumps, stresses and states are kept, and as bytes for who goes on; earlier increments are solved again, some at a time
@@ -162,7 +168,7 @@ contains
             + merge(real_bytes, 0_i8, omp_get_max_threads() > 1)*waiting_numbers(jumps*kept_planes, size(model%increments) - 1)
       end if
       if (bodies_yield(model)) call add_bodies(model, references, modes, footprint)
-      footprint%joint_work = real_bytes*(3*size(pairs%nodes, 2, i8))**2  ! unit loads on the rows that a factor takes together
+      footprint%joint_work = real_bytes*(3*size(pairs%nodes, 2, i8))**2  ! solutions for unit loads, about
    end function data_footprint
 
    !> Displacements of earlier increments that are held until they are shown, for they are found beside the iterations; none if these
