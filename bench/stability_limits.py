@@ -25,7 +25,7 @@ def beyond(make, motion):
     def check(runs):
         text = make(1.01)
         ran = runs.attempt("beyond", text)
-        said = "no equilibrium beyond the load factor" in ran.messages and motion in ran.messages
+        said = "no equilibrium was found beyond the load factor" in ran.messages and motion in ran.messages
         if ran.code != 4 or not said:
             return Finding(FAILED, words=f"exit code {ran.code}: {ran.messages[:200]}")
         reached = float(ran.messages.split("beyond the load factor ")[1].split(":")[0])

@@ -32,22 +32,28 @@ def case3(factor):
     return estimate_decks.finer(estimate_decks.inputs("case3_balanced"), factor)
 
 
-def monopile(factor, elastic=False):
-    """A pile with weight, stress of the ground before it, gap and friction, pushed and half let go; or its elastic analysis,
-    all loads at once on joints that neither open nor slip, in as many harmonics, which next to nothing loads"""
+def monopile(factor, elastic=False, stiffer=1.0):
+    """A pile with weight, stress of the ground before it, gap and friction, pushed and half let go, perhaps with joints so many
+    times stiffer; or its elastic analysis, all loads at once on joints that neither open nor slip, in as many harmonics, which
+    next to nothing loads"""
     text = estimate_decks.finer(estimate_decks.with_harmonics(estimate_decks.inputs("monopile"), 8, 33), factor)
     if elastic:
         text = re.sub(r"^(LAWS.*\n +1 +100.0 +200.0 +100.0) +0.0 +26.0$", r"\1" + " "*20 + "ELASTIC", text, flags=re.MULTILINE)
         text = re.sub(r"^(LAWDETAILS|INCREMENTS).*\n(?: .*\n)+", "", text, flags=re.MULTILINE)
         loads = "".join(f"{1:5}{m:5}{'1.0E-6':>10}\n" for m in range(2, 9))
         text = text.replace("COMBINE ", f"PRESSURES\n{loads}COMBINE ", 1)
-    return text
+    law = "".join(f"{k:10}" for k in (100.0, 200.0, 100.0))
+    if law not in text:
+        raise AssertionError("inputs/monopile.dat has another law of joints")
+    return text.replace(law, "".join(f"{stiffer*k:10}" for k in (100.0, 200.0, 100.0)))
 
 
 JOBS = {"linear 10k": lambda: linear(30, 37), "linear 30k": lambda: linear(50, 67), "linear 100k": lambda: linear(90, 123),
         "linear 300k": lambda: linear(160, 208), "linear 1M": lambda: linear(290, 382),
         **{f"case 3, {n} times": lambda n=n: case3(n) for n in (1, 2, 4, 8)}}
-HISTORIES = {f"monopile, {n} times": lambda n=n: (monopile(n), monopile(n, True)) for n in (1, 2, 3)}
+HISTORIES = {**{f"monopile, {n} times": lambda n=n: (monopile(n), monopile(n, True)) for n in (1, 2, 3)},
+             # k h/E up to 1600, which the program calls stiff out of proportion
+             "monopile, 100 k": lambda: (monopile(1, stiffer=100.0), monopile(1, True, stiffer=100.0))}
 
 
 class Pair:

@@ -17,7 +17,7 @@ module axijoint_joints_newton
    use axijoint_joints_newton_system, only : linear_type, gathering_type, solve
    use axijoint_joints_planes, only : synthesize, analyse
    use axijoint_joints_scene, only : scene_type, views
-   use axijoint_model_joint_points, only : stiffest_base
+   use axijoint_model_joint_points, only : in_structure
    implicit none
    private
    public :: newton_type, step_bounds_type, see, linearize, newton_step, at_points, newton_view, bold, most_damping
@@ -358,7 +358,7 @@ contains
       !> The condensed structure
       type(condensed_type), intent(in) :: condensed
 
-      share = 1.0_wp/max(1.0_wp, min(condensed%proportion, stiffest_base))
+      share = 1.0_wp/maxval([1.0_wp, in_structure(condensed%points%proportion)])
    end function share_of_bodies
 
    !> One step. Near to equilibrium, where all points are about to slip, next to nothing may resist a

@@ -29,11 +29,10 @@ module axijoint_joints_newton_method
    !> Joints much stiffer than the bodies: the laws see a share of their stiffness
    !> first, this many times more whenever the residual ratio has fallen so far
    real(wp), parameter :: stage_factor = 10.0_wp, stage_tolerance = 0.1_wp
-   !> Tolerance of the linear solution far from equilibrium, with very stiff joints, the ratio from
-   !> which on it is near, the least tolerance there, and the part of the step's tolerance that is
-   !> left to it, with very stiff joints
-   real(wp), parameter :: loose = 1.0e-2_wp, closer = 1.0e-4_wp, near = 1.0e-2_wp, &
-      strict = 1.0e-9_wp, part = 0.1_wp, smaller_part = 0.01_wp
+   !> Tolerance of the linear solution far from equilibrium, and with joints that are as good as rigid: between, it falls like the
+   !> root of their flexibility, for then much of what a solution leaves is soft motions that a state hangs on. The ratio from which
+   !> on equilibrium is near, the least tolerance there, and the part of the step's tolerance that is left to it
+   real(wp), parameter :: loose = 1.0e-2_wp, closest = 1.0e-4_wp, near = 1.0e-2_wp, strict = 1.0e-9_wp, part = 0.1_wp
    !> Where a law that jumps has no state, cohesion fades with opening: first over tensions as large
    !> as it, then over a part of that whenever there is equilibrium, in small steps where these get no
    !> farther, and last. It may be wider where iterations do not get there, but not more
@@ -500,11 +499,10 @@ contains
       falls = course%watch%best_at == course%watch%k
       associate (bounds => course%bounds)
          bounds%far = ratio
-         bounds%tolerance = merge(closer, loose, condensed%proportion > very_stiff)
+         bounds%tolerance = max(closest, loose*sqrt(very_stiff/max(very_stiff, condensed%proportion)))
          ! near to equilibrium, so exactly that one step can reach the tolerance
          if (ratio < near) then
-            bounds%tolerance = min(bounds%tolerance, &
-               max(strict, merge(smaller_part, part, condensed%proportion > very_stiff)*tolerance/max(tiny(ratio), ratio)))
+            bounds%tolerance = min(bounds%tolerance, max(strict, part*tolerance/max(tiny(ratio), ratio)))
          end if
          bounds%largest = course%watch%largest
          call approach(condensed, scene, .true., course%begun, field, course%residual, moved)

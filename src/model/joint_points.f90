@@ -10,12 +10,13 @@ module axijoint_model_joint_points
    implicit none
    private
    public :: model_joint_point_type, new_joint_points, joint_rule, stiffness_ratio, law_at, least_moduli, &
-      stiffest_base
+      stiffest_whole, stiffest_base, in_structure
 
-   !> k h/E up to which joints that can yield act in the structure with their whole stiffness. What
-   !> stiffer joints do beyond that is left to the iteration on their laws: a structure that is
-   !> condensed with stiff joints loses what the bodies do when these open to rounding
-   real(wp), parameter :: stiffest_base = 1.0e3_wp
+   !> k h/E up to which joints that can yield act in the structure with their whole stiffness, and what stiffer ones have there. What
+   !> these do beyond that is left to the iteration on their laws: a structure that is condensed with stiff joints loses what the
+   !> bodies do when these open to rounding. Joints that are a little stiffer than their part of the structure would cost as much as
+   !> rigid ones: the linear solutions are of all points then, not of those alone that slip or open
+   real(wp), parameter :: stiffest_whole = 1.0e4_wp, stiffest_base = 1.0e3_wp
 
    !> A joint point in its model
    type, extends(joint_point_type) :: model_joint_point_type
@@ -120,8 +121,17 @@ contains
       if (can_yield) point%stiffness = min(point%stiffness, material%rigid/beside)
       point%proportion = maxval(point%stiffness)*flexibility
       point%base = point%stiffness
-      if (can_yield .and. point%proportion > stiffest_base) point%base = stiffest_base/point%proportion*point%stiffness
+      if (can_yield .and. point%proportion > stiffest_whole) &
+         point%base = in_structure(point%proportion)/point%proportion*point%stiffness
    end subroutine set_stiffness
+
+   !> k h/E that a joint which can yield has in the structure
+   elemental real(wp) function in_structure(proportion)
+      !> k h/E of the joint
+      real(wp), intent(in) :: proportion
+
+      in_structure = merge(stiffest_base, proportion, proportion > stiffest_whole)
+   end function in_structure
 
    !> Law of a joint point, with the stiffness that counts
    elemental function law_at(point, material) result(law)

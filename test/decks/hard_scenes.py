@@ -391,11 +391,11 @@ def soil_pile(title, increments, *, friction=25.0, cohesion=0.0, gravity=0.0, de
 
 
 def stiff_plug(method='NEWTON'):
-    """A plug in soft ground by joints without friction thousands of times as stiff, pressed in: sweeps over such joints run
-    away, Newton's steps do not"""
+    """A plug in soft ground by joints without friction ten thousands of times as stiff, pressed in: sweeps over such
+    joints run away, Newton's steps do not"""
     deck = Deck('A plug on stiff joints', 4, 17, method)
     deck.add('MATERIALS', (1, 2.27e4, 0.2), (2, 13.7, 0.3))
-    deck.law(1, (242500.0,)*3, rule='LOBATTO').details(1).law(2, (10500.0,)*3, rule='LOBATTO').details(2)
+    deck.law(1, (600000.0,)*3, rule='LOBATTO').details(1).law(2, (10500.0,)*3, rule='LOBATTO').details(2)
     deck.block(1, 1, 3, 2, 2, 0, 0, 0.5, 0.5).block(1, 1, 3, 2, 4, 0, -2, 0.5, 0).block(2, 2, 3, 3, 4, 0.5, -2, 3, 0)
     deck.block(2, 2, 3, 3, 2, 0.5, -3, 3, -2).block(2, 2, 3, 2, 2, 0, -3, 0.5, -2)
     deck.faces((1, 1, 0, 0.5, 0.5, 0.5), (2, 1, 0.5, -2, 0.5, 0), (3, 2, 0.5, -2, 0.5, 0), (4, 1, 0, -2, 0.5, -2),

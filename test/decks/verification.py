@@ -1,4 +1,4 @@
-"""One case of scripts/verify, or all of them, its check of solutions, a case of scripts/bench stability; only where
+"""One case of scripts/verify, or all of them, its check of solutions, a row of scripts/bench stability, or all; only where
 NumPy and h5py are installed"""
 import os
 import subprocess
@@ -35,7 +35,8 @@ def tests(program):
     return [Test('verification/shaft', lambda folder: case_faults(program, folder, 'shaft')),
             Test('verification/all cases', lambda folder: case_faults(program, folder), long=True),
             Test('verification/wrong solution', wrong_solution_faults),
-            Test('bench/stability', lambda folder: stability_faults(program, folder))]
+            Test('bench/stability', lambda folder: stability_faults(program, folder, '--only', 'joints in a T')),
+            Test('bench/stability, all rows', lambda folder: stability_faults(program, folder), long=True)]
 
 
 def case_faults(program, folder, *names):
@@ -44,10 +45,9 @@ def case_faults(program, folder, *names):
                       '-o', folder, *names])
 
 
-def stability_faults(program, folder):
-    """Faults of a row of the stability table"""
-    return faults_of([os.path.join(HERE, '..', '..', 'bench', 'stability.py'), '--program', program.path,
-                      '--only', 'joints in a T', '-o', folder])
+def stability_faults(program, folder, *rows):
+    """Faults of some rows of the stability table, or of all"""
+    return faults_of([os.path.join(HERE, '..', '..', 'bench', 'stability.py'), '--program', program.path, *rows, '-o', folder])
 
 
 def wrong_solution_faults(folder):

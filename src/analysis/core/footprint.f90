@@ -18,7 +18,7 @@ module axijoint_analysis_core_footprint
    use axijoint_joints_newton_system, only : most_products
    use axijoint_joints_pairs, only : pairs_type, new_pairs
    use axijoint_joints_planes, only : planes_type, part_intervals
-   use axijoint_model_joint_points, only : model_joint_point_type, stiffest_base
+   use axijoint_model_joint_points, only : model_joint_point_type, stiffest_whole
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, element_references
    use axijoint_model_model, only : model_type, n_shown, bodies_yield, can_yield, can_yield_at
    use axijoint_model_modes, only : used_modes
@@ -144,7 +144,7 @@ contains
       if (maxval(model%harmonics) > 0) planes = planes + more_planes*planes
       points = pack(joint_points, can_yield_at(model, joint_points%material))
       pairs = new_pairs(points)
-      stiff = any(points%proportion > stiffest_base)
+      stiff = any(points%proportion > stiffest_whole)
       ! flexibilities, and half of them as Newton's linear system reads them, in single precision; with stiff joints all of both
       footprint%joints = real_bytes*(n_systems*(3*size(pairs%nodes, 2, i8))**2*merge(8, 5, stiff)/4 &
                                      + plane_numbers*jumps/3*max(planes, int(n_modes, i8)) &
