@@ -137,9 +137,27 @@ def sides(program, folder):
     return faults
 
 
+def either_way(program, folder):
+    """A little below k h/E = 1e4 a joint has its whole stiffness in the structure, a little above a tenth, and its law the rest: what
+    the bodies do is the same, and so it is with a hundred times the stiffness but for E/(k h)"""
+    increments = ((1, 1), (0.5, 2), (-0.5, 2), (1, 2))
+    below, above, rigid = (Result(program, folder, name, scenes.soil_pile('A cycle', increments, k=k, tolerance=1e-8))
+                           for name, k in (('below', 0.9999e6), ('above', 1.0001e6), ('rigid', 1e8)))
+    largest, faults = max(map(abs, below.stress)), []
+    for name, other, bar in (('above', above, CLOSE), ('rigid', rigid, 1e-3)):
+        change = abs(other.displacement/below.displacement - 1.0)
+        if change > bar:
+            faults.append(f'{name}: the largest displacement is {change:.1e} off')
+    change = max(abs(a - b) for a, b in zip(below.stress, above.stress))/largest
+    if change > CLOSE:
+        faults.append(f'joint stress is {change:.1e} off')
+    return faults + expected('k h/E', [True, False], [result.law(1)['kappa_eta'][1] < 1e4 for result in (below, above)])
+
+
 def tests(program):
     """One test a scene"""
     return [Test('stiffness: k h/E', lambda folder: proportions(program, folder)),
+            Test('stiffness: whole in the structure or in part', lambda folder: either_way(program, folder)),
             Test('stiffness: range', lambda folder: sides(program, folder))] + [
         Test(f'stiffness: ten times, {name}',
              lambda folder, make=make, laws=laws: tenfold(program, folder, make, laws))
