@@ -13,7 +13,7 @@ module axijoint_joints_joint_errors
    use axijoint_joints_scene, only : scene_type, jumps, jumps_of_mode
    use axijoint_joints_settle, only : find_again
    use axijoint_joints_way, only : station_type, way_type, lag_type, go_again, remembered, shift, add_slip
-   use axijoint_model_joint_points, only : stiffest_base
+   use axijoint_model_joint_points, only : stiffest_sliding
    implicit none
    private
    public :: joint_change_type, joint_changes_type, search_type, new_search, can_follow_harmonics, &
@@ -337,7 +337,7 @@ contains
          call shift(condensed, extended, lag, with_more)
          call find_again(condensed, extended, search%memory, with_more, change%known)
          change%stress = maxval([0.0_wp, changes_of_points(scene, on_more, with_more, 1, rounding)* &
-            beyond_twice(extended, with_more, m, condensed%points%proportion <= stiffest_base)])
+            beyond_twice(extended, with_more, m, condensed%points%proportion <= stiffest_sliding)])
          change%excess = with_more%excess(:, :, :m) - on_more%excess
          change%offset = offset_between(condensed, search%finer, on_more, extended, with_more, rounding)
          with_more%excess(:, :, :m) = 0.0_wp

@@ -10,13 +10,15 @@ module axijoint_model_joint_points
    implicit none
    private
    public :: model_joint_point_type, new_joint_points, joint_rule, stiffness_ratio, law_at, least_moduli, &
-      stiffest_whole, stiffest_base, in_structure
+      stiffest_whole, stiffest_sliding, in_structure
 
    !> k h/E up to which joints that can yield act in the structure with their whole stiffness, and what stiffer ones have there. What
    !> these do beyond that is left to the iteration on their laws: a structure that is condensed with stiff joints loses what the
    !> bodies do when these open to rounding. Joints that are a little stiffer than their part of the structure would cost as much as
    !> rigid ones: the linear solutions are of all points then, not of those alone that slip or open
    real(wp), parameter :: stiffest_whole = 1.0e4_wp, stiffest_base = 1.0e3_wp
+   !> k h/E up to which estimates of errors follow how joints slide; stiffer ones move too little on their own
+   real(wp), parameter :: stiffest_sliding = 1.0e3_wp
 
    !> A joint point in its model
    type, extends(joint_point_type) :: model_joint_point_type

@@ -18,7 +18,7 @@ module axijoint_analysis_fine_level
    use axijoint_fe_mode, only : mode_type
    use axijoint_fe_shape, only : lagrange
    use axijoint_linalg_band_cholesky, only : factor_band, solve_band
-   use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points, joint_rule, stiffest_base
+   use axijoint_model_joint_points, only : model_joint_point_type, new_joint_points, joint_rule, stiffest_sliding
    use axijoint_model_mesh, only : mesh_type
    use axijoint_model_model, only : model_type
    use axijoint_order_graph, only : graph_type
@@ -240,7 +240,7 @@ contains
                point%stiffness = before%stiffness
             end associate
          end do
-         if (before%proportion <= stiffest_base) level%first_fine(n_coarse - n + 1:n_coarse) = n_fine + 1
+         if (before%proportion <= stiffest_sliding) level%first_fine(n_coarse - n + 1:n_coarse) = n_fine + 1
          weight(:2*n) = level%joint_points(n_fine + 1:n_fine + 2*n)%weight
          level%of_fine(:2*n, n_coarse - n + 1:n_coarse) = nearest_polynomial(x(:n), weight(:2*n))
          do half = 1, 2
