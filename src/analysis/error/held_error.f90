@@ -1,6 +1,6 @@
 !> What the mesh leaves of the error of a job whose joints yield while the stress of these is held
 module axijoint_analysis_error_held_error
-   use omp_lib, only : omp_get_wtime, omp_in_parallel
+   use omp_lib, only : omp_get_wtime
    use axijoint_analysis_core_structure, only : structure_type
    use axijoint_analysis_fine_difference, only : difference_type, room_type, most_steps, new_difference, find_difference, &
       share_difference
@@ -18,7 +18,7 @@ module axijoint_analysis_error_held_error
    use axijoint_model_joint_points, only : model_joint_point_type
    implicit none
    private
-   public :: judged_state_type, error_of_held, errors_by_law
+   public :: judged_state_type, held_errors_type, error_of_held, begin_by_law, find_of_system, find_of_systems, end_by_law
 
    !> A state whose errors are wanted
    type :: judged_state_type
@@ -42,6 +42,21 @@ module axijoint_analysis_error_held_error
       type(difference_type) :: difference
    end type held_state_type
 
+   !> Errors of states under way: `begin_by_law`, `find_of_system` for each system in any order, by any thread, `end_by_law`
+   type :: held_errors_type
+      private
+      !> The states, and the same on the fine level
+      type(judged_state_type), allocatable :: states(:)
+      type(held_state_type), allocatable :: held(:)
+      !> Joint points with excess stress
+      type(model_joint_point_type), allocatable :: points(:)
+      !> Memory of each thread
+      type(workspace_type), allocatable :: spaces(:)
+      type(room_type), allocatable :: rooms(:)
+      !> When they were begun [second]
+      real(wp) :: began = 0.0_wp
+   end type held_errors_type
+
 contains
 
    !> Errors of a state while the stress of the joints is what it is
@@ -55,42 +70,66 @@ contains
       !> The errors
       type(mesh_error_type), intent(out) :: error
 
-      type(held_state_type) :: held(1)
-      real(wp) :: began
+      type(held_errors_type) :: under_way
 
-      began = omp_get_wtime()
-      held(1)%excess = state%field%excess
-      call find_differences(structure, structure%fine%coarse_points(structure%yielding), [state], held)
-      call take_error(structure, scene, state%field, held(1)%difference, error)
-      error%seconds = omp_get_wtime() - began
+      under_way%states = [state]
+      allocate (under_way%held(1))
+      under_way%held(1)%excess = state%field%excess
+      under_way%points = structure%fine%coarse_points(structure%yielding)
+      call begin(structure, under_way)
+      call find_of_systems(structure, under_way)
+      call share_difference(structure%equations, under_way%held(1)%difference)
+      call take_error(structure, scene, state%field, under_way%held(1)%difference, error)
+      error%seconds = omp_get_wtime() - under_way%began
    end subroutine error_of_held
 
-   !> Errors of states while it is what the law gives along the fine joints
-   subroutine errors_by_law(structure, scene, states, errors)
+   !> Begin errors of states while it is what the law gives along the fine joints
+   subroutine begin_by_law(structure, scene, states, under_way)
       !> The structure
-      type(structure_type), intent(inout) :: structure
+      type(structure_type), intent(in) :: structure
       !> Laws and planes
       type(scene_type), intent(in) :: scene
       !> The states
       type(judged_state_type), intent(in) :: states(:)
       !> The errors
-      type(mesh_error_type), intent(out) :: errors(:)
+      type(held_errors_type), intent(out) :: under_way
 
-      type(held_state_type) :: held(size(states))
-      type(model_joint_point_type), allocatable :: points(:)
       integer :: i
 
+      allocate (under_way%states, source=states)
+      allocate (under_way%held(size(states)))
       do i = 1, size(states)
          associate (state => states(i))
             call fine_excess(structure%condensed, scene, structure%fine, state%field, state%displacement, &
-               state%loading%case_factor, points, held(i)%excess)
+               state%loading%case_factor, under_way%points, under_way%held(i)%excess)
          end associate
       end do
-      call find_differences(structure, points, states, held)
-      do i = 1, size(states)
-         call take_error(structure, scene, states(i)%field, held(i)%difference, errors(i))
+      call begin(structure, under_way)
+   end subroutine begin_by_law
+
+   !> End them, all systems being found
+   subroutine end_by_law(structure, scene, under_way, errors)
+      !> The structure
+      type(structure_type), intent(in) :: structure
+      !> Laws and planes
+      type(scene_type), intent(in) :: scene
+      !> What was found
+      type(held_errors_type), intent(inout) :: under_way
+      !> The errors, one a state; the last has the time since they were begun
+      type(mesh_error_type), allocatable, intent(out) :: errors(:)
+
+      integer :: i
+
+      allocate (errors(size(under_way%held)))
+      do i = 1, size(errors)
+         associate (difference => under_way%held(i)%difference)
+            call share_difference(structure%equations, difference)
+            call take_error(structure, scene, under_way%states(i)%field, difference, errors(i))
+         end associate
       end do
-   end subroutine errors_by_law
+      deallocate (under_way%spaces, under_way%rooms)
+      errors(size(errors))%seconds = omp_get_wtime() - under_way%began
+   end subroutine end_by_law
 
    !> Take the difference for the error
    subroutine take_error(structure, scene, field, difference, error)
@@ -143,78 +182,71 @@ contains
       end associate
    end subroutine leave_out_idle
 
-   !> Differences of all modes while the stress of the joints is held. Factors are read, and those of blocks formed, once for all
-   !> states. Within a region of threads each system is a task of its own, for whoever has nothing else to do
-   subroutine find_differences(structure, points, states, held)
+   !> Begin, the excess stress being known
+   subroutine begin(structure, under_way)
       !> The structure
-      type(structure_type), intent(inout) :: structure
-      !> Joint points with excess stress
-      type(model_joint_point_type), intent(in) :: points(:)
-      !> The states
-      type(judged_state_type), intent(in) :: states(:)
-      !> The same with their excess stress; take the differences
-      type(held_state_type), intent(inout) :: held(:)
+      type(structure_type), intent(in) :: structure
+      !> The states with their excess stress; takes the rest
+      type(held_errors_type), intent(inout) :: under_way
 
-      type(workspace_type), allocatable :: spaces(:)
-      type(room_type), allocatable :: rooms(:)
-      integer :: i, s
+      integer :: i
 
-      do i = 1, size(states)
-         associate (one => held(i), n => size(structure%modes))
-            call new_difference(size(states(i)%displacement, 2), size(structure%joint_points), n, one%difference)
-            one%load = new_fine_load(structure%fine, structure%modes, states(i)%loading)
-            one%steps = steps_of(states(i)%loading, one%excess)
+      under_way%began = omp_get_wtime()
+      do i = 1, size(under_way%held)
+         associate (held => under_way%held(i), state => under_way%states(i))
+            call new_difference(size(state%displacement, 2), size(structure%joint_points), size(structure%modes), held%difference)
+            held%load = new_fine_load(structure%fine, structure%modes, state%loading)
+            held%steps = steps_of(state%loading, held%excess)
          end associate
       end do
-      associate (equations => structure%equations)
-         call new_workspaces(equations, spaces)
-         allocate (rooms(size(spaces)))
-         if (omp_in_parallel()) then
-            !$omp taskgroup  ! who waits here takes parts of systems that others are at
-            do s = equations%first, equations%last
-               !$omp task default(shared) firstprivate(s)
-               call find_of_system(s)
-               !$omp end task
-            end do
-            !$omp end taskgroup
-         else
-            !$omp parallel do schedule(dynamic) num_threads(size(spaces))
-            do s = equations%first, equations%last
-               call find_of_system(s)
-            end do
-            !$omp end parallel do
-         end if
+      call new_workspaces(structure%equations, under_way%spaces)
+      allocate (under_way%rooms(size(under_way%spaces)))
+   end subroutine begin
+
+   !> Differences of all modes, a system a thread
+   subroutine find_of_systems(structure, under_way)
+      !> The structure
+      type(structure_type), intent(inout) :: structure
+      !> What is found
+      type(held_errors_type), intent(inout) :: under_way
+
+      integer :: s
+
+      !$omp parallel do schedule(dynamic) num_threads(size(under_way%spaces))
+      do s = structure%equations%first, structure%equations%last
+         call find_of_system(structure, s, under_way)
+      end do
+      !$omp end parallel do
+   end subroutine find_of_systems
+
+   !> Differences of the modes of a system while the stress of the joints is held. Its factor is read, and those of blocks are formed,
+   !> once for all states
+   subroutine find_of_system(structure, s, under_way)
+      !> The structure
+      type(structure_type), intent(inout) :: structure
+      !> The system
+      integer, intent(in) :: s
+      !> What is found
+      type(held_errors_type), intent(inout) :: under_way
+
+      integer :: i
+      logical :: again
+
+      associate (equations => structure%equations, modes => structure%equations%systems(s)%modes, held => under_way%held, &
+                 space => under_way%spaces(own()), room => under_way%rooms(own()))
+         if (.not. any([(any(held(i)%steps(modes) > 0), i=1, size(held))])) return
+         call hold_factor(equations, s, space)
+         again = .false.
          do i = 1, size(held)
-            call share_difference(equations, held(i)%difference)
+            if (equations%systems(s)%failed) exit
+            if (all(held(i)%steps(modes) == 0)) cycle
+            call find_difference(structure%fine, equations, s, held(i)%load, under_way%states(i)%displacement, under_way%points, &
+               held(i)%excess, room, held(i)%difference, held(i)%steps, again)
+            again = all(held(i)%difference%known(modes))
          end do
+         call release_factor(equations, s, space)
       end associate
-
-   contains
-
-      !> Differences of the modes of a system
-      subroutine find_of_system(s)
-         !> The system
-         integer, intent(in) :: s
-
-         integer :: i
-         logical :: again
-
-         associate (equations => structure%equations, modes => structure%equations%systems(s)%modes)
-            if (.not. any([(any(held(i)%steps(modes) > 0), i=1, size(held))])) return
-            call hold_factor(equations, s, spaces(own()))
-            again = .false.
-            do i = 1, size(held)
-               if (equations%systems(s)%failed) exit
-               if (all(held(i)%steps(modes) == 0)) cycle
-               call find_difference(structure%fine, equations, s, held(i)%load, states(i)%displacement, points, held(i)%excess, &
-                  rooms(own()), held(i)%difference, held(i)%steps, again)
-               again = all(held(i)%difference%known(modes))
-            end do
-            call release_factor(equations, s, spaces(own()))
-         end associate
-      end subroutine find_of_system
-
-   end subroutine find_differences
+   end subroutine find_of_system
 
    !> Steps to go in each mode: few where nothing acts in it but little excess stress, for its part in the error is as small.
    !> All harmonics in which none is gone had 5 % of the jumps' errors in a pile of M = 8

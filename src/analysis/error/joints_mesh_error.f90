@@ -2,7 +2,7 @@
 module axijoint_analysis_error_joints_mesh_error
    use omp_lib, only : omp_get_wtime
    use axijoint_analysis_core_structure, only : structure_type
-   use axijoint_analysis_error_held_error, only : judged_state_type, errors_by_law
+   use axijoint_analysis_error_held_error, only : judged_state_type, held_errors_type, begin_by_law
    use axijoint_analysis_error_joint_shares, only : least_changes
    use axijoint_analysis_error_remembered, only : solved_way_type, find_remembered
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
@@ -18,15 +18,15 @@ module axijoint_analysis_error_joints_mesh_error
    use axijoint_joints_way, only : lag_type, shift, add_slip
    implicit none
    private
-   public :: find_held_errors, find_answer, add_answer
+   public :: begin_held_errors, find_answer, add_answer
 
 contains
 
-   !> Errors of the mesh while the stress of the joints is held, as the law gives it along the fine joints: where loads turned on the
-   !> way, if it is known, and in the end
-   subroutine find_held_errors(structure, history, balanced, displacement, way, errors)
+   !> Begin errors of the mesh while the stress of the joints is held, as the law gives it along the fine joints: where loads turned on
+   !> the way, if it is known, and in the end, which is the last
+   subroutine begin_held_errors(structure, history, balanced, displacement, way, under_way)
       !> The structure
-      type(structure_type), intent(inout) :: structure
+      type(structure_type), intent(in) :: structure
       !> What the increments came to
       type(history_type), intent(in), target :: history
       !> State of the joints, balanced
@@ -35,24 +35,21 @@ contains
       real(wp), intent(in), target :: displacement(:, :, :)
       !> The way that loads took, if it is known, and slip that came about on it lasts
       type(solved_way_type), intent(in), target :: way
-      !> The errors, those in the end last
-      type(mesh_error_type), allocatable, intent(out) :: errors(:)
+      !> The errors
+      type(held_errors_type), intent(out) :: under_way
 
       type(judged_state_type), allocatable :: states(:)
-      real(wp) :: began
       integer :: i, n
 
-      began = omp_get_wtime()
       n = 0
       if (way%known) n = size(way%places)
-      allocate (states(n + 1), errors(n + 1))
+      allocate (states(n + 1))
       do i = 1, n
          states(i) = judged_state_type(way%solved(i)%loading, way%stations(i)%field, way%solved(i)%displacement)
       end do
       states(n + 1) = judged_state_type(history%loading, balanced, displacement)
-      call errors_by_law(structure, history%scene, states, errors)
-      errors(n + 1)%seconds = omp_get_wtime() - began
-   end subroutine find_held_errors
+      call begin_by_law(structure, history%scene, states, under_way)
+   end subroutine begin_held_errors
 
    !> What joints answer to these errors, and to what the mesh left before of slip that lasts; the effect on the displacements is
    !> for `add_answer`

@@ -8,10 +8,11 @@ module axijoint_analysis_error_yielding_errors
    use axijoint_analysis_core_totals, only : largest_vector
    use axijoint_analysis_error_excess_effect, only : find_effects
    use axijoint_analysis_error_follower, only : follower_type, new_follower, follow_behind
-   use axijoint_analysis_error_held_error, only : judged_state_type, error_of_held
+   use axijoint_analysis_error_held_error, only : judged_state_type, held_errors_type, error_of_held, &
+      find_of_system, find_of_systems, end_by_law
    use axijoint_analysis_error_iteration_left, only : iteration_left_type
    use axijoint_analysis_error_joint_shares, only : take_share, nothing_is_left, has_moved, unloaded, least_changes
-   use axijoint_analysis_error_joints_mesh_error, only : find_held_errors, find_answer, add_answer
+   use axijoint_analysis_error_joints_mesh_error, only : begin_held_errors, find_answer, add_answer
    use axijoint_analysis_error_remembered, only : solved_way_type, look_back, follow_way, leaves_rest
    use axijoint_analysis_fine_mesh_error, only : mesh_error_type
    use axijoint_assembly_equations, only : equations_type
@@ -127,13 +128,13 @@ contains
       !> The structure
       type(structure_type), intent(inout) :: structure
       !> What the increments came to
-      type(history_type), intent(in) :: history
+      type(history_type), intent(in), target :: history
       !> Displacements at the ends of earlier increments that are known
       type(displaced_type), intent(in), optional :: displaced(:)
       !> State of the joints, balanced
-      type(joint_field_type), intent(in) :: balanced
+      type(joint_field_type), intent(in), target :: balanced
       !> Displacement amplitudes of that state, shape (3, nodes, modes)
-      real(wp), intent(in) :: displacement(:, :, :)
+      real(wp), intent(in), target :: displacement(:, :, :)
       !> Whether slip of earlier increments lasts, or is all that is left
       logical, intent(in) :: lasts
       !> Takes the changes by planes and harmonics
@@ -146,9 +147,10 @@ contains
       logical, intent(out) :: rests
 
       type(joint_change_type) :: answer
-      type(solved_way_type) :: way
+      type(solved_way_type), target :: way
       type(search_type) :: search
       type(follower_type) :: follower
+      type(held_errors_type) :: held
       type(mesh_error_type), allocatable :: errors(:)
       real(wp), allocatable :: rounding(:)
       real(wp) :: seconds, looked_back
@@ -185,14 +187,18 @@ contains
       subroutine see_in_order()
          call new_follower(history%scene, size(balanced%jump), size(history%states), .false., follower)
          call see_way()
-         call see_held()
+         call begin_held()
+         call find_of_systems(structure, held)
          call see_answer()
          call see_planes()
          call see_harmonics()
       end subroutine see_in_order
 
-      !> Each by a thread, but for the errors of the mesh, whose systems are for whoever has nothing else to do
+      !> Each by a thread, but for the errors of the mesh, whose systems are for whoever has nothing else to do. None of these tasks
+      !> waits for others, so that no thread is bound to do so
       subroutine see_all_at_once()
+         integer :: s
+
          call new_follower(history%scene, size(balanced%jump), merge(size(history%states), 0, way%known), .true., follower)
          !$omp task default(shared) depend(out: search)
          call follow_behind(structure%condensed, history%scene, follower)
@@ -201,14 +207,19 @@ contains
          !$omp task default(shared) depend(out: way)  ! not by this task: where one waits for its own, it may begin with the first
          call see_way()
          !$omp end task
-         !$omp task default(shared) depend(in: way) depend(out: mesh_error)
-         call see_held()
+         !$omp task default(shared) depend(in: way) depend(out: held)
+         call begin_held()
          !$omp end task
-         !$omp task default(shared) depend(in: mesh_error)
-         call see_answer()
-         !$omp end task
-         !$omp task default(shared) depend(in: mesh_error, search)
+         do s = structure%equations%first, structure%equations%last
+            !$omp task default(shared) firstprivate(s) depend(in: held)
+            call find_of_system(structure, s, held)
+            !$omp end task
+         end do
+         !$omp task default(shared) depend(in: way) depend(inout: search)
          call see_harmonics()
+         !$omp end task
+         !$omp task default(shared) depend(in: way) depend(inout: held)
+         call see_answer()
          !$omp end task
       end subroutine see_all_at_once
 
@@ -222,12 +233,13 @@ contains
       end subroutine see_way
 
       !> What the mesh leaves while the stress of the joints is held
-      subroutine see_held()
-         call find_held_errors(structure, history, balanced, displacement, way, errors)
-      end subroutine see_held
+      subroutine begin_held()
+         call begin_held_errors(structure, history, balanced, displacement, way, held)
+      end subroutine begin_held
 
-      !> What joints answer to that
+      !> What joints answer to that, all systems being found
       subroutine see_answer()
+         call end_by_law(structure, history%scene, held, errors)
          call find_answer(structure, history, balanced, errors, way, mesh_error, answer)
       end subroutine see_answer
 
@@ -236,7 +248,7 @@ contains
          call find_planes(structure%condensed, balanced, history, way%way_type, rounding, search, changes%planes)
       end subroutine see_planes
 
-      !> What harmonics leave, after both
+      !> What harmonics leave, after these
       subroutine see_harmonics()
          if (.not. way%known) follower%lag = lag_type()
          call find_harmonics(structure%condensed, balanced, history, follower%lag, rounding, search, changes)
