@@ -18,6 +18,7 @@ program flexibility
    use axijoint_bench_square, only : square
    use axijoint_fe_mode, only : mode_type
    use axijoint_linalg_lapack, only : use_one_blas_thread
+   use axijoint_linalg_symmetric_half, only : symmetric_half_type
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    use axijoint_model_joint_points, only : model_joint_point_type
    use axijoint_model_model, only : model_type
@@ -72,7 +73,8 @@ contains
       type(pivot_report_type) :: pivots
       type(error_type), allocatable :: error
       integer, allocatable :: set(:), order(:)
-      real(wp), allocatable :: inverse(:, :)
+      type(symmetric_half_type) :: room
+      type(symmetric_half_type), allocatable :: inverse
       real(wp) :: start, factorization, inversion
 
       graph = node_graph(model%mesh)
@@ -97,7 +99,7 @@ contains
       call stop_on(error)
       factorization = seconds() - start
       start = seconds()
-      call factor%flexibility(spread(set, 1, 2), spread([1.0_wp, 0.0_wp], 2, size(set)), inverse, error)
+      call factor%flexibility(spread(set, 1, 2), spread([1.0_wp, 0.0_wp], 2, size(set)), room, inverse, error)
       call stop_on(error)
       inversion = seconds() - start
       write (output_unit, '(a)') to_text(n_side)//','//to_text(matrix%n)//','//to_text(size(set))// &

@@ -2,7 +2,8 @@
 !> of the mathematical library and of axijoint. Processes whose numbers differ in any bit would not decide alike
 module axijoint_mpi_trial
    use axijoint_base_kinds, only : wp, sp, i8
-   use axijoint_linalg_lapack, only : dgemm, dgemv, dsyrk, dtrsm, dpotrf, ddot, symmetric_vector
+   use axijoint_linalg_lapack, only : dgemm, dgemv, dsyrk, dtrsm, dpotrf, ddot
+   use axijoint_linalg_symmetric_half, only : symmetric_half_type, new_half, add_squares, half_product
    use axijoint_linalg_symmetric_single, only : symmetric_single_type, make_room, put_column, symmetric_product
    use axijoint_solver_panel, only : beyond, most_at_once, rows_at_once, panel_forward, panel_backward
    implicit none
@@ -20,8 +21,10 @@ contains
       real(wp), allocatable, intent(out) :: numbers(:)
 
       real(wp), allocatable :: a(:, :), c(:, :), square(:, :), x(:), y(:), t(:)
+      real(wp) :: z(large)
       real(sp) :: single(n)
       type(symmetric_single_type) :: half
+      type(symmetric_half_type) :: panels
       integer :: i, info
 
       a = reshape([(fraction_of(i), i=1, n*long)], [n, long])
@@ -42,8 +45,10 @@ contains
       call add(c)
       call dgemv('N', n, long, 1.0_wp, a, n, a(1, 1), 1, 0.0_wp, y, 1)
       numbers = [numbers, y, ddot(n*long - 1, a, 1, a(2, 1), 1)]
-      call symmetric_vector(square, x, y)
-      numbers = [numbers, y]
+      call new_half(large, panels)
+      call add_squares(large, panels%values, 1, 2, 2, large, a)
+      call half_product(panels, a, z)
+      numbers = [numbers, z]
       call make_room(half, n)
       do i = 1, n
          call put_column(half, i, real(a(:i, i), sp))

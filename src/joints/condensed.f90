@@ -18,6 +18,7 @@ module axijoint_joints_condensed
    use axijoint_joints_floating, only : floating_motion_type, new_floating_motions
    use axijoint_joints_pairs, only : pairs_type, new_pairs, flexibility_of_point
    use axijoint_joints_residual, only : measure_type, new_measure
+   use axijoint_linalg_symmetric_half, only : symmetric_half_type, new_half
    use axijoint_model_joint_points, only : model_joint_point_type, stiffness_ratio
    use axijoint_model_model, only : model_type, can_yield_at
    implicit none
@@ -31,9 +32,9 @@ module axijoint_joints_condensed
    !> Flexibility of one harmonic
    type :: flexibility_type
       !> Displacements of side 4-3 of the joints against side 1-2 by unit amplitudes of forces between them, symmetric, for all
-      !> pairs of nodes along r, z, theta, shape (pairs components, pairs components). With the shape functions N of the points it
-      !> is their F_m = N K_m^-1 N^T w c_m
-      real(wp), allocatable :: matrix(:, :)
+      !> pairs of nodes along r, z, theta, one row for each pair and component. With the shape functions N of the points it is their
+      !> F_m = N K_m^-1 N^T w c_m
+      type(symmetric_half_type), allocatable :: matrix
    end type flexibility_type
 
    !> The condensed structure
@@ -114,8 +115,12 @@ contains
       do s = 1, size(condensed%flexibilities)
          if (condensed%shared) exit
          associate (flexibility => condensed%flexibilities(s))
-            if (.not. allocated(flexibility%matrix)) allocate (flexibility%matrix(n, n))
-            call condensed%team%broadcast(flexibility%matrix, int(n, i8)**2, rank_of(condensed, s))
+            if (.not. allocated(flexibility%matrix)) then
+               allocate (flexibility%matrix)
+               call new_half(n, flexibility%matrix)
+            end if
+            call condensed%team%broadcast(flexibility%matrix%values, size(flexibility%matrix%values, kind=i8), &
+               rank_of(condensed, s))
          end associate
       end do
       allocate (condensed%own(3, 3, size(condensed%points), size(condensed%flexibilities)))
@@ -153,16 +158,18 @@ contains
 
       type(error_type), allocatable :: failure
       type(workspace_type), allocatable :: spaces(:)
+      type(symmetric_half_type), allocatable :: rooms(:)
       integer :: s
 
       allocate (flexibilities(size(equations%systems)))
       call new_workspaces(equations, spaces)
+      allocate (rooms(size(spaces)))
       !$omp parallel do schedule(dynamic) private(failure) num_threads(size(spaces))
       do s = equations%first, equations%last
          if (stop_wished()) cycle
          call hold_factor(equations, s, spaces(own()))
          if (equations%systems(s)%failed) cycle
-         call condense(equations, s, pairs, flexibilities(s)%matrix, failure)
+         call condense(equations, s, pairs, rooms(own()), flexibilities(s)%matrix, failure)
          call release_factor(equations, s, spaces(own()))
          !$omp critical
          if (allocated(failure)) error = failure
@@ -173,15 +180,17 @@ contains
    end subroutine condense_all
 
    !> Flexibility of one harmonic
-   subroutine condense(equations, s, pairs, matrix, error)
+   subroutine condense(equations, s, pairs, room, matrix, error)
       !> Equations of all modes, factored
       type(equations_type), intent(in) :: equations
       !> Place of the system
       integer, intent(in) :: s
       !> Pairs of nodes
       type(pairs_type), intent(in) :: pairs
+      !> Memory of this thread
+      type(symmetric_half_type), intent(inout) :: room
       !> Displacements of the pairs by unit forces between them
-      real(wp), allocatable, intent(out) :: matrix(:, :)
+      type(symmetric_half_type), allocatable, intent(out) :: matrix
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
@@ -190,13 +199,14 @@ contains
 
       associate (dofs => equations%classes(equations%systems(s)%class)%dofs)
          if (dofs%n_equations == 0) then  ! all that the mode could do is held
-            allocate (matrix(3*size(pairs%nodes, 2), 3*size(pairs%nodes, 2)), source=0.0_wp)
+            allocate (matrix)
+            call new_half(3*size(pairs%nodes, 2), matrix)
             return
          end if
          call forces_between(dofs, pairs%nodes, equation, factor)
       end associate
-      call equations%systems(s)%factor%flexibility(equation, factor, matrix, error)
-      if (.not. allocated(error)) matrix = circle_integral(equations%systems(s)%harmonic)*matrix
+      call equations%systems(s)%factor%flexibility(equation, factor, room, matrix, error)
+      if (.not. allocated(error)) matrix%values = circle_integral(equations%systems(s)%harmonic)*matrix%values
    end subroutine condense
 
 end module axijoint_joints_condensed

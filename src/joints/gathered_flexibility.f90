@@ -3,10 +3,12 @@
 !> hand they are gathered in single precision, half of each, as they are symmetric. From one solution to the next much the same
 !> points move: what was gathered is kept while it serves
 module axijoint_joints_gathered_flexibility
-   use axijoint_base_kinds, only : wp, sp
+   use axijoint_base_kinds, only : wp, sp, i8
    use axijoint_joints_condensed, only : condensed_type
    use axijoint_joints_pairs, only : pairs_type, choose
    use axijoint_joints_plane_product, only : plane_product_type
+   use axijoint_linalg_lapack, only : complete
+   use axijoint_linalg_symmetric_half, only : symmetric_half_type, before_column, entry
    use axijoint_linalg_symmetric_single, only : symmetric_single_type, make_room, put_column
    implicit none
    private
@@ -85,8 +87,7 @@ contains
          associate (whole => condensed%flexibilities(s)%matrix, n => size(condensed%pairs%nodes, 2))
             if (double) then
                if (allocated(gathering%flexibilities(s)%single)) deallocate (gathering%flexibilities(s)%single)
-               gathering%flexibilities(s)%double = whole([place, n + place, 2*n + place], &
-                  [place, n + place, 2*n + place])
+               call gather_double(whole, [place, n + place, 2*n + place], gathering%flexibilities(s)%double)
             else
                if (allocated(gathering%flexibilities(s)%double)) deallocate (gathering%flexibilities(s)%double)
                call gather_single(whole, [place, n + place, 2*n + place], gathering%flexibilities(s))
@@ -130,10 +131,31 @@ contains
       n_numbers = 9.0_wp*n*real(size(pairs%nodes, 2), wp)**2
    end function n_numbers
 
+   !> Gather the flexibility of some pairs
+   subroutine gather_double(whole, place, double)
+      !> Flexibility of all pairs
+      type(symmetric_half_type), intent(in) :: whole
+      !> Places of these in it, ascending
+      integer, intent(in) :: place(:)
+      !> Their flexibility, all of it
+      real(wp), allocatable, intent(inout) :: double(:, :)
+
+      integer :: j
+
+      if (allocated(double)) then
+         if (size(double, 1) /= size(place)) deallocate (double)
+      end if
+      if (.not. allocated(double)) allocate (double(size(place), size(place)))
+      do j = 1, size(place)
+         double(:j, j) = whole%values(before_column(whole%n, place(j)) + place(:j))
+      end do
+      call complete(double)
+   end subroutine gather_double
+
    !> Gather the flexibility of some pairs in single precision
    subroutine gather_single(whole, place, gathered)
       !> Flexibility of all pairs
-      real(wp), intent(in), contiguous :: whole(:, :)
+      type(symmetric_half_type), intent(in) :: whole
       !> Places of these in it, ascending
       integer, intent(in) :: place(:)
       !> Their flexibility
@@ -143,11 +165,12 @@ contains
       real(sp) :: column(size(place))
       logical :: starts(size(place))
       integer, allocatable :: first(:), last(:), shift(:)
+      integer(i8) :: before
       integer :: i, j, k
 
       gathered%unit = tiny(1.0_wp)
       do j = 1, size(place)
-         gathered%unit = max(gathered%unit, abs(whole(place(j), place(j))))
+         gathered%unit = max(gathered%unit, abs(entry(whole, place(j), place(j))))
       end do
       gathered%unit = 2.0_wp**exponent(gathered%unit)  ! in a range that single precision has
       scale = 1.0_wp/gathered%unit
@@ -159,10 +182,11 @@ contains
       if (.not. allocated(gathered%single)) allocate (gathered%single)
       call make_room(gathered%single, size(place))
       do j = 1, size(place)
+         before = before_column(whole%n, place(j))
          do k = 1, size(first)  ! neighbours are copied together
             if (first(k) > j) exit
             do i = first(k), min(last(k), j)
-               column(i) = real(scale*whole(i + shift(k), place(j)), sp)
+               column(i) = real(scale*whole%values(before + i + shift(k)), sp)
             end do
          end do
          call put_column(gathered%single, j, column(:j))

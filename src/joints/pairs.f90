@@ -3,6 +3,7 @@
 module axijoint_joints_pairs
    use axijoint_base_kinds, only : wp
    use axijoint_element_joint, only : lower_node, upper_node
+   use axijoint_linalg_symmetric_half, only : symmetric_half_type, entry
    use axijoint_model_joint_points, only : model_joint_point_type
    implicit none
    private
@@ -195,21 +196,22 @@ contains
       !> The pairs
       type(pairs_type), intent(in) :: pairs
       !> Their flexibility, for all pairs of component 1, 2, 3
-      real(wp), intent(in) :: matrix(:, :)
+      type(symmetric_half_type), intent(in) :: matrix
       !> The point
       integer, intent(in) :: k
       !> The jumps, one column a component of stress
       real(wp) :: flexibility(3, 3)
 
       real(wp) :: rotation(3, 3)
-      integer :: a, b, i, rows(3), columns(3)
+      integer :: a, b, i, j
 
       flexibility = 0.0_wp
       do b = 1, 3
          do a = 1, 3
-            rows = pairs%of_point(a, k) + [(i*size(pairs%nodes, 2), i=0, 2)]
-            columns = pairs%of_point(b, k) + [(i*size(pairs%nodes, 2), i=0, 2)]
-            flexibility = flexibility + pairs%shape(a, k)*pairs%shape(b, k)*matrix(rows, columns)
+            associate (row => pairs%of_point(a, k), column => pairs%of_point(b, k), n => size(pairs%nodes, 2))
+               flexibility = flexibility + pairs%shape(a, k)*pairs%shape(b, k)*reshape( &
+                             [((entry(matrix, row + i*n, column + j*n), i=0, 2), j=0, 2)], [3, 3])
+            end associate
          end do
       end do
       rotation = reshape([pairs%cosine(k), -pairs%sine(k), 0.0_wp, pairs%sine(k), pairs%cosine(k), 0.0_wp, &

@@ -10,7 +10,8 @@ module axijoint_joints_scene
    use axijoint_joints_loads, only : joint_loads_type, new_joint_loads
    use axijoint_joints_pairs, only : pairs_type, forces_on_pairs, jumps_at_points
    use axijoint_joints_planes, only : planes_type, new_planes, synthesize, analyse
-   use axijoint_linalg_lapack, only : invert, matrix_sparse_vector, symmetric_vector
+   use axijoint_linalg_lapack, only : invert
+   use axijoint_linalg_symmetric_half, only : half_product, half_sparse_product
    use axijoint_model_joint_points, only : law_at
    use axijoint_model_model, only : model_type
    implicit none
@@ -160,9 +161,9 @@ contains
       at_points = transpose(excess)
       call forces_on_pairs(pairs, size(excess, 2), weight, at_points, force)
       if (2*count(abs(force) > 0.0_wp) > size(force)) then
-         call symmetric_vector(flexibility%matrix, force, moved)
+         call half_product(flexibility%matrix, force, moved)
       else
-         call matrix_sparse_vector(flexibility%matrix, force, moved)
+         call half_sparse_product(flexibility%matrix, force, moved)
       end if
       call jumps_at_points(pairs, moved, size(excess, 2), at_points)
       jump = transpose(at_points)

@@ -8,7 +8,7 @@ module axijoint_linalg_lapack
    public :: cholesky, inverse_from_cholesky, symmetric_eigen, &
       use_one_blas_thread
    public :: product_rate
-   public :: matrix_vector, symmetric_vector, matrix_sparse_vector, complete
+   public :: matrix_vector, complete, dsymv
    public :: least_squares, invert, singular_values
 
    interface
@@ -220,21 +220,9 @@ contains
       call dgemv('N', size(a, 1), size(a, 2), 1.0_wp, a, max(1, size(a, 1)), x, 1, 0.0_wp, y, 1)
    end subroutine matrix_vector
 
-   !> Product of a symmetric matrix and a vector
-   subroutine symmetric_vector(a, x, y)
-      !> The matrix, shape (n, n); above its diagonal nothing is read
-      real(wp), intent(in), contiguous :: a(:, :)
-      !> The vector and the product, n values in any shape
-      real(wp), intent(in) :: x(*)
-      real(wp), intent(inout) :: y(*)
-
-      y(:size(a, 1)) = 0.0_wp
-      call dsymv('L', size(a, 1), 1.0_wp, a, max(1, size(a, 1)), x, 1, 1.0_wp, y, 1)
-   end subroutine symmetric_vector
-
-   !> The upper triangle of a symmetric matrix, tile by tile, which the cache holds
+   !> The lower triangle of a symmetric matrix, tile by tile, which the cache holds
    subroutine complete(matrix)
-      !> The matrix, its lower triangle there
+      !> The matrix, its upper triangle there
       real(wp), intent(inout) :: matrix(:, :)
 
       integer, parameter :: side = 64
@@ -244,53 +232,12 @@ contains
          do row = first, size(matrix, 1), side
             do j = first, min(first + side - 1, size(matrix, 2))
                do i = max(row, j + 1), min(row + side - 1, size(matrix, 1))
-                  matrix(j, i) = matrix(i, j)
+                  matrix(i, j) = matrix(j, i)
                end do
             end do
          end do
       end do
    end subroutine complete
-
-   !> Product of a matrix and a vector with long runs of zeros, whose columns are not read
-   subroutine matrix_sparse_vector(a, x, y)
-      !> The matrix, shape (m, n)
-      real(wp), intent(in), contiguous :: a(:, :)
-      !> The vector, n values in any shape
-      real(wp), intent(in) :: x(size(a, 2))
-      !> The product, m values in any shape
-      real(wp), intent(inout) :: y(*)
-
-      !> Zeros that end a run of others
-      integer, parameter :: enough = 6
-      integer :: first, last, next
-
-      y(:size(a, 1)) = 0.0_wp
-      first = next_one(1)
-      do while (first <= size(x))
-         last = first
-         do
-            next = next_one(last + 1)
-            if (next > min(size(x), last + enough)) exit
-            last = next
-         end do
-         call dgemv('N', size(a, 1), last - first + 1, 1.0_wp, a(:, first:last), size(a, 1), &
-            x(first:last), 1, 1.0_wp, y, 1)
-         first = next
-      end do
-
-   contains
-
-      !> Place of the next value that is none, from a place on; beyond the end if there is none
-      integer function next_one(from) result(place)
-         !> The place
-         integer, intent(in) :: from
-
-         do place = from, size(x)
-            if (abs(x(place)) > 0.0_wp) return
-         end do
-      end function next_one
-
-   end subroutine matrix_sparse_vector
 
    !> Singular values of a square matrix, descending, and its right singular vectors, one row each
    subroutine singular_values(a, values, rows)

@@ -297,7 +297,7 @@ static int sort_loads(const handle_type *handle, int64_t count, const int32_t *e
    return code;
 }
 
-/* The lower triangle of the flexibility under loads on two equations, counted from one, whatever the order; `place` takes the
+/* The flexibility under loads on two equations, counted from one, whatever the order, half of which is kept; `place` takes the
    place among the loads of each row of it. 0; 1 if there is no memory; 2 if the two do not lie one above the other in the
    elimination tree */
 int axijoint_cholmod_flexibility(const void *pointer, int64_t count, const int32_t *equation, const double *factor,

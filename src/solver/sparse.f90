@@ -4,12 +4,12 @@ module axijoint_solver_sparse
                                            c_int64_t, c_double
    use axijoint_base_error, only : error_type, memory_error
    use axijoint_base_kinds, only : wp, i8
-   use axijoint_linalg_lapack, only : complete
+   use axijoint_linalg_symmetric_half, only : symmetric_half_type, put_in_order
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    use axijoint_order_orders, only : least_fill
    use axijoint_solver_entry, only : solver_entry_type, cost_type
    use axijoint_solver_type, only : solver_type, factor_type, pivot_report_type, judge_pivots, &
-                                    new_block, flexibility_by_loads
+                                    new_flexibility, flexibility_by_loads
    implicit none
    private
    public :: sparse_solver_type, sparse_entry
@@ -66,15 +66,15 @@ module axijoint_solver_sparse
          integer(c_int64_t), value :: n_rhs
          real(c_double), intent(inout) :: b(*)
       end subroutine cholmod_solve
-      !> Lower triangle of the flexibility under loads on two equations
-      function cholmod_flexibility(handle, n_loads, equation, factor, triangle, place) result(code) &
+      !> The flexibility under loads on two equations, half of which is kept
+      function cholmod_flexibility(handle, n_loads, equation, factor, half, place) result(code) &
          bind(c, name='axijoint_cholmod_flexibility')
          import :: c_ptr, c_int, c_int32_t, c_int64_t, c_double
          type(c_ptr), value :: handle
          integer(c_int64_t), value :: n_loads
          integer(c_int32_t), intent(in) :: equation(*)
          real(c_double), intent(in) :: factor(*)
-         real(c_double), intent(inout) :: triangle(*)
+         real(c_double), intent(inout) :: half(*)
          integer(c_int32_t), intent(out) :: place(*)
          integer(c_int) :: code
       end function cholmod_flexibility
@@ -216,63 +216,34 @@ contains
    end function flexibility_operations
 
    !> E^T K^-1 E of loads E, up the elimination tree; by solutions if the matrix does not couple two equations of a load
-   subroutine flexibility(self, equation, factor, matrix, error)
+   subroutine flexibility(self, equation, factor, room, matrix, error)
       !> The factor
       class(sparse_factor_type), intent(in) :: self
       !> The two equations that each load acts on, and what acts there, shape (2, loads)
       integer, intent(in) :: equation(:, :)
       real(wp), intent(in) :: factor(:, :)
-      !> Shape (loads, loads)
-      real(wp), allocatable, intent(out) :: matrix(:, :)
+      !> Memory that one after the other takes: for the flexibility in the order of the tree
+      type(symmetric_half_type), intent(inout) :: room
+      !> One row a load
+      type(symmetric_half_type), allocatable, intent(out) :: matrix
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
       integer :: place(size(equation, 2))
 
-      call new_block(matrix, size(place), size(place), error)
+      call new_flexibility(room, size(place), error)
       if (allocated(error)) return
-      select case (cholmod_flexibility(self%handle, size(place, kind=c_int64_t), equation, factor, matrix, place))
+      select case (cholmod_flexibility(self%handle, size(place, kind=c_int64_t), equation, factor, room%values, place))
       case (0)
-         call complete(matrix)
-         call arrange(matrix, place)
+         allocate (matrix)
+         call new_flexibility(matrix, size(place), error)
+         if (.not. allocated(error)) call put_in_order(room, place, matrix)
       case (1)
          call memory_error(error, 'the flexibility under', size(place, kind=i8), 'loads')
       case default
-         call flexibility_by_loads(self, equation, factor, matrix, error)
+         call flexibility_by_loads(self, equation, factor, room, matrix, error)
       end select
    end subroutine flexibility
-
-   !> Bring rows and columns of a matrix to their places, without another as large
-   subroutine arrange(matrix, place)
-      !> The matrix
-      real(wp), intent(inout) :: matrix(:, :)
-      !> Place of each of its rows and columns
-      integer, intent(in) :: place(:)
-
-      real(wp), allocatable :: column(:), next(:)
-      logical :: done(size(place))
-      integer :: j, k
-
-      allocate (column(size(place)), next(size(place)))
-      do j = 1, size(place)
-         column(place) = matrix(:, j)
-         matrix(:, j) = column
-      end do
-      done = .false.
-      do j = 1, size(place)
-         if (done(j)) cycle
-         k = j  ! each column pushes away the one in its place, until the place of the first is reached
-         column = matrix(:, k)
-         do
-            k = place(k)
-            next = matrix(:, k)
-            matrix(:, k) = column
-            done(k) = .true.
-            if (k == j) exit
-            column = next
-         end do
-      end do
-   end subroutine arrange
 
    !> Free the symbolic factor
    subroutine free_solver(self)

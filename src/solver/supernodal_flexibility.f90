@@ -9,7 +9,8 @@ module axijoint_solver_supernodal_flexibility
    use, intrinsic :: iso_c_binding, only : c_f_pointer, c_double, c_int32_t, c_int64_t
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_last_words, only : let_fail
-   use axijoint_linalg_lapack, only : dgemm, dsyrk, dtrsm
+   use axijoint_linalg_lapack, only : dgemm, dtrsm
+   use axijoint_linalg_symmetric_half, only : add_squares
    use axijoint_solver_supernodal, only : supernodal_structure_type
    implicit none
    private
@@ -50,8 +51,8 @@ contains
       integer(c_int64_t), value :: n_loads
       integer(c_int64_t), intent(in) :: place(2, n_loads)
       real(c_double), intent(in) :: factor(2, n_loads)
-      !> Lower triangle of the flexibility
-      real(c_double), intent(inout) :: flexibility(n_loads, n_loads)
+      !> The flexibility, zeros so far, half of which is kept
+      real(c_double), intent(inout) :: flexibility(*)
       !> 0; 1 if there is no memory; 2 if two equations of a load do not lie one above the other
       integer(c_int32_t), intent(out) :: code
 
@@ -69,7 +70,6 @@ contains
       code = merge(0_c_int32_t, 1_c_int32_t, stat == 0)
       if (code == 0 .and. .not. are_above(tree, place)) code = 2
       if (code /= 0) return
-      flexibility = 0.0_wp
       head = nobody
       do s = 1, size(head)
          if (tree%last(s) < tree%first(s)) cycle  ! no loads below
@@ -79,8 +79,7 @@ contains
             return
          end if
          call eliminate(int(tree%first_row(s + 1) - tree%first_row(s)), int(tree%column(s + 1) - tree%column(s)), &
-            tree%last(s) - tree%first(s) + 1, l(tree%first_number(s)), left(s)%x, int(n_loads), &
-            flexibility(tree%first(s), tree%first(s)))
+            tree%last(s) - tree%first(s) + 1, l(tree%first_number(s)), left(s)%x, tree%first(s), int(n_loads), flexibility)
          associate (parent => tree%parent(s))
             if (parent == nobody) then
                deallocate (left(s)%x)
@@ -262,22 +261,22 @@ contains
    end subroutine take_loads
 
    !> Eliminate the unknowns of a supernode from the loads of its subtree, and add the product of what they are
-   subroutine eliminate(height, width, n_loads, panel, x, stride, flexibility)
+   subroutine eliminate(height, width, n_loads, panel, x, first, n, flexibility)
       !> Rows, columns, loads
       integer, intent(in) :: height, width, n_loads
       !> The panel, its first rows a lower triangle
       real(wp), intent(in) :: panel(height, width)
       !> The loads; then, in the rows below the triangle, what they leave there
       real(wp), intent(inout) :: x(height, n_loads)
-      !> Distance of columns of the flexibility
-      integer, intent(in) :: stride
-      !> Its lower triangle from the first of the loads on
-      real(wp), intent(inout) :: flexibility(stride, *)
+      !> The first of them among all, and how many there are
+      integer, intent(in) :: first, n
+      !> The flexibility
+      real(wp), intent(inout) :: flexibility(*)
 
       call dtrsm('L', 'L', 'N', 'N', width, n_loads, 1.0_wp, panel, height, x, height)
       if (height > width) call dgemm('N', 'N', height - width, n_loads, width, -1.0_wp, panel(width + 1, 1), height, x, height, &
          1.0_wp, x(width + 1, 1), height)
-      call dsyrk('L', 'T', n_loads, width, 1.0_wp, x, height, 1.0_wp, flexibility, stride)
+      call add_squares(n, flexibility, first, height, width, n_loads, x)
    end subroutine eliminate
 
 end module axijoint_solver_supernodal_flexibility

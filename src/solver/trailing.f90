@@ -3,7 +3,8 @@ module axijoint_solver_trailing
    use axijoint_base_error, only : error_type
    use axijoint_base_kinds, only : wp
    use axijoint_base_sort, only : refine_order
-   use axijoint_solver_type, only : factor_type, new_block
+   use axijoint_linalg_symmetric_half, only : symmetric_half_type, put_entry
+   use axijoint_solver_type, only : factor_type, new_block, new_flexibility
    implicit none
    private
    public :: trailing_factor_type
@@ -48,14 +49,16 @@ contains
 
    !> E^T K^-1 E of loads E by solutions. By symmetry the entries from the diagonal on are enough, and these take the factor
    !> from the first equation of the load on.
-   subroutine flexibility(self, equation, factor, matrix, error)
+   subroutine flexibility(self, equation, factor, room, matrix, error)
       !> The factor
       class(trailing_factor_type), intent(in) :: self
       !> The two equations that each load acts on, and what acts there, shape (2, loads)
       integer, intent(in) :: equation(:, :)
       real(wp), intent(in) :: factor(:, :)
-      !> Shape (loads, loads)
-      real(wp), allocatable, intent(out) :: matrix(:, :)
+      !> Memory that one after the other may take
+      type(symmetric_half_type), intent(inout) :: room
+      !> One row a load
+      type(symmetric_half_type), allocatable, intent(out) :: matrix
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
@@ -63,8 +66,11 @@ contains
       integer, dimension(size(equation, 2)) :: order, lower
       integer :: i, j, k, l, last, first, n
 
+      associate (unused => room)
+      end associate
       n = size(equation, 2)
-      call new_block(matrix, n, n, error)
+      allocate (matrix)
+      call new_flexibility(matrix, n, error)
       if (allocated(error)) return
       lower = minval(equation, 1)
       order = [(i, i=1, n)]
@@ -82,16 +88,9 @@ contains
             end do
          end do
          call self%solve_trailing(first, b)
-         do j = k, last
-            do l = j, n
-               associate (rows => equation(:, order(l)) - first + 1)
-                  matrix(order(l), order(j)) = sum(factor(:, order(l))*b(rows, j - k + 1))
-               end associate
-            end do
-         end do
-         do l = k, n  ! rows of some columns, which the cache holds
+         do l = k, n
             do j = k, min(l, last)
-               matrix(order(j), order(l)) = matrix(order(l), order(j))
+               call put_entry(matrix, order(l), order(j), sum(factor(:, order(l))*b(equation(:, order(l)) - first + 1, j - k + 1)))
             end do
          end do
       end do

@@ -3,11 +3,12 @@ module axijoint_solver_type
    use axijoint_base_error, only : error_type, memory_error
    use axijoint_base_kinds, only : wp, i8
    use axijoint_base_last_words, only : let_fail
+   use axijoint_linalg_symmetric_half, only : symmetric_half_type, new_half, put_entry, half_numbers
    use axijoint_linalg_symmetric_matrix, only : symmetric_matrix_type
    implicit none
    private
    public :: solver_type, factor_type, pivot_report_type, judge_pivots
-   public :: new_block, flexibility_by_loads
+   public :: new_block, new_flexibility, flexibility_by_loads
 
    !> A pivot below this share of the diagonal entry that it started from is
    !> rounding, so the matrix is singular to working precision. Cholesky
@@ -140,22 +141,27 @@ contains
    end function operations_by_loads
 
    !> E^T K^-1 E of loads E by solutions. Solvers that know where loads are felt do better
-   subroutine flexibility_by_loads(self, equation, factor, matrix, error)
+   subroutine flexibility_by_loads(self, equation, factor, room, matrix, error)
       !> The factor
       class(factor_type), intent(in) :: self
       !> The two equations that each load acts on, and what acts there, shape (2, loads). A load on one equation has a factor of
       !> zero on any other
       integer, intent(in) :: equation(:, :)
       real(wp), intent(in) :: factor(:, :)
-      !> Shape (loads, loads)
-      real(wp), allocatable, intent(out) :: matrix(:, :)
+      !> Memory that one after the other may take
+      type(symmetric_half_type), intent(inout) :: room
+      !> One row a load
+      type(symmetric_half_type), allocatable, intent(out) :: matrix
       !> Out of memory
       type(error_type), allocatable, intent(out) :: error
 
       real(wp), allocatable :: b(:, :)
       integer :: i, j, k, last
 
-      call new_block(matrix, size(equation, 2), size(equation, 2), error)
+      associate (unused => room)
+      end associate
+      allocate (matrix)
+      call new_flexibility(matrix, size(equation, 2), error)
       if (allocated(error)) return
       do k = 1, size(equation, 2), block_size
          last = min(k + block_size - 1, size(equation, 2))
@@ -168,13 +174,29 @@ contains
          end do
          call self%solve(b)
          do j = k, last
-            matrix(:, j) = factor(1, :)*b(equation(1, :), j - k + 1) + factor(2, :)*b(equation(2, :), j - k + 1)
+            do i = 1, j
+               call put_entry(matrix, i, j, sum(factor(:, i)*b(equation(:, i), j - k + 1)))
+            end do
          end do
       end do
-      do j = 2, size(equation, 2)  ! as symmetric as the matrix
-         matrix(:j - 1, j) = matrix(j, :j - 1)
-      end do
    end subroutine flexibility_by_loads
+
+   !> A flexibility of zeros, or words for an error
+   subroutine new_flexibility(matrix, n, error)
+      !> The flexibility; its memory is taken again if it has the size
+      type(symmetric_half_type), intent(inout) :: matrix
+      !> Loads
+      integer, intent(in) :: n
+      !> Out of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: stat
+
+      call let_fail(.true.)
+      call new_half(n, matrix, stat)
+      call let_fail(.false.)
+      if (stat /= 0) call memory_error(error, 'the flexibility of', half_numbers(n), 'numbers')
+   end subroutine new_flexibility
 
    !> A block of zeros, or words for an error
    subroutine new_block(block, rows, columns, error)

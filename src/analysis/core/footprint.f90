@@ -17,6 +17,7 @@ module axijoint_analysis_core_footprint
    use axijoint_joints_history, only : most_turns
    use axijoint_joints_newton_system, only : most_products
    use axijoint_joints_pairs, only : pairs_type, new_pairs
+   use axijoint_linalg_symmetric_half, only : half_numbers
    use axijoint_joints_planes, only : planes_type, part_intervals
    use axijoint_model_joint_points, only : model_joint_point_type, stiffest_whole
    use axijoint_model_mesh, only : mesh_type, n_nodes, n_elements, element_references
@@ -64,6 +65,8 @@ module axijoint_analysis_core_footprint
    !> iterations gain less by sharing products than by leaving the other threads to find these
    integer(i8), parameter :: most_displaced = 4000000
    integer, parameter :: few_threads = 4, few_points = 300
+   !> Numbers that a load leaves while a flexibility is formed, for each node of a line across the mesh
+   integer(i8), parameter :: of_lines = 6
    !> Numbers of states that one thread has found and another goes to with more harmonics, at most, and those of a state for each jump
    integer(i8), parameter :: most_waiting = 4000000, of_jump = 7
 
@@ -145,9 +148,14 @@ contains
       points = pack(joint_points, can_yield_at(model, joint_points%material))
       pairs = new_pairs(points)
       stiff = any(points%proportion > stiffest_whole)
-      ! flexibilities, and half of them as Newton's linear system reads them, in single precision; with stiff joints all of both
-      footprint%joints = real_bytes*(n_systems*(3*size(pairs%nodes, 2, i8))**2*merge(8, 5, stiff)/4 &
-                                     + plane_numbers*jumps/3*max(planes, int(n_modes, i8)) &
+      ! halves of flexibilities, and these as Newton's linear system reads them, in single precision; with stiff joints all of them
+      associate (n => 3*size(pairs%nodes, 2))
+         footprint%joints = real_bytes*n_systems*(half_numbers(n) + int(n, i8)**2*merge(4, 1, stiff)/4)
+         ! in another order, and what unit loads leave on some lines of nodes across the mesh
+         footprint%joint_work = real_bytes*(half_numbers(n) + of_lines*n*nint(sqrt(real(nodes, wp)), i8))
+      end associate
+      footprint%joints = footprint%joints + real_bytes* &
+                                    (plane_numbers*jumps/3*max(planes, int(n_modes, i8)) &
                                      + jumps*n_modes*min(merge(int(most_products, i8), newton_vectors, stiff), jumps*n_modes))
       if (jumps > 0) footprint%joints = footprint%joints + plane_matrix_bytes(model, modes)
       if (size(model%increments) > 1) then
@@ -168,7 +176,6 @@ contains
             + merge(real_bytes, 0_i8, omp_get_max_threads() > 1)*waiting_numbers(jumps*kept_planes, size(model%increments) - 1)
       end if
       if (bodies_yield(model)) call add_bodies(model, references, modes, footprint)
-      footprint%joint_work = real_bytes*(3*size(pairs%nodes, 2, i8))**2  ! solutions for unit loads, about
    end function data_footprint
 
    !> Displacements of earlier increments that are held until they are shown, for they are found beside the iterations; none if these
