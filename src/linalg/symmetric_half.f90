@@ -14,7 +14,7 @@ module axijoint_linalg_symmetric_half
    !> Rows of a panel that the cache holds while they are multiplied both ways
    integer, parameter :: rows_at_hand = 256
    !> Rows and columns that are brought to their places together
-   integer, parameter :: tile = 64
+   integer, parameter :: tile = 16
 
    !> The matrix
    type :: symmetric_half_type
