@@ -59,7 +59,7 @@ contains
       type(footprint_type), intent(in) :: others
 
       associate (equations => structure%equations)
-         bytes = max(passing_bytes(equations) + others%loads + others%fine_work*equations%n_workers, &
+         bytes = max(passing_bytes(equations) + others%loads + others%joint_states + others%fine_work*equations%n_workers, &
                      others%joint_work*equations%n_workers, others%body_work)
       end associate
    end function solving_bytes

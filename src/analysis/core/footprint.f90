@@ -33,22 +33,21 @@ module axijoint_analysis_core_footprint
    integer(i8), parameter :: program_bytes = 9500000_i8
    !> Bytes of a real
    integer(i8), parameter :: real_bytes = storage_size(1.0_wp)/8
-   !> Numbers of a joint point on a plane: jumps, stresses, states, slip, slopes, and copies
-   integer(i8), parameter :: plane_numbers = 91
+   !> Numbers of a joint point on a plane: jumps, stresses, states, slip, slopes, and copies; those of them that stay, as measured
+   integer(i8), parameter :: plane_numbers = 91, state_numbers = 46
    !> Matrices between modes and planes: of components that are even and odd, forth and back
    integer(i8), parameter :: plane_matrices = 4
    !> Planes round the whole circle take so many halves of those of half of it, as measured
    integer(i8), parameter :: around = 5
    !> Planes on which the estimates of errors find joints again, times so many
    integer(i8), parameter :: more_planes = 4
-   !> Numbers of a joint point on a plane that are kept of a state where loads turned: jumps, stresses, slip, states; with copies as
-   !> they are followed, as measured
-   integer(i8), parameter :: station_numbers = 40
+   !> Numbers of a joint point on a plane that are kept of a state where loads turned: jumps, stresses, slip, states
+   integer(i8), parameter :: station_numbers = 12
    !> Vectors that the linear solutions of Newton's method touch: with usual joints, and with those whose laws are stiffer than the
    !> structure has them, which may need all that there are
    integer(i8), parameter :: newton_vectors = 100
-   !> Copies of what is kept of earlier increments: itself, as bytes, and two of these while they are written
-   integer(i8), parameter :: kept_states = 4
+   !> Copies of what is kept of earlier increments: itself and as bytes, which stay, and two of these while they are written
+   integer(i8), parameter :: staying_states = 2, written_states = 4
    !> Bytes of a node in the mesh, its elements, graph, orders and equations, as measured
    integer(i8), parameter :: mesh_bytes = 520
    !> Bytes of a node of the fine mesh besides its stiffness, as measured
@@ -78,10 +77,9 @@ module axijoint_analysis_core_footprint
       integer(i8) :: loads = 0
       !> Reactions and stresses, which come after
       integer(i8) :: stresses = 0
-      !> Flexibilities and state of the joints that can yield
-      integer(i8) :: joints = 0
-      !> What a thread takes to form a flexibility
-      integer(i8) :: joint_work = 0
+      !> Flexibilities and state of the joints that can yield; what a thread takes to form a flexibility; and what iterations, and
+      !> estimates of errors after them, take beside the state
+      integer(i8) :: joints = 0, joint_work = 0, joint_states = 0
       !> State of the bodies that yield, with what is kept of earlier increments; what their
       !> iterations take
       integer(i8) :: bodies = 0, body_work = 0
@@ -110,12 +108,8 @@ contains
       type(footprint_type) :: footprint
 
       type(reference_type), allocatable :: references(:)
-      type(mode_type), allocatable :: modes(:)
-      integer(i8) :: nodes, jumps, planes, kept_planes
-      logical :: stiff
+      integer(i8) :: nodes
       type(shapes_type) :: shapes
-      type(pairs_type) :: pairs
-      type(model_joint_point_type), allocatable :: points(:)
       integer, allocatable :: alike(:)
 
       references = element_references(model%mesh)
@@ -136,47 +130,89 @@ contains
          footprint%stresses = footprint%stresses + 6*9*count(model%mesh%element_size > 4, kind=i8)
       end if
       footprint%stresses = footprint%stresses*n_modes*real_bytes
-      jumps = 3*count(can_yield_at(model, joint_points%material), kind=i8)
-      planes = model%n_planes
-      modes = used_modes(model)
-      kept_planes = planes
-      if (any(modes%family == family_antisymmetric)) then
-         planes = around*(planes - 1)/2
-         kept_planes = 2*(kept_planes - 1)
-      end if
-      if (maxval(model%harmonics) > 0) planes = planes + more_planes*planes
-      points = pack(joint_points, can_yield_at(model, joint_points%material))
-      pairs = new_pairs(points)
-      stiff = any(points%proportion > stiffest_whole)
-      ! halves of flexibilities, and these as Newton's linear system reads them, in single precision; with stiff joints all of them
-      associate (n => 3*size(pairs%nodes, 2))
-         footprint%joints = real_bytes*n_systems*(half_numbers(n) + int(n, i8)**2*merge(4, 1, stiff)/4)
-         ! in another order, and what unit loads leave on some lines of nodes across the mesh
-         footprint%joint_work = real_bytes*(half_numbers(n) + of_lines*n*nint(sqrt(real(nodes, wp)), i8))
+      if (size(model%increments) > 1) footprint%stresses = 2*footprint%stresses + footprint%loads
+      associate (yields => can_yield_at(model, joint_points%material))
+         if (any(yields)) call add_joints(model, n_modes, n_systems, pack(joint_points, yields), estimated, footprint)
       end associate
-      footprint%joints = footprint%joints + real_bytes* &
-                                    (plane_numbers*jumps/3*max(planes, int(n_modes, i8)) &
-                                     + jumps*n_modes*min(merge(int(most_products, i8), newton_vectors, stiff), jumps*n_modes))
-      if (jumps > 0) footprint%joints = footprint%joints + plane_matrix_bytes(model, modes)
-      if (size(model%increments) > 1) then
-         ! jumps, stresses and states are kept, and as bytes for who goes on; earlier increments are solved again, some at a time
-         footprint%joints = footprint%joints + kept_states*real_bytes*(size(model%increments, kind=i8) - 1) &
-            *jumps/3*(7*kept_planes + 6*n_modes)
-         if (jumps > 0) footprint%joints = footprint%joints + real_bytes*acting_cases(model)*(jumps*n_modes + 3*nodes)
-         footprint%stresses = 2*footprint%stresses + footprint%loads
-         ! with loads and forces of those that are looked for
-         associate (numbers => displaced_numbers(model, n_modes, count(can_yield_at(model, joint_points%material))))
-            if (jumps > 0 .and. numbers > 0) footprint%joints = footprint%joints + real_bytes*(numbers + 24*nodes*n_modes)
-         end associate
-         ! loads twice, displacements and what half the elements change of them, where loads turned; joints there, and those that answer
-         ! the mesh while others do planes and harmonics
-         if (jumps > 0 .and. estimated) footprint%joints = footprint%joints &
-            + 12*real_bytes*nodes*n_modes*min(most_turns, size(model%increments) - 1) &
-            + real_bytes*jumps/3*kept_planes*(plane_numbers + station_numbers*min(most_turns + 1, size(model%increments) - 1)) &
-            + merge(real_bytes, 0_i8, omp_get_max_threads() > 1)*waiting_numbers(jumps*kept_planes, size(model%increments) - 1)
-      end if
-      if (bodies_yield(model)) call add_bodies(model, references, modes, footprint)
+      if (bodies_yield(model)) call add_bodies(model, references, used_modes(model), footprint)
    end function data_footprint
+
+   !> Add the memory of joints that can yield: flexibilities, the state and what is kept of earlier ones, which stay; then what
+   !> iterations take, or the estimates of errors after these
+   subroutine add_joints(model, n_modes, n_systems, points, estimated, footprint)
+      !> The job
+      type(model_type), intent(in) :: model
+      !> Modes, and matrices
+      integer, intent(in) :: n_modes, n_systems
+      !> Points of joints that can yield
+      type(model_joint_point_type), intent(in) :: points(:)
+      !> Whether errors are estimated
+      logical, intent(in) :: estimated
+      !> The bytes
+      type(footprint_type), intent(inout) :: footprint
+
+      type(mode_type), allocatable :: modes(:)
+      integer(i8) :: planes, kept_planes, nodes, n_points, n, vectors, kept, iterations, estimates
+      logical :: both, stiff, alone
+
+      alone = omp_get_max_threads() == 1
+      n_points = size(points)
+      nodes = n_nodes(model%mesh)
+      modes = used_modes(model)
+      both = any(modes%family == family_antisymmetric)
+      planes = model%n_planes
+      if (both) planes = around*(planes - 1)/2
+      kept_planes = model%n_planes
+      if (both) kept_planes = 2*(kept_planes - 1)
+      stiff = any(points%proportion > stiffest_whole)
+      n = 3*n_pairs(points)
+      ! halves of flexibilities, and these as Newton's linear system reads them, in single precision; with stiff joints all of them
+      footprint%joints = n_systems*(half_numbers(int(n)) + n**2*merge(4, 1, stiff)/4) &
+         + state_numbers*n_points*max(planes, int(n_modes, i8))
+      ! in another order, and what unit loads leave on some lines of nodes across the mesh
+      footprint%joint_work = real_bytes*(half_numbers(int(n)) + of_lines*n*nint(sqrt(real(nodes, wp)), i8))
+      iterations = (plane_numbers - state_numbers)*n_points*max(planes, int(n_modes, i8))
+      estimates = 0
+      if (estimated) then
+         estimates = iterations
+         if (maxval(model%harmonics) > 0) estimates = estimates + plane_numbers*n_points*max(more_planes*planes, int(n_modes, i8))
+      end if
+      vectors = 3*n_points*n_modes
+      footprint%joints = footprint%joints + vectors*min(merge(int(most_products, i8), newton_vectors, stiff), vectors)
+      if (size(model%increments) > 1) then
+         associate (earlier => size(model%increments, kind=i8) - 1)
+            kept = earlier*n_points*(7*kept_planes + 6*n_modes)
+            footprint%joints = footprint%joints + staying_states*kept + acting_cases(model)*(vectors + 3*nodes)
+            iterations = iterations + (written_states - staying_states)*kept
+            ! with loads and forces of those that are looked for
+            associate (numbers => displaced_numbers(model, n_modes, size(points)))
+               if (numbers > 0) footprint%joints = footprint%joints + numbers + 24*nodes*n_modes
+            end associate
+            ! loads twice, displacements and what half the elements change of them, where loads turned; joints there, and those that
+            ! answer the mesh while others do planes and harmonics
+            if (estimated) then
+               estimates = estimates + 12*nodes*n_modes*min(most_turns, size(model%increments) - 1) &
+                  + n_points*kept_planes*(plane_numbers + station_numbers*min(most_turns + 1_i8, earlier))
+               if (.not. alone) estimates = estimates + waiting_numbers(3*n_points*kept_planes, int(earlier))
+            end if
+         end associate
+      else if (estimated .and. .not. alone) then
+         estimates = estimates + plane_numbers*n_points*kept_planes
+      end if
+      footprint%joints = real_bytes*footprint%joints + plane_matrix_bytes(model, modes)
+      footprint%joint_states = real_bytes*max(iterations, estimates)
+   end subroutine add_joints
+
+   !> Pairs of nodes of some joint points
+   integer(i8) function n_pairs(points)
+      !> The points
+      type(model_joint_point_type), intent(in) :: points(:)
+
+      type(pairs_type) :: pairs
+
+      pairs = new_pairs(points)
+      n_pairs = size(pairs%nodes, 2)
+   end function n_pairs
 
    !> Displacements of earlier increments that are held until they are shown, for they are found beside the iterations; none if these
    !> share products with all threads, or if they are too many
@@ -398,7 +434,7 @@ contains
       !> The bytes
       class(footprint_type), intent(in) :: self
 
-      staying = program_bytes + self%loads + self%joints + self%bodies + self%fine
+      staying = program_bytes + self%loads + self%joints + self%joint_states + self%bodies + self%fine
    end function staying
 
    !> What a thread takes while the equations are solved, besides factors
